@@ -1,0 +1,90 @@
+"""The needle: a round wire in torsion.
+
+Polar moment J = pi d^4 / 32, torsional rigidity kappa = J G, rotary inertia per
+length eta = rho J (Section II-A and below (4) of Reed, Okamura and Cowan 2009).
+"""
+
+import math
+from typing import Annotated
+
+from pydantic import Field
+
+from models import units
+from models.errors import UnknownName
+from models.record import Record
+
+Positive = Annotated[float, Field(gt=0)]
+NonNegative = Annotated[float, Field(ge=0)]
+
+
+class Needle(Record):
+    """A needle's material and shape, and what it does to itself as it turns.
+
+    The last four fields are zero for the straight, bare shaft of the paper.
+    """
+
+    name: str = "custom"
+    diameter_mm: Annotated[float, Field(gt=0, le=10)]
+    shear_modulus_gpa: Annotated[float, Field(gt=0, le=1000)]
+    density_g_cm3: Annotated[float, Field(gt=0, le=30)]
+    length_mm: Annotated[float, Field(gt=0, le=5000)] = 410.0
+    """From the chuck to the tip."""
+    tip_drag_n_mm_s_per_rad: NonNegative = 0.0
+    """Viscous torque in one place, at the tip."""
+    curvature_n_mm_per_mm: NonNegative = 0.0
+    """A bent shaft prefers one orientation: torque sin(theta - phase) per mm inserted."""
+    curvature_phase_deg: float = 0.0
+    load_coefficient: NonNegative = 0.0
+    """Dry torque at the tip over the torque that the tip carries."""
+
+    @property
+    def polar_moment_mm4(self) -> float:
+        """J, mm^4."""
+        return math.pi * self.diameter_mm**4 / 32
+
+    @property
+    def rigidity_n_mm2(self) -> float:
+        """kappa = J G, N mm^2: torque over twist per length."""
+        return self.polar_moment_mm4 * self.shear_modulus_gpa * units.GPA_TO_N_PER_MM2
+
+    @property
+    def rotary_inertia_kg_m(self) -> float:
+        """eta = rho J, kg m: moment of inertia about the axis, per length."""
+        return self.density_g_cm3 * units.G_PER_CM3 * self.polar_moment_mm4 * units.MM**4
+
+    @property
+    def mass_kg_per_m(self) -> float:
+        """rho A, kg/m."""
+        area = math.pi / 4 * (self.diameter_mm * units.MM) ** 2
+        return self.density_g_cm3 * units.G_PER_CM3 * area
+
+    @property
+    def radius_mm(self) -> float:
+        """Half of the diameter, mm."""
+        return self.diameter_mm / 2
+
+
+# Section II-A: solid Nitinol wire. Its G is the paper's own measurement.
+NITINOL = Needle(name="nitinol-0.59", diameter_mm=0.59, shear_modulus_gpa=27.2, density_g_cm3=6.45)
+
+# Section II-D compares with the 1.27 mm needles of prostate brachytherapy: the same
+# diameter in the paper's Nitinol and in steel (G and density of austenitic steel).
+NEEDLES: dict[str, Needle] = {
+    needle.name: needle
+    for needle in (
+        NITINOL,
+        NITINOL.but(name="nitinol-1.27", diameter_mm=1.27),
+        Needle(name="steel-1.27", diameter_mm=1.27, shear_modulus_gpa=77.0, density_g_cm3=7.9),
+    )
+}
+
+
+def needle_named(name: str) -> Needle:
+    """A needle by name.
+
+    Raises:
+      UnknownName: lists the known names.
+    """
+    if name not in NEEDLES:
+        raise UnknownName("needle", name, NEEDLES)
+    return NEEDLES[name]

@@ -1,0 +1,55 @@
+"""Frozen, keyword-only configuration records that explain what is wrong with them."""
+
+from difflib import get_close_matches
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from models.errors import InvalidValue
+
+
+class Record(BaseModel):
+    """A validated, immutable set of named values, units in the names.
+
+    Raises:
+      InvalidValue: names the field, what was expected, what came and the way out.
+    """
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise _explained(type(self), error) from None
+
+    def but(self, **changes: Any) -> Any:
+        """A copy with some fields changed, validated again."""
+        return type(self)(**{**dict(self), **changes})
+
+
+def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
+    """The first of pydantic's findings in the library's own words."""
+    first = error.errors()[0]
+    cause = first.get("ctx", {}).get("error")
+    if isinstance(cause, InvalidValue):
+        path = ".".join(str(p) for p in first["loc"])
+        field = f"{path}.{cause.field}" if path else cause.field
+        return InvalidValue(field, cause.got, cause.expected, cause.fix)
+    field = ".".join(str(p) for p in (record.__name__, *first["loc"]))
+    if first["type"] == "extra_forbidden":
+        known = sorted(record.model_fields)
+        close = get_close_matches(str(first["loc"][-1]), known, n=1)
+        fix = f"did you mean {close[0]!r}?" if close else "remove it"
+        return InvalidValue(field, first["input"], "one of the fields " + ", ".join(known), fix)
+    if first["type"] == "missing":
+        return InvalidValue(field, "nothing", "a value", "this field has no default")
+    message = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
+    return InvalidValue(field, first["input"], message, _others(error))
+
+
+def _others(error: ValidationError) -> str:
+    more = error.error_count() - 1
+    return f"and {more} more fields are wrong" if more else ""

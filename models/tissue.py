@@ -1,0 +1,101 @@
+"""The tissue: what resists the shaft where it is inserted, per mm of shaft.
+
+Friction acts at the interface between shaft and tissue, against their slip s:
+
+    viscous s |s|^(exponent-1)                       viscous, or a power law
+    dry level [kinetic + (static - kinetic) exp(-(s/stribeck)^2)], truly sticking
+    shared s / sqrt(s^2 + (v/r)^2)                    dry, shared with axial speed v
+
+and the tissue at the shaft may itself turn, by phi, against a Kelvin-Voigt element
+stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
+"""
+
+from pydantic import Field, model_validator
+
+from models.errors import InvalidValue
+from models.needle import NonNegative, Positive
+from models.record import Record
+
+
+class Interface(Record):
+    """The law of one kind of tissue, per mm of shaft."""
+
+    viscous_n_mm_s_per_mm: NonNegative = 0.0
+    """At 1 rad/s, N mm s / rad per mm."""
+    exponent: Positive = 1.0
+    kinetic_n_mm_per_mm: NonNegative = 0.0
+    static_n_mm_per_mm: NonNegative | None = None
+    """None: as kinetic."""
+    stribeck_rad_s: Positive | None = None
+    shared_n_mm_per_mm: NonNegative = 0.0
+    stiffness_n_mm_per_rad_per_mm: Positive | None = None
+    """None: tissue that does not yield."""
+    time_constant_s: NonNegative = 0.0
+
+    @model_validator(mode="after")
+    def _static_is_a_peak(self) -> "Interface":
+        static = self.static_level_n_mm_per_mm
+        if static < self.kinetic_n_mm_per_mm:
+            raise InvalidValue(
+                "static_n_mm_per_mm", static, f"at least the kinetic level {self.kinetic_n_mm_per_mm}"
+            )
+        if static > self.kinetic_n_mm_per_mm and self.stribeck_rad_s is None:
+            raise InvalidValue(
+                "stribeck_rad_s", None, "a rate in rad/s, because static exceeds kinetic friction"
+            )
+        return self
+
+    @property
+    def static_level_n_mm_per_mm(self) -> float:
+        """The dry level at rest."""
+        return self.kinetic_n_mm_per_mm if self.static_n_mm_per_mm is None else self.static_n_mm_per_mm
+
+
+class Layer(Record):
+    """A stretch of tissue, from where the previous layer ends."""
+
+    interface: Interface
+    thickness_mm: Positive | None = None
+    """Depth that this layer takes; None: all the rest."""
+    fraction: float | None = Field(default=None, gt=0, lt=1)
+    """Or its share of the inserted length, whatever that is."""
+
+    @model_validator(mode="after")
+    def _one_measure(self) -> "Layer":
+        if self.thickness_mm is not None and self.fraction is not None:
+            raise InvalidValue("fraction", self.fraction, "either thickness_mm or fraction, not both")
+        return self
+
+
+class Tissue(Record):
+    """Layers along the depth, and the friction where the shaft enters."""
+
+    name: str = "custom"
+    layers: tuple[Layer, ...] = Field(min_length=1)
+    entry_friction_n_mm: NonNegative = 0.0
+    """Dry torque in one place, where the shaft enters."""
+    unknown: tuple[str, ...] = ()
+    """What the source does not state of this tissue, and what is assumed instead."""
+
+    @model_validator(mode="after")
+    def _only_the_last_layer_is_open(self) -> "Tissue":
+        for i, layer in enumerate(self.layers[:-1]):
+            if layer.thickness_mm is None and layer.fraction is None:
+                raise InvalidValue(f"layers.{i}.thickness_mm", None, "a thickness, or a fraction")
+        last = self.layers[-1]
+        if last.thickness_mm is not None or last.fraction is not None:
+            raise InvalidValue(
+                f"layers.{len(self.layers) - 1}.thickness_mm",
+                last.thickness_mm or last.fraction,
+                "no thickness: the last layer takes the rest",
+            )
+        return self
+
+    @classmethod
+    def uniform(cls, *, name: str = "custom", entry_friction_n_mm: float = 0.0, **law: float) -> "Tissue":
+        """One layer; `law` are fields of `Interface`."""
+        return cls(
+            name=name,
+            layers=(Layer(interface=Interface(**law)),),
+            entry_friction_n_mm=entry_friction_n_mm,
+        )

@@ -1,0 +1,1 @@
+"""The compiled tissue: everything that runs inside MuJoCo's passive callback."""

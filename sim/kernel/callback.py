@@ -1,0 +1,186 @@
+"""The compiled callbacks: MuJoCo's passive force and the sensors that show it.
+
+What MuJoCo computes: the inertia of the chain, its joint springs, the motors, the
+solution of its own implicit step, and the new state. What the callback computes:
+the end of the step of needle and tissue together (sim.kernel.step), and from it
+the joint torques with which MuJoCo's own step lands there:
+
+    passive = M a + K q_end - motor,    a = ((q_end - q) / h - qvel) / h,
+
+where K are the joints' springs, which MuJoCo's integrator evaluates at the end of
+the step. In the mean over the step these torques are the tissue's.
+
+The state of the tissue at the start and at the end of a step are kept apart in
+`userdata`, and the end becomes the start only when time has moved on: so that
+`mj_forward` may be called any number of times.
+
+mjcb_* are process-wide. A model without our header passes through untouched.
+"""
+
+import hashlib
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numba
+import numpy as np
+from numba import carray, cfunc, njit, types
+from numba.extending import intrinsic
+
+from sim.kernel.step import advance
+from sim.kernel import wire
+from sim.kernel.compiled import compiled, inlined
+from sim.layout import read_layout
+
+_SOURCES = Path(__file__).parent
+_STAGE = int(mujoco.mjtStage.mjSTAGE_ACC)
+
+
+def _pointer_to(kind: Any) -> Any:
+    """An intrinsic that reads an integer address as a pointer to `kind`."""
+
+    @intrinsic
+    def pointer(typingctx: Any, address: Any) -> Any:
+        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return builder.inttoptr(args[0], context.get_value_type(signature.return_type))
+
+        return types.CPointer(kind)(types.intp), codegen
+
+    return pointer
+
+
+_numbers = _pointer_to(types.float64)
+_addresses = _pointer_to(types.intp)
+_block = njit(wire.block)
+
+
+@inlined
+def _torques(head, mesh, h, qpos, qvel, theta, end, ctrl, passive):
+    """Add to `passive` what makes MuJoCo's own step end at the angles `end`."""
+    n = int(head[wire.H_ELEMENTS])
+    chain = head[wire.H_CHAIN] != 0.0
+    rail = ((ctrl[wire.U_CARRIAGE] - qpos[0]) / h - qvel[0]) / h
+    passive[0] += head[wire.H_MASS] * rail
+    rate = 0.0
+    for i in range(n + 1):  # for the chain: absolute rates, kept in theta's place
+        rate = qvel[i + 1] + (rate if chain else 0.0)
+        theta[i] = ((end[i] - theta[i]) / h - rate) / h
+    inertial = 0.0
+    for i in range(n, -1, -1):
+        left = mesh[i] - mesh[i - 1] if i > 0 else 0.0
+        right = mesh[i + 1] - mesh[i] if i < n else 0.0
+        inertia = head[wire.H_ETA] * 0.5 * (left + right)
+        inertial = inertia * theta[i] + (inertial if chain else 0.0)
+        torque = inertial
+        if i == 0:
+            angle_driven = head[wire.H_DRIVE] == wire.DRIVE_ANGLE
+            torque += head[wire.H_SERVO] * (end[0] - ctrl[wire.U_DRIVE]) if angle_driven else -ctrl[wire.U_DRIVE]
+        elif chain:
+            torque += head[wire.H_KAPPA] / left * (end[i] - end[i - 1])
+        if chain or i == n:
+            torque += ctrl[wire.U_TIP]
+        passive[i + 1] += torque
+
+
+@inlined
+def _prime(head, theta, ctrl, now):
+    """Before the first step: everything at rest, as the inputs and angles stand."""
+    now[:] = 0.0
+    now[wire.B_INPUTS : wire.B_INPUTS + wire.INPUTS] = ctrl
+    if head[wire.H_DRIVE] == wire.DRIVE_ANGLE:
+        now[wire.B_INPUTS + wire.U_DRIVE] = theta[0]
+    now[wire.B_ANGLES : wire.B_ANGLES + theta.size] = theta
+
+
+@compiled
+def step_needle(numeric, h, time, qpos, qvel, ctrl, userdata, passive):
+    """What the passive callback does, on arrays."""
+    head = numeric[:wire.HEADER]
+    n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
+    mesh = numeric[wire.HEADER : wire.HEADER + n + 1]
+    law = numeric[wire.HEADER + n + 1 : wire.HEADER + n + 1 + rows * wire.COLUMNS].reshape(rows, wire.COLUMNS)
+    size = _block(n, rows)
+    now = userdata[wire.CLOCK : wire.CLOCK + size]
+    nxt = userdata[wire.CLOCK + size : wire.CLOCK + 2 * size]
+    theta = np.empty(n + 1)
+    angle = 0.0
+    for i in range(n + 1):
+        angle = qpos[i + 1] + (angle if head[wire.H_CHAIN] != 0.0 else 0.0)
+        theta[i] = angle
+    if userdata[wire.D_PRIMED] == 0.0:
+        _prime(head, theta, ctrl, now)
+        userdata[wire.D_PRIMED] = 1.0
+    elif time > userdata[wire.D_TIME]:
+        now[:] = nxt
+        for i in range(n + 1):
+            now[wire.O_LANDING] = max(now[wire.O_LANDING], abs(theta[i] - now[wire.B_ANGLES + i]))
+    userdata[wire.D_TIME] = time
+    advance(head, mesh, law, h, theta, now, nxt, ctrl)
+    nxt[wire.O_LANDING] = now[wire.O_LANDING]
+    _torques(head, mesh, h, qpos, qvel, theta, nxt[wire.B_ANGLES : wire.B_ANGLES + n + 1], ctrl, passive)
+
+
+def _sources_digest() -> int:
+    """Changes whenever a source of the compiled code does: part of the cache key."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    for source in sorted(_SOURCES.glob("*.py")):
+        digest.update(source.read_bytes())
+    return int.from_bytes(digest.digest()[:6], "big")
+
+
+def _compile() -> tuple[Any, Any]:
+    """The passive and the sensor callback for the installed MuJoCo.
+
+    The offsets and the digest are closure variables, and so part of the key under
+    which numba caches the machine code.
+    """
+    layout, build = read_layout(), _sources_digest()
+    count_at, numeric_at = layout.model["nnumeric"], layout.model["numeric_data"]
+    step_at, time_at = layout.model["timestep"], layout.data["time"]
+    qpos_at, qvel_at, ctrl_at = (layout.data[name] for name in ("qpos", "qvel", "ctrl"))
+    passive_at, user_at = layout.data["qfrc_passive"], layout.data["userdata"]
+    sensors_at = layout.data["sensordata"]
+
+    @cfunc(types.void(types.intp, types.intp), cache=True)
+    def passive(model, data):  # type: ignore[no-untyped-def]
+        if build == 0 or _addresses(model + count_at)[0] == 0:
+            return
+        start = _addresses(model + numeric_at)[0]
+        head = carray(_numbers(start), wire.HEADER)
+        if head[wire.H_MAGIC] != wire.MAGIC:
+            return
+        n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
+        step_needle(
+            carray(_numbers(start), wire.HEADER + n + 1 + rows * wire.COLUMNS),
+            _numbers(model + step_at)[0],
+            _numbers(data + time_at)[0],
+            carray(_numbers(_addresses(data + qpos_at)[0]), n + 2),
+            carray(_numbers(_addresses(data + qvel_at)[0]), n + 2),
+            carray(_numbers(_addresses(data + ctrl_at)[0]), wire.INPUTS),
+            carray(_numbers(_addresses(data + user_at)[0]), wire.CLOCK + 2 * _block(n, rows)),
+            carray(_numbers(_addresses(data + passive_at)[0]), n + 2),
+        )
+
+    @cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
+    def sensor(model, data, stage):  # type: ignore[no-untyped-def]
+        if build == 0 or _addresses(model + count_at)[0] == 0 or stage != _STAGE:
+            return
+        head = carray(_numbers(_addresses(model + numeric_at)[0]), wire.HEADER)
+        if head[wire.H_MAGIC] != wire.MAGIC:
+            return
+        size = _block(int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS]))
+        user = carray(_numbers(_addresses(data + user_at)[0]), wire.CLOCK + 2 * size)
+        shown = carray(_numbers(_addresses(data + sensors_at)[0]), wire.OUTPUTS)
+        shown[:] = user[wire.CLOCK + size : wire.CLOCK + size + wire.OUTPUTS]
+
+    return passive, sensor
+
+
+@cache
+def install() -> tuple[Any, Any]:
+    """Compile (once a machine) and install both callbacks; safe to call again."""
+    passive, sensor = _compile()
+    mujoco.set_mjcb_passive(passive.ctypes)
+    mujoco.set_mjcb_sensor(sensor.ctypes)
+    return passive, sensor

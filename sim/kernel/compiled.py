@@ -1,0 +1,19 @@
+"""How kernel functions are compiled: inlined, with C's arithmetic on division."""
+
+from collections.abc import Callable
+from typing import Any
+
+from numba import njit
+
+# No reordering of sums (results do not depend on the machine's vector width).
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "arcp", "nsz"}}
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Compile a function that becomes part of its caller."""
+    return njit(inline="always", **_OPTIONS)(function)
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """Compile a function that keeps a call of its own."""
+    return njit(**_OPTIONS)(function)

@@ -1,0 +1,227 @@
+"""One step of needle and tissue together: second order, L-stable, sticking truly.
+
+Alexander's two-stage singly diagonally implicit Runge-Kutta method, with
+gamma = 1 - 1/sqrt(2): L-stable, second order, stiffly accurate. A stage of length
+g = gamma h solves for the rates w of the nodes
+
+    I (w - w*) / g + K (theta* + g w) + sum over sites of N f(N' w) = drive - tip,
+
+a tridiagonal system, by Newton's method. Everything that is remembered (angles,
+rates, presliding, tissue twist) enters the second stage as
+y* = y0 + (1/gamma - 1)(y1 - y0). Inputs run straight from one end of the step to
+the other; lengths and speed are those of its middle.
+"""
+
+import math
+
+from sim.kernel import wire
+from sim.kernel.assemble import (
+    add_linear,
+    add_row,
+    add_viscous,
+    add_viscous_slide,
+    drive_torque,
+    is_linear,
+    twist_of,
+)
+from sim.kernel.compiled import compiled, inlined
+from sim.kernel.mesh import cover, place_nodes
+from sim.kernel.slide import forget_uncovered, slide_tissue
+from sim.kernel.tridiagonal import factorise, substitute
+from sim.kernel.work import Frame, allocate
+
+GAMMA = 1.0 - math.sqrt(0.5)
+_CARRY = 1.0 / GAMMA - 1.0
+_TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
+_PLAIN = 12  # iterations of plain Newton; after them slopes are made safe
+_ITERATIONS = 80
+
+
+@inlined
+def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted):
+    """Fill in what the step starts from; returns whether iteration is needed."""
+    n = w.omega.size - 1
+    place_nodes(head, mesh, free, w.x)
+    for i in range(n + 1):
+        left = w.x[i] - w.x[i - 1] if i > 0 else 0.0
+        right = w.x[i + 1] - w.x[i] if i < n else 0.0
+        w.inertia[i] = head[wire.H_ETA] * 0.5 * (left + right) / frame.g
+        w.spring[i] = head[wire.H_KAPPA] / right
+        w.theta[i] = theta[i]
+        w.rest[i] = w.omega[i] = now[wire.B_ANGLES + n + 1 + i]
+        w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
+    nonlinear = head[wire.H_BACKLASH] > 0.0
+    for r in range(law.shape[0]):
+        cover(law[r], w.x, free, inserted, w.weights[r], w.point[r])
+        if is_linear(law[r]):
+            add_viscous(w, w.weights[r], law[r, wire.L_VISCOUS])
+        else:
+            nonlinear = True
+            w.start[r] = before[r]
+            w.end[r] = before[r]
+    return nonlinear
+
+
+@inlined
+def _second_stage(law, theta, now, before, w, frame):
+    """Carry everything that is remembered into the second stage."""
+    n = w.omega.size - 1
+    for i in range(n + 1):
+        reached = w.theta[i] + frame.g * w.omega[i]
+        w.theta[i] = theta[i] + _CARRY * (reached - theta[i])
+        rate = now[wire.B_ANGLES + n + 1 + i]
+        w.rest[i] = rate + _CARRY * (w.omega[i] - rate)
+    for r in range(law.shape[0]):
+        if is_linear(law[r]):
+            continue
+        for e in range(n):
+            for k in range(2):
+                _carry_site(before[r, e, k], w.end[r, e, k], w.start[r, e, k], frame.yield_angle)
+
+
+@inlined
+def _carry_site(old, reached, new, yield_angle):
+    for j in range(wire.SITE):
+        new[j] = old[j] + _CARRY * (reached[j] - old[j])
+    new[wire.Z_DRY] = min(max(new[wire.Z_DRY], -yield_angle), yield_angle)
+    size = math.sqrt(new[wire.Z_TURN] ** 2 + new[wire.Z_AXIAL] ** 2)
+    if size > yield_angle:
+        new[wire.Z_TURN] *= yield_angle / size
+        new[wire.Z_AXIAL] *= yield_angle / size
+
+
+@inlined
+def _add_other_rows(law, w, frame, tip_torque, cautious):
+    recoverable, stored = 0.0, 0.0
+    for r in range(law.shape[0]):
+        if is_linear(law[r]):
+            if frame.drift != 0.0:
+                add_viscous_slide(w, w.weights[r], law[r, wire.L_VISCOUS], frame)
+        else:
+            power, energy = add_row(w, r, law[r], frame, tip_torque, cautious)
+            recoverable += power
+            stored += energy
+    return recoverable, stored
+
+
+@inlined
+def _newton(law, w, frame, drive, tip_torque, nonlinear, factored):
+    """Solve one stage. Returns convergence, iterations, recoverable power, energy.
+
+    Without nonlinear rows both stages have the same matrix, and one iteration is
+    exact: the second stage uses the factors of the first.
+    """
+    n = w.omega.size
+    for i in range(n):
+        w.lag[i] = w.omega[i]
+    recoverable, stored = 0.0, 0.0
+    for iteration in range(_ITERATIONS):
+        add_linear(w, frame.g, not factored)
+        torque, slope = drive_torque(w, frame, drive)
+        w.rhs[0] += torque
+        w.rhs[n - 1] -= tip_torque
+        if not factored:
+            w.diagonal[0] += slope
+            recoverable, stored = _add_other_rows(law, w, frame, tip_torque, iteration >= _PLAIN)
+            factorise(w.lower, w.diagonal, w.upper)
+        substitute(w.lower, w.diagonal, w.upper, w.rhs)
+        change, size = 0.0, 1.0
+        for i in range(n):
+            w.omega[i] += w.rhs[i]
+            change = max(change, abs(w.rhs[i]))
+            size = max(size, abs(w.omega[i]))
+        if not math.isfinite(change):
+            return False, iteration + 1, recoverable, stored
+        if not nonlinear or change <= _TOLERANCE * size:
+            return True, iteration + 1, recoverable, stored
+    return False, _ITERATIONS, recoverable, stored
+
+
+@inlined
+def _friction(w, frame, drive, tip_torque):
+    """Torque of all friction on the shaft, its power, and the drive's torque.
+
+    By balance, so that the sums hold to rounding: what inertia and torsion do not
+    take of the external torques is friction.
+    """
+    n = w.omega.size - 1
+    torque, _ = drive_torque(w, frame, drive)
+    friction, power, arriving = 0.0, 0.0, torque
+    for i in range(n + 1):
+        leaving = -w.spring[i] * twist_of(w, i, frame.g) if i < n else tip_torque
+        share = arriving - leaving - w.inertia[i] * (w.omega[i] - w.rest[i])
+        friction += share
+        power += share * w.omega[i]
+        arriving = leaving
+    return torque, friction, power
+
+
+@compiled
+def advance(head, mesh, law, h, theta, now, nxt, ctrl):
+    """Advance needle and tissue by h.
+
+    Args:
+      head, mesh, law: the model's three numeric fields; law is (rows, columns).
+      h: step, s.
+      theta: angles of the nodes at the start, rad, (n + 1).
+      now: state block at the start (sim.kernel.wire); MuJoCo owns its angles.
+      nxt: state block that receives the end.
+      ctrl: inputs at the end of the step.
+    """
+    n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
+    first = wire.B_ANGLES + 2 * (n + 1)
+    before = now[first:].reshape(rows, n, 2, wire.SITE)
+    w = allocate(n, rows, nxt[first:].reshape(rows, n, 2, wire.SITE))
+    past = now[wire.B_INPUTS : wire.B_INPUTS + wire.INPUTS]
+    free = head[wire.H_FREE_REF] - 0.5 * (past[wire.U_CARRIAGE] + ctrl[wire.U_CARRIAGE])
+    inserted = 0.5 * (past[wire.U_INSERTED] + ctrl[wire.U_INSERTED])
+    speed = 0.5 * (past[wire.U_SPEED] + ctrl[wire.U_SPEED])
+    frame = Frame(
+        GAMMA * h,
+        speed / head[wire.H_RADIUS],
+        head[wire.H_CONVECTION] * speed,
+        head[wire.H_PRESLIDING],
+        head[wire.H_SERVO],
+        head[wire.H_BACKLASH],
+        head[wire.H_DRIVE] == wire.DRIVE_ANGLE,
+    )
+    nonlinear = _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted)
+    work, dissipated, failed, iterations = 0.0, 0.0, 0, 0
+    torque, friction, stored = 0.0, 0.0, 0.0
+    for stage in range(2):
+        reach, share = (GAMMA, h - frame.g) if stage == 0 else (1.0, frame.g)
+        drive = past[wire.U_DRIVE] + reach * (ctrl[wire.U_DRIVE] - past[wire.U_DRIVE])
+        tip_torque = past[wire.U_TIP] + reach * (ctrl[wire.U_TIP] - past[wire.U_TIP])
+        if stage == 1:
+            _second_stage(law, theta, now, before, w, frame)
+        again = stage == 1 and not nonlinear and frame.drift == 0.0
+        solved, count, recoverable, stored = _newton(
+            law, w, frame, drive, tip_torque, nonlinear, again
+        )
+        torque, friction, power = _friction(w, frame, drive, tip_torque)
+        shaft = (ctrl[wire.U_DRIVE] - past[wire.U_DRIVE]) / h if frame.angle_driven else w.omega[0]
+        work += share * (torque * shaft - tip_torque * w.omega[n])
+        dissipated += share * (power - recoverable)
+        failed += 0 if solved else 1
+        iterations += count
+    for i in range(n + 1):
+        nxt[wire.B_ANGLES + i] = w.theta[i] + frame.g * w.omega[i]
+        nxt[wire.B_ANGLES + n + 1 + i] = w.omega[i]
+    for r in range(rows):
+        if is_linear(law[r]) or law[r, wire.L_POINT] != 0.0:
+            continue
+        forget_uncovered(w.weights[r], w.end[r])
+        if law[r, wire.L_STIFFNESS] > 0.0 and speed != 0.0 and head[wire.H_STRETCHING] == 0.0:
+            slide_tissue(h * speed, w.x, w.weights[r], w.end[r])
+    for j in range(wire.INPUTS):
+        nxt[wire.B_INPUTS + j] = ctrl[j]
+    nxt[wire.O_BASE_TORQUE] = torque
+    nxt[wire.O_BASE_ANGLE] = nxt[wire.B_ANGLES]
+    nxt[wire.O_TIP_ANGLE] = nxt[wire.B_ANGLES + n]
+    nxt[wire.O_FRICTION] = friction
+    nxt[wire.O_TIP_TORQUE] = ctrl[wire.U_TIP]
+    nxt[wire.O_WORK] = now[wire.O_WORK] + work
+    nxt[wire.O_DISSIPATED] = now[wire.O_DISSIPATED] + dissipated
+    nxt[wire.O_TISSUE_ENERGY] = stored
+    nxt[wire.O_FAILED] = now[wire.O_FAILED] + failed
+    nxt[wire.O_ITERATIONS] = iterations

@@ -1,0 +1,35 @@
+"""Thomas' algorithm, in two parts so that factors can be used again.
+
+The matrices here are diagonally dominant: no pivoting.
+"""
+
+from sim.kernel.compiled import inlined
+
+
+@inlined
+def factorise(lower, diagonal, upper):
+    """Factors in place: `lower` becomes multipliers, `diagonal` inverse pivots.
+
+    Row i reads lower[i], diagonal[i], upper[i]; lower[0] and upper[-1] are unused.
+    """
+    inverse = 1.0 / diagonal[0]
+    diagonal[0] = inverse
+    for i in range(1, diagonal.size):
+        lower[i] *= inverse
+        inverse = 1.0 / (diagonal[i] - lower[i] * upper[i - 1])
+        diagonal[i] = inverse
+
+
+@inlined
+def substitute(lower, diagonal, upper, rhs):
+    """Solve with the factors; the solution replaces `rhs`."""
+    n = rhs.size
+    value = rhs[0]
+    for i in range(1, n):
+        value = rhs[i] - lower[i] * value
+        rhs[i] = value
+    value *= diagonal[n - 1]
+    rhs[n - 1] = value
+    for i in range(n - 2, -1, -1):
+        value = (rhs[i] - upper[i] * value) * diagonal[i]
+        rhs[i] = value
