@@ -10,11 +10,15 @@ and the tissue at the shaft may itself turn, by phi, against a Kelvin-Voigt elem
 stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
 """
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from models.errors import InvalidValue
 from models.needle import NonNegative, Positive
 from models.record import Record
+
+Array = NDArray[np.float64]
 
 
 class Interface(Record):
@@ -90,6 +94,15 @@ class Tissue(Record):
                 "no thickness: the last layer takes the rest",
             )
         return self
+
+    def boundaries_mm(self, inserted_mm: float) -> Array:
+        """Where layers begin and end within an inserted length, mm, both ends included."""
+        places, depth = [0.0], 0.0
+        for layer in self.layers[:-1]:
+            depth += layer.thickness_mm or (layer.fraction or 0.0) * inserted_mm
+            places.append(depth)
+        inside = [place for place in places if place < inserted_mm]
+        return np.array([*inside, inserted_mm])
 
     @classmethod
     def uniform(cls, *, name: str = "custom", entry_friction_n_mm: float = 0.0, **law: float) -> "Tissue":

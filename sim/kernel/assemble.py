@@ -10,7 +10,7 @@ import math
 
 from sim.kernel import wire
 from sim.kernel.compiled import compiled, inlined
-from sim.kernel.law import site_law
+from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 
 
@@ -30,28 +30,27 @@ def is_linear(row):
 
 
 @inlined
-def add_viscous(w, weights, beta):
-    """Damping of a viscous row: sum over sites of beta weight N N'."""
-    for e in range(weights.shape[0]):
-        f0, f1 = beta * weights[e, 0], beta * weights[e, 1]
-        mixed = XI_LEFT * XI_RIGHT * (f0 + f1)
-        w.damp_diagonal[e] += XI_RIGHT * XI_RIGHT * f0 + XI_LEFT * XI_LEFT * f1
-        w.damp_upper[e] += mixed
-        w.damp_lower[e + 1] += mixed
-        w.damp_diagonal[e + 1] += XI_LEFT * XI_LEFT * f0 + XI_RIGHT * XI_RIGHT * f1
+def add_viscous(w, loads, beta):
+    """Damping of a viscous row: what the rates at the sites load the nodes with."""
+    for e in range(loads.shape[0]):
+        l0, l1, r0, r1 = loads[e, 0], loads[e, 1], loads[e, 2], loads[e, 3]
+        w.damp_diagonal[e] += beta * (XI_RIGHT * l0 + XI_LEFT * l1)
+        w.damp_upper[e] += beta * (XI_LEFT * l0 + XI_RIGHT * l1)
+        w.damp_lower[e + 1] += beta * (XI_RIGHT * r0 + XI_LEFT * r1)
+        w.damp_diagonal[e + 1] += beta * (XI_LEFT * r0 + XI_RIGHT * r1)
 
 
 @inlined
-def add_viscous_slide(w, weights, beta, frame):
+def add_viscous_slide(w, loads, beta, frame):
     """Slip of a viscous row because the shaft slides against the mesh, twisted.
 
     The slip gains drift dtheta/dx: linear in the angles at the end of the stage,
-    its part in the rates enters the damping and its part in theta* the residual.
+    its part in the rates enters the matrix and its part in theta* the residual.
     """
-    for e in range(weights.shape[0]):
+    for e in range(loads.shape[0]):
         per_length = beta * frame.drift / (w.x[e + 1] - w.x[e])
-        left = per_length * (XI_RIGHT * weights[e, 0] + XI_LEFT * weights[e, 1])
-        right = per_length * (XI_LEFT * weights[e, 0] + XI_RIGHT * weights[e, 1])
+        left = per_length * (loads[e, 0] + loads[e, 1])
+        right = per_length * (loads[e, 2] + loads[e, 3])
         twist = twist_of(w, e, frame.g)
         w.rhs[e] -= left * twist
         w.rhs[e + 1] -= right * twist
@@ -102,64 +101,64 @@ def drive_torque(w, frame, drive):
 
 
 @compiled
-def add_site(w, e, right, weight, row, start, end, frame, tip_torque, cautious):
-    """One contact site at the fraction `right` of element e.
+def add_row(w, r, row, frame, tip_torque, cautious):
+    """Every covered site of a row that is more than viscous.
 
     Returns the power that goes into twisted tissue and bent shaft, W, and the
-    energy stored in the tissue, J.
+    energy stored in the tissue, J. (Arrays are named once, outside the loop: each
+    access through the tuple would count references.)
     """
-    g, left = frame.g, 1.0 - right
-    per_length = frame.drift / (w.x[e + 1] - w.x[e])
-    slide = per_length * twist_of(w, e, g)
-    rate = left * w.omega[e] + right * w.omega[e + 1] + slide
-    lag = left * w.lag[e] + right * w.lag[e + 1] + slide
-    extra = 0.0
-    if row[wire.L_LOAD] > 0.0:
-        at_tip = right == 1.0 and e == w.omega.size - 2
-        extra = row[wire.L_LOAD] * abs(tip_torque if at_tip else w.spring[e] * twist_of(w, e, g))
-    torque, slope, slip = site_law(
-        rate, row, extra, start, end, g, frame.axial, frame.yield_angle, lag, cautious
-    )
-    stiffness = weight * row[wire.L_STIFFNESS]
-    recoverable = stiffness * end[wire.PHI] * (rate - slip)
-    stored = 0.5 * stiffness * end[wire.PHI] * end[wire.PHI]
-    if row[wire.L_CURVATURE] != 0.0:
-        angle = left * w.theta[e] + right * w.theta[e + 1] - row[wire.L_PHASE]
-        angle += g * (left * w.omega[e] + right * w.omega[e + 1])
-        bent = row[wire.L_CURVATURE] * math.sin(angle)
-        torque += bent
-        slope += g * row[wire.L_CURVATURE] * math.cos(angle)
-        recoverable += weight * bent * (rate - slide)
-    if cautious and slope < 0.0:
-        slope = 0.0
-    torque *= weight
-    slope *= weight
-    tilt = g * per_length
-    w.rhs[e] -= left * torque
-    w.rhs[e + 1] -= right * torque
-    w.diagonal[e] += left * slope * (left - tilt)
-    w.upper[e] += left * slope * (right + tilt)
-    w.lower[e + 1] += right * slope * (left - tilt)
-    w.diagonal[e + 1] += right * slope * (right + tilt)
-    return recoverable, stored
-
-
-@compiled
-def add_row(w, r, row, frame, tip_torque, cautious):
-    """Every covered site of a row that is more than viscous; returns as `add_site`."""
-    if row[wire.L_POINT] != 0.0:
-        start, end = w.start[r, 0, 0], w.end[r, 0, 0]
-        e, right = int(w.point[r, 0]), w.point[r, 1]
-        return add_site(w, e, right, 1.0, row, start, end, frame, tip_torque, cautious)
+    x, theta, omega, lag, spring = w.x, w.theta, w.omega, w.lag, w.spring
+    lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs
+    loads, before, after = w.loads[r], w.start[r], w.end[r]
+    stage = Stage(frame.g, frame.axial, frame.yield_angle, cautious)
+    g, n = frame.g, omega.size - 1
+    is_point, place, fraction = row[wire.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
+    load, curvature, phase = row[wire.L_LOAD], row[wire.L_CURVATURE], row[wire.L_PHASE]
     recoverable, stored = 0.0, 0.0
-    for e in range(w.weights.shape[1]):
-        for k in range(2):
-            weight = w.weights[r, e, k]
-            if weight == 0.0:
-                continue
-            right = XI_RIGHT if k == 1 else XI_LEFT
-            start, end = w.start[r, e, k], w.end[r, e, k]
-            power, energy = add_site(w, e, right, weight, row, start, end, frame, tip_torque, cautious)
-            recoverable += power
-            stored += energy
+    for site in range(1 if is_point else 2 * n):
+        e, k = (place, 0) if is_point else (site // 2, site % 2)
+        slot = 0 if is_point else e
+        right = fraction if is_point else (XI_RIGHT if k == 1 else XI_LEFT)
+        left = 1.0 - right
+        to_left = left if is_point else loads[e, k]
+        to_right = right if is_point else loads[e, 2 + k]
+        weight = to_left + to_right
+        if weight == 0.0:
+            continue
+        twist = theta[e + 1] - theta[e] + g * (omega[e + 1] - omega[e])
+        per_length = frame.drift / (x[e + 1] - x[e])
+        slide = per_length * twist
+        rate = left * omega[e] + right * omega[e + 1]
+        at_tip = right == 1.0 and e == n - 1
+        extra = load * abs(tip_torque if at_tip else spring[e] * twist)
+        old = Memory(
+            before[slot, k, wire.Z_DRY],
+            before[slot, k, wire.Z_TURN],
+            before[slot, k, wire.Z_AXIAL],
+            before[slot, k, wire.PHI],
+        )
+        started = left * lag[e] + right * lag[e + 1] + slide
+        torque, slope, slip, new = site_law(rate + slide, row, extra, old, stage, started)
+        after[slot, k, wire.Z_DRY] = new.dry
+        after[slot, k, wire.Z_TURN] = new.turn
+        after[slot, k, wire.Z_AXIAL] = new.axial
+        after[slot, k, wire.PHI] = new.phi
+        stiffness = weight * row[wire.L_STIFFNESS]
+        recoverable += stiffness * new.phi * (rate + slide - slip)
+        stored += 0.5 * stiffness * new.phi * new.phi
+        if curvature != 0.0:
+            angle = left * theta[e] + right * theta[e + 1] + g * rate - phase
+            torque += curvature * math.sin(angle)
+            slope += g * curvature * math.cos(angle)
+            recoverable += weight * curvature * math.sin(angle) * rate
+        if cautious and slope < 0.0:
+            slope = 0.0
+        tilt = g * per_length
+        rhs[e] -= to_left * torque
+        rhs[e + 1] -= to_right * torque
+        diagonal[e] += to_left * slope * (left - tilt)
+        upper[e] += to_left * slope * (right + tilt)
+        lower[e + 1] += to_right * slope * (left - tilt)
+        diagonal[e + 1] += to_right * slope * (right + tilt)
     return recoverable, stored

@@ -17,3 +17,8 @@ def inlined(function: Callable[..., Any]) -> Any:
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile a function that keeps a call of its own."""
     return njit(**_OPTIONS)(function)
+
+
+def embedded(function: Callable[..., Any]) -> Any:
+    """Compile a function that LLVM is made to put into its callers."""
+    return njit(forceinline=True, **_OPTIONS)(function)

@@ -18,93 +18,107 @@ is a dry element that truly sticks.
 """
 
 import math
+from typing import NamedTuple
 
 from sim.kernel import wire
-from sim.kernel.compiled import compiled, inlined
+from sim.kernel.compiled import compiled, embedded
 
 # Below this rate the power law is linear, so that its slope stays finite: rad/s.
 RATE_FLOOR = 1e-5
 _INNER_ITERATIONS = 40
 
 
-@compiled
-def slip_law(s, law, extra, start, end, g, axial, yield_angle, lag, cautious):
-    """Torque per length and its slope against slip; writes presliding to `end`.
+class Memory(NamedTuple):
+    """What a site remembers: presliding angles, rad, and twist of the tissue, rad."""
+
+    dry: float
+    turn: float
+    axial: float
+    phi: float
+
+
+class Stage(NamedTuple):
+    """What all sites of a row share during a stage."""
+
+    g: float  # length of the implicit stage, s
+    axial: float  # axial speed over the radius, rad/s
+    yield_angle: float  # presliding angle, rad
+    cautious: bool  # take slopes that cannot mislead Newton's method
+
+
+
+
+@embedded
+def slip_law(s, row, extra, old, stage, lag):
+    """Torque per length, its slope against slip, and the presliding it leaves.
 
     Args:
       s: slip rate, rad/s.
-      law: a row of the law table.
+      row: of the law table.
       extra: dry level in addition to the row's, N m / m.
-      start, end: the site's state before and after the stage.
-      g: length of the implicit stage, s.
-      axial: axial speed over the radius, rad/s.
-      yield_angle: presliding angle, rad.
+      old: memory of the site before the stage.
+      stage: see `Stage`. A cautious one takes the secant of the power law, and the
+        Stribeck level of `lag`.
       lag: slip rate at the start of the stage, rad/s.
-      cautious: take slopes that cannot mislead Newton's method: the secant of the
-        power law, and the Stribeck level of `lag`.
     """
-    torque = 0.0
-    slope = 0.0
-    viscous = law[wire.L_VISCOUS]
-    if viscous != 0.0:
-        p = law[wire.L_EXPONENT]
-        if p == 1.0:
-            torque += viscous * s
-            slope += viscous
-        else:
-            q = s * s + RATE_FLOOR * RATE_FLOOR
-            m = viscous * q ** (0.5 * (p - 1.0))
-            torque += m * s
-            slope += m if cautious else m * (1.0 + (p - 1.0) * s * s / q)
-    kinetic = law[wire.L_KINETIC] + extra
-    excess = law[wire.L_STATIC] - law[wire.L_KINETIC]
-    if kinetic > 0.0 or excess > 0.0:
-        level = kinetic
+    torque, slope = 0.0, 0.0
+    dry, turn, axial = old.dry, old.turn, old.axial
+    g, limit = stage.g, stage.yield_angle
+    viscous = row[wire.L_VISCOUS]
+    p = row[wire.L_EXPONENT]
+    if p == 1.0:
+        torque += viscous * s
+        slope += viscous
+    elif viscous != 0.0:
+        q = s * s + RATE_FLOOR * RATE_FLOOR
+        m = viscous * q ** (0.5 * (p - 1.0))
+        torque += m * s
+        slope += m if stage.cautious else m * (1.0 + (p - 1.0) * s * s / q)
+    level = row[wire.L_KINETIC] + extra
+    excess = row[wire.L_STATIC] - row[wire.L_KINETIC]
+    if level > 0.0 or excess > 0.0:
         tilt = 0.0
         if excess > 0.0:
-            w = (lag if cautious else s) / law[wire.L_STRIBECK]
+            w = (lag if stage.cautious else s) / row[wire.L_STRIBECK]
             bump = excess * math.exp(-w * w)
             level += bump
-            tilt = 0.0 if cautious else -2.0 * bump * w / law[wire.L_STRIBECK]
-        z = start[wire.Z_DRY] + g * s
-        unclamped = abs(z) < yield_angle
-        if not unclamped:
-            z = math.copysign(yield_angle, z)
-        end[wire.Z_DRY] = z
-        torque += level * z / yield_angle
-        slope += tilt * z / yield_angle
-        if unclamped:
-            slope += level * g / yield_angle
-    shared = law[wire.L_SHARED]
-    if shared > 0.0:
-        zt = start[wire.Z_TURN] + g * s
-        za = start[wire.Z_AXIAL] + g * axial
-        size = math.sqrt(zt * zt + za * za)
-        if size <= yield_angle:
-            torque += shared * zt / yield_angle
-            slope += shared * g / yield_angle
-            end[wire.Z_TURN], end[wire.Z_AXIAL] = zt, za
+            tilt = 0.0 if stage.cautious else -2.0 * bump * w / row[wire.L_STRIBECK]
+        dry += g * s
+        if abs(dry) < limit:
+            slope += level * g / limit
         else:
-            torque += shared * zt / size
-            slope += shared * g * (za / size) ** 2 / size
-            end[wire.Z_TURN], end[wire.Z_AXIAL] = zt * yield_angle / size, za * yield_angle / size
-    return torque, slope
+            dry = math.copysign(limit, dry)
+        torque += level * dry / limit
+        slope += tilt * dry / limit
+    shared = row[wire.L_SHARED]
+    if shared > 0.0:
+        turn += g * s
+        axial += g * stage.axial
+        size = math.sqrt(turn * turn + axial * axial)
+        if size <= limit:
+            torque += shared * turn / limit
+            slope += shared * g / limit
+        else:
+            torque += shared * turn / size
+            slope += shared * g * (axial / size) ** 2 / size
+            turn, axial = turn * limit / size, axial * limit / size
+    return torque, slope, Memory(dry, turn, axial, old.phi)
 
 
-@compiled
-def site_law(omega, law, extra, start, end, g, axial, yield_angle, lag, cautious):
+@embedded
+def site_law(omega, row, extra, old, stage, lag):
     """As `slip_law`, against the rate of the shaft, with the tissue in series.
 
-    Returns torque per length, its slope against omega, and the slip rate.
+    Returns torque per length, its slope against omega, the slip rate, and the
+    memory that the stage leaves.
     """
-    k = law[wire.L_STIFFNESS]
+    torque, slope, new = slip_law(omega, row, extra, old, stage, lag)
+    k = row[wire.L_STIFFNESS]
     if k <= 0.0:
-        torque, slope = slip_law(omega, law, extra, start, end, g, axial, yield_angle, lag, cautious)
-        return torque, slope, omega
-    resistance = k * (law[wire.L_TIME] + g)
-    push = k * start[wire.PHI]
+        return torque, slope, omega, new
+    resistance = k * (row[wire.L_TIME] + stage.g)
+    push = k * old.phi
     s = omega
-    torque, slope = slip_law(s, law, extra, start, end, g, axial, yield_angle, lag, cautious)
     # torque(s) - push - resistance (omega - s) = 0: rising in s, so bracketed Newton.
     low, high = -math.inf, math.inf
     for _ in range(_INNER_ITERATIONS):
@@ -113,12 +127,13 @@ def site_law(omega, law, extra, start, end, g, axial, yield_angle, lag, cautious
             high = s
         else:
             low = s
-        step = miss / (slope + resistance)
-        if abs(step) <= 1e-13 * (1.0 + abs(s)):
+        change = miss / (slope + resistance)
+        if abs(change) <= 1e-13 * (1.0 + abs(s)):
             break
-        s -= step
+        s -= change
         if not low < s < high:
-            s = 0.5 * (low + high) if math.isfinite(low) and math.isfinite(high) else s
-        torque, slope = slip_law(s, law, extra, start, end, g, axial, yield_angle, lag, cautious)
-    end[wire.PHI] = start[wire.PHI] + g * (omega - s)
-    return torque, slope * resistance / (slope + resistance), s
+            s = 0.5 * (low + high)
+        torque, slope, new = slip_law(s, row, extra, old, stage, lag)
+    phi = old.phi + stage.g * (omega - s)
+    left = Memory(new.dry, new.turn, new.axial, phi)
+    return torque, slope * resistance / (slope + resistance), s, left

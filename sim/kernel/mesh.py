@@ -1,15 +1,17 @@
-"""Where the nodes are, and which part of each element a row of the law covers.
+"""Where the nodes are, and how the tissue along an element loads its two nodes.
 
 The tissue acts at two contact sites an element, at the fractions
-(1 -+ sqrt(2/3)) / 2 of its length. Of all symmetric pairs these give the element
-damping a/12 [[5, 1], [1, 5]], half way between lumped and consistent, which
-cancels the leading error of the spring chain: poles converge as a^4. Where only
-part of an element is covered, the two weights keep the covered length and, as
-long as they stay positive, its centroid.
+(1 -+ sqrt(2/3)) / 2 of its length. Inside a covered stretch a site loads the nodes
+as it lies between them; of all symmetric pairs these sites give the damping
+a/12 [[5, 1], [1, 5]], half way between lumped and consistent, which cancels the
+leading error of the spring chain, so that poles converge as a^4. That cancellation
+is between neighbours, and at a free tip with its mirror image: where coverage ends
+otherwise, the loads of a node are instead those of the exact integrals of the law,
+taken as linear along the element.
 """
 
 from sim.kernel import wire
-from sim.kernel.compiled import compiled, inlined
+from sim.kernel.compiled import inlined
 
 XI_LEFT = 0.5 * (1.0 - (2.0 / 3.0) ** 0.5)
 XI_RIGHT = 1.0 - XI_LEFT
@@ -37,29 +39,58 @@ def _clip(value, low, high):
 
 
 @inlined
-def cover(row, x, free, inserted, weights, point):
-    """Weights of a row's sites, m; or, for a point row, its element and place in it."""
+def _match(total, moment, out, at):
+    """Loads of the two sites with a given sum and first moment, none negative."""
+    right = _clip((moment - XI_LEFT * total) / (XI_RIGHT - XI_LEFT), 0.0, total)
+    out[at] = total - right
+    out[at + 1] = right
+
+
+@inlined
+def _locate(x, place, point):
+    """Element that holds a place, and the fraction of it before the place."""
+    n = x.size - 1
+    e = 0
+    while e < n - 1 and x[e + 1] < place:
+        e += 1
+    point[0] = e
+    point[1] = (place - x[e]) / (x[e + 1] - x[e])
+
+
+@inlined
+def cover(row, x, free, inserted, tip_loaded, loads, point):
+    """What a row's sites load the nodes with, m: (n, 4), left node then right node.
+
+    A point row fills `point` instead. `tip_loaded`: the tip carries torque.
+    """
     n = x.size - 1
     top = row[wire.L_TOP_CONST] + row[wire.L_TOP_FREE] * free + row[wire.L_TOP_INSERTED] * inserted
     top = _clip(top, 0.0, x[n])
     if row[wire.L_POINT] != 0.0:
-        e = 0
-        while e < n - 1 and x[e + 1] < top:
-            e += 1
-        point[0] = e
-        point[1] = (top - x[e]) / (x[e + 1] - x[e])
+        _locate(x, top, point)
         return
     end = row[wire.L_END_CONST] + row[wire.L_END_FREE] * free + row[wire.L_END_INSERTED] * inserted
     end = _clip(end, top, x[n])
+    near = 1e-9 * (x[n] - x[0])
     for e in range(n):
         a = x[e + 1] - x[e]
-        if x[e] >= top and x[e + 1] <= end:
-            weights[e, 0] = weights[e, 1] = 0.5 * a
+        out = loads[e]
+        if x[e] >= top - near and x[e + 1] <= end + near:
+            first = e == 0 or x[e - 1] < top - near
+            last = tip_loaded if e == n - 1 else x[e + 2] > end + near
+            if first:
+                _match(0.5 * a, a / 6.0, out, 0)
+            else:
+                out[0], out[1] = 0.5 * a * XI_RIGHT, 0.5 * a * XI_LEFT
+            if last:
+                _match(0.5 * a, a / 3.0, out, 2)
+            else:
+                out[2], out[3] = 0.5 * a * XI_LEFT, 0.5 * a * XI_RIGHT
             continue
         s0 = _clip((top - x[e]) / a, 0.0, 1.0)
         s1 = _clip((end - x[e]) / a, 0.0, 1.0)
-        covered = s1 - s0
-        right = covered * (0.5 * (s0 + s1) - XI_LEFT) / (XI_RIGHT - XI_LEFT)
-        right = _clip(right, 0.0, covered)
-        weights[e, 0] = (covered - right) * a
-        weights[e, 1] = right * a
+        length = s1 - s0
+        square = 0.5 * (s1 * s1 - s0 * s0)
+        cube = (s1 * s1 * s1 - s0 * s0 * s0) / 3.0
+        _match(a * (length - square), a * (square - cube), out, 0)
+        _match(a * square, a * cube, out, 2)

@@ -38,7 +38,7 @@ _ITERATIONS = 80
 
 
 @inlined
-def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted):
+def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_loaded):
     """Fill in what the step starts from; returns whether iteration is needed."""
     n = w.omega.size - 1
     place_nodes(head, mesh, free, w.x)
@@ -52,9 +52,9 @@ def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted):
         w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
     nonlinear = head[wire.H_BACKLASH] > 0.0
     for r in range(law.shape[0]):
-        cover(law[r], w.x, free, inserted, w.weights[r], w.point[r])
+        cover(law[r], w.x, free, inserted, tip_loaded, w.loads[r], w.point[r])
         if is_linear(law[r]):
-            add_viscous(w, w.weights[r], law[r, wire.L_VISCOUS])
+            add_viscous(w, w.loads[r], law[r, wire.L_VISCOUS])
         else:
             nonlinear = True
             w.start[r] = before[r]
@@ -76,18 +76,21 @@ def _second_stage(law, theta, now, before, w, frame):
             continue
         for e in range(n):
             for k in range(2):
-                _carry_site(before[r, e, k], w.end[r, e, k], w.start[r, e, k], frame.yield_angle)
+                _carry_site(w, r, e, k, before, frame.yield_angle)
 
 
 @inlined
-def _carry_site(old, reached, new, yield_angle):
+def _carry_site(w, r, e, k, before, limit):
     for j in range(wire.SITE):
-        new[j] = old[j] + _CARRY * (reached[j] - old[j])
-    new[wire.Z_DRY] = min(max(new[wire.Z_DRY], -yield_angle), yield_angle)
-    size = math.sqrt(new[wire.Z_TURN] ** 2 + new[wire.Z_AXIAL] ** 2)
-    if size > yield_angle:
-        new[wire.Z_TURN] *= yield_angle / size
-        new[wire.Z_AXIAL] *= yield_angle / size
+        old = before[r, e, k, j]
+        w.start[r, e, k, j] = old + _CARRY * (w.end[r, e, k, j] - old)
+    dry, turn = w.start[r, e, k, wire.Z_DRY], w.start[r, e, k, wire.Z_TURN]
+    axial = w.start[r, e, k, wire.Z_AXIAL]
+    w.start[r, e, k, wire.Z_DRY] = min(max(dry, -limit), limit)
+    size = math.sqrt(turn * turn + axial * axial)
+    if size > limit:
+        w.start[r, e, k, wire.Z_TURN] = turn * limit / size
+        w.start[r, e, k, wire.Z_AXIAL] = axial * limit / size
 
 
 @inlined
@@ -96,7 +99,7 @@ def _add_other_rows(law, w, frame, tip_torque, cautious):
     for r in range(law.shape[0]):
         if is_linear(law[r]):
             if frame.drift != 0.0:
-                add_viscous_slide(w, w.weights[r], law[r, wire.L_VISCOUS], frame)
+                add_viscous_slide(w, w.loads[r], law[r, wire.L_VISCOUS], frame)
         else:
             power, energy = add_row(w, r, law[r], frame, tip_torque, cautious)
             recoverable += power
@@ -185,7 +188,10 @@ def advance(head, mesh, law, h, theta, now, nxt, ctrl):
         head[wire.H_BACKLASH],
         head[wire.H_DRIVE] == wire.DRIVE_ANGLE,
     )
-    nonlinear = _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted)
+    tip_loaded = past[wire.U_TIP] != 0.0 or ctrl[wire.U_TIP] != 0.0
+    for r in range(rows):
+        tip_loaded |= law[r, wire.L_POINT] * law[r, wire.L_TOP_INSERTED] != 0.0
+    nonlinear = _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_loaded)
     work, dissipated, failed, iterations = 0.0, 0.0, 0, 0
     torque, friction, stored = 0.0, 0.0, 0.0
     for stage in range(2):
@@ -210,9 +216,9 @@ def advance(head, mesh, law, h, theta, now, nxt, ctrl):
     for r in range(rows):
         if is_linear(law[r]) or law[r, wire.L_POINT] != 0.0:
             continue
-        forget_uncovered(w.weights[r], w.end[r])
+        forget_uncovered(w.loads[r], w.end[r])
         if law[r, wire.L_STIFFNESS] > 0.0 and speed != 0.0 and head[wire.H_STRETCHING] == 0.0:
-            slide_tissue(h * speed, w.x, w.weights[r], w.end[r])
+            slide_tissue(h * speed, w.x, w.loads[r], w.end[r])
     for j in range(wire.INPUTS):
         nxt[wire.B_INPUTS + j] = ctrl[j]
     nxt[wire.O_BASE_TORQUE] = torque

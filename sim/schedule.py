@@ -1,0 +1,92 @@
+"""What is done to a needle over time: the inputs of a run, sampled.
+
+Between samples everything runs straight. Lengths and speed are those of the shaft
+relative to the tissue; `speed_mm_s` is positive into it.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.errors import InvalidValue
+from sim.discretisation import Mesh
+
+Array = NDArray[np.float64]
+
+# Lengths that differ by less than this are the same length, mm.
+LENGTH_TOLERANCE_MM = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Schedule:
+    """Inputs at increasing times; every array has the shape of `time_s`, (N,).
+
+    Attributes:
+      time_s: strictly increasing.
+      drive: base angle, deg, or base torque, N mm, as the drive is.
+      free_mm: from chuck to tissue.
+      inserted_mm: in contact with tissue.
+      speed_mm_s: axial, positive into the tissue.
+      tip_torque_n_mm: known torque at the tip, positive resists positive rotation.
+
+    Raises:
+      InvalidValue: names the column and the first offending row.
+    """
+
+    time_s: Array
+    drive: Array
+    free_mm: Array
+    inserted_mm: Array
+    speed_mm_s: Array
+    tip_torque_n_mm: Array = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        time = np.asarray(self.time_s, float)
+        if self.tip_torque_n_mm.size == 0:
+            object.__setattr__(self, "tip_torque_n_mm", np.zeros(time.shape))
+        if time.ndim != 1 or time.size < 2:
+            raise InvalidValue("time_s", time.shape, "at least two samples in one dimension")
+        for name in ("time_s", "drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm"):
+            values = np.asarray(getattr(self, name), float)
+            object.__setattr__(self, name, values)
+            if values.shape != time.shape:
+                raise InvalidValue(name, values.shape, f"as many samples as time_s: {time.shape}")
+            bad = np.flatnonzero(~np.isfinite(values))
+            if bad.size:
+                raise InvalidValue(f"{name}[{bad[0]}]", float(values[bad[0]]), "a finite number")
+        back = np.flatnonzero(np.diff(time) <= 0)
+        if back.size:
+            i = int(back[0])
+            raise InvalidValue(
+                f"time_s[{i + 1}]", float(time[i + 1]), f"a time after {time[i]}", "sort the samples"
+            )
+        for name in ("free_mm", "inserted_mm"):
+            low = np.flatnonzero(getattr(self, name) < -LENGTH_TOLERANCE_MM)
+            if low.size:
+                value = float(getattr(self, name)[low[0]])
+                raise InvalidValue(f"{name}[{low[0]}]", value, "a length of at least 0 mm")
+
+    @property
+    def duration_s(self) -> float:
+        """From the first sample to the last."""
+        return float(self.time_s[-1] - self.time_s[0])
+
+    @property
+    def longest_mm(self) -> float:
+        """Most shaft between chuck and tip that the schedule asks for."""
+        return float((self.free_mm + self.inserted_mm).max())
+
+    @property
+    def mesh(self) -> Mesh:
+        """Nodes stand in tissue of constant depth; else they travel with the needle."""
+        constant = np.ptp(self.inserted_mm) <= LENGTH_TOLERANCE_MM
+        return Mesh.TISSUE if constant and self.inserted_mm[0] > 0 else Mesh.NEEDLE
+
+    def at_steps(self, step_s: float) -> "Schedule":
+        """The same inputs at the ends of equal steps, the last at or after the end."""
+        steps = max(1, int(np.ceil(self.duration_s / step_s - 1e-9)))
+        time = self.time_s[0] + step_s * np.arange(steps + 1)
+        columns = ("drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm")
+        inputs = {name: np.interp(time, self.time_s, getattr(self, name)) for name in columns}
+        return Schedule(time_s=time, **inputs)

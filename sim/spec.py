@@ -1,0 +1,239 @@
+"""The needle as a MuJoCo model: a chain of capsules that hinge on one another.
+
+A carriage slides along x and carries the base. The shaft is cut at nodes; each
+node is a body with the mass and inertia of the shaft half way to its neighbours,
+drawn as a capsule, and turns about x. Torsion between nodes a apart is the joint
+stiffness kappa / a. The servo of the base is a joint spring with a motor of the
+same gear, and so is the carriage's: both hold in any viewer, without a callback.
+
+The inputs (`ctrl`) are, in order: drive (rad or N m), carriage (m), inserted
+length (m), axial speed (m/s), torque at the tip (N m, positive resists).
+"""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from models import units
+from models.drive import Drive, DriveKind
+from models.errors import InvalidValue
+from models.needle import Needle
+from models.tissue import Tissue
+from sim.discretisation import Arrangement, Discretisation, Mesh, Slip, node_positions_mm
+from sim.kernel import wire
+from sim.law_table import law_table
+
+Array = NDArray[np.float64]
+
+# A rigid servo is this much stiffer than the needle: its error is 1e-6 of the lag.
+_RIGID = 1e6
+_RAIL_RATE = 1e3  # rad/s, natural frequency of the carriage's servo
+_LEAST_INERTIA = 1e-15  # kg m^2, below which MuJoCo refuses a body
+_LEAST_MASS = 1e-9  # kg, of the carriage itself
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setup:
+    """Everything that makes a model: what is simulated, and how.
+
+    Attributes:
+      needle, tissue, drive: the rig.
+      discretisation: elements and step.
+      mesh: what the nodes are fixed to.
+      free_mm, inserted_mm: lengths at the start; together the shaft that is modelled.
+      rows: least number of rows of the law table.
+    """
+
+    needle: Needle
+    tissue: Tissue
+    drive: Drive = Drive()  # noqa: RUF009 - frozen
+    discretisation: Discretisation = Discretisation()  # noqa: RUF009 - frozen
+    mesh: Mesh = Mesh.TISSUE
+    free_mm: float
+    inserted_mm: float
+    rows: int = 0
+
+    def __post_init__(self) -> None:
+        for name in ("free_mm", "inserted_mm"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value >= 0):
+                raise InvalidValue(name, value, "a finite length of at least 0 mm")
+        total = self.free_mm + self.inserted_mm
+        if total <= 0:
+            raise InvalidValue("inserted_mm", self.inserted_mm, "some shaft: free + inserted above 0")
+
+    @property
+    def nodes_mm(self) -> Array:
+        """Node positions from the chuck at the start, mm, (n + 1,)."""
+        return self._mesh()[0]
+
+    @property
+    def stretching(self) -> int:
+        """Elements that share the free length."""
+        return self._mesh()[1]
+
+    def _mesh(self) -> tuple[Array, int]:
+        return node_positions_mm(
+            self.discretisation,
+            self.mesh,
+            self.tissue,
+            free_mm=self.free_mm,
+            inserted_mm=self.inserted_mm,
+            sheath=self.drive.sheath_friction_n_mm_per_mm > 0,
+        )
+
+    @property
+    def servo_n_m_per_rad(self) -> float:
+        """Stiffness between drive shaft and needle; 0 where the drive gives torque."""
+        if self.drive.kind is DriveKind.TORQUE:
+            return 0.0
+        if self.drive.stiffness_n_mm_per_rad is not None:
+            return self.drive.stiffness_n_mm_per_rad * units.N_MM
+        shaft = (self.free_mm + self.inserted_mm) * units.MM
+        return _RIGID * self.needle.rigidity_n_mm2 * units.N_MM2 / shaft
+
+
+def needle_spec(setup: Setup) -> mujoco.MjSpec:
+    """The model as an editable MuJoCo specification.
+
+    Raises:
+      InvalidValue: an element is too small for MuJoCo's floor on inertia.
+    """
+    spec = mujoco.MjSpec()
+    spec.modelname = "needle"
+    spec.option.timestep = setup.discretisation.step_s
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
+    spec.option.gravity = [0, 0, 0]
+    disable = mujoco.mjtDisableBit
+    spec.option.disableflags = int(disable.mjDSBL_CONSTRAINT | disable.mjDSBL_CONTACT)
+    _add_numbers(spec, setup)
+    tip = _add_bodies(spec, setup)
+    _add_actuators(spec, setup, tip)
+    for name in wire.OUTPUT_SENSORS:
+        spec.add_sensor(
+            name=name,
+            type=mujoco.mjtSensor.mjSENS_USER,
+            dim=1,
+            needstage=mujoco.mjtStage.mjSTAGE_ACC,
+        )
+    return spec
+
+
+def _mass_kg(setup: Setup) -> float:
+    shaft = (setup.nodes_mm[-1] - setup.nodes_mm[0]) * units.MM
+    return float(setup.needle.mass_kg_per_m * shaft)
+
+
+def _rail_n_per_m(setup: Setup) -> float:
+    return (_mass_kg(setup) + _LEAST_MASS) * _RAIL_RATE**2
+
+
+def _convection(setup: Setup) -> float:
+    """c in: slip rate = omega + c v dtheta/dx."""
+    if setup.mesh is Mesh.TISSUE:
+        return 1.0 if setup.discretisation.slip is Slip.MATERIAL else 0.0
+    return 0.0 if setup.discretisation.slip is Slip.MATERIAL else -1.0
+
+
+def header(setup: Setup, *, rows: int) -> Array:
+    """The `needle` numeric of `sim.kernel.wire`, SI."""
+    head = np.zeros(wire.HEADER)
+    head[wire.H_MAGIC] = wire.MAGIC
+    head[wire.H_ELEMENTS] = setup.nodes_mm.size - 1
+    head[wire.H_ROWS] = rows
+    head[wire.H_KAPPA] = setup.needle.rigidity_n_mm2 * units.N_MM2
+    head[wire.H_ETA] = setup.needle.rotary_inertia_kg_m
+    angle_driven = setup.drive.kind is DriveKind.ANGLE
+    head[wire.H_DRIVE] = wire.DRIVE_ANGLE if angle_driven else wire.DRIVE_TORQUE
+    head[wire.H_SERVO] = setup.servo_n_m_per_rad
+    head[wire.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
+    head[wire.H_PRESLIDING] = setup.discretisation.presliding_deg * units.DEG
+    head[wire.H_RADIUS] = setup.needle.radius_mm * units.MM
+    head[wire.H_CONVECTION] = _convection(setup)
+    head[wire.H_STRETCHING] = setup.stretching
+    head[wire.H_FREE_REF] = setup.free_mm * units.MM
+    head[wire.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
+    head[wire.H_MASS] = _mass_kg(setup) + _LEAST_MASS
+    head[wire.H_RAIL] = _rail_n_per_m(setup)
+    return head
+
+
+def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
+    law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
+    nodes = setup.nodes_mm * units.MM
+    for name, values in (
+        ("needle", header(setup, rows=len(law))),
+        ("needle_mesh", nodes),
+        ("needle_law", law.ravel()),
+    ):
+        spec.add_numeric(name=name, data=values, size=values.size)
+    spec.nuserdata = wire.userdata(nodes.size - 1, len(law))
+
+
+def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
+    """Carriage and shaft; returns the name of the site at the tip."""
+    carriage = spec.worldbody.add_body(
+        name="carriage", mass=_LEAST_MASS, inertia=[1e-12] * 3, explicitinertial=True
+    )
+    rail = carriage.add_joint(name="carriage", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])
+    rail.stiffness = [_rail_n_per_m(setup), 0, 0]
+    nodes, needle = setup.nodes_mm * units.MM, setup.needle
+    chain = setup.discretisation.arrangement is Arrangement.CHAIN
+    rigidity, radius = needle.rigidity_n_mm2 * units.N_MM2, needle.radius_mm * units.MM
+    parent, origin = carriage, 0.0
+    for i, x in enumerate(nodes):
+        back = 0.5 * (x - nodes[i - 1]) if i > 0 else 0.0
+        ahead = 0.5 * (nodes[i + 1] - x) if i + 1 < nodes.size else 0.0
+        inertia = needle.rotary_inertia_kg_m * (back + ahead)
+        if inertia < _LEAST_INERTIA:
+            raise InvalidValue(
+                "elements",
+                nodes.size - 1,
+                f"elements whose inertia is at least {_LEAST_INERTIA} kg m^2, not {inertia:.1e}",
+                "take fewer elements, or a thicker needle",
+            )
+        mass = needle.mass_kg_per_m * (back + ahead)
+        across = mass * (3 * radius**2 + (back + ahead) ** 2) / 12
+        body = parent.add_body(
+            name=f"shaft_{i}",
+            pos=[x - origin, 0, 0],
+            mass=mass,
+            ipos=[0.5 * (ahead - back), 0, 0],
+            inertia=[inertia, max(across, inertia), max(across, inertia)],
+            explicitinertial=True,
+        )
+        joint = body.add_joint(
+            name=f"twist_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0]
+        )
+        torsion = rigidity / (2 * back) if i > 0 and chain else 0.0
+        joint.stiffness = [setup.servo_n_m_per_rad if i == 0 else torsion, 0, 0]
+        body.add_geom(
+            name=f"shaft_{i}",
+            type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+            fromto=[-back, 0, 0, ahead, 0, 0],
+            size=[radius, 0, 0],
+            contype=0,
+            conaffinity=0,
+            mass=0,
+            rgba=[0.75, 0.78, 0.82, 1],
+        )
+        if chain:
+            parent, origin = body, x
+    body.add_site(name="tip", size=[2 * radius] * 3)
+    return "tip"
+
+
+def _add_actuators(spec: mujoco.MjSpec, setup: Setup, tip: str) -> None:
+    joint, site = mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_SITE
+    drive = setup.servo_n_m_per_rad if setup.drive.kind is DriveKind.ANGLE else 1.0
+    for name, target, kind, gear in (
+        ("drive", "twist_0", joint, [drive]),
+        ("carriage", "carriage", joint, [_rail_n_per_m(setup)]),
+        ("inserted", "carriage", joint, [0]),
+        ("speed", "carriage", joint, [0]),
+        ("tip_torque", tip, site, [0, 0, 0, -1]),
+    ):
+        actuator = spec.add_actuator(name=name, target=target, trntype=kind)
+        actuator.gear[: len(gear)] = gear
