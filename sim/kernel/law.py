@@ -50,46 +50,47 @@ class Stage(NamedTuple):
 
 @embedded
 def slip_law(s, row, extra, old, stage, lag):
-    """Torque per length, its slope against slip, and the presliding it leaves.
+    """Torque per length, tangent and secant slope against slip, presliding it leaves.
 
     Args:
       s: slip rate, rad/s.
       row: of the law table.
       extra: dry level in addition to the row's, N m / m.
       old: memory of the site before the stage.
-      stage: see `Stage`. A cautious one takes the secant of the power law, and the
-        Stribeck level of `lag`.
-      lag: slip rate at the start of the stage, rad/s.
+      stage: see `Stage`.
+      lag: slip rate that sets the Stribeck level in a cautious stage, rad/s.
     """
-    torque, slope = 0.0, 0.0
+    torque, tangent, secant = 0.0, 0.0, 0.0
     dry, turn, axial = old.dry, old.turn, old.axial
     g, limit = stage.g, stage.yield_angle
     viscous = row[wire.L_VISCOUS]
     p = row[wire.L_EXPONENT]
     if p == 1.0:
-        torque += viscous * s
-        slope += viscous
+        torque = viscous * s
+        tangent = secant = viscous
     elif viscous != 0.0:
         q = s * s + RATE_FLOOR * RATE_FLOOR
         m = viscous * q ** (0.5 * (p - 1.0))
-        torque += m * s
-        slope += m if stage.cautious else m * (1.0 + (p - 1.0) * s * s / q)
+        torque = m * s
+        secant = m
+        tangent = m * (1.0 + (p - 1.0) * s * s / q)
     level = row[wire.L_KINETIC] + extra
     excess = row[wire.L_STATIC] - row[wire.L_KINETIC]
     if level > 0.0 or excess > 0.0:
-        tilt = 0.0
         if excess > 0.0:
             w = (lag if stage.cautious else s) / row[wire.L_STRIBECK]
             bump = excess * math.exp(-w * w)
             level += bump
-            tilt = 0.0 if stage.cautious else -2.0 * bump * w / row[wire.L_STRIBECK]
         dry += g * s
-        if abs(dry) < limit:
-            slope += level * g / limit
-        else:
+        size = abs(dry)
+        if size < limit:
+            tangent += level * g / limit
+        secant += level * g / max(size, limit)
+        if size > limit:
             dry = math.copysign(limit, dry)
         torque += level * dry / limit
-        slope += tilt * dry / limit
+        if excess > 0.0 and not stage.cautious:
+            tangent -= 2.0 * bump * w / row[wire.L_STRIBECK] * dry / limit
     shared = row[wire.L_SHARED]
     if shared > 0.0:
         turn += g * s
@@ -97,12 +98,14 @@ def slip_law(s, row, extra, old, stage, lag):
         size = math.sqrt(turn * turn + axial * axial)
         if size <= limit:
             torque += shared * turn / limit
-            slope += shared * g / limit
+            tangent += shared * g / limit
+            secant += shared * g / limit
         else:
             torque += shared * turn / size
-            slope += shared * g * (axial / size) ** 2 / size
+            tangent += shared * g * (axial / size) ** 2 / size
+            secant += shared * g / size
             turn, axial = turn * limit / size, axial * limit / size
-    return torque, slope, Memory(dry, turn, axial, old.phi)
+    return torque, tangent, secant, Memory(dry, turn, axial, old.phi)
 
 
 @embedded
@@ -110,12 +113,13 @@ def site_law(omega, row, extra, old, stage, lag):
     """As `slip_law`, against the rate of the shaft, with the tissue in series.
 
     Returns torque per length, its slope against omega, the slip rate, and the
-    memory that the stage leaves.
+    memory that the stage leaves. A cautious stage gets the secant slope, which
+    majorises the potential of the friction, so that its iteration always descends.
     """
-    torque, slope, new = slip_law(omega, row, extra, old, stage, lag)
+    torque, tangent, secant, new = slip_law(omega, row, extra, old, stage, lag)
     k = row[wire.L_STIFFNESS]
     if k <= 0.0:
-        return torque, slope, omega, new
+        return torque, secant if stage.cautious else tangent, omega, new
     resistance = k * (row[wire.L_TIME] + stage.g)
     push = k * old.phi
     s = omega
@@ -127,13 +131,14 @@ def site_law(omega, row, extra, old, stage, lag):
             high = s
         else:
             low = s
-        change = miss / (slope + resistance)
+        change = miss / (tangent + resistance)
         if abs(change) <= 1e-13 * (1.0 + abs(s)):
             break
         s -= change
         if not low < s < high:
             s = 0.5 * (low + high)
-        torque, slope, new = slip_law(s, row, extra, old, stage, lag)
+        torque, tangent, secant, new = slip_law(s, row, extra, old, stage, lag)
     phi = old.phi + stage.g * (omega - s)
+    slope = secant if stage.cautious else tangent
     left = Memory(new.dry, new.turn, new.axial, phi)
     return torque, slope * resistance / (slope + resistance), s, left

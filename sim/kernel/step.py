@@ -13,6 +13,7 @@ the other; lengths and speed are those of its middle.
 """
 
 import math
+from typing import NamedTuple
 
 from sim.kernel import wire
 from sim.kernel.assemble import (
@@ -33,8 +34,9 @@ from sim.kernel.work import Frame, allocate
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
 _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
-_PLAIN = 12  # iterations of plain Newton; after them slopes are made safe
-_ITERATIONS = 80
+_OVERSHOOT = 0.3  # a step is shortened where it meets this much of its own force again
+_PLAIN = 40  # iterations of plain Newton; after them slopes are made safe
+_ITERATIONS = 160
 
 
 @inlined
@@ -46,7 +48,7 @@ def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_
         left = w.x[i] - w.x[i - 1] if i > 0 else 0.0
         right = w.x[i + 1] - w.x[i] if i < n else 0.0
         w.inertia[i] = head[wire.H_ETA] * 0.5 * (left + right) / frame.g
-        w.spring[i] = head[wire.H_KAPPA] / right
+        w.spring[i] = head[wire.H_KAPPA] / right if i < n else 0.0
         w.theta[i] = theta[i]
         w.rest[i] = w.omega[i] = now[wire.B_ANGLES + n + 1 + i]
         w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
@@ -107,6 +109,17 @@ def _add_other_rows(law, w, frame, tip_torque, cautious):
     return recoverable, stored
 
 
+class Search(NamedTuple):
+    """A line search along Newton's step, between fractions of it."""
+
+    force: float  # along the step, where it set out
+    low: float  # fraction up to which the force still pulls ahead
+    pull: float  # force there, halved each time that this end stays
+    high: float  # fraction at which the force pushes back
+    push: float  # force there; 0: not met yet
+    at: float  # fraction where the rates stand
+
+
 @inlined
 def _newton(law, w, frame, drive, tip_torque, nonlinear, factored):
     """Solve one stage. Returns convergence, iterations, recoverable power, energy.
@@ -118,6 +131,7 @@ def _newton(law, w, frame, drive, tip_torque, nonlinear, factored):
     for i in range(n):
         w.lag[i] = w.omega[i]
     recoverable, stored = 0.0, 0.0
+    search = Search(0.0, 0.0, 0.0, 1.0, 0.0, 1.0)
     for iteration in range(_ITERATIONS):
         add_linear(w, frame.g, not factored)
         torque, slope = drive_torque(w, frame, drive)
@@ -126,18 +140,85 @@ def _newton(law, w, frame, drive, tip_torque, nonlinear, factored):
         if not factored:
             w.diagonal[0] += slope
             recoverable, stored = _add_other_rows(law, w, frame, tip_torque, iteration >= _PLAIN)
+        if iteration > 0:
+            searching, search = _search(w, search)
+            if searching:
+                continue
+        if not factored:
             factorise(w.lower, w.diagonal, w.upper)
-        substitute(w.lower, w.diagonal, w.upper, w.rhs)
-        change, size = 0.0, 1.0
-        for i in range(n):
-            w.omega[i] += w.rhs[i]
-            change = max(change, abs(w.rhs[i]))
-            size = max(size, abs(w.omega[i]))
+        change, size, force = _take_step(w)
+        search = Search(force, 0.0, force, 1.0, 0.0, 1.0)
         if not math.isfinite(change):
             return False, iteration + 1, recoverable, stored
         if not nonlinear or change <= _TOLERANCE * size:
             return True, iteration + 1, recoverable, stored
     return False, _ITERATIONS, recoverable, stored
+
+
+@inlined
+def _search(w, search):
+    """Move along the last step if it overshot: dry friction would let Newton cycle.
+
+    The residual is, up to sign, the gradient of a convex potential. Where the end of
+    a step meets a good part of the force that it set out with, the minimum along it
+    lies before: regula falsi with Illinois' halving, until little force is left.
+    Returns whether the rates have moved.
+    """
+    n = w.omega.size
+    met, length = 0.0, 0.0
+    for i in range(n):
+        met += w.rhs[i] * w.step[i]
+        length = max(length, abs(w.step[i]))
+    low, pull, high, push = search.low, search.pull, search.high, search.push
+    calm = abs(met) <= _OVERSHOOT * search.force or (met > 0.0 and push == 0.0)
+    if calm or (high - low) * length <= _TOLERANCE:
+        return False, search
+    if met > 0.0:
+        low, pull, push = search.at, met, 0.5 * push
+    else:
+        pull = 0.5 * pull if push > 0.0 else pull
+        high, push = search.at, -met
+    at = low + (high - low) * pull / (pull + push)
+    for i in range(n):
+        w.omega[i] += (at - search.at) * w.step[i]
+    return True, Search(search.force, low, pull, high, push, at)
+
+
+@inlined
+def _take_step(w):
+    """Newton's step; returns its size, that of the rates, and the force along it."""
+    n = w.omega.size
+    for i in range(n):
+        w.step[i] = w.rhs[i]
+    substitute(w.lower, w.diagonal, w.upper, w.step)
+    change, size, force = 0.0, 1.0, 0.0
+    for i in range(n):
+        w.omega[i] += w.step[i]
+        force += w.rhs[i] * w.step[i]
+        change = max(change, abs(w.step[i]))
+        size = max(size, abs(w.omega[i]))
+    return change, size, force
+
+
+@inlined
+def _shortened(w, force):
+    """Shorten the last step if it overshot: dry friction would let Newton cycle.
+
+    The residual is, up to sign, the gradient of a convex potential; where the last
+    step meets as much force as it set out with, the minimum lies between its ends.
+    """
+    n = w.omega.size
+    met, length = 0.0, 0.0
+    for i in range(n):
+        met += w.rhs[i] * w.step[i]
+        length = max(length, abs(w.step[i]))
+    if met >= -_OVERSHOOT * force or length <= _TOLERANCE:
+        return False
+    kept = force / (force - met)
+    for i in range(n):
+        w.omega[i] -= (1.0 - kept) * w.step[i]
+        w.step[i] *= kept
+    return True
 
 
 @inlined

@@ -25,6 +25,7 @@ class Work(NamedTuple):
     diagonal: np.ndarray
     upper: np.ndarray
     rhs: np.ndarray
+    step: np.ndarray  # Newton's step, rad/s
     loads: np.ndarray  # (rows, n, 4): what sites load the nodes with, m
     point: np.ndarray  # (rows, 2): element of a point row, and place in it
     start: np.ndarray  # (rows, n, 2, SITE): site states at the start of the stage
@@ -47,8 +48,8 @@ class Frame(NamedTuple):
 def allocate(n, rows, end):
     """Fresh working memory in one allocation; `end` is the caller's site states."""
     m, s = n + 1, 2 * n * rows
-    memory = np.empty(14 * m + 2 * s + 2 * rows + wire.SITE * s)
-    sites = 14 * m + 2 * s
+    memory = np.empty(15 * m + 2 * s + 2 * rows + wire.SITE * s)
+    sites = 15 * m + 2 * s
     return Work(
         memory[:m],
         memory[m : 2 * m],
@@ -64,7 +65,8 @@ def allocate(n, rows, end):
         memory[11 * m : 12 * m],
         memory[12 * m : 13 * m],
         memory[13 * m : 14 * m],
-        memory[14 * m : sites].reshape(rows, n, 4),
+        memory[14 * m : 15 * m],
+        memory[15 * m : sites].reshape(rows, n, 4),
         memory[sites : sites + 2 * rows].reshape(rows, 2),
         memory[sites + 2 * rows :].reshape(rows, n, 2, wire.SITE),
         end,

@@ -1,0 +1,111 @@
+"""The paper's five materials (Table I), as far as it states them.
+
+What is computed from a printed figure is computed here, once. What the paper does
+not state stays unknown: it is listed, together with what is used instead.
+"""
+
+import numpy as np
+
+from models import published
+from models.errors import UnknownName
+from models.lag import level_n_mm_per_mm
+from models.needle import NITINOL
+from models.tissue import Tissue
+
+
+def slope_per_mm(by_depth_cm: dict[float, float]) -> float:
+    """Least squares line through the origin of Table II, per mm of depth."""
+    depth = np.array(list(by_depth_cm)) * 10
+    torque = np.array(list(by_depth_cm.values()))
+    return float(depth @ torque / (depth @ depth))
+
+
+def tissue_stiffness_n_mm_per_rad_per_mm() -> float:
+    """k_t of (27)-(29) for 1 mm of the paper's shaft: G_t A r^2 / h."""
+    shear_kpa = published.TISSUE_MODULUS.value / (2 * (1 + published.TISSUE_POISSON.value))
+    area_mm2 = published.ELEMENT_AREA.value
+    return shear_kpa * 1e-3 * area_mm2 * NITINOL.radius_mm**2 / published.TISSUE_DEPTH.value
+
+
+def tissue_time_constant_s() -> float:
+    """tau = b_t / k_t of the printed element. (The paper's (30) has it upside down.)"""
+    return published.TISSUE_DAMPER.value / published.TISSUE_SPRING.value
+
+
+_DAMPING = slope_per_mm(dict(published.DAMPING_PLASTISOL_N_MM_S))
+_GELATIN_LEVEL = slope_per_mm(dict(published.STATIC_TORQUE_GELATIN_N_MM))
+_STIFFNESS = tissue_stiffness_n_mm_per_rad_per_mm()
+_TIME = tissue_time_constant_s()
+_HARD = published.HARD_OVER_SOFT.value
+
+# Non-translating experiments: 23 cm between base and tissue, 10 cm inserted.
+_FREE_MM, _DEPTH_MM = 230.0, 100.0
+_SIMTEST_LEVEL = published.SIMTEST_TORQUE.value / _DEPTH_MM
+_CHICKEN_LEVEL = level_n_mm_per_mm(
+    NITINOL, lag_deg=published.CHICKEN_LAG.value, free_mm=_FREE_MM, inserted_mm=_DEPTH_MM
+)
+
+_SAME_TISSUE = "its elasticity: that of plastisol, eq. (29), is used"
+_NO_VISCOUS = "its viscous damping: none is used"
+
+MATERIALS: dict[str, Tissue] = {
+    tissue.name: tissue
+    for tissue in (
+        Tissue.uniform(
+            name="soft-plastisol",
+            viscous_n_mm_s_per_mm=_DAMPING,
+            stiffness_n_mm_per_rad_per_mm=_STIFFNESS,
+            time_constant_s=_TIME,
+        ).but(unknown=("dry friction at rest: none is used",)),
+        Tissue.uniform(
+            name="hard-plastisol",
+            viscous_n_mm_s_per_mm=_DAMPING,
+            stiffness_n_mm_per_rad_per_mm=_STIFFNESS * _HARD,
+            time_constant_s=_TIME,
+        ).but(
+            unknown=(
+                "its own damping: Table II does not say which plastisol it measured",
+                "its elasticity: 100 times the soft one's, as in Section IV-B, is used",
+            )
+        ),
+        Tissue.uniform(name="viscous-plastisol", viscous_n_mm_s_per_mm=_DAMPING).but(
+            unknown=("nothing is known of tissue motion: the model of Sections III and V has none",)
+        ),
+        Tissue.uniform(
+            name="porcine-gelatin",
+            shared_n_mm_per_mm=_GELATIN_LEVEL,
+            stiffness_n_mm_per_rad_per_mm=_STIFFNESS,
+            time_constant_s=_TIME,
+        ).but(unknown=(_NO_VISCOUS, _SAME_TISSUE)),
+        Tissue.uniform(
+            name="simtest",
+            shared_n_mm_per_mm=_SIMTEST_LEVEL,
+            stiffness_n_mm_per_rad_per_mm=_STIFFNESS,
+            time_constant_s=_TIME,
+        ).but(
+            unknown=(
+                "its friction with depth: the one torque of Section II-D over 10 cm is used",
+                _NO_VISCOUS,
+                _SAME_TISSUE,
+            )
+        ),
+        Tissue.uniform(name="chicken", shared_n_mm_per_mm=_CHICKEN_LEVEL).but(
+            unknown=(
+                "its friction: what eq. (2) makes of a lag of 3 deg at 10 cm is used",
+                _NO_VISCOUS,
+                "its elasticity: none is used",
+            )
+        ),
+    )
+}
+
+
+def tissue_named(name: str) -> Tissue:
+    """A tissue by name.
+
+    Raises:
+      UnknownName: lists the known names.
+    """
+    if name not in MATERIALS:
+        raise UnknownName("tissue", name, MATERIALS)
+    return MATERIALS[name]

@@ -1,0 +1,46 @@
+"""Running a protocol: simulate, check the step where accuracy was asked, record."""
+
+from models.errors import InvalidValue
+from sim.protocol import Protocol
+from sim.recording import Recording, record
+from sim.simulation import Run, simulate
+
+import numpy as np
+
+_SECOND_ORDER = 4.0 / 3.0  # error of a step h from the difference to h / 2
+
+
+def perform(protocol: Protocol) -> Recording:
+    """Simulate a protocol and record everything.
+
+    Raises:
+      InvalidValue: the step causes more error than the protocol allows.
+      SimulationFailed: see `sim.simulation.simulate`.
+    """
+    run = simulate([protocol.setup()], protocol.schedule(), keep_shape=True)[0]
+    parameters = {"protocol": protocol.name, "description": protocol.description}
+    if protocol.accuracy_deg is not None:
+        parameters["tip_error_deg"] = _checked_error_deg(protocol, run)
+    return record(run, parameters)
+
+
+def step_error_deg(protocol: Protocol, run: Run) -> float:
+    """Largest error of the tip that the step causes, deg, by halving it."""
+    fine = protocol.discretisation.but(step_s=run.setup.discretisation.step_s / 2)
+    halved = simulate([protocol.but(discretisation=fine).setup()], protocol.schedule())[0]
+    size = min(run.tip_deg.size, (halved.tip_deg.size + 1) // 2)
+    return float(_SECOND_ORDER * np.abs(run.tip_deg[:size] - halved.tip_deg[: 2 * size : 2]).max())
+
+
+def _checked_error_deg(protocol: Protocol, run: Run) -> float:
+    error, step = step_error_deg(protocol, run), protocol.discretisation.step_s
+    allowed = protocol.accuracy_deg or np.inf
+    if error > allowed:
+        enough = step * np.sqrt(allowed / error)
+        raise InvalidValue(
+            "discretisation.step_s",
+            step,
+            f"a step that keeps the tip within {allowed:g} deg (this one: {error:.3g} deg)",
+            f"try {enough:.2g} s",
+        )
+    return error

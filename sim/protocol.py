@@ -1,0 +1,168 @@
+"""Protocols: what is done to which needle in which tissue, in words that can be checked.
+
+A protocol is a sequence of segments. Over `duration_s` of each the base turns by
+`turn_deg` at a constant rate (or holds `torque_n_mm`), while the needle advances by
+`advance_mm` (negative: retracts). A needle that passes `through` a slab keeps its
+inserted length; else the inserted length grows by what the free length loses.
+"""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import yaml
+from pydantic import Field, field_validator, model_validator
+
+from models.drive import Drive, DriveKind
+from models.errors import InvalidValue
+from models.materials import tissue_named
+from models.needle import NITINOL, Needle, NonNegative, Positive, needle_named
+from models.record import Record
+from models.tissue import Tissue
+from sim.discretisation import Discretisation
+from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
+from sim.spec import Setup
+
+_SAMPLES_A_WAVE = 32
+
+
+class Segment(Record):
+    """A stretch of time in which everything runs straight, but for dither."""
+
+    duration_s: Positive
+    turn_deg: float = 0.0
+    torque_n_mm: float | None = None
+    """Base torque during the segment, for a torque-driven needle."""
+    advance_mm: float = 0.0
+    tip_torque_n_mm: float = 0.0
+    dither_deg: NonNegative = 0.0
+    """Amplitude of a sine on the base angle."""
+    dither_hz: NonNegative = 0.0
+
+    @model_validator(mode="after")
+    def _dither_is_whole(self) -> "Segment":
+        if (self.dither_deg > 0) != (self.dither_hz > 0):
+            raise InvalidValue("dither_hz", self.dither_hz, "both dither_deg and dither_hz, or neither")
+        return self
+
+
+class Protocol(Record):
+    """An experiment: rig, start and segments."""
+
+    name: str
+    description: str = ""
+    needle: Needle = NITINOL
+    tissue: Tissue
+    drive: Drive = Drive()
+    discretisation: Discretisation = Discretisation()
+    free_mm: NonNegative
+    inserted_mm: NonNegative
+    through: bool = False
+    """The needle passes through the tissue: its inserted length stays."""
+    segments: Annotated[tuple[Segment, ...], Field(min_length=1)]
+    accuracy_deg: Positive | None = None
+    """If given, the error of the tip that the step may cause; a larger one is an error."""
+
+    @field_validator("needle", mode="before")
+    @classmethod
+    def _needle_by_name(cls, value: Any) -> Any:
+        return needle_named(value) if isinstance(value, str) else value
+
+    @field_validator("tissue", mode="before")
+    @classmethod
+    def _tissue_by_name(cls, value: Any) -> Any:
+        return tissue_named(value) if isinstance(value, str) else value
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> "Protocol":
+        shaft = self.free_mm + self.inserted_mm
+        if shaft > self.needle.length_mm + LENGTH_TOLERANCE_MM:
+            raise InvalidValue(
+                "needle.length_mm",
+                self.needle.length_mm,
+                f"at least the {shaft:g} mm of free_mm + inserted_mm",
+                "take a longer needle",
+            )
+        if self.through and self.inserted_mm == 0:
+            raise InvalidValue("inserted_mm", 0.0, "a depth above 0 for a needle that passes through")
+        free, inserted = self.free_mm, self.inserted_mm
+        for i, segment in enumerate(self.segments):
+            free -= segment.advance_mm
+            inserted += 0.0 if self.through else segment.advance_mm
+            if free < -LENGTH_TOLERANCE_MM or inserted < -LENGTH_TOLERANCE_MM:
+                raise InvalidValue(
+                    f"segments.{i}.advance_mm",
+                    segment.advance_mm,
+                    f"a motion that leaves free and inserted lengths above 0, not {free:g} and {inserted:g} mm",
+                )
+            self._check_drive(i, segment)
+        return self
+
+    def _check_drive(self, i: int, segment: Segment) -> None:
+        torque_driven = self.drive.kind is DriveKind.TORQUE
+        if torque_driven and segment.torque_n_mm is None:
+            raise InvalidValue(f"segments.{i}.torque_n_mm", None, "a torque, as drive.kind is torque")
+        if torque_driven and (segment.turn_deg or segment.dither_deg):
+            raise InvalidValue(f"segments.{i}.turn_deg", segment.turn_deg, "0, as drive.kind is torque")
+        if not torque_driven and segment.torque_n_mm is not None:
+            raise InvalidValue(
+                f"segments.{i}.torque_n_mm", segment.torque_n_mm, "nothing, as drive.kind is angle"
+            )
+
+    def schedule(self) -> Schedule:
+        """The inputs of the run."""
+        columns: dict[str, list[float]] = {
+            "time_s": [], "drive": [], "free_mm": [], "inserted_mm": [], "speed_mm_s": [], "tip_torque_n_mm": []
+        }
+        time, angle, free, inserted = 0.0, 0.0, self.free_mm, self.inserted_mm
+        for segment in self.segments:
+            share = np.linspace(0.0, 1.0, self._samples(segment))
+            at = time + segment.duration_s * share
+            # A jump at the border of two segments takes one part in 10^6 of a segment.
+            at[0] += 1e-6 * segment.duration_s if columns["time_s"] else 0.0
+            wave = segment.dither_deg * np.sin(2 * np.pi * segment.dither_hz * segment.duration_s * share)
+            turned = angle + segment.turn_deg * share + wave
+            torque = segment.torque_n_mm
+            columns["time_s"] += list(at)
+            columns["drive"] += list(turned if torque is None else np.full(share.size, torque))
+            columns["free_mm"] += list(np.maximum(free - segment.advance_mm * share, 0.0))
+            gain = 0.0 if self.through else segment.advance_mm
+            columns["inserted_mm"] += list(np.maximum(inserted + gain * share, 0.0))
+            speed = segment.advance_mm / segment.duration_s
+            columns["speed_mm_s"] += [speed] * share.size
+            columns["tip_torque_n_mm"] += [segment.tip_torque_n_mm] * share.size
+            time += segment.duration_s
+            angle = float(turned[-1])
+            free, inserted = free - segment.advance_mm, inserted + gain
+        return Schedule(**{name: np.array(values) for name, values in columns.items()})
+
+    def _samples(self, segment: Segment) -> int:
+        waves = segment.dither_hz * segment.duration_s
+        return 2 if waves == 0 else int(np.ceil(waves * _SAMPLES_A_WAVE)) + 1
+
+    def setup(self) -> Setup:
+        """The model that the run needs."""
+        return Setup(
+            needle=self.needle,
+            tissue=self.tissue,
+            drive=self.drive,
+            discretisation=self.discretisation,
+            mesh=self.schedule().mesh,
+            free_mm=self.free_mm,
+            inserted_mm=self.inserted_mm,
+        )
+
+
+def read_protocol(path: Path) -> Protocol:
+    """Read and check a protocol from YAML.
+
+    Raises:
+      InvalidValue: the file is not YAML, or not a protocol; names the field.
+    """
+    try:
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise InvalidValue(str(path), str(error).splitlines()[0], "a readable YAML file") from error
+    if not isinstance(content, dict):
+        raise InvalidValue(str(path), content, "a mapping of the fields of a protocol")
+    return Protocol(**content)
