@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from models.errors import UnknownName
 from models.materials import MATERIALS
+from sim.discretisation import Discretisation
 from sim.protocol import Protocol, Segment
 
 _FREE_MM = 230.0
@@ -110,6 +111,8 @@ def insertion() -> Protocol:
         name="insertion",
         description="7 cm into soft plastisol at 5 mm/s, with four half turns on the way",
         tissue="soft-plastisol",
+        # The tissue reaches the first centimetres element by element: take small ones.
+        discretisation=Discretisation(elements=48),
         free_mm=120,
         inserted_mm=0,
         segments=tuple(advance),

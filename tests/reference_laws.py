@@ -140,6 +140,10 @@ class TissueMesh:
         return self.inserted_mm / self.cells
 
     @property
+    def place_mm(self) -> float:
+        return self.cell_mm
+
+    @property
     def places_mm(self) -> Array:
         return np.asarray((np.arange(self.cells) + 0.5) * self.cell_mm)
 
@@ -209,9 +213,14 @@ class NeedleMesh:
         return self.total_mm / self.cells
 
     @property
+    def place_mm(self) -> float:
+        """Fine enough that the centre of the last cell never lies beside bare tissue."""
+        return self.cell_mm / 4
+
+    @property
     def places_mm(self) -> Array:
-        places = math.ceil(self.drive.inserted_mm.max() / self.cell_mm)
-        return np.asarray((np.arange(places) + 0.5) * self.cell_mm)
+        places = math.ceil(self.drive.inserted_mm.max() / self.place_mm)
+        return np.asarray((np.arange(places) + 0.5) * self.place_mm)
 
     def positions_mm(self, time_s: float) -> Array:
         free_mm = self.total_mm - self.drive.at(time_s, self.drive.inserted_mm)

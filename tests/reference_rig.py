@@ -265,7 +265,7 @@ class Step:
             for _ in range(most_iterations):
                 linear = self.linearised(angle, twist)
                 turn, more_twist = linear.solve()
-                part = self.damping(angle, twist, turn, more_twist, linear.mismatch(), most_halvings)
+                part = self.helpful_part(angle, twist, turn, more_twist, linear.mismatch(), most_halvings)
                 angle, twist = angle + part * turn, twist + part * more_twist
                 change = max(np.abs(turn).max(), np.abs(more_twist).max())
                 if change < NEWTON_TOLERANCE_RAD:
@@ -274,9 +274,10 @@ class Step:
                     break
         return None
 
-    def damping(
+    def helpful_part(
         self, angle: Array, twist: Array, turn: Array, more_twist: Array, mismatch: float, halvings: int
     ) -> float:
+        """The part of a Newton step that lessens the mismatch."""
         part = 1.0
         for _ in range(halvings):
             if self.linearised(angle + part * turn, twist + part * more_twist).mismatch() < mismatch:
@@ -306,7 +307,7 @@ class Step:
         """Each place feels the torque of the shaft that is there now; bare tissue creeps back."""
         touched, places_mm = self.layout.tissue_mm > 0, self.mesh.places_mm
         there = np.interp(places_mm, self.layout.depth_mm[touched], torque[touched])
-        share = np.clip((self.layout.depth_mm[-1] - places_mm) / self.mesh.cell_mm + 0.5, 0, 1)
+        share = np.clip((self.layout.depth_mm[-1] - places_mm) / self.mesh.place_mm + 0.5, 0, 1)
         return np.asarray(self.tissue_softness * share * there - self.tissue_memory * self.place_past)
 
 
@@ -372,11 +373,8 @@ class Simulation:
         history = np.array([*self.tip_history, (self.now.time_s, self.now.angle[-1])])
         seen_s = self.drive.time_s - self.rig.value("tip_sensor_delay", "delay")
         tip_deg = np.degrees(np.interp(seen_s, history[:, 0], history[:, 1]))
-        scale, bias = (
-            self.rig.value("tip_angle_scale", "scale"),
-            self.rig.value("tip_angle_bias", "bias"),
-        )
-        return np.asarray(scale * tip_deg + bias)
+        scaled_deg = self.rig.value("tip_angle_scale", "scale") * tip_deg
+        return np.asarray(scaled_deg + self.rig.value("tip_angle_bias", "bias"))
 
 
 def simulate(

@@ -2,64 +2,78 @@
 
 Tissue twist is remembered at contact sites, which travel with the needle. After
 a step in which the needle moved by d into the tissue, the twist of a site is that
-of the place to which it moved: phi <- phi + d dphi/dx. Tissue that the tip enters
-is untwisted; tissue at the entry is as twisted as its nearest neighbour.
+of the place to which it moved, phi(x) <- phi(x + d), by quadratic interpolation
+(second order, stable while the nearest site is the middle one). Tissue that the
+tip enters is untwisted; at the entry the twist goes on as it runs.
 """
 
-from sim.kernel.mesh import XI_LEFT, XI_RIGHT
+import numpy as np
+
 from sim.kernel import wire
 from sim.kernel.compiled import compiled, inlined
+from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 
 
 @inlined
 def _covered(loads, site):
-    return loads[site // 2, site % 2] + loads[site // 2, 2 + site % 2] > 0.0
+    e, k = site // 2, site % 2
+    return loads[e, k] + loads[e, 2 + k] > 0.0
+
+
+@inlined
+def _place(x, site):
+    e = site // 2
+    return x[e] + (XI_RIGHT if site % 2 == 1 else XI_LEFT) * (x[e + 1] - x[e])
 
 
 @compiled
 def forget_uncovered(loads, state):
     """A site that no tissue touches remembers nothing."""
-    for e in range(loads.shape[0]):
-        for k in range(2):
-            if not _covered(loads, 2 * e + k):
-                for j in range(wire.SITE):
-                    state[e, k, j] = 0.0
+    for site in range(2 * loads.shape[0]):
+        if not _covered(loads, site):
+            for j in range(wire.SITE):
+                state[site // 2, site % 2, j] = 0.0
+
+
+@compiled
+def _interpolate(places, twist, count, middle, target):
+    """The parabola through three sites around `middle`; straight at two or at an end."""
+    if count == 1:
+        return twist[0]
+    if count == 2 or target < places[0] or target > places[count - 1]:
+        i = min(max(middle, 0), count - 2)
+        slope = (twist[i + 1] - twist[i]) / (places[i + 1] - places[i])
+        return twist[i] + slope * (target - places[i])
+    i = min(max(middle, 1), count - 2)
+    a, b, c = places[i - 1], places[i], places[i + 1]
+    return (
+        twist[i - 1] * (target - b) * (target - c) / ((a - b) * (a - c))
+        + twist[i] * (target - a) * (target - c) / ((b - a) * (b - c))
+        + twist[i + 1] * (target - a) * (target - b) / ((c - a) * (c - b))
+    )
 
 
 @compiled
 def slide_tissue(d, x, loads, state):
     """Shift the twist of the tissue by d, m (positive: needle into the tissue)."""
     n = loads.shape[0]
-    last = -1  # the previous covered site, as 2 e + k
-    here = 0.0  # its place
-    old = 0.0  # its twist before this sweep
-    slope_back = 0.0
+    places, twist = np.empty(2 * n + 1), np.empty(2 * n + 1)
+    count, first, last = 0, -1, -1
     for site in range(2 * n):
-        e, k = site // 2, site % 2
-        if not _covered(loads, site):
-            continue
-        place = x[e] + (XI_RIGHT if k == 1 else XI_LEFT) * (x[e + 1] - x[e])
-        phi = state[e, k, wire.PHI]
-        if last >= 0:
-            slope = (phi - old) / (place - here)
-            back = slope if slope_back == 0.0 else slope_back
-            state[last // 2, last % 2, wire.PHI] = old + d * (slope if d > 0.0 else back)
-            slope_back = slope
-        last, here, old = site, place, phi
-    if last < 0:
+        if _covered(loads, site):
+            places[count], twist[count] = _place(x, site), state[site // 2, site % 2, wire.PHI]
+            first = site if count == 0 else first
+            last = site
+            count += 1
+    if count == 0:
         return
-    in_tissue = last == 2 * n - 1
-    ahead = -old / max(x[n] - here, abs(d)) if in_tissue else 0.0
-    state[last // 2, last % 2, wire.PHI] = old + d * (ahead if d > 0.0 else slope_back)
-    _extend(loads, state)
-
-
-@compiled
-def _extend(loads, state):
-    """Give sites that are about to be covered at the entry their neighbour's twist."""
-    n = loads.shape[0]
-    for site in range(2 * n - 2, -1, -1):
-        e, k = site // 2, site % 2
-        ahead = site + 1
-        if not _covered(loads, site) and _covered(loads, ahead):
-            state[e, k, wire.PHI] = state[ahead // 2, ahead % 2, wire.PHI]
+    if d > 0.0 and last == 2 * n - 1:
+        places[count], twist[count] = x[n], 0.0
+        count += 1
+    middle = 0
+    # From the site before the entry, which may be covered next, to the last one.
+    for site in range(max(first - 1, 0), last + 1):
+        target = _place(x, site) + d
+        while middle + 1 < count and places[middle + 1] - target < target - places[middle]:
+            middle += 1
+        state[site // 2, site % 2, wire.PHI] = _interpolate(places, twist, count, middle, target)
