@@ -45,7 +45,7 @@ _CHICKEN_LEVEL = level_n_mm_per_mm(
     NITINOL, lag_deg=published.CHICKEN_LAG.value, free_mm=_FREE_MM, inserted_mm=_DEPTH_MM
 )
 
-_SAME_TISSUE = "its elasticity: that of plastisol, eq. (29), is used"
+_NO_ELASTICITY = "its elasticity, and so its creep: none is used"
 _NO_VISCOUS = "its viscous damping: none is used"
 
 MATERIALS: dict[str, Tissue] = {
@@ -71,29 +71,21 @@ MATERIALS: dict[str, Tissue] = {
         Tissue.uniform(name="viscous-plastisol", viscous_n_mm_s_per_mm=_DAMPING).but(
             unknown=("nothing is known of tissue motion: the model of Sections III and V has none",)
         ),
-        Tissue.uniform(
-            name="porcine-gelatin",
-            shared_n_mm_per_mm=_GELATIN_LEVEL,
-            stiffness_n_mm_per_rad_per_mm=_STIFFNESS,
-            time_constant_s=_TIME,
-        ).but(unknown=(_NO_VISCOUS, _SAME_TISSUE)),
-        Tissue.uniform(
-            name="simtest",
-            shared_n_mm_per_mm=_SIMTEST_LEVEL,
-            stiffness_n_mm_per_rad_per_mm=_STIFFNESS,
-            time_constant_s=_TIME,
-        ).but(
+        Tissue.uniform(name="porcine-gelatin", shared_n_mm_per_mm=_GELATIN_LEVEL).but(
+            unknown=(_NO_VISCOUS, _NO_ELASTICITY)
+        ),
+        Tissue.uniform(name="simtest", shared_n_mm_per_mm=_SIMTEST_LEVEL).but(
             unknown=(
                 "its friction with depth: the one torque of Section II-D over 10 cm is used",
                 _NO_VISCOUS,
-                _SAME_TISSUE,
+                _NO_ELASTICITY,
             )
         ),
         Tissue.uniform(name="chicken", shared_n_mm_per_mm=_CHICKEN_LEVEL).but(
             unknown=(
                 "its friction: what eq. (2) makes of a lag of 3 deg at 10 cm is used",
                 _NO_VISCOUS,
-                "its elasticity: none is used",
+                _NO_ELASTICITY,
             )
         ),
     )

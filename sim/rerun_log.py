@@ -66,8 +66,7 @@ def log_recording(
         for plot, signals in _PLOTS.items():
             for name, (label, colour) in signals.items():
                 if name in recording.table:
-                    entity = f"{plot}/{name.rsplit('_', 1)[0]}"
-                    log_series(stream, entity, label, recording["time_s"], recording[name], colour)
+                    log_series(stream, f"{plot}/{name}", label, recording["time_s"], recording[name], colour)
         _log_modes(stream, recording)
         _log_shaft(stream, recording)
         stream.disconnect()

@@ -31,7 +31,8 @@ Array = NDArray[np.float64]
 _RIGID = 1e6
 _RAIL_RATE = 1e3  # rad/s, natural frequency of the carriage's servo
 _LEAST_INERTIA = 1e-15  # kg m^2, below which MuJoCo refuses a body
-_LEAST_MASS = 1e-9  # kg, of the carriage itself
+_CARRIAGE_MASS = 0.1  # kg
+_CARRIAGE_INERTIA = 1e-5  # kg m^2; the carriage does not turn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,7 +128,7 @@ def _mass_kg(setup: Setup) -> float:
 
 
 def _rail_n_per_m(setup: Setup) -> float:
-    return (_mass_kg(setup) + _LEAST_MASS) * _RAIL_RATE**2
+    return (_mass_kg(setup) + _CARRIAGE_MASS) * _RAIL_RATE**2
 
 
 def _convection(setup: Setup) -> float:
@@ -155,7 +156,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[wire.H_STRETCHING] = setup.stretching
     head[wire.H_FREE_REF] = setup.free_mm * units.MM
     head[wire.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
-    head[wire.H_MASS] = _mass_kg(setup) + _LEAST_MASS
+    head[wire.H_MASS] = _mass_kg(setup) + _CARRIAGE_MASS
     head[wire.H_RAIL] = _rail_n_per_m(setup)
     return head
 
@@ -175,7 +176,7 @@ def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
 def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
     """Carriage and shaft; returns the name of the site at the tip."""
     carriage = spec.worldbody.add_body(
-        name="carriage", mass=_LEAST_MASS, inertia=[1e-12] * 3, explicitinertial=True
+        name="carriage", mass=_CARRIAGE_MASS, ipos=[0, 0, 0], inertia=[_CARRIAGE_INERTIA] * 3, explicitinertial=True
     )
     rail = carriage.add_joint(name="carriage", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])
     rail.stiffness = [_rail_n_per_m(setup), 0, 0]

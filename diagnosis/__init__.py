@@ -1,0 +1,1 @@
+"""From a rig's log to what the model lacks."""

@@ -1,0 +1,69 @@
+"""`needle demo`: the main job, from one command.
+
+A simulated insertion, the cross-check against the closed-form modes, and the replay
+of a rig's log that ships with the project.
+"""
+
+import time
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from diagnosis.replay import replay
+from diagnosis.rig_log import read_rig_log
+from scripts import insert
+from scripts import replay as replaying
+from scripts import validate as validating
+from sim.crosscheck.report import FILES, cross_check, write_report
+from sim.experiment import perform
+from sim.files import refuse_existing
+from sim.paper_protocols import protocol_named
+from sim.simulation import install
+
+EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "rig-log"
+_STAGES = 4
+
+
+def run(folder: Path, *, force: bool, console: Console) -> int:
+    """Returns 1 if a bound of the cross-check fails."""
+    protocol, log = protocol_named("insertion"), read_rig_log(EXAMPLE)
+    paths = insert.output_paths(folder, protocol)
+    paths += [folder / "validate" / name for name in FILES]
+    paths += replaying.output_paths(log, folder / "replay")
+    refuse_existing(paths, force=force)
+    began = time.monotonic()
+
+    _announce(console, 1, "compiling the tissue (once a machine, about 20 s)")
+    install()
+    _announce(console, 2, f"insertion: {protocol.description}")
+    recording = perform(protocol)
+    insert.write(recording, folder, protocol, force=force)
+    console.print(insert.summary(protocol, recording))
+
+    _announce(console, 3, "cross-check against the closed-form modes")
+    findings = cross_check()
+    write_report(findings, folder / "validate", force=force)
+    console.print(validating.poles_table(findings))
+    console.print(validating.checks_table(findings))
+
+    _announce(console, 4, f"replay of {len(log.trials)} trials of a rig")
+    replays = replay(log)
+    replaying.write(log, replays, folder / "replay", force=force)
+    console.print(replaying.table(log, replays))
+
+    console.print(_written(paths))
+    console.print(f"done in {time.monotonic() - began:.0f} s; look at a recording with")
+    console.print(f"  needle inspect {folder / (protocol.name + '.rrd')}", highlight=False)
+    return 0 if findings.passed else 1
+
+
+def _announce(console: Console, stage: int, what: str) -> None:
+    console.print(f"[bold]{stage}/{_STAGES}[/] {what}", highlight=False)
+
+
+def _written(paths: list[Path]) -> Table:
+    table = Table("written", title="Results")
+    for path in paths:
+        table.add_row(str(path))
+    return table

@@ -1,0 +1,96 @@
+"""`needle insert`: simulate a protocol and write its recording."""
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from sim.experiment import perform
+from sim.files import refuse_existing, write_text
+from sim.paper_protocols import PROTOCOLS, protocol_named
+from sim.picture import draw
+from sim.protocol import Protocol, read_protocol
+from sim.recording import Recording
+from sim.rerun_log import log_recording
+from sim.spec import needle_spec
+
+ENDINGS = (".csv", ".parquet", ".png", ".rrd")
+
+_MJCF_NOTE = """<!--
+  needle-torsion: {name}. SI units; the shaft lies along x.
+  Opens in MuJoCo's viewer: turn the base with the control "drive", advance with "carriage".
+  The tissue is not in this file's physics: its law is in the custom numeric fields, and
+  acts only where the library's passive callback is installed.
+-->
+"""
+
+
+def run(name: str, folder: Path, *, mjcf: Path | None, force: bool, console: Console) -> int:
+    """Simulate the protocol of a name or of a YAML file."""
+    protocol = find(name)
+    paths = output_paths(folder, protocol)
+    refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
+    if mjcf:
+        note = _MJCF_NOTE.format(name=protocol.name)
+        write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
+        console.print(f"model      {mjcf}", highlight=False)
+    with console.status(f"simulating {protocol.name}"):
+        recording = perform(protocol)
+    for path in write(recording, folder, protocol, force=force):
+        console.print(f"wrote      {path}", highlight=False)
+    console.print(summary(protocol, recording))
+    return 0
+
+
+def find(name: str) -> Protocol:
+    """A protocol by file, if the name looks like one, else by name."""
+    looks_like_file = name.endswith((".yaml", ".yml")) or "/" in name
+    return read_protocol(Path(name)) if looks_like_file else protocol_named(name)
+
+
+def output_paths(folder: Path, protocol: Protocol) -> list[Path]:
+    """What `write` will write."""
+    return [folder / f"{protocol.name}{ending}" for ending in ENDINGS]
+
+
+def write(recording: Recording, folder: Path, protocol: Protocol, *, force: bool) -> list[Path]:
+    """Write CSV, Parquet, picture and rerun recording."""
+    csv, parquet, picture, rrd = output_paths(folder, protocol)
+    recording.write(csv, force=force)
+    recording.write(parquet, force=force)
+    draw(recording, picture, force=force)
+    log_recording(recording, rrd, verdicts=findings(recording), force=force)
+    return [csv, parquet, picture, rrd]
+
+
+def findings(recording: Recording) -> list[str]:
+    """What the run came to, a line each."""
+    lag = abs(recording["base_angle_deg"] - recording["tip_angle_deg"])
+    at = recording["time_s"][lag.argmax()]
+    failed = int(recording["unconverged_count"][-1])
+    lines = [
+        f"largest lag of the tip: {lag.max():.1f} deg, at {at:.2f} s",
+        f"lag at the end: {lag[-1]:.2f} deg",
+        f"largest base torque: {abs(recording['base_torque_n_mm']).max():.3f} N mm",
+        f"steps that did not converge: {failed}" if failed else "every step converged",
+    ]
+    unknown = recording.parameters["tissue"]["unknown"]
+    return lines + [f"not stated by the source: {what}" for what in unknown]
+
+
+def summary(protocol: Protocol, recording: Recording) -> Table:
+    """The findings as a table on the screen."""
+    table = Table(title=protocol.description or protocol.name, show_header=False)
+    for line in findings(recording):
+        name, _, value = line.partition(": ")
+        table.add_row(name, value)
+    return table
+
+
+def list_protocols(console: Console) -> int:
+    """Print what is known by name."""
+    table = Table("name", "what is done", title="Protocols")
+    for name, make in PROTOCOLS.items():
+        table.add_row(name, make().description)
+    console.print(table)
+    return 0

@@ -1,0 +1,32 @@
+"""`needle inspect`: open a recording in rerun's viewer, or list what is inside."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from sim.rerun_table import Entry, entries
+
+
+def run(path: Path, *, table: bool, console: Console) -> int:
+    """Open or list; the viewer listens on the loopback address only."""
+    found = entries(path)
+    if table:
+        console.print(as_table(path, found))
+        return 0
+    environment = os.environ | {"CI": "1"}  # the viewer then collects nothing
+    viewer = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
+    return subprocess.call(viewer, env=environment)
+
+
+def as_table(path: Path, found: list[Entry]) -> Table:
+    """One row a component."""
+    shown = Table("entity", "component", "rows", "from, s", "to, s", "last", title=str(path))
+    for e in found:
+        times = ["" if t is None else f"{t:.3f}" for t in (e.start_s, e.end_s)]
+        last = "" if e.last is None else f"{e.last:.5g}"
+        shown.add_row(e.entity, e.component, str(e.rows), *times, last)
+    return shown

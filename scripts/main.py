@@ -1,0 +1,90 @@
+"""The console command `needle`: arguments, errors and exit codes.
+
+0: done; 1: a bound of `needle validate` fails; 2: bad input, or nothing written.
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+
+from models.errors import NeedleError
+
+
+def parser() -> argparse.ArgumentParser:
+    """The arguments of every subcommand."""
+    top = argparse.ArgumentParser(
+        prog="needle", description="A flexible needle twisting in tissue: simulate, check, replay."
+    )
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    demo = commands.add_parser("demo", help="the main job: simulate, cross-check, replay a log")
+    _add_output(demo, default=Path("out/demo"))
+
+    insert = commands.add_parser("insert", help="simulate a protocol")
+    insert.add_argument(
+        "--protocol", default="insertion", help="a name from `needle protocols`, or a YAML file"
+    )
+    insert.add_argument("--mjcf", type=Path, metavar="FILE", help="write the model for MuJoCo's viewer")
+    _add_output(insert, default=Path("out/insert"))
+
+    commands.add_parser("protocols", help="list the protocols that are known by name")
+
+    validate = commands.add_parser("validate", help="hold the simulation to closed forms")
+    _add_output(validate, default=None)
+
+    replay = commands.add_parser("replay", help="replay a rig's log on the nominal needle")
+    replay.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
+    _add_output(replay, default=Path("out/replay"))
+
+    inspect = commands.add_parser("inspect", help="open a recording, or list what is inside")
+    inspect.add_argument("file", type=Path, metavar="FILE.rrd")
+    inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
+    return top
+
+
+def _add_output(command: argparse.ArgumentParser, *, default: Path | None) -> None:
+    shown = f"where results go (default: {default})" if default else "also write results here"
+    command.add_argument("--out", type=Path, metavar="DIR", default=default, help=shown)
+    command.add_argument("--force", action="store_true", help="replace results that exist")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a subcommand; returns the exit code."""
+    args = parser().parse_args(arguments)
+    console = Console()
+    try:
+        return _run(args, console)
+    except NeedleError as error:
+        Console(stderr=True).print(f"[bold red]needle {args.command}:[/] {error}", highlight=False)
+        return 2
+    except KeyboardInterrupt:
+        Console(stderr=True).print(f"needle {args.command}: interrupted; nothing half-written is left")
+        return 130
+
+
+def _run(args: argparse.Namespace, console: Console) -> int:
+    # Imported here: `needle --help` need not wait for MuJoCo.
+    from scripts import demo, insert, inspect, replay, validate
+
+    match args.command:
+        case "demo":
+            return demo.run(args.out, force=args.force, console=console)
+        case "insert":
+            return insert.run(
+                args.protocol, args.out, mjcf=args.mjcf, force=args.force, console=console
+            )
+        case "protocols":
+            return insert.list_protocols(console)
+        case "validate":
+            return validate.run(args.out, force=args.force, console=console)
+        case "replay":
+            return replay.run(args.log, args.out, force=args.force, console=console)
+        case _:
+            return inspect.run(args.file, table=args.table, console=console)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,74 @@
+"""`needle validate`: print the cross-check, and write it where asked."""
+
+import math
+from itertools import groupby
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from sim.crosscheck.findings import Findings
+from sim.crosscheck.report import FILES, cross_check, write_report
+from sim.files import refuse_existing
+
+_AGREES = 0.02  # figures within 2 % of each other need no explanation
+
+
+def run(folder: Path | None, *, force: bool, console: Console) -> int:
+    """Returns 1 if a bound fails."""
+    if folder:
+        refuse_existing([folder / name for name in FILES], force=force)
+    with console.status("holding MuJoCo's needle to closed forms and to the published figures"):
+        findings = cross_check()
+    show(findings, console)
+    if folder:
+        for path in write_report(findings, folder, force=force):
+            console.print(f"wrote      {path}", highlight=False)
+    return 0 if findings.passed else 1
+
+
+def show(findings: Findings, console: Console) -> None:
+    """Poles, bounds, published figures."""
+    console.print(poles_table(findings))
+    console.print(checks_table(findings))
+    published = Table("figure", "published", "ours", "ratio", "unit", "source", title="Published figures")
+    for c in findings.comparisons:
+        numbers = (f"{c.published:.4g}", _number(c.ours, ".4g"), _number(c.ratio, ".3f"))
+        published.add_row(c.item, *numbers, c.unit, c.source)
+    console.print(published)
+    console.print("Why figures differ, where it is known:")
+    differing = [c for c in findings.comparisons if not abs(c.ratio - 1) <= _AGREES]
+    for note, items in groupby(differing, key=lambda c: c.note):
+        if note:
+            names = [c.item for c in items]
+            more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+            console.print(f"  {names[0]}{more}: {note}", highlight=False)
+    console.print("[green]every bound holds[/]" if findings.passed else "[red]a bound fails[/]")
+
+
+def _number(value: float, shape: str) -> str:
+    return "never" if math.isnan(value) else format(value, shape)
+
+
+def poles_table(findings: Findings) -> Table:
+    """Measured against closed form, one row a case."""
+    table = Table(
+        "length, mm", "free, mm", "driven by", "poles measured from MuJoCo, rad/s", "worst error, %",
+        title="Slowest four poles",
+    )
+    cases = groupby(findings.poles, key=lambda p: (p.length_mm, p.free_mm, p.drive))
+    for (length, free, drive), group in cases:
+        poles = list(group)
+        shown = "  ".join(f"{p.measured:9.3f}" for p in poles)
+        worst = max(p.error for p in poles)
+        table.add_row(f"{length:g}", f"{free:g}", drive, shown, f"{100 * worst:.3f}")
+    return table
+
+
+def checks_table(findings: Findings) -> Table:
+    """Every bound."""
+    table = Table("bound", "measured", "must be", "unit", "", title="Bounds")
+    for c in findings.checks:
+        verdict = "[green]holds[/]" if c.passed else "[red]fails[/]"
+        table.add_row(c.name, f"{c.value:.4g}", c.bounds, c.unit, verdict)
+    return table

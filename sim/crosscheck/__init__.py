@@ -1,0 +1,1 @@
+"""MuJoCo's needle held to closed forms, to conservation, and to the published figures."""
