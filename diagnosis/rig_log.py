@@ -158,7 +158,6 @@ def _numbers(path: Path, column: pd.Series, *, empty_allowed: bool) -> pd.Series
     unreadable = values.isna() & (column.notna() if empty_allowed else True)
     if unreadable.any():
         row = int(np.flatnonzero(unreadable)[0])
-        raise UnusableLog(
-            f"{path}, line {row + 2}, column {column.name!r}: expected a number, got {column.iloc[row]!r}"
-        )
+        place = f"{path}, line {row + 2}, column {column.name!r}"
+        raise UnusableLog(f"{place}: expected a number, got {column.iloc[row]!r}")
     return values.astype(float)

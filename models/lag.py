@@ -35,9 +35,7 @@ def lag_deg(needle: Needle, *, base_torque_n_mm: float, free_mm: float, inserted
     return twist_deg(needle, torque_n_mm=base_torque_n_mm, length_mm=mean_mm)
 
 
-def level_n_mm_per_mm(
-    needle: Needle, *, lag_deg: float, free_mm: float, inserted_mm: float
-) -> float:
+def level_n_mm_per_mm(needle: Needle, *, lag_deg: float, free_mm: float, inserted_mm: float) -> float:
     """Dry friction per mm that holds a given lag, N mm / mm: (2) read backwards."""
     torque = math.radians(lag_deg) * needle.rigidity_n_mm2 / (free_mm + inserted_mm / 2)
     return torque / inserted_mm

@@ -72,9 +72,9 @@ class InsertedNeedle:
         """The lowest `count` wavenumbers, 1/mm; for a given torque the first is 0."""
         length, free = self.inserted_mm, self.free_mm
         if self.drive is DriveKind.TORQUE:
-            return np.arange(count) * np.pi / length
+            return np.asarray(np.arange(count) * np.pi / length, np.float64)
         if free == 0:
-            return (np.arange(count) + 0.5) * np.pi / length
+            return np.asarray((np.arange(count) + 0.5) * np.pi / length, np.float64)
 
         def robin(y: float) -> float:
             return float(y * np.sin(y) - length / free * np.cos(y))
@@ -99,7 +99,7 @@ class InsertedNeedle:
         """The fast partners of the poles in (19), without free length, rad/s."""
         eta, beta = self._inertia, self.damping_n_mm_s_per_mm
         square = beta**2 + 4 * eta * beta * self.poles_rad_s(count).astype(complex)
-        return (-beta - np.sqrt(square)) / (2 * eta)
+        return np.asarray((-beta - np.sqrt(square)) / (2 * eta), np.complex128)
 
     @property
     def _inertia(self) -> float:
@@ -180,5 +180,5 @@ def ramp(time_s: ArrayLike, *, by: float, duration_s: float) -> Array:
     """A turn at constant rate: 0 before 0, `by` after `duration_s` (0: a step)."""
     t: Any = np.asarray(time_s, float)
     if duration_s == 0:
-        return by * (t > 0).astype(float)
-    return by * np.clip(t / duration_s, 0.0, 1.0)
+        return np.asarray(by * (t > 0), np.float64)
+    return np.asarray(by * np.clip(t / duration_s, 0.0, 1.0), np.float64)

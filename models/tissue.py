@@ -105,7 +105,9 @@ class Tissue(Record):
         return np.array([*inside, inserted_mm])
 
     @classmethod
-    def uniform(cls, *, name: str = "custom", entry_friction_n_mm: float = 0.0, **law: float) -> "Tissue":
+    def uniform(
+        cls, *, name: str = "custom", entry_friction_n_mm: float = 0.0, **law: float
+    ) -> "Tissue":
         """One layer; `law` are fields of `Interface`."""
         return cls(
             name=name,

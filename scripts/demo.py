@@ -18,8 +18,8 @@ from scripts import validate as validating
 from sim.crosscheck.report import FILES, cross_check, write_report
 from sim.experiment import perform
 from sim.files import refuse_existing
+from sim.kernel.callback import install
 from sim.paper_protocols import protocol_named
-from sim.simulation import install
 
 EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "rig-log"
 _STAGES = 4

@@ -47,7 +47,9 @@ def gap(log: RigLog, one: Replay, sensor: str) -> float:
 
 def table(log: RigLog, replays: list[Replay]) -> Table:
     """The gap of each trial, in units of the noise that the log claims."""
-    shown = Table("trial", "samples", "tip", "base torque", title="Gap to the nominal model, in noise units")
+    shown = Table(
+        "trial", "samples", "tip", "base torque", title="Gap to the nominal model, in noise units"
+    )
     for one in replays:
         gaps = [gap(log, one, sensor) for sensor in ("tip_angle_deg", "base_torque_n_mm")]
         cells = ["not measured" if np.isnan(g) else f"{g:.2f}" for g in gaps]

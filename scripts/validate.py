@@ -31,7 +31,9 @@ def show(findings: Findings, console: Console) -> None:
     """Poles, bounds, published figures."""
     console.print(poles_table(findings))
     console.print(checks_table(findings))
-    published = Table("figure", "published", "ours", "ratio", "unit", "source", title="Published figures")
+    published = Table(
+        "figure", "published", "ours", "ratio", "unit", "source", title="Published figures"
+    )
     for c in findings.comparisons:
         numbers = (f"{c.published:.4g}", _number(c.ours, ".4g"), _number(c.ratio, ".3f"))
         published.add_row(c.item, *numbers, c.unit, c.source)
@@ -53,7 +55,11 @@ def _number(value: float, shape: str) -> str:
 def poles_table(findings: Findings) -> Table:
     """Measured against closed form, one row a case."""
     table = Table(
-        "length, mm", "free, mm", "driven by", "poles measured from MuJoCo, rad/s", "worst error, %",
+        "length, mm",
+        "free, mm",
+        "driven by",
+        "poles measured from MuJoCo, rad/s",
+        "worst error, %",
         title="Slowest four poles",
     )
     cases = groupby(findings.poles, key=lambda p: (p.length_mm, p.free_mm, p.drive))

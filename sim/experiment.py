@@ -1,11 +1,13 @@
 """Running a protocol: simulate, check the step where accuracy was asked, record."""
 
+from typing import Any
+
+import numpy as np
+
 from models.errors import InvalidValue
 from sim.protocol import Protocol
 from sim.recording import Recording, record
 from sim.simulation import Run, simulate
-
-import numpy as np
 
 _SECOND_ORDER = 4.0 / 3.0  # error of a step h from the difference to h / 2
 
@@ -18,7 +20,7 @@ def perform(protocol: Protocol) -> Recording:
       SimulationFailed: see `sim.simulation.simulate`.
     """
     run = simulate([protocol.setup()], protocol.schedule(), keep_shape=True)[0]
-    parameters = {"protocol": protocol.name, "description": protocol.description}
+    parameters: dict[str, Any] = {"protocol": protocol.name, "description": protocol.description}
     if protocol.accuracy_deg is not None:
         parameters["tip_error_deg"] = _checked_error_deg(protocol, run)
     return record(run, parameters)

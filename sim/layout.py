@@ -119,13 +119,14 @@ def _check(layout: Layout) -> None:
     step = ctypes.c_double.from_address(model._address + layout.model["timestep"]).value
     count = ctypes.c_int64.from_address(model._address + layout.model["nnumeric"]).value
     dofs = ctypes.c_int64.from_address(model._address + layout.model["nv"]).value
-    for name, found, expected in (
+    scalars: tuple[tuple[str, float, float], ...] = (
         ("time", time, 4.5),
         ("timestep", step, 0.0123),
         ("nnumeric", count, 1),
         ("nv", dofs, 1),
-    ):
-        _expect(name, found, expected)
+    )
+    for name, value, expected in scalars:
+        _expect(name, value, expected)
 
 
 def _expect(name: str, found: float, expected: float) -> None:

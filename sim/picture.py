@@ -5,6 +5,7 @@ from pathlib import Path
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 
 from sim.files import writing
 from sim.recording import Recording
@@ -41,7 +42,7 @@ def _title(recording: Recording) -> str:
     return str(recording.parameters.get("description") or recording.parameters.get("protocol") or "run")
 
 
-def _draw_lag(axis: plt.Axes, recording: Recording) -> None:
+def _draw_lag(axis: Axes, recording: Recording) -> None:
     angles = recording.group("shaft")
     if not angles.size:
         return

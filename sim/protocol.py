@@ -93,7 +93,8 @@ class Protocol(Record):
                 raise InvalidValue(
                     f"segments.{i}.advance_mm",
                     segment.advance_mm,
-                    f"a motion that leaves free and inserted lengths above 0, not {free:g} and {inserted:g} mm",
+                    "a motion that leaves lengths above 0, "
+                    f"not {free:g} mm free and {inserted:g} mm inserted",
                 )
             self._check_drive(i, segment)
         return self
@@ -112,7 +113,12 @@ class Protocol(Record):
     def schedule(self) -> Schedule:
         """The inputs of the run."""
         columns: dict[str, list[float]] = {
-            "time_s": [], "drive": [], "free_mm": [], "inserted_mm": [], "speed_mm_s": [], "tip_torque_n_mm": []
+            "time_s": [],
+            "drive": [],
+            "free_mm": [],
+            "inserted_mm": [],
+            "speed_mm_s": [],
+            "tip_torque_n_mm": [],
         }
         time, angle, free, inserted = 0.0, 0.0, self.free_mm, self.inserted_mm
         for segment in self.segments:
@@ -120,7 +126,9 @@ class Protocol(Record):
             at = time + segment.duration_s * share
             # A jump at the border of two segments takes one part in 10^6 of a segment.
             at[0] += 1e-6 * segment.duration_s if columns["time_s"] else 0.0
-            wave = segment.dither_deg * np.sin(2 * np.pi * segment.dither_hz * segment.duration_s * share)
+            wave = segment.dither_deg * np.sin(
+                2 * np.pi * segment.dither_hz * segment.duration_s * share
+            )
             turned = angle + segment.turn_deg * share + wave
             torque = segment.torque_n_mm
             columns["time_s"] += list(at)

@@ -66,7 +66,9 @@ def log_recording(
         for plot, signals in _PLOTS.items():
             for name, (label, colour) in signals.items():
                 if name in recording.table:
-                    log_series(stream, f"{plot}/{name}", label, recording["time_s"], recording[name], colour)
+                    log_series(
+                        stream, f"{plot}/{name}", label, recording["time_s"], recording[name], colour
+                    )
         _log_modes(stream, recording)
         _log_shaft(stream, recording)
         stream.disconnect()
@@ -80,7 +82,7 @@ def blueprint(recording: Recording) -> Any:
         rrb.TimeSeriesView(origin="/modes", name="Modal amplitudes, deg"),
         rrb.TimeSeriesView(origin="/lengths", name="Lengths, mm"),
     ]
-    left = [rrb.Spatial3DView(origin="/world", name="Needle")]
+    left: list[Any] = [rrb.Spatial3DView(origin="/world", name="Needle")]
     if recording.group("shaft").size:
         left.append(rrb.BarChartView(origin="/profile/shaft", name="Lag behind the base, deg"))
     if recording.group("tissue").size:
@@ -145,7 +147,9 @@ def modal_amplitudes_deg(recording: Recording, count: int = _MODES) -> Array | N
     lag = angles - recording["base_angle_deg"][:, None]
     amplitudes = np.zeros((len(lag), count))
     x, cache = np.array(nodes), {}
-    for i, (free, inserted) in enumerate(zip(recording["free_mm"], recording["inserted_mm"], strict=True)):
+    for i, (free, inserted) in enumerate(
+        zip(recording["free_mm"], recording["inserted_mm"], strict=True)
+    ):
         key = (round(free, 1), round(inserted, 1))
         if inserted <= 1.0:
             continue
@@ -156,7 +160,13 @@ def modal_amplitudes_deg(recording: Recording, count: int = _MODES) -> Array | N
 
 
 def _projector(
-    needle: Needle, damping: float, free: float, inserted: float, nodes: Array, stretching: int, count: int
+    needle: Needle,
+    damping: float,
+    free: float,
+    inserted: float,
+    nodes: Array,
+    stretching: int,
+    count: int,
 ) -> Array:
     """Matrix from angles at the nodes to amplitudes: least squares on the inserted nodes."""
     held = InsertedNeedle(
@@ -190,7 +200,9 @@ def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
     frames = np.unique(np.append(frames[frames < time.size], time.size - 1))
     lag = angles - recording["base_angle_deg"][:, None]
     scale = max(1.0, float(np.abs(lag).max()))
-    colours = (colormaps["turbo"](0.1 + 0.85 * np.abs(lag[frames]) / scale)[..., :3] * 255).astype(np.uint8)
+    colours = (colormaps["turbo"](0.1 + 0.85 * np.abs(lag[frames]) / scale)[..., :3] * 255).astype(
+        np.uint8
+    )
     stamps = time_column(time[frames])
     places = np.array([_node_places_mm(recording, i) for i in frames])
     turn = angles[frames] * units.DEG
@@ -211,7 +223,9 @@ def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
         indexes=[stamps],
         columns=rr.LineStrips3D.columns(strips=list(axis), radii=np.full(frames.size, 0.3)),
     )
-    _log_profiles(stream, time[frames], {"shaft": lag[frames], "tissue": recording.group("tissue")[frames]})
+    _log_profiles(
+        stream, time[frames], {"shaft": lag[frames], "tissue": recording.group("tissue")[frames]}
+    )
     _log_tissue_box(stream, recording, frames, stamps)
 
 
@@ -227,11 +241,11 @@ def _log_profiles(stream: rr.RecordingStream, time_s: Array, profiles: dict[str,
 
 def _node_places_mm(recording: Recording, i: int) -> Array:
     """Places of the nodes along x, mm: the entry is at 0."""
-    nodes = np.array(recording.parameters["nodes_mm"])
+    nodes: Array = np.array(recording.parameters["nodes_mm"])
     free, stretching = float(recording["free_mm"][i]), int(recording.parameters["stretching"])
     if not stretching:
         return nodes - free
-    moved = nodes - nodes[stretching]
+    moved: Array = nodes - nodes[stretching]
     moved[: stretching + 1] *= free / nodes[stretching]
     return moved
 

@@ -137,7 +137,10 @@ def simulate(
         batch.state[i] = state
     record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
     raw = batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record)
-    return [_run(setups[i], stepped, starts[i], {k: v[i] for k, v in raw.items()}) for i in range(len(setups))]
+    return [
+        _run(setups[i], stepped, starts[i], {k: v[i] for k, v in raw.items()})
+        for i in range(len(setups))
+    ]
 
 
 def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Array]) -> Run:

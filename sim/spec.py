@@ -176,7 +176,11 @@ def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
 def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
     """Carriage and shaft; returns the name of the site at the tip."""
     carriage = spec.worldbody.add_body(
-        name="carriage", mass=_CARRIAGE_MASS, ipos=[0, 0, 0], inertia=[_CARRIAGE_INERTIA] * 3, explicitinertial=True
+        name="carriage",
+        mass=_CARRIAGE_MASS,
+        ipos=[0, 0, 0],
+        inertia=[_CARRIAGE_INERTIA] * 3,
+        explicitinertial=True,
     )
     rail = carriage.add_joint(name="carriage", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])
     rail.stiffness = [_rail_n_per_m(setup), 0, 0]
@@ -205,9 +209,7 @@ def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
             inertia=[inertia, max(across, inertia), max(across, inertia)],
             explicitinertial=True,
         )
-        joint = body.add_joint(
-            name=f"twist_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0]
-        )
+        joint = body.add_joint(name=f"twist_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0])
         torsion = rigidity / (2 * back) if i > 0 and chain else 0.0
         joint.stiffness = [setup.servo_n_m_per_rad if i == 0 else torsion, 0, 0]
         body.add_geom(

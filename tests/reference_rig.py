@@ -265,7 +265,9 @@ class Step:
             for _ in range(most_iterations):
                 linear = self.linearised(angle, twist)
                 turn, more_twist = linear.solve()
-                part = self.helpful_part(angle, twist, turn, more_twist, linear.mismatch(), most_halvings)
+                part = self.helpful_part(
+                    angle, twist, turn, more_twist, linear.mismatch(), most_halvings
+                )
                 angle, twist = angle + part * turn, twist + part * more_twist
                 change = max(np.abs(turn).max(), np.abs(more_twist).max())
                 if change < NEWTON_TOLERANCE_RAD:

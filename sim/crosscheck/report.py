@@ -7,6 +7,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 
 from sim.crosscheck import motion, paper, poles
 from sim.crosscheck.findings import Findings
@@ -65,7 +66,7 @@ def _draw(findings: Findings, path: Path, *, force: bool) -> None:
     plt.close(figure)
 
 
-def _draw_poles(axis: plt.Axes, findings: Findings) -> None:
+def _draw_poles(axis: Axes, findings: Findings) -> None:
     for (length, free, drive), group in pd.DataFrame(
         [asdict(p) | {"error": p.error} for p in findings.poles]
     ).groupby(["length_mm", "free_mm", "drive"]):
@@ -77,16 +78,18 @@ def _draw_poles(axis: plt.Axes, findings: Findings) -> None:
     axis.legend(fontsize=6, ncols=2)
 
 
-def _draw_turn(axis: plt.Axes) -> None:
+def _draw_turn(axis: Axes) -> None:
     run = simulate([motion.viscous_setup()], motion.fast_turn())[0]
     axis.plot(run.time_s, run.inputs.drive, color="0.5", label="base")
-    axis.plot(run.time_s, motion.exact_tip_deg(run), color="tab:green", lw=4, alpha=0.4, label="closed form")
+    axis.plot(
+        run.time_s, motion.exact_tip_deg(run), color="tab:green", lw=4, alpha=0.4, label="closed form"
+    )
     axis.plot(run.time_s, run.tip_deg, color="tab:red", lw=1, label="tip, MuJoCo")
     axis.set(xlabel="time, s", ylabel="angle, deg", title="Fast turn of a needle 20 cm deep")
     axis.legend()
 
 
-def _draw_steps(axis: plt.Axes) -> None:
+def _draw_steps(axis: Axes) -> None:
     steps = np.array([0.08, 0.04, 0.02, 0.01, 0.005])
     for elements in (8, 16, 32):
         errors = [
@@ -101,7 +104,7 @@ def _draw_steps(axis: plt.Axes) -> None:
     axis.legend()
 
 
-def _draw_ratios(axis: plt.Axes, findings: Findings) -> None:
+def _draw_ratios(axis: Axes, findings: Findings) -> None:
     shown = [c for c in findings.comparisons if "mode" not in c.item or "inertialess" in c.item]
     ratios = [c.ratio for c in shown]
     axis.barh(range(len(shown)), ratios, color="tab:blue")

@@ -9,13 +9,14 @@ sites of every other row add their torque and slope at each iteration.
 import math
 
 from sim.kernel import wire
-from sim.kernel.compiled import compiled, inlined
+from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
+from sim.kernel.work import Frame, Work
 
 
 @inlined
-def is_linear(row):
+def is_linear(row: Array) -> bool:
     """Whether a row is viscous friction alone: no state, no iteration."""
     return (
         row[wire.L_EXPONENT] == 1.0
@@ -30,7 +31,7 @@ def is_linear(row):
 
 
 @inlined
-def add_viscous(w, loads, beta):
+def add_viscous(w: Work, loads: Array, beta: float) -> None:
     """Damping of a viscous row: what the rates at the sites load the nodes with."""
     for e in range(loads.shape[0]):
         l0, l1, r0, r1 = loads[e, 0], loads[e, 1], loads[e, 2], loads[e, 3]
@@ -41,7 +42,7 @@ def add_viscous(w, loads, beta):
 
 
 @inlined
-def add_viscous_slide(w, loads, beta, frame):
+def add_viscous_slide(w: Work, loads: Array, beta: float, frame: Frame) -> None:
     """Slip of a viscous row because the shaft slides against the mesh, twisted.
 
     The slip gains drift dtheta/dx: linear in the angles at the end of the stage,
@@ -61,13 +62,13 @@ def add_viscous_slide(w, loads, beta, frame):
 
 
 @inlined
-def twist_of(w, e, g):
+def twist_of(w: Work, e: int, g: float) -> float:
     """Twist of element e at the end of the stage, rad."""
     return w.theta[e + 1] - w.theta[e] + g * (w.omega[e + 1] - w.omega[e])
 
 
 @inlined
-def add_linear(w, g, with_matrix):
+def add_linear(w: Work, g: float, with_matrix: bool) -> None:
     """Inertia, torsion and viscous rows: the residual, and the matrix if wanted."""
     n = w.omega.size - 1
     arriving = 0.0
@@ -90,7 +91,7 @@ def add_linear(w, g, with_matrix):
 
 
 @inlined
-def drive_torque(w, frame, drive):
+def drive_torque(w: Work, frame: Frame, drive: float) -> tuple[float, float]:
     """Torque of the drive on the first node, N m, and minus its slope."""
     if not frame.angle_driven:
         return drive, 0.0
@@ -101,7 +102,9 @@ def drive_torque(w, frame, drive):
 
 
 @compiled
-def add_row(w, r, row, frame, tip_torque, cautious):
+def add_row(
+    w: Work, r: int, row: Array, frame: Frame, tip_torque: float, cautious: bool
+) -> tuple[float, float]:
     """Every covered site of a row that is more than viscous.
 
     Returns the power that goes into twisted tissue and bent shaft, W, and the

@@ -25,12 +25,17 @@ from typing import Any
 import mujoco
 import numba
 import numpy as np
-from numba import carray, cfunc, njit, types
+from numba import carray, (
+    carray,  # type: ignore[attr-defined]
+    cfunc,
+    njit,
+    types,
+)
 from numba.extending import intrinsic
 
-from sim.kernel.step import advance
 from sim.kernel import wire
-from sim.kernel.compiled import compiled, inlined
+from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.step import advance
 from sim.layout import read_layout
 
 _SOURCES = Path(__file__).parent
@@ -52,11 +57,21 @@ def _pointer_to(kind: Any) -> Any:
 
 _numbers = _pointer_to(types.float64)
 _addresses = _pointer_to(types.intp)
-_block = njit(wire.block)
+_block: Any = njit(wire.block)
 
 
 @inlined
-def _torques(head, mesh, h, qpos, qvel, theta, end, ctrl, passive):
+def _torques(
+    head: Array,
+    mesh: Array,
+    h: float,
+    qpos: Array,
+    qvel: Array,
+    theta: Array,
+    end: Array,
+    ctrl: Array,
+    passive: Array,
+) -> None:
     """Add to `passive` what makes MuJoCo's own step end at the angles `end`."""
     n = int(head[wire.H_ELEMENTS])
     chain = head[wire.H_CHAIN] != 0.0
@@ -75,7 +90,11 @@ def _torques(head, mesh, h, qpos, qvel, theta, end, ctrl, passive):
         torque = inertial
         if i == 0:
             angle_driven = head[wire.H_DRIVE] == wire.DRIVE_ANGLE
-            torque += head[wire.H_SERVO] * (end[0] - ctrl[wire.U_DRIVE]) if angle_driven else -ctrl[wire.U_DRIVE]
+            torque += (
+                head[wire.H_SERVO] * (end[0] - ctrl[wire.U_DRIVE])
+                if angle_driven
+                else -ctrl[wire.U_DRIVE]
+            )
         elif chain:
             torque += head[wire.H_KAPPA] / left * (end[i] - end[i - 1])
         if chain or i == n:
@@ -84,7 +103,7 @@ def _torques(head, mesh, h, qpos, qvel, theta, end, ctrl, passive):
 
 
 @inlined
-def _prime(head, theta, ctrl, now):
+def _prime(head: Array, theta: Array, ctrl: Array, now: Array) -> None:
     """Before the first step: everything at rest, as the inputs and angles stand."""
     now[:] = 0.0
     now[wire.B_INPUTS : wire.B_INPUTS + wire.INPUTS] = ctrl
@@ -94,12 +113,23 @@ def _prime(head, theta, ctrl, now):
 
 
 @compiled
-def step_needle(numeric, h, time, qpos, qvel, ctrl, userdata, passive):
+def step_needle(
+    numeric: Array,
+    h: float,
+    time: float,
+    qpos: Array,
+    qvel: Array,
+    ctrl: Array,
+    userdata: Array,
+    passive: Array,
+) -> None:
     """What the passive callback does, on arrays."""
-    head = numeric[:wire.HEADER]
+    head = numeric[: wire.HEADER]
     n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
     mesh = numeric[wire.HEADER : wire.HEADER + n + 1]
-    law = numeric[wire.HEADER + n + 1 : wire.HEADER + n + 1 + rows * wire.COLUMNS].reshape(rows, wire.COLUMNS)
+    law = numeric[wire.HEADER + n + 1 : wire.HEADER + n + 1 + rows * wire.COLUMNS].reshape(
+        rows, wire.COLUMNS
+    )
     size = _block(n, rows)
     now = userdata[wire.CLOCK : wire.CLOCK + size]
     nxt = userdata[wire.CLOCK + size : wire.CLOCK + 2 * size]
@@ -143,7 +173,7 @@ def _compile() -> tuple[Any, Any]:
     sensors_at = layout.data["sensordata"]
 
     @cfunc(types.void(types.intp, types.intp), cache=True)
-    def passive(model, data):  # type: ignore[no-untyped-def]
+    def passive(model: int, data: int) -> None:
         if build == 0 or _addresses(model + count_at)[0] == 0:
             return
         start = _addresses(model + numeric_at)[0]
@@ -163,7 +193,7 @@ def _compile() -> tuple[Any, Any]:
         )
 
     @cfunc(types.void(types.intp, types.intp, types.intc), cache=True)
-    def sensor(model, data, stage):  # type: ignore[no-untyped-def]
+    def sensor(model: int, data: int, stage: int) -> None:
         if build == 0 or _addresses(model + count_at)[0] == 0 or stage != _STAGE:
             return
         head = carray(_numbers(_addresses(model + numeric_at)[0]), wire.HEADER)

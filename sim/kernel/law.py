@@ -21,7 +21,7 @@ import math
 from typing import NamedTuple
 
 from sim.kernel import wire
-from sim.kernel.compiled import compiled, embedded
+from sim.kernel.compiled import Array, embedded
 
 # Below this rate the power law is linear, so that its slope stays finite: rad/s.
 RATE_FLOOR = 1e-5
@@ -46,10 +46,10 @@ class Stage(NamedTuple):
     cautious: bool  # take slopes that cannot mislead Newton's method
 
 
-
-
 @embedded
-def slip_law(s, row, extra, old, stage, lag):
+def slip_law(
+    s: float, row: Array, extra: float, old: Memory, stage: Stage, lag: float
+) -> tuple[float, float, float, Memory]:
     """Torque per length, tangent and secant slope against slip, presliding it leaves.
 
     Args:
@@ -109,7 +109,9 @@ def slip_law(s, row, extra, old, stage, lag):
 
 
 @embedded
-def site_law(omega, row, extra, old, stage, lag):
+def site_law(
+    omega: float, row: Array, extra: float, old: Memory, stage: Stage, lag: float
+) -> tuple[float, float, float, Memory]:
     """As `slip_law`, against the rate of the shaft, with the tissue in series.
 
     Returns torque per length, its slope against omega, the slip rate, and the

@@ -11,14 +11,14 @@ taken as linear along the element.
 """
 
 from sim.kernel import wire
-from sim.kernel.compiled import inlined
+from sim.kernel.compiled import Array, inlined
 
 XI_LEFT = 0.5 * (1.0 - (2.0 / 3.0) ** 0.5)
 XI_RIGHT = 1.0 - XI_LEFT
 
 
 @inlined
-def place_nodes(head, mesh, free, x):
+def place_nodes(head: Array, mesh: Array, free: float, x: Array) -> None:
     """Node positions from the chuck, m.
 
     With `stretching` elements the mesh stands still in the tissue and those
@@ -34,12 +34,12 @@ def place_nodes(head, mesh, free, x):
 
 
 @inlined
-def _clip(value, low, high):
+def _clip(value: float, low: float, high: float) -> float:
     return min(max(value, low), high)
 
 
 @inlined
-def _match(total, moment, out, at):
+def _match(total: float, moment: float, out: Array, at: int) -> None:
     """Loads of the two sites with a given sum and first moment, none negative."""
     right = _clip((moment - XI_LEFT * total) / (XI_RIGHT - XI_LEFT), 0.0, total)
     out[at] = total - right
@@ -47,7 +47,7 @@ def _match(total, moment, out, at):
 
 
 @inlined
-def _locate(x, place, point):
+def _locate(x: Array, place: float, point: Array) -> None:
     """Element that holds a place, and the fraction of it before the place."""
     n = x.size - 1
     e = 0
@@ -58,7 +58,9 @@ def _locate(x, place, point):
 
 
 @inlined
-def cover(row, x, free, inserted, tip_loaded, loads, point):
+def cover(
+    row: Array, x: Array, free: float, inserted: float, tip_loaded: bool, loads: Array, point: Array
+) -> None:
     """What a row's sites load the nodes with, m: (n, 4), left node then right node.
 
     A point row fills `point` instead. `tip_loaded`: the tip carries torque.

@@ -10,24 +10,24 @@ tip enters is untwisted; at the entry the twist goes on as it runs.
 import numpy as np
 
 from sim.kernel import wire
-from sim.kernel.compiled import compiled, inlined
+from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 
 
 @inlined
-def _covered(loads, site):
+def _covered(loads: Array, site: int) -> bool:
     e, k = site // 2, site % 2
     return loads[e, k] + loads[e, 2 + k] > 0.0
 
 
 @inlined
-def _place(x, site):
+def _place(x: Array, site: int) -> float:
     e = site // 2
     return x[e] + (XI_RIGHT if site % 2 == 1 else XI_LEFT) * (x[e + 1] - x[e])
 
 
 @compiled
-def forget_uncovered(loads, state):
+def forget_uncovered(loads: Array, state: Array) -> None:
     """A site that no tissue touches remembers nothing."""
     for site in range(2 * loads.shape[0]):
         if not _covered(loads, site):
@@ -36,7 +36,7 @@ def forget_uncovered(loads, state):
 
 
 @compiled
-def _interpolate(places, twist, count, middle, target):
+def _interpolate(places: Array, twist: Array, count: int, middle: int, target: float) -> float:
     """The parabola through three sites around `middle`; straight at two or at an end."""
     if count == 1:
         return twist[0]
@@ -54,7 +54,7 @@ def _interpolate(places, twist, count, middle, target):
 
 
 @compiled
-def slide_tissue(d, x, loads, state):
+def slide_tissue(d: float, x: Array, loads: Array, state: Array) -> None:
     """Shift the twist of the tissue by d, m (positive: needle into the tissue)."""
     n = loads.shape[0]
     places, twist = np.empty(2 * n + 1), np.empty(2 * n + 1)

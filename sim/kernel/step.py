@@ -25,11 +25,11 @@ from sim.kernel.assemble import (
     is_linear,
     twist_of,
 )
-from sim.kernel.compiled import compiled, inlined
+from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.slide import forget_uncovered, slide_tissue
 from sim.kernel.tridiagonal import factorise, substitute
-from sim.kernel.work import Frame, allocate
+from sim.kernel.work import Frame, Work, allocate
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
@@ -40,7 +40,19 @@ _ITERATIONS = 160
 
 
 @inlined
-def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_loaded):
+def _prepare(
+    head: Array,
+    mesh: Array,
+    law: Array,
+    theta: Array,
+    now: Array,
+    before: Array,
+    w: Work,
+    frame: Frame,
+    free: float,
+    inserted: float,
+    tip_loaded: bool,
+) -> bool:
     """Fill in what the step starts from; returns whether iteration is needed."""
     n = w.omega.size - 1
     place_nodes(head, mesh, free, w.x)
@@ -65,7 +77,7 @@ def _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_
 
 
 @inlined
-def _second_stage(law, theta, now, before, w, frame):
+def _second_stage(law: Array, theta: Array, now: Array, before: Array, w: Work, frame: Frame) -> None:
     """Carry everything that is remembered into the second stage."""
     n = w.omega.size - 1
     for i in range(n + 1):
@@ -82,7 +94,7 @@ def _second_stage(law, theta, now, before, w, frame):
 
 
 @inlined
-def _carry_site(w, r, e, k, before, limit):
+def _carry_site(w: Work, r: int, e: int, k: int, before: Array, limit: float) -> None:
     for j in range(wire.SITE):
         old = before[r, e, k, j]
         w.start[r, e, k, j] = old + _CARRY * (w.end[r, e, k, j] - old)
@@ -96,7 +108,9 @@ def _carry_site(w, r, e, k, before, limit):
 
 
 @inlined
-def _add_other_rows(law, w, frame, tip_torque, cautious):
+def _add_other_rows(
+    law: Array, w: Work, frame: Frame, tip_torque: float, cautious: bool
+) -> tuple[float, float]:
     recoverable, stored = 0.0, 0.0
     for r in range(law.shape[0]):
         if is_linear(law[r]):
@@ -121,7 +135,9 @@ class Search(NamedTuple):
 
 
 @inlined
-def _newton(law, w, frame, drive, tip_torque, nonlinear, factored):
+def _newton(
+    law: Array, w: Work, frame: Frame, drive: float, tip_torque: float, nonlinear: bool, factored: bool
+) -> tuple[bool, int, float, float]:
     """Solve one stage. Returns convergence, iterations, recoverable power, energy.
 
     Without nonlinear rows both stages have the same matrix, and one iteration is
@@ -156,7 +172,7 @@ def _newton(law, w, frame, drive, tip_torque, nonlinear, factored):
 
 
 @inlined
-def _search(w, search):
+def _search(w: Work, search: Search) -> tuple[bool, Search]:
     """Move along the last step if it overshot: dry friction would let Newton cycle.
 
     The residual is, up to sign, the gradient of a convex potential. Where the end of
@@ -185,7 +201,7 @@ def _search(w, search):
 
 
 @inlined
-def _take_step(w):
+def _take_step(w: Work) -> tuple[float, float, float]:
     """Newton's step; returns its size, that of the rates, and the force along it."""
     n = w.omega.size
     for i in range(n):
@@ -222,7 +238,7 @@ def _shortened(w, force):
 
 
 @inlined
-def _friction(w, frame, drive, tip_torque):
+def _friction(w: Work, frame: Frame, drive: float, tip_torque: float) -> tuple[float, float, float]:
     """Torque of all friction on the shaft, its power, and the drive's torque.
 
     By balance, so that the sums hold to rounding: what inertia and torsion do not
@@ -241,7 +257,9 @@ def _friction(w, frame, drive, tip_torque):
 
 
 @compiled
-def advance(head, mesh, law, h, theta, now, nxt, ctrl):
+def advance(
+    head: Array, mesh: Array, law: Array, h: float, theta: Array, now: Array, nxt: Array, ctrl: Array
+) -> None:
     """Advance needle and tissue by h.
 
     Args:
@@ -282,9 +300,7 @@ def advance(head, mesh, law, h, theta, now, nxt, ctrl):
         if stage == 1:
             _second_stage(law, theta, now, before, w, frame)
         again = stage == 1 and not nonlinear and frame.drift == 0.0
-        solved, count, recoverable, stored = _newton(
-            law, w, frame, drive, tip_torque, nonlinear, again
-        )
+        solved, count, recoverable, stored = _newton(law, w, frame, drive, tip_torque, nonlinear, again)
         torque, friction, power = _friction(w, frame, drive, tip_torque)
         shaft = (ctrl[wire.U_DRIVE] - past[wire.U_DRIVE]) / h if frame.angle_driven else w.omega[0]
         work += share * (torque * shaft - tip_torque * w.omega[n])

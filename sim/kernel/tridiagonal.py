@@ -3,11 +3,11 @@
 The matrices here are diagonally dominant: no pivoting.
 """
 
-from sim.kernel.compiled import inlined
+from sim.kernel.compiled import Array, inlined
 
 
 @inlined
-def factorise(lower, diagonal, upper):
+def factorise(lower: Array, diagonal: Array, upper: Array) -> None:
     """Factors in place: `lower` becomes multipliers, `diagonal` inverse pivots.
 
     Row i reads lower[i], diagonal[i], upper[i]; lower[0] and upper[-1] are unused.
@@ -21,7 +21,7 @@ def factorise(lower, diagonal, upper):
 
 
 @inlined
-def substitute(lower, diagonal, upper, rhs):
+def substitute(lower: Array, diagonal: Array, upper: Array, rhs: Array) -> None:
     """Solve with the factors; the solution replaces `rhs`."""
     n = rhs.size
     value = rhs[0]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sim.kernel import wire
-from sim.kernel.compiled import inlined
+from sim.kernel.compiled import Array, inlined
 
 
 class Work(NamedTuple):
@@ -45,7 +45,7 @@ class Frame(NamedTuple):
 
 
 @inlined
-def allocate(n, rows, end):
+def allocate(n: int, rows: int, end: Array) -> Work:
     """Fresh working memory in one allocation; `end` is the caller's site states."""
     m, s = n + 1, 2 * n * rows
     memory = np.empty(15 * m + 2 * s + 2 * rows + wire.SITE * s)
