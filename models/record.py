@@ -36,7 +36,8 @@ def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
     cause = first.get("ctx", {}).get("error")
     if isinstance(cause, InvalidValue):
         path = ".".join(str(p) for p in first["loc"])
-        field = f"{path}.{cause.field}" if path else cause.field
+        inner = cause.field.split(".", 1)[-1] if cause.field[0].isupper() else cause.field
+        field = f"{path}.{inner}" if path else cause.field
         return InvalidValue(field, cause.got, cause.expected, cause.fix)
     field = ".".join(str(p) for p in (record.__name__, *first["loc"]))
     if first["type"] == "extra_forbidden":

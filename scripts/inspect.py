@@ -24,7 +24,11 @@ def run(path: Path, *, table: bool, console: Console) -> int:
 
 def as_table(path: Path, found: list[Entry]) -> Table:
     """One row a component."""
-    shown = Table("entity", "component", "rows", "from, s", "to, s", "last", title=str(path))
+    shown = Table(title=str(path))
+    for heading in ("entity", "component"):
+        shown.add_column(heading, overflow="fold")
+    for heading in ("rows", "from, s", "to, s", "last"):
+        shown.add_column(heading, justify="right", no_wrap=True)
     for e in found:
         times = ["" if t is None else f"{t:.3f}" for t in (e.start_s, e.end_s)]
         last = "" if e.last is None else f"{e.last:.5g}"

@@ -1,5 +1,6 @@
 """Running a protocol: simulate, check the step where accuracy was asked, record."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -38,11 +39,12 @@ def _checked_error_deg(protocol: Protocol, run: Run) -> float:
     error, step = step_error_deg(protocol, run), protocol.discretisation.step_s
     allowed = protocol.accuracy_deg or np.inf
     if error > allowed:
-        enough = step * np.sqrt(allowed / error)
+        # Halves of the step keep the corners of the motion at the ends of steps.
+        enough = step / 2 ** math.ceil(math.log2(error / allowed) / 2)
         raise InvalidValue(
             "discretisation.step_s",
             step,
             f"a step that keeps the tip within {allowed:g} deg (this one: {error:.3g} deg)",
-            f"try {enough:.2g} s",
+            f"try {enough:g} s",
         )
     return error

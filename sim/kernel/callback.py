@@ -25,12 +25,7 @@ from typing import Any
 import mujoco
 import numba
 import numpy as np
-from numba import carray, (
-    carray,  # type: ignore[attr-defined]
-    cfunc,
-    njit,
-    types,
-)
+from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
 from sim.kernel import wire

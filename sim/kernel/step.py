@@ -217,27 +217,6 @@ def _take_step(w: Work) -> tuple[float, float, float]:
 
 
 @inlined
-def _shortened(w, force):
-    """Shorten the last step if it overshot: dry friction would let Newton cycle.
-
-    The residual is, up to sign, the gradient of a convex potential; where the last
-    step meets as much force as it set out with, the minimum lies between its ends.
-    """
-    n = w.omega.size
-    met, length = 0.0, 0.0
-    for i in range(n):
-        met += w.rhs[i] * w.step[i]
-        length = max(length, abs(w.step[i]))
-    if met >= -_OVERSHOOT * force or length <= _TOLERANCE:
-        return False
-    kept = force / (force - met)
-    for i in range(n):
-        w.omega[i] -= (1.0 - kept) * w.step[i]
-        w.step[i] *= kept
-    return True
-
-
-@inlined
 def _friction(w: Work, frame: Frame, drive: float, tip_torque: float) -> tuple[float, float, float]:
     """Torque of all friction on the shaft, its power, and the drive's torque.
 

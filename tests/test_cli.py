@@ -1,0 +1,99 @@
+"""The console command, as a person runs it."""
+
+import json
+from pathlib import Path
+
+import mujoco
+import pytest
+
+from scripts.main import main
+
+EXAMPLE = Path(__file__).parent.parent / "examples"
+
+
+def test_insert_writes_everything_it_names(tmp_path, capsys):
+    model = tmp_path / "needle.xml"
+    code = main(["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path), "--mjcf", str(model)])
+    assert code == 0
+    said = capsys.readouterr().out.replace("\n", "")
+    for ending in (".csv", ".parquet", ".png", ".rrd"):
+        assert (tmp_path / f"fig5-5cm{ending}").stat().st_size > 1000
+        assert f"fig5-5cm{ending}" in said
+    assert mujoco.MjModel.from_xml_path(str(model)).nq > 10
+
+
+def test_insert_takes_a_file(tmp_path):
+    protocol = str(EXAMPLE / "protocol.yaml")
+    assert main(["insert", "--protocol", protocol, "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "two-layers.csv").exists()
+
+
+def test_insert_refuses_to_overwrite_before_it_works(tmp_path, capsys):
+    kept = tmp_path / "fig5-5cm.png"
+    kept.write_text("mine")
+    assert main(["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path)]) == 2
+    assert "--force" in capsys.readouterr().err
+    assert kept.read_text() == "mine"
+    assert list(tmp_path.iterdir()) == [kept]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["insert", "--protocol", "fig99"],
+        ["insert", "--protocol", "no/such/file.yaml"],
+        ["replay", "no/such/log"],
+        ["inspect", "no/such/file.rrd"],
+    ],
+)
+def test_bad_input_is_one_clear_line_and_exit_2(arguments, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"needle {arguments[0]}:")
+    assert "Traceback" not in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_validate_writes_the_contract(tmp_path):
+    assert main(["validate", "--out", str(tmp_path / "v")]) == 0
+    content = json.loads((tmp_path / "v" / "validate.json").read_text())
+    assert content["passed"] is True
+    assert len(content["poles"]) == 48
+    assert {p["drive"] for p in content["poles"]} == {"torque", "angle"}
+
+
+def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):
+    from scripts import validate
+    from sim.crosscheck.findings import Check, Findings
+
+    failing = Findings(checks=[Check(name="x", value=2, unit="-", high=1)])
+    monkeypatch.setattr(validate, "cross_check", lambda: failing)
+    assert main(["validate"]) == 1
+    assert "fails" in capsys.readouterr().out
+
+
+def test_replay_writes_predictions_picture_and_recording(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "160")
+    assert main(["replay", str(EXAMPLE / "rig-log"), "--out", str(tmp_path)]) == 0
+    assert "trial_06.csv" in capsys.readouterr().out
+    assert (tmp_path / "replay.png").exists()
+    assert (tmp_path / "predictions" / "trial_01.csv").read_text().startswith("time_s,")
+    assert main(["inspect", "--table", str(tmp_path / "replay.rrd")]) == 0
+    assert "tip_angle" in capsys.readouterr().out
+
+
+def test_protocols_lists_the_names(capsys):
+    assert main(["protocols"]) == 0
+    assert "fig4-10cm" in capsys.readouterr().out
+
+
+def test_an_interrupted_run_says_so(monkeypatch, capsys, tmp_path):
+    from scripts import insert
+
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(insert, "perform", interrupted)
+    assert main(["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path)]) == 130
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,103 @@
+"""The layout is the architecture: imports run one way. And other rules of the house."""
+
+import ast
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PACKAGES = ("models", "sim", "controllers", "diagnosis", "scripts", "benchmarks", "tests")
+MAY_IMPORT = {
+    "models": {"models"},
+    "controllers": {"controllers", "models"},
+    "sim": {"sim", "models"},
+    "diagnosis": {"diagnosis", "sim", "models"},
+    "scripts": {"scripts", "diagnosis", "controllers", "sim", "models"},
+}
+SIDE_STREAMS = {"sim/rerun_log.py", "sim/rerun_table.py"}
+
+
+def sources(package):
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+def imported(path):
+    tree = ast.parse(path.read_text())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
+
+
+@pytest.mark.parametrize("package", MAY_IMPORT)
+def test_imports_run_one_way(package):
+    for path in sources(package):
+        ours = {name.split(".")[0] for name in imported(path)} & set(PACKAGES)
+        assert ours <= MAY_IMPORT[package], path
+
+
+def test_controllers_and_models_know_no_simulator():
+    for package in ("models", "controllers"):
+        for path in sources(package):
+            assert "mujoco" not in {name.split(".")[0] for name in imported(path)}, path
+
+
+def test_physics_never_imports_rerun():
+    for package in ("models", "sim", "controllers"):
+        for path in sources(package):
+            if path.relative_to(ROOT).as_posix() in SIDE_STREAMS:
+                continue
+            names = set(imported(path))
+            assert not any(n.split(".")[0] == "rerun" or n.startswith("sim.rerun") for n in names), path
+
+
+def test_print_and_pickle_stay_out_of_the_library():
+    for package in ("models", "sim", "controllers", "diagnosis"):
+        for path in sources(package):
+            text = path.read_text()
+            assert not re.search(r"(?<![\w.])print\(", text), path
+            assert "pickle" not in set(imported(path)), path
+
+
+def test_every_public_function_class_and_module_says_what_it_is():
+    for package in MAY_IMPORT:
+        for path in sources(package):
+            tree = ast.parse(path.read_text())
+            if path.read_text().strip():
+                assert ast.get_docstring(tree), path
+            for node in tree.body:
+                public = isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name[0] != "_"
+                assert not public or ast.get_docstring(node), f"{path}: {node.name}"
+
+
+def test_every_argument_is_annotated():
+    for package in MAY_IMPORT:
+        for path in sources(package):
+            for node in ast.walk(ast.parse(path.read_text())):
+                if isinstance(node, ast.FunctionDef):
+                    for argument in (*node.args.args, *node.args.kwonlyargs):
+                        named = argument.arg in ("self", "cls")
+                        assert named or argument.annotation, f"{path}: {node.name}({argument.arg})"
+
+
+def test_the_constraints_pin_what_the_project_needs_and_name_no_address():
+    text = (ROOT / "constraints.txt").read_text()
+    assert "://" not in text
+    assert all(re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in text.split())
+    pinned = {line.split("==")[0].lower().replace("_", "-") for line in text.split()}
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    needed = project["dependencies"] + project["optional-dependencies"]["dev"]
+    assert {re.split(r"[><=\[]", n)[0].lower() for n in needed} <= pinned
+
+
+def test_every_package_is_listed_for_installation():
+    listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
+    found = {
+        ".".join(path.parent.relative_to(ROOT).parts)
+        for package in MAY_IMPORT
+        for path in sources(package)
+    }
+    assert set(listed) == found
