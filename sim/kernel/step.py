@@ -13,30 +13,22 @@ the other; lengths and speed are those of its middle.
 """
 
 import math
-from typing import NamedTuple
 
 from sim.kernel import wire
 from sim.kernel.assemble import (
-    add_linear,
-    add_row,
     add_viscous,
-    add_viscous_slide,
     drive_torque,
     is_linear,
     twist_of,
 )
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import cover, place_nodes
+from sim.kernel.newton import newton
 from sim.kernel.slide import forget_uncovered, slide_tissue
-from sim.kernel.tridiagonal import factorise, substitute
 from sim.kernel.work import Frame, Work, allocate
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
-_TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
-_OVERSHOOT = 0.3  # a step is shortened where it meets this much of its own force again
-_PLAIN = 40  # iterations of plain Newton; after them slopes are made safe
-_ITERATIONS = 160
 
 
 @inlined
@@ -108,115 +100,6 @@ def _carry_site(w: Work, r: int, e: int, k: int, before: Array, limit: float) ->
 
 
 @inlined
-def _add_other_rows(
-    law: Array, w: Work, frame: Frame, tip_torque: float, cautious: bool
-) -> tuple[float, float]:
-    recoverable, stored = 0.0, 0.0
-    for r in range(law.shape[0]):
-        if is_linear(law[r]):
-            if frame.drift != 0.0:
-                add_viscous_slide(w, w.loads[r], law[r, wire.L_VISCOUS], frame)
-        else:
-            power, energy = add_row(w, r, law[r], frame, tip_torque, cautious)
-            recoverable += power
-            stored += energy
-    return recoverable, stored
-
-
-class Search(NamedTuple):
-    """A line search along Newton's step, between fractions of it."""
-
-    force: float  # along the step, where it set out
-    low: float  # fraction up to which the force still pulls ahead
-    pull: float  # force there, halved each time that this end stays
-    high: float  # fraction at which the force pushes back
-    push: float  # force there; 0: not met yet
-    at: float  # fraction where the rates stand
-
-
-@inlined
-def _newton(
-    law: Array, w: Work, frame: Frame, drive: float, tip_torque: float, nonlinear: bool, factored: bool
-) -> tuple[bool, int, float, float]:
-    """Solve one stage. Returns convergence, iterations, recoverable power, energy.
-
-    Without nonlinear rows both stages have the same matrix, and one iteration is
-    exact: the second stage uses the factors of the first.
-    """
-    n = w.omega.size
-    for i in range(n):
-        w.lag[i] = w.omega[i]
-    recoverable, stored = 0.0, 0.0
-    search = Search(0.0, 0.0, 0.0, 1.0, 0.0, 1.0)
-    for iteration in range(_ITERATIONS):
-        add_linear(w, frame.g, not factored)
-        torque, slope = drive_torque(w, frame, drive)
-        w.rhs[0] += torque
-        w.rhs[n - 1] -= tip_torque
-        if not factored:
-            w.diagonal[0] += slope
-            recoverable, stored = _add_other_rows(law, w, frame, tip_torque, iteration >= _PLAIN)
-        if iteration > 0:
-            searching, search = _search(w, search)
-            if searching:
-                continue
-        if not factored:
-            factorise(w.lower, w.diagonal, w.upper)
-        change, size, force = _take_step(w)
-        search = Search(force, 0.0, force, 1.0, 0.0, 1.0)
-        if not math.isfinite(change):
-            return False, iteration + 1, recoverable, stored
-        if not nonlinear or change <= _TOLERANCE * size:
-            return True, iteration + 1, recoverable, stored
-    return False, _ITERATIONS, recoverable, stored
-
-
-@inlined
-def _search(w: Work, search: Search) -> tuple[bool, Search]:
-    """Move along the last step if it overshot: dry friction would let Newton cycle.
-
-    The residual is, up to sign, the gradient of a convex potential. Where the end of
-    a step meets a good part of the force that it set out with, the minimum along it
-    lies before: regula falsi with Illinois' halving, until little force is left.
-    Returns whether the rates have moved.
-    """
-    n = w.omega.size
-    met, length = 0.0, 0.0
-    for i in range(n):
-        met += w.rhs[i] * w.step[i]
-        length = max(length, abs(w.step[i]))
-    low, pull, high, push = search.low, search.pull, search.high, search.push
-    calm = abs(met) <= _OVERSHOOT * search.force or (met > 0.0 and push == 0.0)
-    if calm or (high - low) * length <= _TOLERANCE:
-        return False, search
-    if met > 0.0:
-        low, pull, push = search.at, met, 0.5 * push
-    else:
-        pull = 0.5 * pull if push > 0.0 else pull
-        high, push = search.at, -met
-    at = low + (high - low) * pull / (pull + push)
-    for i in range(n):
-        w.omega[i] += (at - search.at) * w.step[i]
-    return True, Search(search.force, low, pull, high, push, at)
-
-
-@inlined
-def _take_step(w: Work) -> tuple[float, float, float]:
-    """Newton's step; returns its size, that of the rates, and the force along it."""
-    n = w.omega.size
-    for i in range(n):
-        w.step[i] = w.rhs[i]
-    substitute(w.lower, w.diagonal, w.upper, w.step)
-    change, size, force = 0.0, 1.0, 0.0
-    for i in range(n):
-        w.omega[i] += w.step[i]
-        force += w.rhs[i] * w.step[i]
-        change = max(change, abs(w.step[i]))
-        size = max(size, abs(w.omega[i]))
-    return change, size, force
-
-
-@inlined
 def _friction(w: Work, frame: Frame, drive: float, tip_torque: float) -> tuple[float, float, float]:
     """Torque of all friction on the shaft, its power, and the drive's torque.
 
@@ -279,7 +162,7 @@ def advance(
         if stage == 1:
             _second_stage(law, theta, now, before, w, frame)
         again = stage == 1 and not nonlinear and frame.drift == 0.0
-        solved, count, recoverable, stored = _newton(law, w, frame, drive, tip_torque, nonlinear, again)
+        solved, count, recoverable, stored = newton(law, w, frame, drive, tip_torque, nonlinear, again)
         torque, friction, power = _friction(w, frame, drive, tip_torque)
         shaft = (ctrl[wire.U_DRIVE] - past[wire.U_DRIVE]) / h if frame.angle_driven else w.omega[0]
         work += share * (torque * shaft - tip_torque * w.omega[n])
