@@ -28,7 +28,8 @@ APPLICATION = "needle-torsion"
 TIMELINE = "time"
 _FRAMES_PER_S = 20  # of the 3-D needle; the plots show every sample
 _MODES = 4
-_SHOWN_RADIUS_MM = 2.0  # the needle is drawn thicker than it is, to show its twist
+# The twist is shown by arrows across the shaft, longer than the shaft is thick.
+_ARROW_MM, _ARROW_RADIUS_MM, _SHAFT_RADIUS_MM = 9.0, 0.5, 0.6
 _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
     "angles": {
         "base_angle_deg": ("base", [90, 90, 90]),
@@ -191,7 +192,7 @@ def _log_modes(stream: rr.RecordingStream, recording: Recording) -> None:
 
 
 def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
-    """The shaft as a ribbon that shows its twist, coloured by lag; the tissue as a box."""
+    """The shaft, arrows that show its twist, coloured by lag, and the tissue as a box."""
     angles = recording.group("shaft")
     if not angles.size:
         return
@@ -206,22 +207,23 @@ def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
     stamps = time_column(time[frames])
     places = np.array([_node_places_mm(recording, i) for i in frames])
     turn = angles[frames] * units.DEG
-    across = _SHOWN_RADIUS_MM * np.stack([np.zeros_like(turn), np.cos(turn), np.sin(turn)], axis=-1)
+    across = _ARROW_MM * np.stack([np.zeros_like(turn), np.cos(turn), np.sin(turn)], axis=-1)
     axis = np.stack([places, np.zeros_like(places), np.zeros_like(places)], axis=-1)
     nodes = axis.shape[1]
     stream.send_columns(
         "world/bevel",
         indexes=[stamps],
-        columns=rr.Points3D.columns(
-            positions=(axis + across).reshape(-1, 3),
+        columns=rr.Arrows3D.columns(
+            origins=axis.reshape(-1, 3),
+            vectors=across.reshape(-1, 3),
             colors=colours.reshape(-1, 3),
-            radii=np.full(frames.size * nodes, 0.35 * _SHOWN_RADIUS_MM),
+            radii=np.full(frames.size * nodes, _ARROW_RADIUS_MM),
         ).partition(np.full(frames.size, nodes)),
     )
     stream.send_columns(
         "world/shaft",
         indexes=[stamps],
-        columns=rr.LineStrips3D.columns(strips=list(axis), radii=np.full(frames.size, 0.3)),
+        columns=rr.LineStrips3D.columns(strips=list(axis), radii=np.full(frames.size, _SHAFT_RADIUS_MM)),
     )
     _log_profiles(
         stream, time[frames], {"shaft": lag[frames], "tissue": recording.group("tissue")[frames]}
@@ -254,7 +256,7 @@ def _log_tissue_box(stream: rr.RecordingStream, recording: Recording, frames: An
     depth = np.maximum(recording["inserted_mm"], 0.1)[frames]
     half = np.stack([0.5 * depth, np.full(depth.size, 12.0), np.full(depth.size, 12.0)], axis=-1)
     centre = np.stack([0.5 * depth, np.zeros(depth.size), np.zeros(depth.size)], axis=-1)
-    stream.log("world/tissue", rr.Boxes3D.from_fields(colors=[[214, 160, 140]]), static=True)
+    stream.log("world/tissue", rr.Boxes3D.from_fields(colors=[[214, 160, 140]], fill_mode="majorwireframe"), static=True)
     stream.send_columns(
         "world/tissue",
         indexes=[stamps],

@@ -195,7 +195,7 @@ class Step:
         shared, _, shared_gain = self.preslide_shared(travel)
         shared_level = self.rig.value("speed_dependent_friction", "level")
         torque = torque + (level * presliding + shared_level * shared) / self.limit
-        per_rate = per_rate + level_per_rate * presliding / self.limit
+        per_rate = per_rate + np.maximum(level_per_rate * presliding / self.limit, self.softest)
         return torque, per_rate, (level * gain + shared_level * shared_gain) / self.limit
 
     def preslide_shared(self, travel: Array) -> tuple[Array, Array, Array]:
@@ -259,9 +259,14 @@ class Step:
         rows[1, -1] += drag * self.lead + level * float(gain)
 
     def solved(self) -> State | None:
-        """The state at the end of the step, or nothing if neither full nor damped Newton converges."""
-        for most_halvings, most_iterations in ((0, 20), (10, 60)):
+        """The state at the end of the step: by full Newton steps, else by damped ones, else by descent.
+
+        Friction that falls faster with the slip rate than viscous torque rises has several balances. Without
+        its falling slope, the steps descend to a stable one.
+        """
+        for most_halvings, most_iterations, softest in ((0, 20, -math.inf), (10, 60, -math.inf), (0, 500, 0)):
             angle, twist = self.guess
+            self.softest = softest
             for _ in range(most_iterations):
                 linear = self.linearised(angle, twist)
                 turn, more_twist = linear.solve()

@@ -120,7 +120,7 @@ def test_the_rerun_file_shows_needle_tissue_modes_and_profiles(recording, tmp_pa
     log_recording(recording, path)
     found = {(e.entity, e.component): e for e in entries(path)}
     for entity, component in (
-        ("/world/bevel", "Points3D:positions"),
+        ("/world/bevel", "Arrows3D:vectors"),
         ("/world/shaft", "LineStrips3D:strips"),
         ("/world/tissue", "Boxes3D:half_sizes"),
         ("/profile/shaft", "BarChart:values"),
