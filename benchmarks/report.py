@@ -1,0 +1,127 @@
+"""What the benchmarks share: timing, tables, goals, and where they are written.
+
+Times are of the process's CPU. A machine has other work to do, and its clock moves:
+tasks that are compared take turns in one run, and the least time of each counts.
+"""
+
+import argparse
+import math
+import time
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import pandas as pd
+from matplotlib.figure import Figure
+from rich.console import Console
+from rich.table import Table as RichTable
+
+mpl.use("Agg")
+
+Key = TypeVar("Key", bound=Hashable)
+
+_CONSOLE = Console(width=120, highlight=False)
+_ENOUGH_S = 0.6  # of one task: further turns are not taken
+
+
+@dataclass(frozen=True, kw_only=True)
+class Goal:
+    """A measured value and the bound that it is to keep; NaN: not measured here."""
+
+    name: str
+    measured: float
+    bound: float
+    at_least: bool = False
+    unit: str = "-"
+
+    @property
+    def met(self) -> str:
+        """As a person reads it."""
+        if math.isnan(self.measured):
+            return "not measured"
+        kept = self.measured >= self.bound if self.at_least else self.measured <= self.bound
+        return "yes" if kept else "NO"
+
+
+def least_times_s(tasks: Mapping[Key, Callable[[], object]], *, turns: int) -> dict[Key, float]:
+    """Least CPU time of each task, s; the tasks take turns.
+
+    Args:
+      tasks: by name; each runs once before the clock starts.
+      turns: at most; a task that has used 0.6 s takes no more.
+    """
+    for task in tasks.values():
+        task()
+    least = dict.fromkeys(tasks, math.inf)
+    spent = dict.fromkeys(tasks, 0.0)
+    for _ in range(turns):
+        for key, task in tasks.items():
+            if spent[key] > _ENOUGH_S:
+                continue
+            start = time.process_time()
+            task()
+            taken = time.process_time() - start
+            least[key] = min(least[key], taken)
+            spent[key] += taken
+    return least
+
+
+def show(title: str, rows: Sequence[Mapping[str, Any]], folder: Path, name: str) -> None:
+    """Print rows of one shape as a table and write them as `name`.csv."""
+    table = RichTable(title=title, title_justify="left")
+    for column in rows[0]:
+        numeric = not isinstance(rows[0][column], str)
+        table.add_column(column, justify="right" if numeric else "left")
+    for row in rows:
+        table.add_row(*(_cell(value) for value in row.values()))
+    _CONSOLE.print(table)
+    folder.mkdir(parents=True, exist_ok=True)
+    pd.DataFrame(rows).to_csv(folder / f"{name}.csv", index=False)
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return "-" if math.isnan(value) else f"{value:.3g}" if abs(value) < 1e3 else f"{value:,.0f}"
+    return str(value)
+
+
+def show_goals(goals: Sequence[Goal], folder: Path) -> None:
+    """The summary: goal, measured, met."""
+    rows = [
+        {
+            "goal": goal.name,
+            "bound": f"{'>=' if goal.at_least else '<='} {goal.bound:g}",
+            "measured": goal.measured,
+            "unit": goal.unit,
+            "met": goal.met,
+        }
+        for goal in goals
+    ]
+    show("Goals", rows, folder, "goals")
+
+
+def say(text: str) -> None:
+    """A line between tables."""
+    _CONSOLE.print(text)
+
+
+def save(figure: Figure, folder: Path, name: str) -> None:
+    """Write a figure as `name`.png."""
+    folder.mkdir(parents=True, exist_ok=True)
+    figure.savefig(folder / f"{name}.png", dpi=130)
+    plt.close(figure)
+
+
+def out_folder(parser: argparse.ArgumentParser) -> Path:
+    """The folder that the command line names."""
+    return Path(parser.parse_args().out)
+
+
+def parser(description: str | None) -> argparse.ArgumentParser:
+    """A command line with `--out`."""
+    made = argparse.ArgumentParser(description=(description or "").splitlines()[0])
+    made.add_argument("--out", default="out/bench", help="folder for CSV and PNG")
+    return made

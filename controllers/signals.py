@@ -1,0 +1,90 @@
+"""What goes into an estimator and a controller at each sample, and what comes out.
+
+A loop never gets a silent NaN: a sample that cannot be used leaves the last good
+answer standing and says so in a status that the caller can act on.
+"""
+
+import math
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Status(StrEnum):
+    """How an answer came about."""
+
+    OK = "ok"
+    OUTSIDE = "outside"
+    """The needle is not in tissue: the tip is where the base is."""
+    BAD_SAMPLE = "bad sample"
+    """A NaN or an impossible length: the last answer stands."""
+    BAD_TIME = "bad time"
+    """Time stood still or went back: the last answer stands."""
+    DIVERGED = "diverged"
+    """The estimate lost its numbers; reset before going on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One reading of a rig at its base.
+
+    Attributes:
+      time_s: increasing from sample to sample.
+      base_deg: measured angle of the base.
+      torque_n_mm: measured torque that the drive puts in.
+      inserted_mm, free_mm: lengths in tissue, and between chuck and tissue.
+      tip_deg: measured tip, where there is such a sensor.
+    """
+
+    time_s: float
+    base_deg: float
+    torque_n_mm: float
+    inserted_mm: float
+    free_mm: float
+    tip_deg: float | None = None
+
+    def usable(self) -> bool:
+        """Whether every number is finite and every length possible."""
+        numbers = (self.time_s, self.base_deg, self.torque_n_mm, self.inserted_mm, self.free_mm)
+        tip_fine = self.tip_deg is None or math.isfinite(self.tip_deg)
+        finite = all(math.isfinite(x) for x in numbers)
+        return finite and tip_fine and self.inserted_mm >= 0 and self.free_mm >= 0
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What the estimator believes.
+
+    Attributes:
+      tip_deg: angle of the tip.
+      modes_deg: amplitudes of modes 1, 2, ... of the shaft's twist.
+      damping_n_mm_s_per_mm: of the model at this moment.
+      status: how the estimate came about.
+    """
+
+    tip_deg: float
+    modes_deg: Array = field(default_factory=lambda: np.zeros(0))
+    damping_n_mm_s_per_mm: float = math.nan
+    status: Status = Status.OK
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """What the base is to do until the next sample.
+
+    Attributes:
+      base_deg: commanded angle.
+      rate_limited, torque_limited: which limits held it back.
+      advance_mm: wanted axial motion relative to the planned one (retraction, dither).
+      status: that of the estimate it rests on.
+    """
+
+    base_deg: float
+    rate_limited: bool = False
+    torque_limited: bool = False
+    advance_mm: float = 0.0
+    status: Status = Status.OK
