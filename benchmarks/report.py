@@ -78,6 +78,11 @@ def show(title: str, rows: Sequence[Mapping[str, Any]], folder: Path, name: str)
     for row in rows:
         table.add_row(*(_cell(value) for value in row.values()))
     _CONSOLE.print(table)
+    write_csv(rows, folder, name)
+
+
+def write_csv(rows: Sequence[Mapping[str, Any]], folder: Path, name: str) -> None:
+    """Write rows of one shape as `name`.csv."""
     folder.mkdir(parents=True, exist_ok=True)
     pd.DataFrame(rows).to_csv(folder / f"{name}.csv", index=False)
 

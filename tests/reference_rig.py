@@ -53,6 +53,7 @@ CONSTANT_LENGTH_MM = 1e-6
 TOTAL_LENGTH_TOLERANCE_MM = 1e-2
 LARGEST_STEP_RATIO = 2.0 + 1e-9
 DEEPEST_SPLIT = 8
+DESCENTS = 20
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,7 +196,7 @@ class Step:
         shared, _, shared_gain = self.preslide_shared(travel)
         shared_level = self.rig.value("speed_dependent_friction", "level")
         torque = torque + (level * presliding + shared_level * shared) / self.limit
-        per_rate = per_rate + np.maximum(level_per_rate * presliding / self.limit, self.softest)
+        per_rate = per_rate + np.maximum(level_per_rate * presliding / self.limit, -self.steepest_fall)
         return torque, per_rate, (level * gain + shared_level * shared_gain) / self.limit
 
     def preslide_shared(self, travel: Array) -> tuple[Array, Array, Array]:
@@ -264,22 +265,32 @@ class Step:
         Friction that falls faster with the slip rate than viscous torque rises has several balances. Without
         its falling slope, the steps descend to a stable one.
         """
-        for most_halvings, most_iterations, softest in ((0, 20, -math.inf), (10, 60, -math.inf), (0, 500, 0)):
-            angle, twist = self.guess
-            self.softest = softest
-            for _ in range(most_iterations):
-                linear = self.linearised(angle, twist)
-                turn, more_twist = linear.solve()
-                part = self.helpful_part(
-                    angle, twist, turn, more_twist, linear.mismatch(), most_halvings
-                )
-                angle, twist = angle + part * turn, twist + part * more_twist
-                change = max(np.abs(turn).max(), np.abs(more_twist).max())
-                if change < NEWTON_TOLERANCE_RAD:
-                    return self.finished(angle, twist)
-                if not np.isfinite(change):
-                    break
+        for most_halvings, most_iterations in ((0, 20), (6, 40)):
+            found, angle, twist = self.iterated(*self.guess, most_halvings, most_iterations)
+            if found:
+                return self.finished(angle, twist)
+        angle, twist = self.guess
+        for _ in range(DESCENTS):
+            _, angle, twist = self.iterated(angle, twist, 0, 40, steepest_fall=0.0)
+            found, *near = self.iterated(angle, twist, 0, 15)
+            if found:
+                return self.finished(*near)
         return None
+
+    def iterated(
+        self, angle: Array, twist: Array, halvings: int, iterations: int, steepest_fall: float = math.inf
+    ) -> tuple[bool, Array, Array]:
+        """Newton steps from there, and whether they have come to rest."""
+        self.steepest_fall = steepest_fall
+        for _ in range(iterations):
+            linear = self.linearised(angle, twist)
+            turn, more_twist = linear.solve()
+            part = self.helpful_part(angle, twist, turn, more_twist, linear.mismatch(), halvings)
+            angle, twist = angle + part * turn, twist + part * more_twist
+            change = max(np.abs(turn).max(), np.abs(more_twist).max())
+            if change < NEWTON_TOLERANCE_RAD or not np.isfinite(change):
+                return bool(np.isfinite(change)), angle, twist
+        return False, angle, twist
 
     def helpful_part(
         self, angle: Array, twist: Array, turn: Array, more_twist: Array, mismatch: float, halvings: int

@@ -1,0 +1,316 @@
+"""Work against precision on one run, for the simulator and for others.
+
+The run is `sim.crosscheck.motion.fast_turn`: a needle 20 cm deep, its base turned by
+90 deg in 0.3 s and held, 8 s in all, in three tissues. Every method runs at several
+steps or tolerances and numbers of elements. Its error is the largest of the tip, deg,
+at the times at which it answers, against the closed form (viscous tissue) or LSODA at
+tight tolerance on two grids, extrapolated. Work is CPU time: of `Batch.rollout` for the
+simulator, without the compilation of its model; of the solver's call for the others.
+The table is read off each method's front of best points, straight between them in
+logarithms.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+from benchmarks import report
+from benchmarks.compiled_loop import BACKWARD_EULER, MIDPOINT, by_theta_method, kernel_loop
+from benchmarks.rivals import (
+    by_modes,
+    by_odeint,
+    by_solve_ivp,
+    converged_tip_deg,
+    equations,
+    exact_tip_deg,
+)
+from benchmarks.tissues import CASES, DRY, LENGTH_MM, SMOOTH, Case
+from models.needle import NITINOL
+from sim.crosscheck.motion import fast_turn
+from sim.discretisation import Arrangement, Discretisation, Mesh
+from sim.kernel import wire
+from sim.simulation import compile_model, controls, initial_data
+from sim.spec import Setup
+
+Array = NDArray[np.float64]
+Answer = tuple[Array, Array]
+
+TARGETS_DEG = (0.05, 0.02, 0.01)
+SMOOTH_BOUND, DRY_BOUND = 3.0, 1.0
+CHAIN, SIBLINGS, KERNEL = "MuJoCo, chain", "MuJoCo, siblings", "our kernel alone"
+ODEINT, LSODA = "LSODA, odeint", "LSODA, solve_ivp"
+LSODA_NUMPY, BDF, RADAU = "LSODA, law in NumPy", "BDF, solve_ivp", "Radau, solve_ivp"
+MODES, EULER, TRAPEZE = "modes", "backward Euler loop", "midpoint loop"
+OURS, SCIPY = (CHAIN, SIBLINGS), (ODEINT, LSODA, BDF, RADAU)
+
+_ELEMENTS = (6, 8, 12, 16)
+_STEPS_S = (0.1, 0.06, 0.05, 0.03, 0.025, 0.02, 0.015, 0.01, 0.0075, 0.005)
+_CELLS = (24, 32, 64)
+_TOLERANCES = tuple(10.0**-k for k in (1.5, 2, 2.5, 3, 3.5, 4, 4.5))
+_LOOP_STEPS_S = (0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4)
+_MODES = (4, 6, 8, 12, 16, 24, 32)
+_TURNS = 9
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """One method at one setting: its error and its work."""
+
+    case: str
+    method: str
+    setting: str
+    error_deg: float
+    cpu_ms: float
+
+
+Settings = dict[tuple[str, str], Callable[[], Answer]]
+Reference = Callable[[Array], Array]
+
+
+def setup_of(case: Case, **discretisation: object) -> Setup:
+    """The simulator's needle in a tissue."""
+    return Setup(
+        needle=NITINOL,
+        tissue=case.tissue,
+        discretisation=Discretisation(**discretisation),
+        mesh=Mesh.TISSUE,
+        free_mm=0.0,
+        inserted_mm=LENGTH_MM,
+    )
+
+
+def rollout_of(setup: Setup) -> Callable[[], Answer]:
+    """A run of the simulator, compiled and ready to go."""
+    model = compile_model(setup)
+    stepped = fast_turn().at_steps(setup.discretisation.step_s)
+    ctrl = controls(stepped, setup)
+    data = initial_data(model, setup, ctrl[0])
+    start = np.empty(mujoco.mj_stateSize(model, _STATE))
+    mujoco.mj_getState(model, data, start, _STATE)
+    batch = Batch(model, 1, 1)
+
+    def run() -> Answer:
+        batch.state[0] = start
+        outputs = batch.rollout(len(ctrl) - 1, ctrl[None, 1:], record=["sensordata"])["sensordata"][0]
+        return stepped.time_s[1:], np.degrees(outputs[:, wire.O_TIP_ANGLE])
+
+    return run
+
+
+def _kernel_of(setup: Setup, loop: Callable[..., Array]) -> Callable[[], Answer]:
+    model = compile_model(setup)
+    stepped = fast_turn().at_steps(setup.discretisation.step_s)
+    ctrl, data = controls(stepped, setup), mujoco.MjData(model)
+    return lambda: (stepped.time_s, np.degrees(loop(model, data, ctrl)))
+
+
+def our_settings(case: Case) -> Settings:
+    """The simulator in both arrangements, and its kernel without MuJoCo."""
+    loop, settings = kernel_loop(), Settings()
+    for n in _ELEMENTS:
+        for h in _STEPS_S:
+            name = f"n = {n}, {1e3 * h:g} ms"
+            for method, arrangement in zip(OURS, Arrangement, strict=True):
+                setup = setup_of(case, elements=n, step_s=h, arrangement=arrangement)
+                settings[method, name] = rollout_of(setup)
+            settings[KERNEL, name] = _kernel_of(setup, loop)
+    return settings
+
+
+def scipy_settings(case: Case) -> Settings:
+    """Scipy's stiff solvers at every tolerance, number of cells, and restart or none."""
+    settings = Settings()
+    for cells in _CELLS:
+        system = equations(case, cells)
+        plain = equations(case, cells, compiled=False)
+        for tolerance in _TOLERANCES:
+            name = f"n = {cells}, rtol {tolerance:.0e}"
+            settings[ODEINT, name] = partial(by_odeint, system, tolerance)
+            for restart in (False, True):
+                full = name + (", restarted" if restart else "")
+                for label in (LSODA, BDF, RADAU):
+                    method = label.split(",")[0]
+                    settings[label, full] = partial(by_solve_ivp, system, method, tolerance, restart=restart)
+                settings[LSODA_NUMPY, full] = partial(
+                    by_solve_ivp, plain, "LSODA", tolerance, restart=restart
+                )
+    return settings
+
+
+def loop_settings(case: Case) -> Settings:
+    """Compiled loops of a plain method and, in viscous tissue, modes."""
+    settings = Settings()
+    for cells in _CELLS:
+        for h in _LOOP_STEPS_S:
+            for method, implicit in ((EULER, BACKWARD_EULER), (TRAPEZE, MIDPOINT)):
+                name = f"n = {cells}, {1e3 * h:g} ms"
+                settings[method, name] = partial(by_theta_method, case, cells, h, implicit)
+    if case is SMOOTH:
+        settings |= {(MODES, f"{count} modes"): partial(by_modes, count) for count in _MODES}
+    return settings
+
+
+def reference_of(case: Case) -> tuple[Reference, float]:
+    """The tip at any times, deg, and by how much two grids of the reference differ."""
+    if case is SMOOTH:
+        return exact_tip_deg, 0.0
+    time, tip, difference = converged_tip_deg(case)
+    return lambda at: np.interp(at, time, tip), difference
+
+
+def error_deg(answer: Answer, reference: Reference) -> float:
+    """Largest error of the tip within the 8 s; infinite where a method lost its way."""
+    time, tip = answer
+    within = time <= fast_turn().time_s[-1] + 1e-9
+    error = float(np.abs(tip[within] - reference(time[within])).max())
+    return error if math.isfinite(error) else math.inf
+
+
+def measure(case: Case, reference: Reference) -> list[Point]:
+    """Every method at every setting, in turns."""
+    settings = our_settings(case) | scipy_settings(case) | loop_settings(case)
+    errors = {key: error_deg(task(), reference) for key, task in settings.items()}
+    useful = {key: settings[key] for key, error in errors.items() if error < 1.0}
+    least = report.least_times_s(useful, turns=_TURNS)
+    return [
+        Point(case=case.name, method=m, setting=s, error_deg=errors[m, s], cpu_ms=1e3 * least[m, s])
+        for m, s in useful
+    ]
+
+
+def front(points: list[Point]) -> list[Point]:
+    """Points that no other beats in error and work, by falling error."""
+    best: list[Point] = []
+    for point in sorted(points, key=lambda p: (p.cpu_ms, p.error_deg)):
+        if not best or point.error_deg < best[-1].error_deg:
+            best.append(point)
+    return best
+
+
+def work_at_ms(points: list[Point], error: float) -> float:
+    """CPU time at an error, ms; NaN where no point is as good."""
+    best = front(points)
+    for i, point in enumerate(best):
+        if point.error_deg <= error:
+            if i == 0:
+                return point.cpu_ms
+            worse = best[i - 1]
+            share = math.log(worse.error_deg / error) / math.log(worse.error_deg / point.error_deg)
+            return worse.cpu_ms * (point.cpu_ms / worse.cpu_ms) ** share
+    return math.nan
+
+
+def _table(points: list[Point]) -> dict[str, list[float]]:
+    """CPU time at every target, ms, by method."""
+    methods = dict.fromkeys(point.method for point in points)
+    return {
+        m: [work_at_ms([p for p in points if p.method == m], target) for target in TARGETS_DEG]
+        for m in methods
+    }
+
+
+def _least(table: dict[str, list[float]], methods: tuple[str, ...]) -> Array:
+    return np.nanmin([table[method] for method in methods if method in table], axis=0)
+
+
+def _agreement(case: Case, reference: Reference, grids: float) -> dict[str, Any]:
+    """Our own converged run against the reference."""
+    ours = rollout_of(setup_of(case, elements=64, step_s=1e-3, arrangement=Arrangement.SIBLINGS))
+    default = rollout_of(setup_of(case))
+    return {
+        "tissue": case.name,
+        "reference": "closed form" if case is SMOOTH else "LSODA, 200 and 400 cells",
+        "its grids differ by, deg": grids,
+        "ours, n = 64, 1 ms, deg": error_deg(ours(), reference),
+        "ours, defaults, deg": error_deg(default(), reference),
+    }
+
+
+def _draw(points: list[Point], folder: Path) -> None:
+    figure, axes = plt.subplots(1, len(CASES), figsize=(16, 6), sharey=True, layout="constrained")
+    methods = list(dict.fromkeys(point.method for point in points))
+    colours = dict(zip(methods, plt.get_cmap("tab20").colors, strict=False))
+    for axis, case in zip(axes, CASES, strict=True):
+        for method in methods:
+            best = front([p for p in points if p.method == method and p.case == case.name])
+            if best:
+                x, y = [p.error_deg for p in best], [p.cpu_ms for p in best]
+                width = 2.5 if method in OURS else 1.0
+                axis.loglog(x, y, "o-", ms=3, lw=width, color=colours[method], label=method)
+        for target in TARGETS_DEG:
+            axis.axvline(target, color="0.85", lw=1, zorder=0)
+        axis.set(xlabel="largest tip error, deg", title=f"8 s in {case.name}", xlim=(1e-3, 1.0))
+    axes[0].set_ylabel("CPU time, ms")
+    axes[0].legend(fontsize=8)
+    report.save(figure, folder, "work_precision")
+
+
+def _goals(tables: dict[str, dict[str, list[float]]]) -> list[report.Goal]:
+    goals = []
+    for case, rivals, bound, text in (
+        (SMOOTH, (ODEINT, LSODA), SMOOTH_BOUND, "LSODA"),
+        (DRY, SCIPY, DRY_BOUND, "scipy's fastest"),
+    ):
+        table = tables[case.name]
+        ratio = float((_least(table, OURS) / _least(table, rivals)).max())
+        name = f"{case.name}: time over {text}, at the worst of {TARGETS_DEG} deg"
+        goals.append(report.Goal(name=name, measured=ratio, bound=bound))
+    return goals
+
+
+def _ratios(tables: dict[str, dict[str, list[float]]]) -> list[dict[str, Any]]:
+    """Our time over that of others, at equal error."""
+    groups = {
+        "LSODA, odeint": (ODEINT,),
+        "LSODA, solve_ivp": (LSODA,),
+        "LSODA, law in NumPy": (LSODA_NUMPY,),
+        "BDF or Radau": (BDF, RADAU),
+        "our kernel alone": (KERNEL,),
+    }
+    return [
+        {"tissue": case, "ours over": name}
+        | {
+            f"at {target:g} deg": float(ratio)
+            for target, ratio in zip(TARGETS_DEG, _least(table, OURS) / _least(table, rivals), strict=True)
+        }
+        for case, table in tables.items()
+        for name, rivals in groups.items()
+    ]
+
+
+def run(folder: Path) -> list[report.Goal]:
+    """Measure, print, write."""
+    points: list[Point] = []
+    agreement = []
+    for case in CASES:
+        reference, grids = reference_of(case)
+        agreement.append(_agreement(case, reference, grids))
+        points += measure(case, reference)
+    tables = {case.name: _table([p for p in points if p.case == case.name]) for case in CASES}
+    rows = [
+        {"tissue": case, "method": method}
+        | {f"ms at {target:g} deg": ms for target, ms in zip(TARGETS_DEG, work, strict=True)}
+        for case, table in tables.items()
+        for method, work in table.items()
+    ]
+    report.show("The references against our own converged run", agreement, folder, "references")
+    report.show("CPU time of the 8 s run at equal tip error", rows, folder, "work_precision")
+    report.show("Our CPU time over that of others", _ratios(tables), folder, "work_ratios")
+    report.write_csv([vars(point) for point in points], folder, "work_precision_points")
+    _draw(points, folder)
+    return _goals(tables)
+
+
+if __name__ == "__main__":
+    folder_ = report.out_folder(report.parser(__doc__))
+    report.show_goals(run(folder_), folder_)
