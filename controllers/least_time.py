@@ -1,0 +1,248 @@
+"""The controller that brings the tip home in the least time that the motor allows.
+
+When a new angle is wanted, a linear program plans the base's rate over the next
+moments: the tip, which is linear in the plan, has to be within `band` of the wanted
+angle from some time on, and never beyond it by more; the base rate and the torque
+stay within the motor's limits. The earliest such time is found by bisection, and of
+all plans that reach it the one with the least integral of tip error is taken. The
+plan is followed, corrected by what the estimator finds missing of it; when it has
+run out, a regulator holds the tip.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+from scipy.sparse import csr_array, eye_array, hstack, vstack
+
+from controllers.laws import BaseModes, Regulator
+from controllers.limits import LimitedBase, MotorLimits
+from controllers.signals import Command, Estimate, Sample, Status
+from models.drive import DriveKind
+from models.errors import InvalidValue
+from models.modes import InsertedNeedle
+from models.needle import Needle
+
+Array = NDArray[np.float64]
+
+_RAD = math.pi / 180.0
+_MODES = 10
+_LEAST_TURN_DEG = 3.0  # smaller wishes are left to the regulator
+_MOVING = 0.7  # share of the plan in which the base may move; the rest shows what follows
+
+
+class LeastTime:
+    """Plans the base by linear programming; see the module.
+
+    Args:
+      damping_n_mm_s_per_mm: beta of the plan; replaced by the estimate's where it learns.
+      band_deg: how near the tip has to come, and the most that it may overshoot.
+      steps: of the plan.
+
+    Raises:
+      InvalidValue: the band is not positive, or the plan has fewer than 10 steps.
+    """
+
+    def __init__(
+        self,
+        needle: Needle,
+        limits: MotorLimits,
+        *,
+        damping_n_mm_s_per_mm: float,
+        band_deg: float = 2.0,
+        steps: int = 120,
+    ) -> None:
+        if not (math.isfinite(band_deg) and band_deg > 0):
+            raise InvalidValue("band_deg", band_deg, "a finite number above 0")
+        if steps < 10:
+            raise InvalidValue("steps", steps, "at least 10")
+        self.needle, self.limits, self.band_deg, self.steps = needle, limits, band_deg, steps
+        self.damping = damping_n_mm_s_per_mm
+        self._base = LimitedBase(limits)
+        self._hold = Regulator(needle, limits, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget plan and command."""
+        self._base.reset()
+        self._hold.reset()
+        self._plan: Plan | None = None
+        self._wanted_deg = math.nan
+
+    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """Follow the plan for this wish; make one if the wish is new."""
+        if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(wanted_deg):
+            return self._base.toward(wanted_deg, sample, estimate.status)
+        if estimate.status is Status.OUTSIDE:
+            self._wanted_deg = math.nan
+            return self._base.toward(wanted_deg, sample, estimate.status)
+        if wanted_deg != self._wanted_deg:
+            self._wanted_deg = wanted_deg
+            self._plan = self._planned(wanted_deg, sample, estimate)
+            self._hold.reset()
+        if self._plan is None or sample.time_s >= self._plan.end_s:
+            return self._hold.command(wanted_deg, sample, estimate)
+        base, tip = self._plan.at(sample.time_s)
+        # What the estimate finds missing of the planned tip is added to the base.
+        return self._base.toward(base + (tip - estimate.tip_deg), sample, estimate.status)
+
+    def _planned(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> "Plan | None":
+        if abs(wanted_deg - estimate.tip_deg) < _LEAST_TURN_DEG:
+            return None
+        held = InsertedNeedle(
+            needle=self.needle,
+            damping_n_mm_s_per_mm=self.damping,
+            inserted_mm=sample.inserted_mm,
+            free_mm=sample.free_mm,
+            drive=DriveKind.ANGLE,
+        )
+        modes = BaseModes(held, _MODES, estimate.modes_deg.size)
+        base = self._base.base_deg if math.isfinite(self._base.base_deg) else sample.base_deg
+        lag = modes.lag_modes_rad(estimate, sample.base_deg) / _RAD
+        return plan(
+            modes,
+            start_s=sample.time_s,
+            base_deg=base,
+            lag_deg=lag,
+            wanted_deg=wanted_deg,
+            limits=self.limits,
+            band_deg=self.band_deg,
+            steps=self.steps,
+        )
+
+
+class Plan:
+    """A base motion and the tip that it gives, at equal steps."""
+
+    def __init__(self, start_s: float, step_s: float, base_deg: Array, tip_deg: Array, home_s: float) -> None:
+        self.times_s = start_s + step_s * np.arange(base_deg.size)
+        self.base_deg, self.tip_deg = base_deg, tip_deg
+        self.end_s = float(self.times_s[-1])
+        self.home_s = home_s
+        """Time from the start after which the tip stays within the band."""
+
+    def at(self, time_s: float) -> tuple[float, float]:
+        """Base and tip at a time, deg."""
+        return (
+            float(np.interp(time_s, self.times_s, self.base_deg)),
+            float(np.interp(time_s, self.times_s, self.tip_deg)),
+        )
+
+
+def plan(
+    modes: BaseModes,
+    *,
+    start_s: float,
+    base_deg: float,
+    lag_deg: Array,
+    wanted_deg: float,
+    limits: MotorLimits,
+    band_deg: float,
+    steps: int,
+) -> Plan | None:
+    """The base motion that brings the tip home first; None if none does within reach."""
+    horizon = _horizon_s(modes, abs(wanted_deg - base_deg) + float(np.abs(lag_deg).sum()), limits, band_deg)
+    dt = horizon / steps
+    free, response = _tip(modes, base_deg, lag_deg, dt, steps)
+    torque_free, torque_response = _torque(modes, lag_deg, dt, steps)
+    problem = _Problem(free, response, torque_free, torque_response, wanted_deg, limits, band_deg, dt)
+    first, last = 0, steps - 1
+    if problem.rates(last) is None:
+        return None
+    while last - first > 1:
+        middle = (first + last) // 2
+        first, last = (first, middle) if problem.rates(middle) is not None else (middle, last)
+    rates = problem.rates(last)
+    if rates is None:
+        return None
+    base = base_deg + dt * np.concatenate([[0.0], np.cumsum(rates)])
+    tip = np.concatenate([[base_deg + lag_deg.sum()], free + response @ rates])
+    return Plan(start_s, dt, base, tip, (last + 1) * dt)
+
+
+def _horizon_s(modes: BaseModes, turn_deg: float, limits: MotorLimits, band_deg: float) -> float:
+    """Long enough for the base alone to settle, and a turn there and back."""
+    settle = math.log(max(turn_deg, 2 * band_deg) / band_deg) / abs(float(modes.poles[0]))
+    return min(settle, 4.0) + 3 * turn_deg / limits.rate_deg_s
+
+
+def _tip(modes: BaseModes, base_deg: float, lag_deg: Array, dt: float, steps: int) -> tuple[Array, Array]:
+    """Tip at the ends of the steps: without a plan, and its response to rates."""
+    j = np.arange(1, steps + 1)
+    decay = np.exp(np.outer(j, modes.poles) * dt)
+    pulse = -modes.participation * np.expm1(modes.poles * dt) / modes.poles
+    # What the modes beyond these still lag: their static share of a steady rate.
+    kernel = dt + np.exp(np.outer(j - 1, modes.poles) * dt) @ pulse
+    response = np.tril(kernel[np.abs(np.subtract.outer(j, j))])
+    return base_deg + decay @ lag_deg, response
+
+
+def _torque(modes: BaseModes, lag_deg: Array, dt: float, steps: int) -> tuple[Array, Array]:
+    """Base torque, N mm, likewise."""
+    held = modes.held
+    w = held.wavenumbers_per_mm(modes.poles.size)
+    shape = -held.needle.rigidity_n_mm2 * w * np.sin(w * held.inserted_mm) * _RAD
+    j = np.arange(1, steps + 1)
+    decay = np.exp(np.outer(j, modes.poles) * dt)
+    pulse = -modes.participation * np.expm1(modes.poles * dt) / modes.poles
+    kernel = np.exp(np.outer(j - 1, modes.poles) * dt) @ (pulse * shape)
+    return decay @ (lag_deg * shape), np.tril(kernel[np.abs(np.subtract.outer(j, j))])
+
+
+class _Problem:
+    """min sum |wanted - tip| over base rates, with the tip home from a step on."""
+
+    def __init__(
+        self,
+        free: Array,
+        response: Array,
+        torque_free: Array,
+        torque_response: Array,
+        wanted_deg: float,
+        limits: MotorLimits,
+        band_deg: float,
+        dt: float,
+    ) -> None:
+        n = free.size
+        self._side = 1.0 if wanted_deg >= float(free[0]) else -1.0
+        self._error, self._response = wanted_deg - free, response
+        self._band, self._n = band_deg, n
+        moving = int(_MOVING * n)
+        rate = limits.rate_deg_s
+        self._moves = [(-rate, rate)] * moving + [(0.0, 0.0)] * (n - moving)
+        tip, torque, one = csr_array(response), csr_array(torque_response), eye_array(n)
+        none = csr_array((n, n))
+        # unknowns: rates, then |error|
+        self._matrix = vstack(
+            [
+                hstack([tip, -one]),
+                hstack([-tip, -one]),
+                hstack([torque, none]),
+                hstack([-torque, none]),
+            ]
+        ).tocsr()
+        self._bound = np.concatenate(
+            [
+                self._error,
+                -self._error,
+                limits.torque_n_mm - torque_free,
+                limits.torque_n_mm + torque_free,
+            ]
+        )
+        self._cost = np.concatenate([np.zeros(n), np.full(n, dt)])
+
+    def rates(self, home: int) -> Array | None:
+        """Base rates, deg/s, that have the tip home from step `home` on; None if none do."""
+        error_limit = np.full(self._n, np.inf)
+        error_limit[home:] = self._band
+        over = self._side * self._response
+        within = self._side * self._error + self._band  # never beyond the wish by more
+        solution = linprog(
+            self._cost,
+            A_ub=vstack([self._matrix, hstack([csr_array(over), csr_array((self._n, self._n))])]),
+            b_ub=np.concatenate([self._bound, within]),
+            bounds=[*self._moves, *((0, e) for e in error_limit)],
+            method="highs",
+        )
+        return np.asarray(solution.x[: self._n]) if solution.status == 0 else None
