@@ -2,10 +2,11 @@
 
 The states of the fast turn (20 cm needle, 90 deg in 0.3 s, steps of 10 ms) are
 recorded over its first second. A compiled loop then restores each of them with
-`mj_setState` and takes one `mj_step`: on the model as it is, and on a copy whose
-header is unmarked, so that the callback returns at once. What restoring costs is
+`mj_setState` and takes one `mj_step`: with the model as it is, and with its header
+unmarked, so that the callback returns at once. What restoring costs is
 measured alone and taken off. So both step the same states: a needle without tissue,
-left to itself, would soon be timed on zeros and denormals.
+left to itself, would soon be timed on zeros and denormals. The passive callback is
+also called alone; of the two measurements of it the greater is held to the goal.
 """
 
 import ctypes
@@ -59,8 +60,8 @@ class Cost:
 
     @property
     def share(self) -> float:
-        """Callback over bare step, percent."""
-        return 100 * self.callback_us / self.bare_us
+        """Callback over bare step, by the worse of its two measurements, percent."""
+        return 100 * max(self.callback_us, self.alone_us) / self.bare_us
 
 
 def _library() -> ctypes.CDLL:
@@ -111,12 +112,6 @@ def record_states(setup: Setup) -> tuple[mujoco.MjModel, Array]:
     return model, states
 
 
-def _without_callback(setup: Setup) -> mujoco.MjModel:
-    model = compile_model(setup)
-    model.numeric("needle").data[wire.H_MAGIC] = 0.0
-    return model
-
-
 def _stages_us(data: mujoco.MjData, whole_us: float) -> dict[str, float]:
     """MuJoCo's timers, scaled to the measured step."""
     kind = mujoco.mjtTimer
@@ -131,26 +126,30 @@ def _stages_us(data: mujoco.MjData, whole_us: float) -> dict[str, float]:
 
 
 def measure_one(setup: Setup, sweeps: dict[str, Sweep]) -> Cost:
-    """Bare and whole step of one model."""
+    """Bare and whole step of one model; its timers are of whole steps alone."""
     model, states = record_states(setup)
-    bare = _without_callback(setup)
-    data, bare_data = mujoco.MjData(model), mujoco.MjData(bare)
+    data = mujoco.MjData(model)
+    header = model.numeric("needle").data
 
-    def repeated(sweep: Sweep, m: mujoco.MjModel, d: mujoco.MjData) -> Callable[[], None]:
+    def repeated(sweep: Sweep, *, marked: bool = True) -> Callable[[], None]:
         def run() -> None:
+            header[wire.H_MAGIC] = wire.MAGIC if marked else 0.0
             for _ in range(_SWEEPS):
-                sweep(m._address, d._address, states)
+                sweep(model._address, data._address, states)
 
         return run
 
     tasks = {
-        "restored": repeated(sweeps["restored"], model, data),
-        "bare": repeated(sweeps["stepped"], bare, bare_data),
-        "whole": repeated(sweeps["stepped"], model, data),
-        "called": repeated(sweeps["called"], model, data),
+        "restored": repeated(sweeps["restored"]),
+        "bare": repeated(sweeps["stepped"], marked=False),
+        "whole": repeated(sweeps["stepped"]),
+        "called": repeated(sweeps["called"]),
     }
     least = report.least_times_s(tasks, turns=_TURNS)
-    _check(bare_data)
+    tasks["bare"]()
+    _check(data)
+    mujoco.mj_resetData(model, data)
+    tasks["whole"]()
     us = {name: 1e6 * seconds / (_SWEEPS * _STEPS) for name, seconds in least.items()}
     return Cost(
         arrangement=setup.discretisation.arrangement,
@@ -202,8 +201,8 @@ def run(folder: Path) -> list[report.Goal]:
             "n": c.elements,
             "bare step, us": c.bare_us,
             "callback adds, us": c.callback_us,
-            "of bare, %": c.share,
             "callback alone, us": c.alone_us,
+            "greater over bare, %": c.share,
         }
         for c in costs
     ]

@@ -122,8 +122,15 @@ def kernel_loop() -> Callable[[mujoco.MjModel, mujoco.MjData, Array], Array]:
 
     @njit
     def loop(
-        model: int, data: int, h: float, clock: Array, qpos: Array, ctrl: Array, user: Array,
-        force: Array, inputs: Array,
+        model: int,
+        data: int,
+        h: float,
+        clock: Array,
+        qpos: Array,
+        ctrl: Array,
+        user: Array,
+        force: Array,
+        inputs: Array,
     ) -> Array:
         nodes = qpos.size - 1
         at = user.size - (user.size - wire.CLOCK) // 2 + wire.B_ANGLES

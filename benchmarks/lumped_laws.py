@@ -72,8 +72,8 @@ def yielding_jacobian(
 ) -> Array:
     """Bands: 2 above, 3 below."""
     ones = np.ones(y.size // 2)
-    creep = ones / (stiffness * time_constant)
-    return _interleaved(spring, creep + 1.0 / damping, -ones / time_constant, creep, -ones / time_constant)
+    creep, relaxed = ones / (stiffness * time_constant), -ones / time_constant
+    return _interleaved(spring, creep + 1.0 / damping, relaxed, creep, relaxed)
 
 
 def dry_rate(

@@ -152,9 +152,7 @@ def _jacobian_for(system: Equations, method: str) -> dict[str, Any]:
 
 def by_modes(count: int) -> Answer:
     """The exact propagator of `models.modes`, each mode as one recursive filter."""
-    needle = InsertedNeedle(
-        needle=NITINOL, damping_n_mm_s_per_mm=DAMPING, inserted_mm=LENGTH_MM
-    )
+    needle = InsertedNeedle(needle=NITINOL, damping_n_mm_s_per_mm=DAMPING, inserted_mm=LENGTH_MM)
     time = np.linspace(0.0, END_S, _SAMPLES)
     base = ramp(time, by=TURN_RAD, duration_s=TURN_S)
     rate = np.diff(base, prepend=0.0) / time[1]
@@ -169,9 +167,7 @@ def by_modes(count: int) -> Answer:
 
 def exact_tip_deg(time_s: Array) -> Array:
     """The closed form in viscous tissue, at any times, deg."""
-    needle = InsertedNeedle(
-        needle=NITINOL, damping_n_mm_s_per_mm=DAMPING, inserted_mm=LENGTH_MM
-    )
+    needle = InsertedNeedle(needle=NITINOL, damping_n_mm_s_per_mm=DAMPING, inserted_mm=LENGTH_MM)
     every = np.union1d(time_s, [0.0, TURN_S])
     response = needle.respond(every, ramp(every, by=TURN_RAD, duration_s=TURN_S), count=200)
     return np.degrees(response.tip_rad[np.searchsorted(every, time_s)])

@@ -6,7 +6,8 @@ angle from some time on, and never beyond it by more; the base rate and the torq
 stay within the motor's limits. The earliest such time is found by bisection, and of
 all plans that reach it the one with the least integral of tip error is taken. The
 plan is followed, corrected by what the estimator finds missing of it; when it has
-run out, a regulator holds the tip.
+run out, a regulator holds the tip. A plan that the tip does not follow rests on a
+wrong model: it is dropped, and the compensator brings the tip home.
 """
 
 import math
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.sparse import csr_array, eye_array, hstack, vstack
 
-from controllers.laws import BaseModes, Regulator
+from controllers.laws import BaseModes, Compensator, Regulator
 from controllers.limits import LimitedBase, MotorLimits
 from controllers.signals import Command, Estimate, Sample, Status
 from models.drive import DriveKind
@@ -29,6 +30,7 @@ Array = NDArray[np.float64]
 _RAD = math.pi / 180.0
 _MODES = 10
 _LEAST_TURN_DEG = 3.0  # smaller wishes are left to the regulator
+_LOST_DEG = 5.0  # a plan that the estimated tip misses by more is dropped
 _MOVING = 0.7  # share of the plan in which the base may move; the rest shows what follows
 
 
@@ -60,6 +62,7 @@ class LeastTime:
         self.needle, self.limits, self.band_deg, self.steps = needle, limits, band_deg, steps
         self.damping = damping_n_mm_s_per_mm
         self._base = LimitedBase(limits)
+        self._rescue = Compensator(limits, gain=1.5)
         self._hold = Regulator(needle, limits, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm)
         self.reset()
 
@@ -67,6 +70,8 @@ class LeastTime:
         """Forget plan and command."""
         self._base.reset()
         self._hold.reset()
+        self._rescue.reset()
+        self._lost = False
         self._plan: Plan | None = None
         self._wanted_deg = math.nan
 
@@ -80,19 +85,27 @@ class LeastTime:
         if wanted_deg != self._wanted_deg:
             self._wanted_deg = wanted_deg
             self._plan = self._planned(wanted_deg, sample, estimate)
+            self._lost = False
             self._hold.reset()
+        if self._lost:
+            return self._rescue.command(wanted_deg, sample, estimate)
         if self._plan is None or sample.time_s >= self._plan.end_s:
             return self._hold.command(wanted_deg, sample, estimate)
         base, tip = self._plan.at(sample.time_s)
+        if abs(tip - estimate.tip_deg) > _LOST_DEG:
+            self._lost = True
+            self._rescue.reset()
+            return self._rescue.command(wanted_deg, sample, estimate)
         # What the estimate finds missing of the planned tip is added to the base.
         return self._base.toward(base + (tip - estimate.tip_deg), sample, estimate.status)
 
     def _planned(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> "Plan | None":
         if abs(wanted_deg - estimate.tip_deg) < _LEAST_TURN_DEG:
             return None
+        learnt = estimate.damping_n_mm_s_per_mm
         held = InsertedNeedle(
             needle=self.needle,
-            damping_n_mm_s_per_mm=self.damping,
+            damping_n_mm_s_per_mm=learnt if math.isfinite(learnt) else self.damping,
             inserted_mm=sample.inserted_mm,
             free_mm=sample.free_mm,
             drive=DriveKind.ANGLE,

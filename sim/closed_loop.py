@@ -40,6 +40,10 @@ class Pilot(Protocol):
     def __call__(self, reading: Reading, wanted_deg: float) -> float:
         """The base angle for the next step."""
 
+    @property
+    def advance_mm(self) -> float:
+        """Axial motion wanted beside the scheduled one, mm: a retraction is negative."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SensorNoise:
@@ -96,6 +100,7 @@ def fly(
     angles = np.zeros((wished.time_s.size, model.nq - 1))
     drive = np.zeros(wished.time_s.size)
     kept: list[dict[str, float]] = []
+    extra = 0.0
     for i in range(wished.time_s.size):
         if i:
             data.ctrl[:] = ctrl[i]
@@ -110,6 +115,10 @@ def fly(
         if i + 1 < drive.size:
             drive[i + 1] = wanted
             ctrl[i + 1, wire.U_DRIVE] = wanted * units.DEG
+            advance, before = pilot.advance_mm * units.MM, extra
+            extra = advance
+            ctrl[i + 1, wire.U_CARRIAGE] += extra
+            ctrl[i + 1, wire.U_SPEED] += (extra - before) / step
     flown = Schedule(**{**_columns(wished), "drive": drive})
     log = {name: np.array([row[name] for row in kept]) for name in (kept[0] if kept else {})}
     run = Run(setup=setup, inputs=flown, outputs=outputs, angles_rad=angles if keep_shape else None)

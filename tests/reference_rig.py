@@ -137,6 +137,7 @@ class Step:
         self.step_s = time_s - now.time_s
         self.layout = mesh.layout(time_s, self.step_s)
         self.limit = rig.presliding_rad
+        self.steepest_fall = math.inf
         self.tip_torque = drive.at(time_s, drive.tip_torque_n_mm)
         self.axial_travel = self.mean_speed() * self.step_s / rig.radius_mm
         self.remember(before)
@@ -272,9 +273,9 @@ class Step:
         angle, twist = self.guess
         for _ in range(DESCENTS):
             _, angle, twist = self.iterated(angle, twist, 0, 40, steepest_fall=0.0)
-            found, *near = self.iterated(angle, twist, 0, 15)
+            found, near_angle, near_twist = self.iterated(angle, twist, 0, 15)
             if found:
-                return self.finished(*near)
+                return self.finished(near_angle, near_twist)
         return None
 
     def iterated(

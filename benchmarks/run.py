@@ -1,0 +1,28 @@
+"""Every benchmark, and one table of goals: `python -m benchmarks.run --out DIR`.
+
+About two minutes, and half a minute more where PyElastica is found.
+"""
+
+import time
+from pathlib import Path
+
+from benchmarks import callback, pyelastica, report, work_precision
+
+
+def main() -> None:
+    """Run all, print, and write CSV and PNG."""
+    parser = report.parser(__doc__)
+    pyelastica.add_option(parser)
+    options = parser.parse_args()
+    folder, start = Path(options.out), time.perf_counter()
+    goals = [
+        *callback.run(folder),
+        *work_precision.run(folder),
+        *pyelastica.run(folder, options.elastica_python),
+    ]
+    report.show_goals(goals, folder)
+    report.say(f"{time.perf_counter() - start:.0f} s; tables and pictures in {folder}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,146 @@
+"""A controller for dry friction: overshoot, stop, unwind; retract if that is not enough.
+
+Dry friction holds a lag that no waiting removes. The base therefore
+
+1. overshoots by the compensator's law, and winds on at a rate proportional to what
+   is missing of the tip, until the estimate is within `dead_band` of the wish;
+2. then unwinds half of the lag that it holds: less than friction lets the tip notice
+   (reversal has to unwind the shaft from the base on), so the tip stays and the
+   torque that a later slip could release is halved;
+3. asks for a short retraction and reinsertion where the lag can be wound no further
+   (winding or torque at their limit): sliding axially frees a shaft (Section II-B3).
+
+In viscous tissue nothing is held, and 2 and 3 do not arise.
+"""
+
+import math
+from enum import StrEnum
+
+from controllers.limits import LimitedBase, MotorLimits
+from controllers.signals import Command, Estimate, Sample, Status
+from models.errors import InvalidValue
+
+_UNWOUND = 0.5  # share of the held lag that is unwound
+_HELD_LAG_DEG = 2.0  # a lag below this is not worth unwinding
+
+
+class Phase(StrEnum):
+    """What the controller is about."""
+
+    WINDING = "winding"
+    RESTING = "resting"
+    UNWINDING = "unwinding"
+    RETRACTING = "retracting"
+
+
+class FrictionAware:
+    """See the module.
+
+    Args:
+      gain: overshoot over the estimated error of the tip.
+      winding_per_s: rate of winding on, over the error that is left.
+      dead_band_deg: error of the tip that is good enough.
+      most_winding_deg: how far beyond the compensator's law the base may wind.
+      rest_s: time for which the tip has to stay home before the base unwinds.
+      retract_mm: length of a retraction; 0: never ask for one.
+
+    Raises:
+      InvalidValue: one of them is not positive (gain and retraction may be 0).
+    """
+
+    def __init__(
+        self,
+        limits: MotorLimits,
+        *,
+        gain: float = 1.5,
+        winding_per_s: float = 4.0,
+        dead_band_deg: float = 0.5,
+        most_winding_deg: float = 120.0,
+        rest_s: float = 0.5,
+        retract_mm: float = 5.0,
+    ) -> None:
+        for name, value, least in (
+            ("gain", gain, 0.0),
+            ("winding_per_s", winding_per_s, 1e-9),
+            ("dead_band_deg", dead_band_deg, 1e-9),
+            ("most_winding_deg", most_winding_deg, 1e-9),
+            ("rest_s", rest_s, 1e-9),
+            ("retract_mm", retract_mm, 0.0),
+        ):
+            if not (math.isfinite(value) and value >= least):
+                raise InvalidValue(name, value, "a finite number above 0")
+        self._base, self.gain, self.winding_per_s = LimitedBase(limits), gain, winding_per_s
+        self.dead_band_deg, self.most_winding_deg = dead_band_deg, most_winding_deg
+        self.rest_s, self.retract_mm = rest_s, retract_mm
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget winding and phase."""
+        self._base.reset()
+        self.phase = Phase.WINDING
+        self._wound_deg = 0.0
+        self._rest_deg = 0.0
+        self._wanted_deg = math.nan
+        self._time_s = self._since_s = math.nan
+
+    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """Wind, rest, unwind or ask for a retraction."""
+        if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(wanted_deg):
+            return self._base.toward(wanted_deg, sample, estimate.status)
+        if wanted_deg != self._wanted_deg:
+            self._wanted_deg, self._wound_deg = wanted_deg, 0.0
+            self._enter(Phase.WINDING, sample)
+        dt = sample.time_s - self._time_s if math.isfinite(self._time_s) else 0.0
+        self._time_s = sample.time_s
+        missing = wanted_deg - estimate.tip_deg
+        if self.phase is Phase.WINDING:
+            return self._wind(wanted_deg, missing, dt, sample, estimate)
+        if self.phase is Phase.RETRACTING:
+            return self._retract(wanted_deg, sample, estimate)
+        return self._rest(missing, sample, estimate)
+
+    def _enter(self, phase: Phase, sample: Sample) -> None:
+        self.phase, self._since_s = phase, sample.time_s
+
+    def _wind(
+        self, wanted_deg: float, missing: float, dt: float, sample: Sample, estimate: Estimate
+    ) -> Command:
+        if abs(missing) <= self.dead_band_deg:
+            self._rest_deg = self._base.base_deg
+            self._enter(Phase.RESTING, sample)
+            return self._base.toward(self._rest_deg, sample, estimate.status)
+        near = abs(missing) < 10 * self.dead_band_deg
+        if near:
+            self._wound_deg += self.winding_per_s * missing * dt
+        command = self._base.toward(
+            wanted_deg + self.gain * missing + self._wound_deg, sample, estimate.status
+        )
+        spent = command.torque_limited or abs(self._wound_deg) >= self.most_winding_deg
+        if spent and self.retract_mm > 0:
+            self._enter(Phase.RETRACTING, sample)
+        return command
+
+    def _rest(self, missing: float, sample: Sample, estimate: Estimate) -> Command:
+        # Unwound, the torque no longer tells the lag that friction holds: the base waits
+        # for the next wish, whatever the estimate says.
+        if self.phase is Phase.UNWINDING:
+            return self._base.toward(self._rest_deg, sample, estimate.status)
+        if abs(missing) > 3 * self.dead_band_deg:
+            # What has been wound so far is kept: the base goes on from where it is.
+            self._wound_deg = self._base.base_deg - self._wanted_deg - self.gain * missing
+            self._enter(Phase.WINDING, sample)
+        elif sample.time_s - self._since_s >= self.rest_s:
+            held = self._base.base_deg - estimate.tip_deg
+            if abs(held) > _HELD_LAG_DEG:
+                self._rest_deg -= _UNWOUND * held
+            self._enter(Phase.UNWINDING, sample)
+        return self._base.toward(self._rest_deg, sample, estimate.status)
+
+    def _retract(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """Out for a second, in for a second, with the base at the wish."""
+        passed = sample.time_s - self._since_s
+        if passed >= 2.0:
+            self._wound_deg = 0.0
+            self._enter(Phase.WINDING, sample)
+        advance = -self.retract_mm * min(passed, max(2.0 - passed, 0.0))
+        return self._base.toward(wanted_deg, sample, estimate.status, advance)

@@ -1,0 +1,233 @@
+"""Tables IV and V on the MuJoCo needle, and how they stand up to what is not modelled.
+
+The wish steps by 90 deg. Settling is the time after which the tip stays within
+3 deg; the integral is that of (wish - tip) over 2 s, signed. Both readings of the
+free length are run: none, and the 50 mm of the paper's set-up, which grow as the
+needle retracts at 2.5 mm/s.
+"""
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from models import published
+from models.materials import MATERIALS, slope_per_mm
+from models.needle import NITINOL
+from models.tissue import Interface, Layer, Tissue
+from sim.closed_loop import Flight, SensorNoise, fly
+from sim.control.pilots import Design, pilot_named
+from sim.crosscheck.paper import integral_deg_s, settling_s
+from sim.discretisation import Discretisation
+from sim.schedule import Schedule
+from sim.spec import Setup
+
+DEPTHS_CM = (5.0, 10.0, 20.0)
+FREE_MM = (0.0, 50.0)
+CONTROLLERS = (
+    "base_only",
+    "base_only_at_limit",
+    "feedforward",
+    "feedback",
+    "paper_reading",
+    "lqr",
+    "least_time",
+)
+_PUBLISHED = ("base_only", "feedforward", "feedback")
+_WISH_DEG, _START_S, _HOLD_S = 90.0, 0.1, 9.0
+_SPEED_MM_S = -2.5
+_STEP_S = 0.002
+DAMPING = slope_per_mm(dict(published.DAMPING_PLASTISOL_N_MM_S))
+DESIGN = Design(needle=NITINOL, damping_n_mm_s_per_mm=DAMPING)
+# What sensors of the paper's rig may add: encoder, six-axis force sensor, Hall sensor.
+NOISE = SensorNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """One controller on one needle.
+
+    Attributes:
+      settle_s: NaN where the tip does not settle within 9 s.
+      settle_better, integral_better: improvement on base_only, %.
+      published_settle_s, published_integral_deg_s: of the paper, where it has them.
+    """
+
+    tissue: str
+    depth_cm: float
+    free_mm: float
+    controller: str
+    settle_s: float
+    integral_deg_s: float
+    overshoot_deg: float
+    largest_base_deg: float
+    settle_better: float
+    integral_better: float
+    published_settle_s: float = math.nan
+    published_integral_deg_s: float = math.nan
+
+    @property
+    def worse_than_none(self) -> bool:
+        """Whether the needle is worse off than with the base alone."""
+        slower = self.settle_better < 0 or self.integral_better < 0
+        return self.controller != "base_only" and (slower or self.overshoot_deg > _WORST_OVERSHOOT_DEG)
+
+
+_WORST_OVERSHOOT_DEG = 10.0
+
+
+def wish(depth_mm: float, free_mm: float, *, speed_mm_s: float) -> Schedule:
+    """A step of the wanted tip angle, at a depth, while the needle slides."""
+    time = np.array([0.0, _START_S, _START_S + 1e-6, _START_S + _HOLD_S])
+    return Schedule(
+        time_s=time,
+        drive=np.array([0.0, 0.0, _WISH_DEG, _WISH_DEG]),
+        free_mm=free_mm - speed_mm_s * time,
+        inserted_mm=np.full(4, depth_mm),
+        speed_mm_s=np.full(4, speed_mm_s),
+    )
+
+
+def turn(
+    controller: str,
+    *,
+    depth_cm: float,
+    free_mm: float,
+    tissue: Tissue,
+    design: Design = DESIGN,
+    noise: SensorNoise | None = NOISE,
+) -> Flight:
+    """One turn of the tip by one controller."""
+    pilot = pilot_named(controller, design)
+    setup = Setup(
+        needle=design.needle,
+        tissue=tissue,
+        discretisation=Discretisation(step_s=_STEP_S),
+        free_mm=free_mm,
+        inserted_mm=10 * depth_cm,
+    )
+    speed = _SPEED_MM_S if free_mm > 0 else 0.0
+    inputs = wish(10 * depth_cm, free_mm, speed_mm_s=speed)
+    return fly(setup, inputs, pilot, noise=noise, keep=pilot.log)
+
+
+def judge(flight: Flight) -> tuple[float, float, float, float]:
+    """Settling, s; integral, deg s; overshoot of the tip and largest base angle, deg."""
+    after = flight.run.time_s >= _START_S - 1e-9
+    time, error = flight.run.time_s[after], _WISH_DEG - flight.run.tip_deg[after]
+    return (
+        settling_s(time, error),
+        integral_deg_s(time, error),
+        max(0.0, float(-error.min())),
+        float(flight.run.inputs.drive.max()),
+    )
+
+
+def compare(
+    tissue: Tissue,
+    *,
+    depth_cm: float,
+    free_mm: float,
+    controllers: tuple[str, ...] = CONTROLLERS,
+    design: Design = DESIGN,
+) -> list[Outcome]:
+    """Every controller on one needle; the first is what the others are measured by."""
+    found: list[Outcome] = []
+    for name in controllers:
+        flight = turn(name, depth_cm=depth_cm, free_mm=free_mm, tissue=tissue, design=design)
+        settle, integral, overshoot, base = judge(flight)
+        reference = found[0] if found else None
+        found.append(
+            Outcome(
+                tissue=tissue.name,
+                depth_cm=depth_cm,
+                free_mm=free_mm,
+                controller=name,
+                settle_s=settle,
+                integral_deg_s=integral,
+                overshoot_deg=overshoot,
+                largest_base_deg=base,
+                settle_better=_better(settle, reference.settle_s if reference else settle),
+                integral_better=_better(integral, reference.integral_deg_s if reference else integral),
+                published_settle_s=_printed(published.TABLE_IV_SETTLE_S, depth_cm, name),
+                published_integral_deg_s=_printed(published.TABLE_V_INTEGRAL_DEG_S, depth_cm, name),
+            )
+        )
+    return found
+
+
+def _better(value: float, reference: float) -> float:
+    """Improvement, %: 100 if only the reference never settles, -100 if only this one."""
+    if math.isnan(reference):
+        return 0.0 if math.isnan(value) else 100.0
+    return -100.0 if math.isnan(value) else 100.0 * (1.0 - value / reference)
+
+
+def _printed(table: Any, depth_cm: float, controller: str) -> float:
+    if controller not in _PUBLISHED or depth_cm not in table:
+        return math.nan
+    return float(table[depth_cm][_PUBLISHED.index(controller)])
+
+
+def tables() -> list[Outcome]:
+    """Tables IV and V: every depth, both readings of the free length."""
+    viscous = MATERIALS["viscous-plastisol"]
+    return [
+        outcome
+        for depth in DEPTHS_CM
+        for free in FREE_MM
+        for outcome in compare(viscous, depth_cm=depth, free_mm=free)
+    ]
+
+
+def unmodelled() -> dict[str, Tissue]:
+    """Tissues that the estimator takes for the paper's viscous one."""
+    halves = 2.0 / (1.0 + 4.0)
+    return {
+        tissue.name: tissue
+        for tissue in (
+            Tissue.uniform(name="damping x 1.5", viscous_n_mm_s_per_mm=1.5 * DAMPING),
+            Tissue.uniform(name="damping x 0.5", viscous_n_mm_s_per_mm=0.5 * DAMPING),
+            MATERIALS["soft-plastisol"],
+            Tissue(
+                name="deep layer 4 x",
+                layers=(
+                    Layer(
+                        interface=Interface(viscous_n_mm_s_per_mm=halves * DAMPING), fraction=0.5
+                    ),
+                    Layer(interface=Interface(viscous_n_mm_s_per_mm=4 * halves * DAMPING)),
+                ),
+            ),
+            Tissue.uniform(
+                name="dry friction", viscous_n_mm_s_per_mm=DAMPING, kinetic_n_mm_per_mm=0.006
+            ),
+        )
+    }
+
+
+ROBUST_CONTROLLERS = (
+    "base_only",
+    "feedforward",
+    "adaptive",
+    "feedback",
+    "lqr",
+    "least_time",
+    "friction_aware",
+)
+
+
+def robustness(depth_cm: float = 10.0, free_mm: float = 50.0) -> list[Outcome]:
+    """The same turn where the tissue is not what the estimator takes it for."""
+    return [
+        outcome
+        for tissue in unmodelled().values()
+        for outcome in compare(
+            tissue, depth_cm=depth_cm, free_mm=free_mm, controllers=ROBUST_CONTROLLERS
+        )
+    ]
+
+
+def as_row(outcome: Outcome) -> dict[str, Any]:
+    """Plain values."""
+    return asdict(outcome) | {"worse_than_none": outcome.worse_than_none}
