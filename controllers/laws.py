@@ -156,7 +156,9 @@ class Regulator:
         dt = sample.time_s - self._time_s if math.isfinite(self._time_s) else 0.0
         self._time_s = sample.time_s
         modes, gain = self.design(sample, estimate.modes_deg.size)
-        state = np.concatenate([[(base - wanted_deg) * _RAD], modes.lag_modes_rad(estimate, sample.base_deg)])
+        state = np.concatenate(
+            [[(base - wanted_deg) * _RAD], modes.lag_modes_rad(estimate, sample.base_deg)]
+        )
         rate_deg_s = -float(gain @ state) / _RAD
         return self._base.toward(base + rate_deg_s * dt, sample, estimate.status)
 

@@ -128,7 +128,9 @@ class LeastTime:
 class Plan:
     """A base motion and the tip that it gives, at equal steps."""
 
-    def __init__(self, start_s: float, step_s: float, base_deg: Array, tip_deg: Array, home_s: float) -> None:
+    def __init__(
+        self, start_s: float, step_s: float, base_deg: Array, tip_deg: Array, home_s: float
+    ) -> None:
         self.times_s = start_s + step_s * np.arange(base_deg.size)
         self.base_deg, self.tip_deg = base_deg, tip_deg
         self.end_s = float(self.times_s[-1])
@@ -155,7 +157,9 @@ def plan(
     steps: int,
 ) -> Plan | None:
     """The base motion that brings the tip home first; None if none does within reach."""
-    horizon = _horizon_s(modes, abs(wanted_deg - base_deg) + float(np.abs(lag_deg).sum()), limits, band_deg)
+    horizon = _horizon_s(
+        modes, abs(wanted_deg - base_deg) + float(np.abs(lag_deg).sum()), limits, band_deg
+    )
     dt = horizon / steps
     free, response = _tip(modes, base_deg, lag_deg, dt, steps)
     torque_free, torque_response = _torque(modes, lag_deg, dt, steps)
@@ -180,7 +184,9 @@ def _horizon_s(modes: BaseModes, turn_deg: float, limits: MotorLimits, band_deg:
     return min(settle, 4.0) + 3 * turn_deg / limits.rate_deg_s
 
 
-def _tip(modes: BaseModes, base_deg: float, lag_deg: Array, dt: float, steps: int) -> tuple[Array, Array]:
+def _tip(
+    modes: BaseModes, base_deg: float, lag_deg: Array, dt: float, steps: int
+) -> tuple[Array, Array]:
     """Tip at the ends of the steps: without a plan, and its response to rates."""
     j = np.arange(1, steps + 1)
     decay = np.exp(np.outer(j, modes.poles) * dt)

@@ -35,7 +35,9 @@ class LimitedBase:
         """The last command, deg; NaN before the first."""
         return self._base_deg
 
-    def toward(self, wanted_deg: float, sample: Sample, status: Status, advance_mm: float = 0.0) -> Command:
+    def toward(
+        self, wanted_deg: float, sample: Sample, status: Status, advance_mm: float = 0.0
+    ) -> Command:
         """The nearest command to the wanted base angle that the limits allow.
 
         A sample that could not be used, or a wanted angle that is no number, holds the base.

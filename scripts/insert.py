@@ -5,6 +5,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from sim.control.flown import perform_flown
 from sim.experiment import perform
 from sim.files import refuse_existing, write_text
 from sim.paper_protocols import PROTOCOLS, protocol_named
@@ -25,8 +26,16 @@ _MJCF_NOTE = """<!--
 """
 
 
-def run(name: str, folder: Path, *, mjcf: Path | None, force: bool, console: Console) -> int:
-    """Simulate the protocol of a name or of a YAML file."""
+def run(
+    name: str,
+    folder: Path,
+    *,
+    controller: str | None,
+    mjcf: Path | None,
+    force: bool,
+    console: Console,
+) -> int:
+    """Simulate the protocol of a name or of a YAML file, flown by a controller if one is named."""
     protocol = find(name)
     paths = output_paths(folder, protocol)
     refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
@@ -35,7 +44,7 @@ def run(name: str, folder: Path, *, mjcf: Path | None, force: bool, console: Con
         write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
         console.print(f"model      {mjcf}", highlight=False)
     with console.status(f"simulating {protocol.name}"):
-        recording = perform(protocol)
+        recording = perform_flown(protocol, controller) if controller else perform(protocol)
     for path in write(recording, folder, protocol, force=force):
         console.print(f"wrote      {path}", highlight=False)
     console.print(summary(protocol, recording))
@@ -67,8 +76,14 @@ def findings(recording: Recording) -> list[str]:
     """What the run came to, a line each."""
     lag = abs(recording["base_angle_deg"] - recording["tip_angle_deg"])
     at = recording["time_s"][lag.argmax()]
+    lines: list[str] = []
+    if "wanted_tip_deg" in recording.table:
+        missed = abs(recording["wanted_tip_deg"] - recording["tip_angle_deg"])[-1]
+        wrong = abs(recording["estimate_tip_deg"] - recording["tip_angle_deg"]).max()
+        lines += [f"tip short of the wish at the end: {missed:.2f} deg"]
+        lines += [f"largest error of the estimate: {wrong:.2f} deg"]
     failed = int(recording["unconverged_count"][-1])
-    lines = [
+    lines += [
         f"largest lag of the tip: {lag.max():.1f} deg, at {at:.2f} s",
         f"lag at the end: {lag[-1]:.2f} deg",
         f"largest base torque: {abs(recording['base_torque_n_mm']).max():.3f} N mm",

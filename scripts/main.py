@@ -27,6 +27,11 @@ def parser() -> argparse.ArgumentParser:
     insert.add_argument(
         "--protocol", default="insertion", help="a name from `needle protocols`, or a YAML file"
     )
+    insert.add_argument(
+        "--controller",
+        metavar="NAME",
+        help="fly it: the protocol's base angle becomes the wanted tip angle",
+    )
     insert.add_argument("--mjcf", type=Path, metavar="FILE", help="write the model for MuJoCo's viewer")
     _add_output(insert, default=Path("out/insert"))
 
@@ -34,6 +39,9 @@ def parser() -> argparse.ArgumentParser:
 
     validate = commands.add_parser("validate", help="hold the simulation to closed forms")
     _add_output(validate, default=None)
+
+    control = commands.add_parser("control", help="estimators and controllers: Tables IV and V")
+    _add_output(control, default=Path("out/control"))
 
     replay = commands.add_parser("replay", help="replay a rig's log on the nominal needle")
     replay.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
@@ -67,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(args: argparse.Namespace, console: Console) -> int:
     # Imported here: `needle --help` need not wait for MuJoCo.
-    from scripts import demo, insert, inspect, replay, validate
+    from scripts import control, demo, insert, inspect, replay, validate
 
     match args.command:
         case "demo":
@@ -78,6 +86,8 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             return insert.list_protocols(console)
         case "validate":
             return validate.run(args.out, force=args.force, console=console)
+        case "control":
+            return control.run(args.out, force=args.force, console=console)
         case "replay":
             return replay.run(args.log, args.out, force=args.force, console=console)
         case _:

@@ -41,6 +41,10 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "base_torque_n_mm": ("base torque", [31, 119, 180]),
         "friction_n_mm": ("friction of the tissue", [148, 103, 189]),
     },
+    "limits": {
+        "rate_limited_count": ("at the motor's rate", [188, 189, 34]),
+        "torque_limited_count": ("at the motor's torque", [227, 119, 194]),
+    },
     "lengths": {
         "inserted_mm": ("inserted", [140, 86, 75]),
         "free_mm": ("free", [127, 127, 127]),
@@ -71,6 +75,7 @@ def log_recording(
                         stream, f"{plot}/{name}", label, recording["time_s"], recording[name], colour
                     )
         _log_modes(stream, recording)
+        _log_path(stream, recording)
         _log_shaft(stream, recording)
         stream.disconnect()
 
@@ -88,6 +93,9 @@ def blueprint(recording: Recording) -> Any:
         left.append(rrb.BarChartView(origin="/profile/shaft", name="Lag behind the base, deg"))
     if recording.group("tissue").size:
         left.append(rrb.BarChartView(origin="/profile/tissue", name="Twist of the tissue, deg"))
+    if "rate_limited_count" in recording.table:
+        plots.append(rrb.TimeSeriesView(origin="/limits", name="Limits reached"))
+        plots.append(rrb.TimeSeriesView(origin="/estimate", name="Modes of the estimator, deg"))
     text = rrb.TextDocumentView(origin="/about", name="About")
     return rrb.Blueprint(
         rrb.Horizontal(
@@ -191,6 +199,27 @@ def _log_modes(stream: rr.RecordingStream, recording: Recording) -> None:
         log_series(stream, f"modes/{k + 1}", label, recording["time_s"], amplitudes[:, k], colour)
 
 
+def _log_path(stream: rr.RecordingStream, recording: Recording) -> None:
+    """The path of a steered tip, growing as it goes, and what the estimator says of modes."""
+    for name in recording.table.columns:
+        if str(name).startswith("estimate_mode_"):
+            k, values = str(name).split("_")[2], recording[str(name)]
+            log_series(
+                stream, f"estimate/{k}", f"mode {k}", recording["time_s"], values, [127, 127, 127]
+            )
+    names = ("path_x_mm", "path_y_mm", "path_z_mm")
+    if not all(name in recording.table for name in names):
+        return
+    path = np.stack([recording[name] for name in names], axis=-1)
+    stream.log("world/path", rr.LineStrips3D([path], radii=0.4, colors=[[214, 39, 40]]), static=True)
+    every = np.unique(np.linspace(0, len(path) - 1, _FRAMES_PER_S * 20).astype(int))
+    stream.send_columns(
+        "world/tip",
+        indexes=[time_column(recording["time_s"][every])],
+        columns=rr.Points3D.columns(positions=path[every], radii=np.full(every.size, 1.5)),
+    )
+
+
 def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
     """The shaft, arrows that show its twist, coloured by lag, and the tissue as a box."""
     angles = recording.group("shaft")
@@ -256,7 +285,11 @@ def _log_tissue_box(stream: rr.RecordingStream, recording: Recording, frames: An
     depth = np.maximum(recording["inserted_mm"], 0.1)[frames]
     half = np.stack([0.5 * depth, np.full(depth.size, 12.0), np.full(depth.size, 12.0)], axis=-1)
     centre = np.stack([0.5 * depth, np.zeros(depth.size), np.zeros(depth.size)], axis=-1)
-    stream.log("world/tissue", rr.Boxes3D.from_fields(colors=[[214, 160, 140]], fill_mode="majorwireframe"), static=True)
+    stream.log(
+        "world/tissue",
+        rr.Boxes3D.from_fields(colors=[[214, 160, 140]], fill_mode="majorwireframe"),
+        static=True,
+    )
     stream.send_columns(
         "world/tissue",
         indexes=[stamps],

@@ -263,8 +263,8 @@ class Step:
     def solved(self) -> State | None:
         """The state at the end of the step: by full Newton steps, else by damped ones, else by descent.
 
-        Friction that falls faster with the slip rate than viscous torque rises has several balances. Without
-        its falling slope, the steps descend to a stable one.
+        Friction that falls faster with the slip rate than viscous torque rises has several balances.
+        Without its falling slope, the steps descend to a stable one.
         """
         for most_halvings, most_iterations in ((0, 20), (6, 40)):
             found, angle, twist = self.iterated(*self.guess, most_halvings, most_iterations)

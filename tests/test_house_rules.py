@@ -12,7 +12,7 @@ PACKAGES = ("models", "sim", "controllers", "diagnosis", "scripts", "benchmarks"
 MAY_IMPORT = {
     "models": {"models"},
     "controllers": {"controllers", "models"},
-    "sim": {"sim", "models"},
+    "sim": {"sim", "controllers", "models"},
     "diagnosis": {"diagnosis", "sim", "models"},
     "scripts": {"scripts", "diagnosis", "controllers", "sim", "models"},
 }

@@ -9,6 +9,8 @@ from controllers.estimators import (
     Estimator,
     FeedforwardEstimator,
     LuenbergerEstimator,
+)
+from controllers.estimators import (
     Reading as TipReading,
 )
 from controllers.friction import FrictionAware
@@ -51,6 +53,11 @@ class Pilot:
         self._command = self.controller.command(wanted_deg, sample, self._estimate)
         self.advance_mm = self._command.advance_mm
         return self._command.base_deg
+
+    @property
+    def estimated_tip_deg(self) -> float:
+        """What the pilot takes the tip to be."""
+        return self._estimate.tip_deg
 
     def log(self) -> dict[str, float]:
         """Estimate, command and limits of the last sample, as signals."""
@@ -119,9 +126,7 @@ def _lqr(design: Design) -> Pilot:
 
 
 def _least_time(design: Design) -> Pilot:
-    planner = LeastTime(
-        design.needle, design.limits, damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm
-    )
+    planner = LeastTime(design.needle, design.limits, damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm)
     return Pilot(planner, _feedforward(design))
 
 

@@ -193,9 +193,7 @@ def unmodelled() -> dict[str, Tissue]:
             Tissue(
                 name="deep layer 4 x",
                 layers=(
-                    Layer(
-                        interface=Interface(viscous_n_mm_s_per_mm=halves * DAMPING), fraction=0.5
-                    ),
+                    Layer(interface=Interface(viscous_n_mm_s_per_mm=halves * DAMPING), fraction=0.5),
                     Layer(interface=Interface(viscous_n_mm_s_per_mm=4 * halves * DAMPING)),
                 ),
             ),
