@@ -15,7 +15,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
-from scipy.sparse import csr_array, eye_array, hstack, vstack
 
 from controllers.laws import BaseModes, Compensator, Regulator
 from controllers.limits import LimitedBase, MotorLimits
@@ -191,7 +190,6 @@ def _tip(
     j = np.arange(1, steps + 1)
     decay = np.exp(np.outer(j, modes.poles) * dt)
     pulse = -modes.participation * np.expm1(modes.poles * dt) / modes.poles
-    # What the modes beyond these still lag: their static share of a steady rate.
     kernel = dt + np.exp(np.outer(j - 1, modes.poles) * dt) @ pulse
     response = np.tril(kernel[np.abs(np.subtract.outer(j, j))])
     return base_deg + decay @ lag_deg, response
@@ -225,28 +223,29 @@ class _Problem:
     ) -> None:
         n = free.size
         self._side = 1.0 if wanted_deg >= float(free[0]) else -1.0
-        self._error, self._response = wanted_deg - free, response
+        self._error = wanted_deg - free
         self._band, self._n = band_deg, n
         moving = int(_MOVING * n)
         rate = limits.rate_deg_s
         self._moves = [(-rate, rate)] * moving + [(0.0, 0.0)] * (n - moving)
-        tip, torque, one = csr_array(response), csr_array(torque_response), eye_array(n)
-        none = csr_array((n, n))
-        # unknowns: rates, then |error|
-        self._matrix = vstack(
+        one, none = np.eye(n), np.zeros((n, n))
+        # unknowns: rates, then |error|; the tip is never beyond the wish by more than the band
+        self._matrix = np.block(
             [
-                hstack([tip, -one]),
-                hstack([-tip, -one]),
-                hstack([torque, none]),
-                hstack([-torque, none]),
+                [response, -one],
+                [-response, -one],
+                [torque_response, none],
+                [-torque_response, none],
+                [self._side * response, none],
             ]
-        ).tocsr()
+        )
         self._bound = np.concatenate(
             [
                 self._error,
                 -self._error,
                 limits.torque_n_mm - torque_free,
                 limits.torque_n_mm + torque_free,
+                self._side * self._error + band_deg,
             ]
         )
         self._cost = np.concatenate([np.zeros(n), np.full(n, dt)])
@@ -255,13 +254,13 @@ class _Problem:
         """Base rates, deg/s, that have the tip home from step `home` on; None if none do."""
         error_limit = np.full(self._n, np.inf)
         error_limit[home:] = self._band
-        over = self._side * self._response
-        within = self._side * self._error + self._band  # never beyond the wish by more
         solution = linprog(
             self._cost,
-            A_ub=vstack([self._matrix, hstack([csr_array(over), csr_array((self._n, self._n))])]),
-            b_ub=np.concatenate([self._bound, within]),
-            bounds=[*self._moves, *((0, e) for e in error_limit)],
+            A_ub=self._matrix,
+            b_ub=self._bound,
+            bounds=[*self._moves, *((0.0, float(e)) for e in error_limit)],
             method="highs",
         )
-        return np.asarray(solution.x[: self._n]) if solution.status == 0 else None
+        if solution.status != 0 or solution.x is None:
+            return None
+        return np.asarray(solution.x[: self._n], np.float64)

@@ -59,4 +59,4 @@ class PlanarController:
         wanted = -float(self.gains @ [height_mm, tangent[2], self.curvature * pull[2]])
         facing = math.copysign(max(abs(onward[2]), _LEAST_FACING), onward[2] or 1.0)
         rate = (wanted / self.curvature + self.curvature * tangent[2]) / facing
-        return min(max(rate, -self.most), self.most)
+        return float(min(max(rate, -self.most), self.most))

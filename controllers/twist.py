@@ -45,7 +45,7 @@ class Twist:
         self.squares = (self.k * np.pi) ** 2
         self.sign = np.where(self.k % 2 == 1, -1.0, 1.0)
         self.odd = self.k % 2 == 1
-        self.stretch = _stretch(self.k)
+        self.stretch = _stretch(self.k.astype(float))
         # sum over odd k of 1/k^2 is pi^2 / 8: what the kept modes leave of it.
         self.tail = np.pi**2 / 8 - float((1.0 / self.k[self.odd] ** 2).sum())
 
@@ -61,8 +61,7 @@ class Twist:
 
 def _stretch(k: Array) -> Array:
     """g_kj of the module's docstring, (modes, modes)."""
-    row, column = k[:, None].astype(float), k[None, :].astype(float)
+    row, column = np.asarray(k[:, None]), np.asarray(k[None, :])
     with np.errstate(divide="ignore", invalid="ignore"):
-        apart = 2 * column**2 / (row**2 - column**2) * (-1.0) ** (row + column)
-    g: Array = np.where(row == column, -0.5, apart)
-    return g
+        apart: Array = 2 * column**2 / (row**2 - column**2) * (-1.0) ** (row + column)
+    return np.asarray(np.where(row == column, -0.5, apart), np.float64)

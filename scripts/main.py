@@ -81,7 +81,14 @@ def _run(args: argparse.Namespace, console: Console) -> int:
         case "demo":
             return demo.run(args.out, force=args.force, console=console)
         case "insert":
-            return insert.run(args.protocol, args.out, mjcf=args.mjcf, force=args.force, console=console)
+            return insert.run(
+                args.protocol,
+                args.out,
+                controller=args.controller,
+                mjcf=args.mjcf,
+                force=args.force,
+                console=console,
+            )
         case "protocols":
             return insert.list_protocols(console)
         case "validate":

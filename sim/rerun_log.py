@@ -28,6 +28,7 @@ APPLICATION = "needle-torsion"
 TIMELINE = "time"
 _FRAMES_PER_S = 20  # of the 3-D needle; the plots show every sample
 _MODES = 4
+_PATH_FRAMES = 400
 # The twist is shown by arrows across the shaft, longer than the shaft is thick.
 _ARROW_MM, _ARROW_RADIUS_MM, _SHAFT_RADIUS_MM = 9.0, 0.5, 0.6
 _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
@@ -190,29 +191,29 @@ def _projector(
 
 
 def _log_modes(stream: rr.RecordingStream, recording: Recording) -> None:
+    """Modes of the shaft, in those of the closed form; and an estimator's own, if there is one."""
     amplitudes = modal_amplitudes_deg(recording)
-    if amplitudes is None:
-        return
-    colours = (np.array(colormaps["Set2"](np.arange(_MODES)))[:, :3] * 255).astype(int)
-    for k in range(_MODES):
-        label, colour = f"mode {k + 1}", colours[k].tolist()
-        log_series(stream, f"modes/{k + 1}", label, recording["time_s"], amplitudes[:, k], colour)
+    if amplitudes is not None:
+        for k in range(_MODES):
+            _log_mode(stream, "modes", k, recording["time_s"], amplitudes[:, k])
+    names = [str(n) for n in recording.table.columns if str(n).startswith("estimate_mode_")]
+    for k, name in enumerate(names):
+        _log_mode(stream, "estimate", k, recording["time_s"], recording[name])
+
+
+def _log_mode(stream: rr.RecordingStream, plot: str, k: int, time_s: Array, values: Array) -> None:
+    colour = (np.array(colormaps["Set2"](k % 8))[:3] * 255).astype(int).tolist()
+    log_series(stream, f"{plot}/{k + 1}", f"mode {k + 1}", time_s, values, colour)
 
 
 def _log_path(stream: rr.RecordingStream, recording: Recording) -> None:
-    """The path of a steered tip, growing as it goes, and what the estimator says of modes."""
-    for name in recording.table.columns:
-        if str(name).startswith("estimate_mode_"):
-            k, values = str(name).split("_")[2], recording[str(name)]
-            log_series(
-                stream, f"estimate/{k}", f"mode {k}", recording["time_s"], values, [127, 127, 127]
-            )
+    """The path of a steered tip, and where the tip is on it."""
     names = ("path_x_mm", "path_y_mm", "path_z_mm")
     if not all(name in recording.table for name in names):
         return
     path = np.stack([recording[name] for name in names], axis=-1)
     stream.log("world/path", rr.LineStrips3D([path], radii=0.4, colors=[[214, 39, 40]]), static=True)
-    every = np.unique(np.linspace(0, len(path) - 1, _FRAMES_PER_S * 20).astype(int))
+    every = np.unique(np.linspace(0, len(path) - 1, _PATH_FRAMES).astype(int))
     stream.send_columns(
         "world/tip",
         indexes=[time_column(recording["time_s"][every])],

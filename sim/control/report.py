@@ -10,8 +10,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from models.drive import DriveKind
+from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.control import steering, tables
 from sim.control.steering import PlaneHeld, Steered
@@ -119,12 +121,12 @@ def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> li
     return paths
 
 
-def _draw_turns(study: ControlStudy) -> plt.Figure:
+def _draw_turns(study: ControlStudy) -> Figure:
     """Like Fig. 10: base and tip of each controller."""
     figure, axes = plt.subplots(2, 3, figsize=(14, 8), layout="constrained", sharey="row")
     for column, depth in enumerate(tables.DEPTHS_CM):
         for name in _SHOWN:
-            tissue = tables.MATERIALS["viscous-plastisol"]
+            tissue = tissue_named("viscous-plastisol")
             run = tables.turn(name, depth_cm=depth, free_mm=50.0, tissue=tissue).run
             shown = run.time_s < (2.0 if depth < 20 else 4.0)
             axes[0, column].plot(run.time_s[shown], run.inputs.drive[shown], lw=1, label=name)
@@ -138,7 +140,7 @@ def _draw_turns(study: ControlStudy) -> plt.Figure:
     return figure
 
 
-def _draw_steered(study: ControlStudy) -> plt.Figure:
+def _draw_steered(study: ControlStudy) -> Figure:
     """Like Figs. 11 and 12: paths from above, and height over the plane."""
     figure, axes = plt.subplots(1, 2, figsize=(13, 5), layout="constrained")
     for one in study.steered:
@@ -151,7 +153,7 @@ def _draw_steered(study: ControlStudy) -> plt.Figure:
     return figure
 
 
-def _draw_planes(study: ControlStudy) -> plt.Figure:
+def _draw_planes(study: ControlStudy) -> Figure:
     count = len(study.planes)
     figure, axes = plt.subplots(1, count, figsize=(5 * count, 4.2), layout="constrained", squeeze=False)
     for axis, (speed, held) in zip(axes[0], study.planes.items(), strict=True):

@@ -150,8 +150,10 @@ def compare(
                 largest_base_deg=base,
                 settle_better=_better(settle, reference.settle_s if reference else settle),
                 integral_better=_better(integral, reference.integral_deg_s if reference else integral),
-                published_settle_s=_printed(published.TABLE_IV_SETTLE_S, depth_cm, name),
-                published_integral_deg_s=_printed(published.TABLE_V_INTEGRAL_DEG_S, depth_cm, name),
+                published_settle_s=_printed(tissue, published.TABLE_IV_SETTLE_S, depth_cm, name),
+                published_integral_deg_s=_printed(
+                    tissue, published.TABLE_V_INTEGRAL_DEG_S, depth_cm, name
+                ),
             )
         )
     return found
@@ -164,8 +166,9 @@ def _better(value: float, reference: float) -> float:
     return -100.0 if math.isnan(value) else 100.0 * (1.0 - value / reference)
 
 
-def _printed(table: Any, depth_cm: float, controller: str) -> float:
-    if controller not in _PUBLISHED or depth_cm not in table:
+def _printed(tissue: Tissue, table: Any, depth_cm: float, controller: str) -> float:
+    paper_rig = tissue.name == "viscous-plastisol"
+    if not paper_rig or controller not in _PUBLISHED or depth_cm not in table:
         return math.nan
     return float(table[depth_cm][_PUBLISHED.index(controller)])
 
