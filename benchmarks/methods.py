@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from benchmarks.compiled_loop import BACKWARD_EULER, MIDPOINT, by_theta_method, kernel_loop
 from benchmarks.rivals import by_modes, by_odeint, by_solve_ivp, equations
-from benchmarks.tissues import LENGTH_MM, SMOOTH, Case
+from benchmarks.tissues import LENGTH_MM, SMOOTH, TURN_S, Case
 from models.needle import NITINOL
 from sim.crosscheck.motion import fast_turn
 from sim.discretisation import Arrangement, Discretisation, Mesh
@@ -27,11 +27,11 @@ LSODA_NUMPY, BDF, RADAU = "LSODA, law in NumPy", "BDF, solve_ivp", "Radau, solve
 MODES, EULER, TRAPEZE = "modes", "backward Euler loop", "midpoint loop"
 OURS = (CHAIN, SIBLINGS)
 
-_ELEMENTS = (6, 8, 12, 16)
-_STEPS_S = (0.1, 0.06, 0.05, 0.03, 0.025, 0.02, 0.015, 0.01, 0.0075, 0.005)
-_CELLS = (24, 32, 64)
+_ELEMENTS = (4, 6, 8, 12, 16)
+_STEPS_S = tuple(TURN_S / k for k in (3, 4, 5, 6, 7, 8, 10, 12, 15, 20, 24, 30, 40, 60))
+_CELLS = (24, 32, 48, 64)
 _TOLERANCES = tuple(10.0**-k for k in (1.5, 2, 2.5, 3, 3.5, 4, 4.5))
-_LOOP_STEPS_S = (0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4)
+_LOOP_STEPS_S = (0.05, 0.03, 0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4)
 _MODES = (4, 6, 8, 12, 16, 24, 32)
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
@@ -80,7 +80,7 @@ def our_settings(case: Case) -> Settings:
     loop, settings = kernel_loop(), Settings()
     for n in _ELEMENTS:
         for h in _STEPS_S:
-            name = f"n = {n}, {1e3 * h:g} ms"
+            name = f"n = {n}, {1e3 * h:.3g} ms"
             for method, arrangement in zip(OURS, Arrangement, strict=True):
                 setup = setup_of(case, elements=n, step_s=h, arrangement=arrangement)
                 settings[method, name] = rollout_of(setup)
@@ -114,7 +114,7 @@ def loop_settings(case: Case) -> Settings:
     for cells in _CELLS:
         for h in _LOOP_STEPS_S:
             for method, implicit in ((EULER, BACKWARD_EULER), (TRAPEZE, MIDPOINT)):
-                name = f"n = {cells}, {1e3 * h:g} ms"
+                name = f"n = {cells}, {1e3 * h:.3g} ms"
                 settings[method, name] = partial(by_theta_method, case, cells, h, implicit)
     if case is SMOOTH:
         settings |= {(MODES, f"{count} modes"): partial(by_modes, count) for count in _MODES}

@@ -108,7 +108,7 @@ def _rows(found: dict[str, Any], ours_s: float) -> list[dict[str, Any]]:
 
 def _draw(rows: list[dict[str, Any]], ours_s: float, folder: Path) -> None:
     figure, axis = plt.subplots(figsize=(9, 3), layout="constrained")
-    names = [f"{next(iter(row.values()))}, {row['step, us']:.3g} us" for row in rows]
+    names = [f"{next(iter(row.values()))}, {row['step, us']:g} us" for row in rows]
     axis.barh(["ours, defaults", *names], [ours_s, *(row["CPU of 8 s, s"] for row in rows)])
     axis.invert_yaxis()
     axis.set(xscale="log", xlabel="CPU time of the 8 s turn, s", title="PyElastica beside ours")

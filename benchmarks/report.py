@@ -24,7 +24,6 @@ mpl.use("Agg")
 Key = TypeVar("Key", bound=Hashable)
 
 _CONSOLE = Console(width=120, highlight=False)
-_ENOUGH_S = 0.6  # of one task: further turns are not taken
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,12 +45,15 @@ class Goal:
         return "yes" if kept else "NO"
 
 
-def least_times_s(tasks: Mapping[Key, Callable[[], object]], *, turns: int) -> dict[Key, float]:
+def least_times_s(
+    tasks: Mapping[Key, Callable[[], object]], *, turns: int, enough_s: float = 0.3
+) -> dict[Key, float]:
     """Least CPU time of each task, s; the tasks take turns.
 
     Args:
       tasks: by name; each runs once before the clock starts.
-      turns: at most; a task that has used 0.6 s takes no more.
+      turns: at most.
+      enough_s: a task that has used this much takes no more turns.
     """
     for task in tasks.values():
         task()
@@ -59,7 +61,7 @@ def least_times_s(tasks: Mapping[Key, Callable[[], object]], *, turns: int) -> d
     spent = dict.fromkeys(tasks, 0.0)
     for _ in range(turns):
         for key, task in tasks.items():
-            if spent[key] > _ENOUGH_S:
+            if spent[key] > enough_s:
                 continue
             start = time.process_time()
             task()

@@ -42,7 +42,7 @@ Array = NDArray[np.float64]
 Reference = Callable[[Array], Array]
 TARGETS_DEG = (0.05, 0.02, 0.01)
 SMOOTH_BOUND, DRY_BOUND = 3.0, 1.0
-_TURNS = 9
+_TURNS = 7
 
 
 @dataclass(frozen=True, kw_only=True)

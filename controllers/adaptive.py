@@ -34,6 +34,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
       damping_n_mm_s_per_mm: first guess of beta.
       order: modes with mode 0.
       base_noise_deg: of the base angle, one standard deviation.
+      torque_noise_n_mm: of the base torque: it shows as base angle through the shaft's give.
       guess_spread: relative uncertainty of the first guess (natural log).
       drift_per_s: random walk of log beta, per square root of a second.
       turn_noise_deg: unmodelled motion of the mean angle, deg per square root of a second.
@@ -49,12 +50,14 @@ class AdaptiveEstimator(FeedforwardEstimator):
         damping_n_mm_s_per_mm: float,
         order: int = 4,
         base_noise_deg: float = 0.05,
+        torque_noise_n_mm: float = 0.015,
         guess_spread: float = 0.7,
         drift_per_s: float = 0.02,
         turn_noise_deg: float = 0.3,
     ) -> None:
         for name, value in (
             ("base_noise_deg", base_noise_deg),
+            ("torque_noise_n_mm", torque_noise_n_mm),
             ("guess_spread", guess_spread),
             ("drift_per_s", drift_per_s),
             ("turn_noise_deg", turn_noise_deg),
@@ -62,7 +65,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
             if not (math.isfinite(value) and value > 0):
                 raise InvalidValue(name, value, "a finite number above 0")
         self._guess = damping_n_mm_s_per_mm
-        self._measured_var = (base_noise_deg * _RAD) ** 2
+        self._base_var, self._torque_var = (base_noise_deg * _RAD) ** 2, torque_noise_n_mm**2
         self._spread, self._drift = guess_spread, drift_per_s
         self._turn_var = (turn_noise_deg * _RAD) ** 2
         super().__init__(needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order)
@@ -111,7 +114,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         mean = self._mean_rad or 0.0
         missed = now.base_deg * _RAD - mean - self._base_past_mean(now)
         spread = self._covariance @ row
-        gain = spread / (row @ spread + self._measured_var)
+        gain = spread / (row @ spread + self._base_var + self._torque_var * self._give(now) ** 2)
         self._mean_rad = mean + gain[0] * missed
         self._p = self._p + gain[1:-1] * missed
         self.damping *= math.exp(min(max(gain[-1] * missed, -0.5), 0.5))
@@ -119,11 +122,15 @@ class AdaptiveEstimator(FeedforwardEstimator):
 
     def _base_past_mean(self, sample: Sample) -> float:
         """Base angle less the mean angle of the inserted shaft, rad."""
-        free = sample.torque_n_mm * sample.free_mm / self.twist.kappa
-        # All modes count at the base: what truncation drops is (pi^2/6 - sum 1/k^2).
+        immediate = sample.torque_n_mm * self._give(sample)
+        return immediate + float((self.twist.sign * self._p).sum())
+
+    def _give(self, sample: Sample) -> float:
+        """How far the base gives at once to a torque, rad / (N mm): free shaft and tail."""
+        # All modes count at the base: what truncation drops of them is pi^2/6 - sum 1/k^2.
         dropped = np.pi**2 / 6 - float((1.0 / self.twist.k**2).sum())
-        tail = 2 * sample.inserted_mm * sample.torque_n_mm / (self.twist.kappa * np.pi**2) * dropped
-        return free + tail + float((self.twist.sign * self._p).sum())
+        tail = 2 * sample.inserted_mm / np.pi**2 * dropped
+        return (sample.free_mm + tail) / self.twist.kappa
 
     def _read(self, sample: Sample) -> Estimate:
         estimate = super()._read(sample)

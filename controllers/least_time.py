@@ -1,6 +1,6 @@
 """The controller that brings the tip home in the least time that the motor allows.
 
-When a new angle is wanted, a linear program plans the base's rate over the next
+When the wanted angle jumps, a linear program plans the base's rate over the next
 moments: the tip, which is linear in the plan, has to be within `band` of the wanted
 angle from some time on, and never beyond it by more; the base rate and the torque
 stay within the motor's limits. The earliest such time is found by bisection, and of
@@ -72,7 +72,7 @@ class LeastTime:
         self._rescue.reset()
         self._lost = False
         self._plan: Plan | None = None
-        self._wanted_deg = math.nan
+        self._wanted_deg = self._planned_deg = math.nan
 
     def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
         """Follow the plan for this wish; make one if the wish is new."""
@@ -81,11 +81,15 @@ class LeastTime:
         if estimate.status is Status.OUTSIDE:
             self._wanted_deg = math.nan
             return self._base.toward(wanted_deg, sample, estimate.status)
-        if wanted_deg != self._wanted_deg:
-            self._wanted_deg = wanted_deg
+        # Only a wish that jumps is planned for; one that glides is followed.
+        if not abs(wanted_deg - self._wanted_deg) < _LEAST_TURN_DEG:
+            self._planned_deg = wanted_deg
             self._plan = self._planned(wanted_deg, sample, estimate)
             self._lost = False
             self._hold.reset()
+        elif abs(wanted_deg - self._planned_deg) >= _LEAST_TURN_DEG:
+            self._plan = None
+        self._wanted_deg = wanted_deg
         if self._lost:
             return self._rescue.command(wanted_deg, sample, estimate)
         if self._plan is None or sample.time_s >= self._plan.end_s:

@@ -51,8 +51,7 @@ class Twist:
 
     def poles(self, inserted_mm: float, damping: float) -> Array:
         """Poles of modes 1 .. order - 1, rad/s."""
-        poles: Array = -self.kappa / (damping * inserted_mm**2) * self.squares
-        return poles
+        return np.asarray(-self.kappa / (damping * inserted_mm**2) * self.squares, np.float64)
 
     def tail_rad(self, torque_n_mm: float, inserted_mm: float) -> float:
         """Static lag of the odd modes that are left out, rad (negative of the lag)."""

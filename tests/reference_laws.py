@@ -235,7 +235,6 @@ class NeedleMesh:
         covered_mm = np.maximum(tissue_mm, 1e-9 * cell_mm)
         shallow = np.clip((boundary_mm - depth_mm) / covered_mm + 0.5, 0, 1)
         links = chain(self.rig.rigidity_n_mm2, cell_mm, self.cells)
-        entry_cell = float(np.clip((self.total_mm - inserted_mm) / cell_mm - 0.5, 0, self.cells - 1))
         return Layout(
             chuck_link=float(links[-1]),
             links=links[1:],
@@ -243,9 +242,15 @@ class NeedleMesh:
             tissue_mm=np.append(tissue_mm, 0.0),
             sheath_mm=np.append(cell_mm - tissue_mm, 0.0),
             damping=np.append(self.rig.mean_damping(shallow), 0.0),
-            entry=np.maximum(1 - np.abs(np.arange(self.nodes) - entry_cell), 0.0),
+            entry=self.entry_weights(time_s - step_s / 2),
             convection_mm_s=np.zeros(self.nodes),
         )
+
+    def entry_weights(self, time_s: float) -> Array:
+        """Shares of the two cells beside the entry, in the middle of the step."""
+        free_mm = self.total_mm - self.drive.at(time_s, self.drive.inserted_mm)
+        entry_cell = float(np.clip(free_mm / self.cell_mm - 0.5, 0, self.cells - 1))
+        return np.asarray(np.maximum(1 - np.abs(np.arange(self.nodes) - entry_cell), 0.0))
 
 
 Mesh = TissueMesh | NeedleMesh
