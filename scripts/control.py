@@ -48,8 +48,10 @@ def _outcomes(title: str, outcomes: list[Outcome]) -> Table:
     table = Table(title=title)
     for heading in ("tissue", "depth, cm", "free, mm", "controller"):
         table.add_column(heading)
-    for heading in ("settles, s", "paper, s", "better", "integral", "paper", "better", "overshoot"):
+    table.add_column("settles, s", justify="right")
+    for heading in ("paper", "ratio", "better", "integral, deg s", "paper", "ratio", "better"):
         table.add_column(heading, justify="right")
+    table.add_column("overshoot, deg", justify="right")
     table.add_column("")
     for o in outcomes:
         table.add_row(
@@ -59,9 +61,11 @@ def _outcomes(title: str, outcomes: list[Outcome]) -> Table:
             o.controller,
             "never" if math.isnan(o.settle_s) else f"{o.settle_s:.2f}",
             _or_blank(o.published_settle_s, ".2f"),
+            _or_blank(o.settle_s / o.published_settle_s, ".2f"),
             f"{o.settle_better:.0f} %",
             f"{o.integral_deg_s:.1f}",
             _or_blank(o.published_integral_deg_s, ".1f"),
+            _or_blank(o.integral_deg_s / o.published_integral_deg_s, ".2f"),
             f"{o.integral_better:.0f} %",
             f"{o.overshoot_deg:.1f}",
             "[red]worse than none[/]" if o.worse_than_none else "",

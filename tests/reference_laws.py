@@ -104,7 +104,11 @@ class Drive:
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """The chain of nodes at one moment; the last node is the tip."""
+    """The chain of nodes at one moment; the last node is the tip.
+
+    The friction at the entry acts with the shares `entry`; what passes the entry within the step turns with the
+    shares `passing`.
+    """
 
     chuck_link: float
     links: Array
@@ -113,6 +117,7 @@ class Layout:
     sheath_mm: Array
     damping: Array
     entry: Array
+    passing: Array
     convection_mm_s: Array
 
 
@@ -165,6 +170,7 @@ class TissueMesh:
             sheath_mm=self.spread(free_mm / max(self.free_cells, 1), 0.0, 0.0, 0.0),
             damping=self.rig.mean_damping(shallow),
             entry=self.spread(0.0, 1.0, 0.0, 0.0),
+            passing=self.spread(0.0, 1.0, 0.0, 0.0),
             convection_mm_s=self.convection(time_s, step_s),
         )
 
@@ -242,12 +248,13 @@ class NeedleMesh:
             tissue_mm=np.append(tissue_mm, 0.0),
             sheath_mm=np.append(cell_mm - tissue_mm, 0.0),
             damping=np.append(self.rig.mean_damping(shallow), 0.0),
-            entry=self.entry_weights(time_s - step_s / 2),
+            entry=self.entry_shares(time_s),
+            passing=self.entry_shares(time_s - step_s / 2),
             convection_mm_s=np.zeros(self.nodes),
         )
 
-    def entry_weights(self, time_s: float) -> Array:
-        """Shares of the two cells beside the entry, in the middle of the step."""
+    def entry_shares(self, time_s: float) -> Array:
+        """Shares of the two cells beside the entry."""
         free_mm = self.total_mm - self.drive.at(time_s, self.drive.inserted_mm)
         entry_cell = float(np.clip(free_mm / self.cell_mm - 0.5, 0, self.cells - 1))
         return np.asarray(np.maximum(1 - np.abs(np.arange(self.nodes) - entry_cell), 0.0))

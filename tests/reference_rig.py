@@ -243,14 +243,15 @@ class Step:
         return torque, rows
 
     def add_entry(self, torque: Array, rows: Array, travel: Array, travel_rows: Array) -> None:
-        weights = self.layout.entry
+        """Rows leave out the rare and small coupling of nodes that are not neighbours."""
+        passing = self.layout.passing
         level = self.rig.value("entry_friction", "level") / self.limit
-        presliding, gain = preslide(self.limit, self.now.entry, weights @ travel)
-        torque += level * float(presliding) * weights
-        stiffness = level * float(gain) * weights
-        rows += stiffness * weights * travel_rows
-        rows[0, 1:] += stiffness[1:] * weights[:-1]
-        rows[2, :-1] += stiffness[:-1] * weights[1:]
+        presliding, gain = preslide(self.limit, self.now.entry, passing @ travel)
+        torque += level * float(presliding) * self.layout.entry
+        stiffness = level * float(gain) * self.layout.entry
+        rows += stiffness * passing * travel_rows
+        rows[0, 1:] += stiffness[1:] * passing[:-1]
+        rows[2, :-1] += stiffness[:-1] * passing[1:]
 
     def add_tip(self, torque: Array, rows: Array, rate: Array, travel: Array) -> None:
         drag = self.rig.value("tip_drag", "damping")
@@ -318,7 +319,7 @@ class Step:
             shared_turning=touched * turning,
             shared_axial=touched * axial,
             sheath=bare * preslide(self.limit, self.now.sheath, travel)[0],
-            entry=float(preslide(self.limit, self.now.entry, self.layout.entry @ travel)[0]),
+            entry=float(preslide(self.limit, self.now.entry, self.layout.passing @ travel)[0]),
             tip=float(preslide(self.limit, self.now.tip, travel[-1])[0]),
         )
 
