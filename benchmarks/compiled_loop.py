@@ -124,6 +124,7 @@ def kernel_loop() -> Callable[[mujoco.MjModel, mujoco.MjData, Array], Array]:
     def loop(
         model: int,
         data: int,
+        at: int,
         h: float,
         clock: Array,
         qpos: Array,
@@ -133,7 +134,6 @@ def kernel_loop() -> Callable[[mujoco.MjModel, mujoco.MjData, Array], Array]:
         inputs: Array,
     ) -> Array:
         nodes = qpos.size - 1
-        at = user.size - (user.size - wire.CLOCK) // 2 + wire.B_ANGLES
         tips = np.zeros(inputs.shape[0])
         qpos[:], user[:], clock[0] = 0.0, 0.0, 0.0
         for k in range(1, inputs.shape[0]):
@@ -147,7 +147,11 @@ def kernel_loop() -> Callable[[mujoco.MjModel, mujoco.MjData, Array], Array]:
     def run(model: mujoco.MjModel, data: mujoco.MjData, inputs: Array) -> Array:
         clock = np.ctypeslib.as_array((ctypes.c_double * 1).from_address(data._address + time_at))
         fields = (clock, data.qpos, data.ctrl, data.userdata, data.qfrc_passive)
-        tips: Array = loop(model._address, data._address, model.opt.timestep, *fields, inputs)
+        head = model.numeric("needle").data
+        size = wire.block(int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS]))
+        at = wire.CLOCK + size + wire.B_ANGLES
+        h = model.opt.timestep
+        tips: Array = loop(model._address, data._address, at, h, *fields, inputs)
         return tips
 
     return run

@@ -10,10 +10,9 @@ f = spring (differences of the angles), spring = kappa / a^2, sets its rate:
                     z' = theta' - (z - clamp(z)) / relaxation
 
 z is the presliding angle, clamp(z) keeps it within z_y. Letting z overrun z_y by
-rate times relaxation makes the right-hand side continuous; with a switch instead,
-every one of these solvers loses its way. States are interleaved, (theta_0, phi_0,
-theta_1, ...), so that Jacobians are banded; they are given as LSODA packs them:
-row i - j + above, column j.
+rate times relaxation makes the right-hand side continuous; at a switch instead, LSODA
+loses its way or crawls. States are interleaved, (theta_0, phi_0, theta_1, ...), so that
+Jacobians are banded; they are given as LSODA packs them: row i - j + above, column j.
 
 Everything here is plain NumPy, and numba compiles it as it stands.
 """

@@ -5,8 +5,8 @@ the set-up). The cost of the whole run is that of a step, at the largest step th
 stable, times the number of steps; ours is `Batch.rollout` at the defaults.
 
 PyElastica also bends, shears and stretches, and that sets its step: an exactly straight
-rod that nothing disturbs only twists, and then takes steps as long as ours. That row is
-shown; the goal is held to a rod that is disturbed, as any needle is.
+rod that nothing disturbs only twists, and then takes steps thousands of times as long.
+That row is shown too; the goal is held to a rod that is disturbed, as any needle is.
 
 PyElastica is looked for in the interpreter that `--elastica-python` or the environment
 variable ELASTICA_PYTHON names, and in this one otherwise.

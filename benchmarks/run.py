@@ -1,12 +1,12 @@
 """Every benchmark, and one table of goals: `python -m benchmarks.run --out DIR`.
 
-About two minutes, and half a minute more where PyElastica is found.
+About three minutes; PyElastica is skipped where it is not found.
 """
 
 import time
 from pathlib import Path
 
-from benchmarks import callback, pyelastica, report, work_precision
+from benchmarks import callback, control_loop, pyelastica, report, work_precision
 
 
 def main() -> None:
@@ -18,6 +18,7 @@ def main() -> None:
     goals = [
         *callback.run(folder),
         *work_precision.run(folder),
+        *control_loop.run(folder),
         *pyelastica.run(folder, options.elastica_python),
     ]
     report.show_goals(goals, folder)

@@ -106,8 +106,8 @@ class Drive:
 class Layout:
     """The chain of nodes at one moment; the last node is the tip.
 
-    The friction at the entry acts with the shares `entry`; what passes the entry within the step turns with the
-    shares `passing`.
+    Friction at the entry acts on the nodes with the shares `entry`, where the entry is at the end of the
+    step; the travel of what passes has the shares `passing`, where the entry is in its middle.
     """
 
     chuck_link: float

@@ -71,23 +71,23 @@ def twist_of(w: Work, e: int, g: float) -> float:
 def add_linear(w: Work, g: float, with_matrix: bool) -> None:
     """Inertia, torsion and viscous rows: the residual, and the matrix if wanted."""
     n = w.omega.size - 1
-    arriving = 0.0
-    for i in range(n + 1):
-        leaving = -w.spring[i] * twist_of(w, i, g) if i < n else 0.0
-        damping = w.damp_diagonal[i] * w.omega[i]
-        if i > 0:
-            damping += w.damp_lower[i] * w.omega[i - 1]
-        if i < n:
-            damping += w.damp_upper[i] * w.omega[i + 1]
-        w.rhs[i] = arriving - leaving - damping - w.inertia[i] * (w.omega[i] - w.rest[i])
-        arriving = leaving
-        if not with_matrix:
-            continue
-        before = g * w.spring[i - 1] if i > 0 else 0.0
-        after = g * w.spring[i] if i < n else 0.0
-        w.lower[i] = w.damp_lower[i] - before
-        w.upper[i] = w.damp_upper[i] - after
-        w.diagonal[i] = w.damp_diagonal[i] + w.inertia[i] + before + after
+    arriving, before, previous = 0.0, 0.0, 0.0
+    for i in range(n):
+        here, ahead = w.omega[i], w.omega[i + 1]
+        after = g * w.spring[i]
+        leaving = -w.spring[i] * (w.theta[i + 1] - w.theta[i]) - after * (ahead - here)
+        damping = w.damp_lower[i] * previous + w.damp_diagonal[i] * here + w.damp_upper[i] * ahead
+        w.rhs[i] = arriving - leaving - damping - w.inertia[i] * (here - w.rest[i])
+        if with_matrix:
+            w.lower[i] = w.damp_lower[i] - before
+            w.upper[i] = w.damp_upper[i] - after
+            w.diagonal[i] = w.damp_diagonal[i] + w.inertia[i] + before + after
+        arriving, before, previous = leaving, after, here
+    damping = w.damp_lower[n] * previous + w.damp_diagonal[n] * w.omega[n]
+    w.rhs[n] = arriving - damping - w.inertia[n] * (w.omega[n] - w.rest[n])
+    if with_matrix:
+        w.lower[n] = w.damp_lower[n] - before
+        w.diagonal[n] = w.damp_diagonal[n] + w.inertia[n] + before
 
 
 @inlined

@@ -24,11 +24,11 @@ from typing import Any
 
 import mujoco
 import numba
-import numpy as np
 from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
 from sim.kernel import wire
+from sim.kernel.assemble import is_linear
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.step import advance
 from sim.layout import read_layout
@@ -53,6 +53,13 @@ def _pointer_to(kind: Any) -> Any:
 _numbers = _pointer_to(types.float64)
 _addresses = _pointer_to(types.intp)
 _block: Any = njit(wire.block)
+_scratch: Any = njit(wire.scratch)
+
+
+@inlined
+def _userdata(n: int, rows: int) -> int:
+    """wire.userdata, for compiled code."""
+    return wire.CLOCK + 2 * _block(n, rows) + _scratch(n, rows)
 
 
 @inlined
@@ -107,6 +114,14 @@ def _prime(head: Array, theta: Array, ctrl: Array, now: Array) -> None:
     now[wire.B_ANGLES : wire.B_ANGLES + theta.size] = theta
 
 
+@inlined
+def _remembers(law: Array) -> bool:
+    found = False
+    for r in range(law.shape[0]):
+        found = found or not is_linear(law[r])
+    return found
+
+
 @compiled
 def step_needle(
     numeric: Array,
@@ -128,7 +143,8 @@ def step_needle(
     size = _block(n, rows)
     now = userdata[wire.CLOCK : wire.CLOCK + size]
     nxt = userdata[wire.CLOCK + size : wire.CLOCK + 2 * size]
-    theta = np.empty(n + 1)
+    theta = userdata[wire.CLOCK + 2 * size : wire.CLOCK + 2 * size + n + 1]
+    scratch = userdata[wire.CLOCK + 2 * size + n + 1 :]
     angle = 0.0
     for i in range(n + 1):
         angle = qpos[i + 1] + (angle if head[wire.H_CHAIN] != 0.0 else 0.0)
@@ -137,11 +153,13 @@ def step_needle(
         _prime(head, theta, ctrl, now)
         userdata[wire.D_PRIMED] = 1.0
     elif time > userdata[wire.D_TIME]:
-        now[:] = nxt
+        # Rows that are viscous alone remember nothing at their sites.
+        kept = size if _remembers(law) else wire.B_ANGLES + 2 * (n + 1)
+        now[:kept] = nxt[:kept]
         for i in range(n + 1):
             now[wire.O_LANDING] = max(now[wire.O_LANDING], abs(theta[i] - now[wire.B_ANGLES + i]))
     userdata[wire.D_TIME] = time
-    advance(head, mesh, law, h, theta, now, nxt, ctrl)
+    advance(head, mesh, law, h, theta, now, nxt, ctrl, scratch)
     nxt[wire.O_LANDING] = now[wire.O_LANDING]
     _torques(head, mesh, h, qpos, qvel, theta, nxt[wire.B_ANGLES : wire.B_ANGLES + n + 1], ctrl, passive)
 
@@ -183,7 +201,7 @@ def _compile() -> tuple[Any, Any]:
             carray(_numbers(_addresses(data + qpos_at)[0]), n + 2),
             carray(_numbers(_addresses(data + qvel_at)[0]), n + 2),
             carray(_numbers(_addresses(data + ctrl_at)[0]), wire.INPUTS),
-            carray(_numbers(_addresses(data + user_at)[0]), wire.CLOCK + 2 * _block(n, rows)),
+            carray(_numbers(_addresses(data + user_at)[0]), _userdata(n, rows)),
             carray(_numbers(_addresses(data + passive_at)[0]), n + 2),
         )
 

@@ -22,6 +22,7 @@ from sim.kernel.tridiagonal import factorise, substitute
 from sim.kernel.work import Frame, Work
 
 _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
+_BALANCE = 1e-12  # force over stiffness that is as good as none, as a rate
 _OVERSHOOT = 0.3  # a step is shortened where it meets this much of its own force again
 _PLAIN = 40  # iterations of plain Newton; after them slopes are made safe
 _ITERATIONS = 160
@@ -80,6 +81,8 @@ def newton(
             searching, search = _search(w, search)
             if searching:
                 continue
+        if nonlinear and iteration > 0 and _balanced(w):
+            return True, iteration, recoverable, stored
         if not factored:
             factorise(w.lower, w.diagonal, w.upper)
         change, size, force = _take_step(w)
@@ -118,6 +121,15 @@ def _search(w: Work, search: Search) -> tuple[bool, Search]:
     for i in range(n):
         w.omega[i] += (at - search.at) * w.step[i]
     return True, Search(search.force, low, pull, high, push, at)
+
+
+@inlined
+def _balanced(w: Work) -> bool:
+    """Whether so little force is left that another step would only confirm the last."""
+    for i in range(w.omega.size):
+        if abs(w.rhs[i]) > _BALANCE * w.diagonal[i] * max(1.0, abs(w.omega[i])):
+            return False
+    return True
 
 
 @inlined

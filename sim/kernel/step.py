@@ -25,7 +25,7 @@ from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.newton import newton
 from sim.kernel.slide import forget_uncovered, slide_tissue
-from sim.kernel.work import Frame, Work, allocate
+from sim.kernel.work import Frame, Work, divide
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
@@ -48,11 +48,14 @@ def _prepare(
     """Fill in what the step starts from; returns whether iteration is needed."""
     n = w.omega.size - 1
     place_nodes(head, mesh, free, w.x)
+    half = 0.5 * head[wire.H_ETA] / frame.g
+    w.inertia[0] = half * (w.x[1] - w.x[0])
+    w.inertia[n] = half * (w.x[n] - w.x[n - 1])
+    for i in range(1, n):
+        w.inertia[i] = half * (w.x[i + 1] - w.x[i - 1])
+    for i in range(n):
+        w.spring[i] = head[wire.H_KAPPA] / (w.x[i + 1] - w.x[i])
     for i in range(n + 1):
-        left = w.x[i] - w.x[i - 1] if i > 0 else 0.0
-        right = w.x[i + 1] - w.x[i] if i < n else 0.0
-        w.inertia[i] = head[wire.H_ETA] * 0.5 * (left + right) / frame.g
-        w.spring[i] = head[wire.H_KAPPA] / right if i < n else 0.0
         w.theta[i] = theta[i]
         w.rest[i] = w.omega[i] = now[wire.B_ANGLES + n + 1 + i]
         w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
@@ -120,7 +123,15 @@ def _friction(w: Work, frame: Frame, drive: float, tip_torque: float) -> tuple[f
 
 @compiled
 def advance(
-    head: Array, mesh: Array, law: Array, h: float, theta: Array, now: Array, nxt: Array, ctrl: Array
+    head: Array,
+    mesh: Array,
+    law: Array,
+    h: float,
+    theta: Array,
+    now: Array,
+    nxt: Array,
+    ctrl: Array,
+    scratch: Array,
 ) -> None:
     """Advance needle and tissue by h.
 
@@ -131,11 +142,12 @@ def advance(
       now: state block at the start (sim.kernel.wire); MuJoCo owns its angles.
       nxt: state block that receives the end.
       ctrl: inputs at the end of the step.
+      scratch: working memory (sim.kernel.wire.scratch).
     """
     n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
     first = wire.B_ANGLES + 2 * (n + 1)
     before = now[first:].reshape(rows, n, 2, wire.SITE)
-    w = allocate(n, rows, nxt[first:].reshape(rows, n, 2, wire.SITE))
+    w = divide(scratch, n, rows, nxt[first:].reshape(rows, n, 2, wire.SITE))
     past = now[wire.B_INPUTS : wire.B_INPUTS + wire.INPUTS]
     free = head[wire.H_FREE_REF] - 0.5 * (past[wire.U_CARRIAGE] + ctrl[wire.U_CARRIAGE])
     inserted = 0.5 * (past[wire.U_INSERTED] + ctrl[wire.U_INSERTED])

@@ -80,7 +80,7 @@ Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
     OUTPUTS,
 ) = range(12)
 
-# --- userdata: a clock, then the state at the start of the step, then at its end ---
+# --- userdata: a clock, the state at the start of the step, at its end, and scratch ---
 D_PRIMED, D_TIME, CLOCK = range(3)
 
 
@@ -89,9 +89,14 @@ def block(elements: int, rows: int) -> int:
     return OUTPUTS + INPUTS + 2 * (elements + 1) + SITE * 2 * elements * rows
 
 
+def scratch(elements: int, rows: int) -> int:
+    """Values of working memory that one step needs: see `sim.kernel.work`."""
+    return 16 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
+
+
 def userdata(elements: int, rows: int) -> int:
-    """Values of `mjData.userdata`."""
-    return CLOCK + 2 * block(elements, rows)
+    """Values of `mjData.userdata`: the state, then working memory (never read back)."""
+    return CLOCK + 2 * block(elements, rows) + scratch(elements, rows)
 
 
 B_OUTPUTS = 0

@@ -45,10 +45,13 @@ class Frame(NamedTuple):
 
 
 @inlined
-def allocate(n: int, rows: int, end: Array) -> Work:
-    """Fresh working memory in one allocation; `end` is the caller's site states."""
+def divide(memory: Array, n: int, rows: int, end: Array) -> Work:
+    """Working memory cut into its arrays; `end` is the caller's site states.
+
+    The memory is the model's own (`userdata`), so that no step allocates: numba would
+    count references to memory of its own at every access.
+    """
     m, s = n + 1, 2 * n * rows
-    memory = np.empty(15 * m + 2 * s + 2 * rows + wire.SITE * s)
     sites = 15 * m + 2 * s
     return Work(
         memory[:m],
@@ -68,6 +71,6 @@ def allocate(n: int, rows: int, end: Array) -> Work:
         memory[14 * m : 15 * m],
         memory[15 * m : sites].reshape(rows, n, 4),
         memory[sites : sites + 2 * rows].reshape(rows, 2),
-        memory[sites + 2 * rows :].reshape(rows, n, 2, wire.SITE),
+        memory[sites + 2 * rows : sites + 2 * rows + wire.SITE * s].reshape(rows, n, 2, wire.SITE),
         end,
     )

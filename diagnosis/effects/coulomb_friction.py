@@ -1,0 +1,22 @@
+"""Dry torque per mm of inserted shaft, the same at any rate."""
+
+from dataclasses import replace
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.rig_model import RigModel
+
+
+def _enter(rig: RigModel, level: float) -> RigModel:
+    return replace(rig, kinetic=rig.kinetic + level)
+
+
+EFFECT = Effect(
+    name="coulomb_friction",
+    place=Place.INTERFACE,
+    parameters=(
+        Parameter(
+            name="level", unit="N mm / mm", low=1e-06, high=0.05, start=(0.0005, 0.003), logarithmic=True
+        ),
+    ),
+    enter=_enter,
+)

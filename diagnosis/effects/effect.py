@@ -1,0 +1,53 @@
+"""What an effect is: a name of the vocabulary, its parameters, and how it enters a rig."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from diagnosis.rig_model import RigModel
+
+
+class Place(StrEnum):
+    """Where in the machine an effect lives."""
+
+    INTERFACE = "interface"
+    TISSUE = "tissue"
+    DRIVE = "drive"
+    NEEDLE = "needle"
+    SENSOR = "sensor"
+    PARAMETERS = "parameters"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """A parameter of an effect.
+
+    Attributes:
+      name, unit: as in the vocabulary.
+      low, high: bounds.
+      start: where fits start; several starts are tried.
+      logarithmic: fitted in its logarithm (positive parameters over decades).
+    """
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    start: tuple[float, ...]
+    logarithmic: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effect:
+    """An unmodelled effect.
+
+    Attributes:
+      enter: the rig with this effect in it, given parameter values in order.
+      contains: simpler effects that this one becomes for some parameters.
+    """
+
+    name: str
+    place: Place
+    parameters: tuple[Parameter, ...]
+    enter: Callable[..., RigModel]
+    contains: tuple[str, ...] = ()

@@ -1,0 +1,36 @@
+"""Dry friction that falls from static to kinetic with the rate (Stribeck)."""
+
+from dataclasses import replace
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.rig_model import RigModel
+
+
+def _enter(rig: RigModel, kinetic: float, static: float, stribeck: float) -> RigModel:
+    return replace(
+        rig, kinetic=rig.kinetic + kinetic, static_excess=max(static - kinetic, 0.0), stribeck=stribeck
+    )
+
+
+EFFECT = Effect(
+    name="stiction",
+    place=Place.INTERFACE,
+    parameters=(
+        Parameter(
+            name="kinetic",
+            unit="N mm / mm",
+            low=1e-06,
+            high=0.05,
+            start=(0.001, 0.0005),
+            logarithmic=True,
+        ),
+        Parameter(
+            name="static", unit="N mm / mm", low=1e-06, high=0.1, start=(0.002, 0.002), logarithmic=True
+        ),
+        Parameter(
+            name="stribeck", unit="rad/s", low=0.005, high=2.0, start=(0.1, 0.05), logarithmic=True
+        ),
+    ),
+    enter=_enter,
+    contains=("coulomb_friction",),
+)

@@ -1,0 +1,18 @@
+"""Gain of the tip sensor."""
+
+from dataclasses import replace
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.rig_model import RigModel
+
+
+def _enter(rig: RigModel, scale: float) -> RigModel:
+    return replace(rig, tip_scale=scale)
+
+
+EFFECT = Effect(
+    name="tip_angle_scale",
+    place=Place.SENSOR,
+    parameters=(Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(1.02,), logarithmic=True),),
+    enter=_enter,
+)

@@ -1,0 +1,30 @@
+"""Kelvin-Voigt tissue in series with the interface."""
+
+from dataclasses import replace
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.rig_model import RigModel
+
+
+def _enter(rig: RigModel, stiffness: float, time_constant: float) -> RigModel:
+    return replace(rig, tissue_stiffness=stiffness, tissue_time=time_constant)
+
+
+EFFECT = Effect(
+    name="tissue_viscoelasticity",
+    place=Place.TISSUE,
+    parameters=(
+        Parameter(
+            name="stiffness",
+            unit="N mm / rad / mm",
+            low=0.0005,
+            high=2.0,
+            start=(0.02, 0.1),
+            logarithmic=True,
+        ),
+        Parameter(
+            name="time_constant", unit="s", low=0.01, high=20.0, start=(1.0, 0.3), logarithmic=True
+        ),
+    ),
+    enter=_enter,
+)
