@@ -159,15 +159,28 @@ class Objective:
 
 
 def fit_effects(
-    log: RigLog, noise: Noise, names: Sequence[str], *, nuisance: bool = True, starts: int = 99
+    log: RigLog,
+    noise: Noise,
+    names: Sequence[str],
+    *,
+    nuisance: bool = True,
+    most_iterations: int = _MOST_ITERATIONS,
+    start: Array | None = None,
 ) -> Fit:
-    """Fit a set of effects; of several starts the best is gone on from."""
+    """Fit a set of effects; of several starts the best is gone on from.
+
+    Args:
+      nuisance: let stiffness and damping scatter, where they are not among the effects.
+      most_iterations: of the fit.
+      start: where to start instead of the effects' own starts.
+    """
     coordinates = coordinates_of(names, nuisance=nuisance)
     objective = Objective(log, noise, coordinates)
     if not coordinates.parameters:
         return _finished(objective, names, np.zeros(0))
     low, high = coordinates.bounds()
-    columns = np.stack([np.clip(s, low, high) for s in coordinates.starts()[:starts]], axis=-1)
+    starts = coordinates.starts() if start is None else [start]
+    columns = np.stack([np.clip(s, low, high) for s in starts], axis=-1)
     costs = (objective(columns) ** 2).sum(axis=0)
     best = columns[:, int(np.argmin(costs))]
     x, _ = minimize.least_squares(
@@ -175,7 +188,7 @@ def fit_effects(
         objective,
         bounds=[low, high],
         eps=_STEP,
-        max_iter=_MOST_ITERATIONS,
+        max_iter=most_iterations,
         mu_min=1e-3,
         mu_factor=8.0,
         gtol=1e-4,

@@ -7,7 +7,7 @@ what the log claims: a claim is good to about 15 %, so an estimate within a fact
 of two of it is taken, and otherwise the claim, with a warning.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -45,7 +45,7 @@ def white_noise(values: Array) -> float:
     return float(_MAD_TO_SIGMA * np.median(np.abs(second - np.median(second))) / _SECOND_DIFFERENCE)
 
 
-def estimate_noise(log: RigLog, missed: dict[str, Sequence[Array]]) -> Noise:
+def estimate_noise(log: RigLog, missed: Mapping[str, Sequence[Array]]) -> Noise:
     """Noise of a log, given measured less nominal by sensor and trial."""
     sigma, warnings = {}, []
     for sensor in SENSORS:

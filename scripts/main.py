@@ -47,6 +47,11 @@ def parser() -> argparse.ArgumentParser:
     replay.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
     _add_output(replay, default=Path("out/replay"))
 
+    diagnose = commands.add_parser("diagnose", help="say what a rig has that its model lacks")
+    diagnose.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
+    diagnose.add_argument("--json", action="store_true", help="print report.json instead")
+    _add_output(diagnose, default=None)
+
     inspect = commands.add_parser("inspect", help="open a recording, or list what is inside")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
     inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
@@ -75,7 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(args: argparse.Namespace, console: Console) -> int:
     # Imported here: `needle --help` need not wait for MuJoCo.
-    from scripts import control, demo, insert, inspect, replay, validate
+    from scripts import control, demo, diagnose, insert, inspect, replay, validate
 
     match args.command:
         case "demo":
@@ -95,6 +100,10 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             return validate.run(args.out, force=args.force, console=console)
         case "control":
             return control.run(args.out, force=args.force, console=console)
+        case "diagnose":
+            return diagnose.run(
+                args.log, args.out, json_only=args.json, force=args.force, console=console
+            )
         case "replay":
             return replay.run(args.log, args.out, force=args.force, console=console)
         case _:

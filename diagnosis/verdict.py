@@ -1,0 +1,121 @@
+"""From ranked candidates to a verdict that says no more than the data do.
+
+none        the nominal rig is at the noise floor, or what is left of it is the rig's
+            own scatter in stiffness and damping
+explained   the best candidate is at the noise floor and nothing else comes near it
+undecided   another candidate, not a richer relative of the best, fits alike
+unknown     nothing that was tried brings the residual to the noise floor
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fit import NUISANCE_SPREAD
+from diagnosis.search import Candidate
+
+# A difference of score of 10 is odds of 150 to 1 for data with the noise that is assumed.
+ALIKE = 10.0
+SCATTER = 2 * NUISANCE_SPREAD
+
+
+class Outcome(StrEnum):
+    """The four verdicts."""
+
+    NONE = "none"
+    EXPLAINED = "explained"
+    UNKNOWN = "unknown"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """What was concluded.
+
+    Attributes:
+      effects: accepted, strongest first.
+      confusable: sets of effects that fit alike.
+      best: the candidate that predictions and parameters are of.
+      ranking: single effects, none and unknown with probabilities that add up to 1.
+    """
+
+    outcome: Outcome
+    effects: tuple[str, ...]
+    confusable: tuple[tuple[str, ...], ...]
+    best: Candidate
+    ranking: tuple[tuple[str, float], ...]
+
+
+def judge(candidates: Sequence[Candidate]) -> Verdict:
+    """The verdict on candidates, best first."""
+    at_floor = [c for c in candidates if c.floor.reached]
+    if not at_floor:
+        return Verdict(
+            outcome=Outcome.UNKNOWN,
+            effects=(),
+            confusable=(),
+            best=candidates[0],
+            ranking=_ranking(candidates, known=False),
+        )
+    best = _simplest(at_floor)
+    rivals = [c for c in at_floor if c is not best and _alike(best, c)]
+    outcome = Outcome.NONE if not named(best) else Outcome.EXPLAINED
+    if rivals and outcome is Outcome.EXPLAINED:
+        outcome = Outcome.UNDECIDED
+    return Verdict(
+        outcome=outcome,
+        effects=named(best),
+        confusable=tuple(tuple(named(c)) for c in (best, *rivals)) if rivals else (),
+        best=best,
+        ranking=_ranking(candidates, known=True),
+    )
+
+
+def named(candidate: Candidate) -> tuple[str, ...]:
+    """Effects of a candidate, with a scatter of the rig that is too large to be scatter."""
+    count = len(candidate.fit.coordinates.nuisance)
+    values = candidate.fit.x[candidate.fit.x.size - count :]
+    beyond = [
+        effect.name
+        for effect, value in zip(candidate.fit.coordinates.nuisance, values, strict=True)
+        if abs(value) > SCATTER
+    ]
+    return (*candidate.names, *beyond)
+
+
+def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
+    """The simplest of those that score within reach of the best."""
+    near = [c for c in at_floor if c.score - at_floor[0].score <= ALIKE]
+    return min(near, key=lambda c: (len(named(c)), c.fit.size, c.score))
+
+
+def _alike(best: Candidate, other: Candidate) -> bool:
+    """Whether another explanation fits as well and is not a richer form of the best."""
+    if abs(other.score - best.score) > ALIKE or not named(other):
+        return False
+    richer = set(named(best)) <= set(named(other))
+    contained = any(b in LIBRARY[o].contains for o in named(other) for b in named(best))
+    return bool(named(best)) and not richer and not contained
+
+
+def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:
+    """Probabilities of single effects, none and unknown: exp(-score / 2), normalised."""
+    weights = dict.fromkeys((*LIBRARY, "none", "unknown"), 0.0)
+    if not known:
+        weights["unknown"] = 1.0
+    else:
+        least = min(c.score for c in candidates)
+        for c in candidates:
+            weight = math.exp(-0.5 * min(c.score - least, 1400.0))
+            for name in named(c) or ("none",):
+                weights[name] += weight / max(len(named(c)), 1)
+    total = sum(weights.values())
+    ranked = sorted(weights.items(), key=lambda item: -item[1])
+    return tuple((name, weight / total) for name, weight in ranked)
+
+
+def places(effects: Sequence[str]) -> str:
+    """Where the first of the accepted effects lives."""
+    return LIBRARY[effects[0]].place.value if effects else ""

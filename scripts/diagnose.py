@@ -1,0 +1,91 @@
+"""`needle diagnose`: what a rig has that its nominal model lacks."""
+
+import json
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn
+from rich.table import Table
+
+from diagnosis.diagnose import Diagnosis, diagnose
+from diagnosis.report import as_json, output_paths, write_report
+from diagnosis.rig_log import read_rig_log
+from diagnosis.verdict import Outcome
+from sim.files import refuse_existing
+
+
+def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, console: Console) -> int:
+    """Diagnose a log; prints a summary, or `report.json`."""
+    log = read_rig_log(log_folder)
+    if folder:
+        refuse_existing(output_paths(log, folder), force=force)
+    shown = Console(stderr=True)
+    with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
+        task = bar.add_task("replaying", total=1.0)
+        found = diagnose(
+            log, progress=lambda what, share: bar.update(task, description=what, completed=share)
+        )
+    paths = write_report(found, folder, force=force) if folder else []
+    if json_only:
+        console.print_json(json.dumps(as_json(found)))
+        return 0
+    console.print(f"[bold]{sentence(found)}[/]", highlight=False)
+    console.print(_gap_table(found))
+    if found.verdict.effects:
+        console.print(_parameter_table(found))
+    console.print(_ranking_table(found))
+    advice = as_json(found)["next_experiment"]
+    if advice:
+        console.print(f"next: {advice}", highlight=False)
+    for warning in found.noise.warnings:
+        console.print(f"warning: {warning}", highlight=False)
+    for path in paths:
+        console.print(f"wrote      {path}", highlight=False)
+    return 0
+
+
+def sentence(found: Diagnosis) -> str:
+    """The verdict in one sentence."""
+    gap, names = found.gap, " and ".join(found.verdict.effects)
+    match found.verdict.outcome:
+        case Outcome.NONE:
+            return f"none: nothing beyond noise (gap {gap.before:.2f})"
+        case Outcome.EXPLAINED:
+            verb = "bring" if len(found.verdict.effects) > 1 else "brings"
+            return f"explained: {names} {verb} the gap from {gap.before:.2f} to {gap.after:.2f} noise"
+        case Outcome.UNDECIDED:
+            sets = ", or ".join(" and ".join(s) for s in found.verdict.confusable)
+            return f"undecided: {sets} explain the gap of {gap.before:.2f} noise alike"
+        case _:
+            return (
+                f"unknown: a gap of {gap.before:.2f} noise, of which no effect of the library, "
+                f"nor any pair that was tried, leaves less than {gap.after:.2f}"
+            )
+
+
+def _gap_table(found: Diagnosis) -> Table:
+    table = Table("where the gap lives", "noise units", title="Gap to the nominal model")
+    where = found.where
+    for name, value in (*where.signal.items(), *where.phase.items()):
+        table.add_row(name, f"{value:.2f}")
+    for low, high, value in where.band_hz:
+        table.add_row(f"{low:g} to {high:g} Hz", f"{value:.2f}")
+    for depth, value in where.depth_mm:
+        table.add_row(f"{depth:g} mm deep", f"{value:.2f}")
+    return table
+
+
+def _parameter_table(found: Diagnosis) -> Table:
+    table = Table("effect", "parameter", "value", "95 % interval", "unit", title="What explains it")
+    for effect, values in as_json(found)["parameters"].items():
+        for name, p in values.items():
+            interval = f"{p['low']:.4g} .. {p['high']:.4g}"
+            table.add_row(effect, name, f"{p['value']:.4g}", interval, p["unit"])
+    return table
+
+
+def _ranking_table(found: Diagnosis) -> Table:
+    table = Table("explanation", "probability", title="Ranking")
+    for name, probability in found.verdict.ranking[:5]:
+        table.add_row(name, f"{probability:.3f}")
+    return table

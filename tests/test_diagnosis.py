@@ -1,0 +1,181 @@
+"""The diagnosis on logs of an independent rig, and the parts that it rests on.
+
+The rig is `reference_rig`: finite volumes, another time stepper, no MuJoCo.
+"""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from reference_rig import Rig as ReferenceRig
+from reference_rig import simulate as simulate_reference
+
+from diagnosis.diagnose import diagnose
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
+from diagnosis.fit import coordinates_of
+from diagnosis.noise import white_noise
+from diagnosis.report import FORMAT, as_json, write_report
+from diagnosis.rig_log import read_rig_log
+from diagnosis.rig_model import RigModel
+from diagnosis.whiteness import floor_of
+from scripts.main import main
+
+BETA = 0.0172
+TIP, TORQUE, BASE = 0.25, 0.01, 0.02
+VOCABULARY = {
+    "coulomb_friction": "interface",
+    "stiction": "interface",
+    "speed_dependent_friction": "interface",
+    "shear_thinning": "interface",
+    "tissue_viscoelasticity": "tissue",
+    "layered_tissue": "tissue",
+    "entry_friction": "interface",
+    "sheath_friction": "drive",
+    "load_dependent_friction": "needle",
+    "chuck_backlash": "drive",
+    "base_compliance": "drive",
+    "tip_drag": "needle",
+    "needle_curvature": "needle",
+    "stiffness_error": "parameters",
+    "damping_error": "parameters",
+    "tip_angle_bias": "sensor",
+    "tip_angle_scale": "sensor",
+    "tip_sensor_delay": "sensor",
+    "torque_bias": "sensor",
+}
+
+
+def motions():
+    """Three trials: a fast turn and back, a slow one, one that slides; two depths."""
+    fast = ([0, 0.5, 0.9, 3.0, 3.5, 6.0], [0, 0, 90, 90, -20, -20], 100.0, 60.0, 0.0)
+    slow = ([0, 1.0, 7.0, 9.0, 12.0], [0, 0, 60, 60, 20], 60.0, 90.0, 0.0)
+    slides = ([0, 0.5, 1.1, 5.0], [0, 0, -120, -120], 100.0, 50.0, -2.5)
+    return [fast, slow, slides]
+
+
+def make_log(folder, effects, *, seed=0, damping=BETA):
+    rng = np.random.default_rng(seed)
+    rig = ReferenceRig(
+        diameter_mm=0.59, shear_modulus_gpa=27.2, damping_n_mm_s_per_mm=damping, effects=effects
+    )
+    folder.mkdir()
+    names = []
+    for i, (corners, angles, inserted, free, speed) in enumerate(motions()):
+        time = np.arange(0, corners[-1], 0.01)
+        base = np.interp(time, corners, angles)
+        lengths = {
+            "inserted_mm": np.full(time.size, inserted),
+            "free_mm": free - speed * time,
+            "speed_mm_s": np.full(time.size, speed),
+        }
+        found = simulate_reference(rig, time_s=time, base_angle_deg=base, cells=100, dt=4e-3, **lengths)
+        table = pd.DataFrame(
+            {
+                "time_s": time,
+                "base_angle_deg": base + rng.normal(0, BASE, time.size),
+                "base_torque_n_mm": found.base_torque_n_mm + rng.normal(0, TORQUE, time.size),
+                "tip_angle_deg": found.tip_angle_deg + rng.normal(0, TIP, time.size),
+                **lengths,
+            }
+        )
+        names.append(f"trial_{i + 1:02d}.csv")
+        table.to_csv(folder / names[-1], index=False, float_format="%.5f")
+    content = {
+        "format": "rig-log/1",
+        "needle": {"diameter_mm": 0.59, "shear_modulus_gpa": 27.2, "density_g_cm3": 6.45},
+        "tissue": {"damping_n_mm_s_per_mm": BETA},
+        "sensors": {
+            "tip_angle_noise_deg": TIP,
+            "base_torque_noise_n_mm": TORQUE,
+            "base_angle_noise_deg": BASE,
+        },
+        "trials": [{"file": name} for name in names],
+    }
+    (folder / "rig.yaml").write_text(yaml.safe_dump(content))
+    return folder
+
+
+def test_the_library_is_the_vocabulary():
+    assert {name: effect.place.value for name, effect in LIBRARY.items()} == VOCABULARY
+    assert {p.value for p in Place} == set(VOCABULARY.values())
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_an_effects_parameters_survive_the_coordinates_of_the_fit(name):
+    coordinates = coordinates_of([name])
+    low, high = coordinates.bounds()
+    for start in coordinates.starts():
+        assert np.all((low <= start) & (start <= high))
+        rig = coordinates.rig(start)
+        assert rig != RigModel()
+
+
+def test_white_noise_is_measured_under_a_slow_signal():
+    rng = np.random.default_rng(1)
+    time = np.linspace(0, 20, 4000)
+    values = 30 * np.sin(time) + rng.normal(0, 0.3, time.size)
+    assert white_noise(values) == pytest.approx(0.3, rel=0.05)
+
+
+def test_white_residuals_are_at_the_floor_and_slow_ones_are_not():
+    rng = np.random.default_rng(2)
+    white = rng.normal(size=8000)
+    assert floor_of([white]).reached
+    slow = white + 0.25 * np.sin(np.linspace(0, 30, 8000))
+    assert np.sqrt(np.mean(slow**2)) < 1.04  # nearly as small as noise, but not as white
+    assert not floor_of([slow]).reached
+
+
+@pytest.fixture(scope="module")
+def dry(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("dry") / "log"
+    return read_rig_log(make_log(folder, {"coulomb_friction": {"level": 0.0015}}))
+
+
+@pytest.fixture(scope="module")
+def dry_diagnosis(dry):
+    return diagnose(dry)
+
+
+def test_dry_friction_is_found_where_others_would_see_damping(dry_diagnosis):
+    report = as_json(dry_diagnosis)
+    assert report["verdict"] == "explained"
+    assert report["effects"] == ["coulomb_friction"]
+    level = report["parameters"]["coulomb_friction"]["level"]
+    assert level["value"] == pytest.approx(0.0015, rel=0.03)
+    assert level["unit"] == "N mm / mm"
+    assert report["where"]["place"] == "interface"
+    assert report["gap"]["before"] > 3
+    assert report["gap"]["after"] < 1.05
+    assert report["gap"]["shrink_low"] < report["gap"]["shrink"] < report["gap"]["shrink_high"]
+
+
+def test_probabilities_are_of_everything_and_add_up(dry_diagnosis):
+    ranking = as_json(dry_diagnosis)["ranking"]
+    assert {r["effect"] for r in ranking} == {*VOCABULARY, "none", "unknown"}
+    assert sum(r["probability"] for r in ranking) == pytest.approx(1.0)
+    assert ranking[0]["effect"] == "coulomb_friction"
+
+
+def test_the_report_is_strict_json_with_predictions_beside_it(dry_diagnosis, tmp_path):
+    paths = write_report(dry_diagnosis, tmp_path / "out")
+    report = json.loads(paths[0].read_text(), parse_constant=pytest.fail)
+    assert report["format"] == FORMAT
+    table = pd.read_csv(tmp_path / "out" / "predictions" / "trial_01.csv")
+    assert {"time_s", "tip_angle_deg_nominal", "tip_angle_deg_explained"} <= set(table.columns)
+
+
+def test_a_rig_with_nothing_unmodelled_gives_no_alarm(tmp_path, capsys):
+    folder = make_log(tmp_path / "log", {}, seed=3)
+    assert main(["diagnose", str(folder), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["verdict"] == "none"
+    assert report["effects"] == []
+
+
+def test_a_log_that_cannot_be_used_exits_2(tmp_path, capsys):
+    assert main(["diagnose", str(tmp_path / "nowhere")]) == 2
+    assert "rig.yaml" in capsys.readouterr().err
