@@ -1,4 +1,4 @@
-"""A diagnosis as files: `report.json` and `predictions/` (gap-report/1)."""
+"""A diagnosis as files: `report.json`, `report.html`, `gap.rrd`, `predictions/` (gap-report/1)."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,9 @@ from typing import Any
 import pandas as pd
 
 from diagnosis.diagnose import Diagnosis
+from diagnosis.gap_recording import log_gap
 from diagnosis.held_out import intervals
+from diagnosis.page import page, sentence
 from diagnosis.rig_log import RigLog
 from diagnosis.verdict import Outcome, places
 from sim.files import refuse_existing, write_text
@@ -78,11 +80,12 @@ def next_experiment(diagnosis: Diagnosis) -> str:
 
 def output_paths(log: RigLog, folder: Path) -> list[Path]:
     """What `write_report` will write."""
-    return [folder / "report.json", *(folder / "predictions" / t.name for t in log.trials)]
+    whole = [folder / name for name in ("report.json", "report.html", "gap.rrd")]
+    return [*whole, *(folder / "predictions" / t.name for t in log.trials)]
 
 
 def write_report(diagnosis: Diagnosis, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write predictions, then `report.json`; returns their paths.
+    """Write everything, `report.json` last; returns the paths.
 
     Raises:
       OutputExists: one of them exists and `force` is not given.
@@ -90,7 +93,8 @@ def write_report(diagnosis: Diagnosis, folder: Path, *, force: bool = False) -> 
     paths = output_paths(diagnosis.log, folder)
     refuse_existing(paths, force=force)
     log = diagnosis.log
-    each = zip(log.trials, diagnosis.nominal, diagnosis.explained, paths[1:], strict=True)
+    report = as_json(diagnosis)
+    each = zip(log.trials, diagnosis.nominal, diagnosis.explained, paths[3:], strict=True)
     for trial, nominal, explained, path in each:
         columns = {"time_s": trial["time_s"]}
         for sensor in ("base_torque_n_mm", "tip_angle_deg"):
@@ -98,5 +102,7 @@ def write_report(diagnosis: Diagnosis, folder: Path, *, force: bool = False) -> 
             columns[f"{sensor}_explained"] = explained[sensor]
         text = pd.DataFrame(columns).to_csv(index=False, float_format="%.6g")
         write_text(path, text, force=force)
-    write_text(paths[0], json.dumps(as_json(diagnosis), indent=1, allow_nan=False), force=force)
+    log_gap(diagnosis, sentence(diagnosis), paths[2], force=force)
+    write_text(paths[1], page(diagnosis, report), force=force)
+    write_text(paths[0], json.dumps(report, indent=1, allow_nan=False), force=force)
     return paths

@@ -8,9 +8,9 @@ from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
 from diagnosis.diagnose import Diagnosis, diagnose
+from diagnosis.page import sentence
 from diagnosis.report import as_json, output_paths, write_report
 from diagnosis.rig_log import read_rig_log
-from diagnosis.verdict import Outcome
 from sim.files import refuse_existing
 
 
@@ -42,25 +42,6 @@ def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, 
     for path in paths:
         console.print(f"wrote      {path}", highlight=False)
     return 0
-
-
-def sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence."""
-    gap, names = found.gap, " and ".join(found.verdict.effects)
-    match found.verdict.outcome:
-        case Outcome.NONE:
-            return f"none: nothing beyond noise (gap {gap.before:.2f})"
-        case Outcome.EXPLAINED:
-            verb = "bring" if len(found.verdict.effects) > 1 else "brings"
-            return f"explained: {names} {verb} the gap from {gap.before:.2f} to {gap.after:.2f} noise"
-        case Outcome.UNDECIDED:
-            sets = ", or ".join(" and ".join(s) for s in found.verdict.confusable)
-            return f"undecided: {sets} explain the gap of {gap.before:.2f} noise alike"
-        case _:
-            return (
-                f"unknown: a gap of {gap.before:.2f} noise, of which no effect of the library, "
-                f"nor any pair that was tried, leaves less than {gap.after:.2f}"
-            )
 
 
 def _gap_table(found: Diagnosis) -> Table:

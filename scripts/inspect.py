@@ -19,7 +19,10 @@ def run(path: Path, *, table: bool, console: Console) -> int:
         return 0
     environment = os.environ | {"CI": "1"}  # the viewer then collects nothing
     viewer = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
-    return subprocess.call(viewer, env=environment)
+    code = subprocess.call(viewer, env=environment)
+    if code != 0:
+        console.print("the viewer did not open; without a screen, --table lists what is inside")
+    return code
 
 
 def as_table(path: Path, found: list[Entry]) -> Table:

@@ -22,6 +22,7 @@ from diagnosis.rig_log import read_rig_log
 from diagnosis.rig_model import RigModel
 from diagnosis.whiteness import floor_of
 from scripts.main import main
+from sim.rerun_table import entries
 
 BETA = 0.0172
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02
@@ -164,6 +165,12 @@ def test_the_report_is_strict_json_with_predictions_beside_it(dry_diagnosis, tmp
     paths = write_report(dry_diagnosis, tmp_path / "out")
     report = json.loads(paths[0].read_text(), parse_constant=pytest.fail)
     assert report["format"] == FORMAT
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "explained: coulomb_friction brings the gap" in page
+    assert "://" not in page  # opens without a network
+    assert page.count("data:image/png;base64,") == 3
+    found = {e.entity for e in entries(tmp_path / "out" / "gap.rrd")}
+    assert {"/trial_1/tip_angle_deg/measured", "/trial_3/residual/base_torque_n_mm/explained"} <= found
     table = pd.read_csv(tmp_path / "out" / "predictions" / "trial_01.csv")
     assert {"time_s", "tip_angle_deg_nominal", "tip_angle_deg_explained"} <= set(table.columns)
 
