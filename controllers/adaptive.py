@@ -24,6 +24,7 @@ from models.needle import Needle
 Array = NDArray[np.float64]
 
 _RAD = math.pi / 180.0
+_ONE, _NONE = np.ones(1), np.zeros(1)
 
 
 class AdaptiveEstimator(FeedforwardEstimator):
@@ -69,6 +70,9 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._spread, self._drift = guess_spread, drift_per_s
         self._turn_var = (turn_noise_deg * _RAD) ** 2
         super().__init__(needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order)
+        self._row = np.concatenate([_ONE, self.twist.sign, _NONE])
+        # All modes count at the base: what truncation drops of them is pi^2/6 - sum 1/k^2.
+        self._tail = 2 / np.pi**2 * (np.pi**2 / 6 - float((1.0 / self.twist.k**2).sum()))
 
     def reset(self) -> None:
         """Untwisted, with the first guess of the damping."""
@@ -96,21 +100,19 @@ class AdaptiveEstimator(FeedforwardEstimator):
     def _predict(self, last: Sample, now: Sample, turned: float, before: Array) -> None:
         """Covariance over one sample."""
         dt, depth = now.time_s - last.time_s, 0.5 * (last.inserted_mm + now.inserted_mm)
-        n = self._covariance.shape[0]
-        jacobian = np.zeros((n, n))
-        jacobian[0, 0] = jacobian[-1, -1] = 1.0
+        # The Jacobian is diagonal but for its last column: beta only sets the pace, so
+        # d / d log beta of a step is minus the step.
         decay = np.exp(self.twist.poles(depth, self.damping) * dt)
-        jacobian[1:-1, 1:-1] = np.diag(decay)
-        # beta only sets the pace: d/d log beta of a step is minus the step.
-        jacobian[0, -1] = -turned
-        jacobian[1:-1, -1] = -(self._p - before)
-        self._covariance = jacobian @ self._covariance @ jacobian.T
+        diagonal = np.concatenate([_ONE, decay, _ONE])
+        column = np.concatenate([[-turned], before - self._p, _NONE])
+        half = diagonal[:, None] * self._covariance + column[:, None] * self._covariance[-1]
+        self._covariance = half * diagonal + half[:, -1:] * column
         self._covariance[0, 0] += self._turn_var * dt
         self._covariance[-1, -1] += self._drift**2 * dt
 
     def _correct(self, now: Sample) -> None:
         """The base angle as a measurement."""
-        row = np.concatenate([[1.0], self.twist.sign, [0.0]])
+        row = self._row
         mean = self._mean_rad or 0.0
         missed = now.base_deg * _RAD - mean - self._base_past_mean(now)
         spread = self._covariance @ row
@@ -127,10 +129,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
 
     def _give(self, sample: Sample) -> float:
         """How far the base gives at once to a torque, rad / (N mm): free shaft and tail."""
-        # All modes count at the base: what truncation drops of them is pi^2/6 - sum 1/k^2.
-        dropped = np.pi**2 / 6 - float((1.0 / self.twist.k**2).sum())
-        tail = 2 * sample.inserted_mm / np.pi**2 * dropped
-        return (sample.free_mm + tail) / self.twist.kappa
+        return (sample.free_mm + sample.inserted_mm * self._tail) / self.twist.kappa
 
     def _read(self, sample: Sample) -> Estimate:
         estimate = super()._read(sample)

@@ -15,13 +15,14 @@ from itertools import combinations
 import numpy as np
 
 from diagnosis.effects import LIBRARY
-from diagnosis.fit import Fit, fit_effects
+from diagnosis.fit import NUISANCE_SPREAD, Fit, fit_effects
 from diagnosis.noise import Noise
 from diagnosis.rig_log import RigLog
 from diagnosis.whiteness import Floor, floor_of
 from models.errors import NeedleError
 from sim.kernel.callback import install
 
+SCATTER = 2 * NUISANCE_SPREAD
 _GLANCE = 3  # iterations of a first fit
 _PROMISING = 6
 _LEADING = 3  # effects whose pairs are tried
@@ -52,6 +53,18 @@ class Candidate:
     def names(self) -> tuple[str, ...]:
         """Of its effects; none for the nominal rig."""
         return self.fit.names
+
+
+def named(candidate: Candidate) -> tuple[str, ...]:
+    """Effects of a candidate, with a scatter of the rig that is too large to be scatter."""
+    count = len(candidate.fit.coordinates.nuisance)
+    values = candidate.fit.x[candidate.fit.x.size - count :]
+    beyond = [
+        effect.name
+        for effect, value in zip(candidate.fit.coordinates.nuisance, values, strict=True)
+        if abs(value) > SCATTER
+    ]
+    return (*candidate.names, *beyond)
 
 
 def candidate(fit: Fit) -> Candidate:
@@ -92,6 +105,10 @@ def search(
         if not any(c.floor.reached for c in found):
             pairs = _pairs([c.names[0] for c in sorted(glances, key=lambda c: c.score)])
             found += _fit_all(pool, log, noise, pairs, 0, progress, "fitting pairs")
+    best = min(found, key=lambda c: c.score)
+    if named(best) != best.names:
+        # What is no scatter is fitted without the prior of scatter, which would pull it.
+        found.append(candidate(fit_effects(log, noise, named(best))))
     return sorted(found, key=lambda c: c.score)
 
 

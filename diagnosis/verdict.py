@@ -13,12 +13,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from diagnosis.effects import LIBRARY
-from diagnosis.fit import NUISANCE_SPREAD
-from diagnosis.search import Candidate
+from diagnosis.search import Candidate, named
 
 # A difference of score of 10 is odds of 150 to 1 for data with the noise that is assumed.
 ALIKE = 10.0
-SCATTER = 2 * NUISANCE_SPREAD
 
 
 class Outcome(StrEnum):
@@ -71,18 +69,6 @@ def judge(candidates: Sequence[Candidate]) -> Verdict:
         best=best,
         ranking=_ranking(candidates, known=True),
     )
-
-
-def named(candidate: Candidate) -> tuple[str, ...]:
-    """Effects of a candidate, with a scatter of the rig that is too large to be scatter."""
-    count = len(candidate.fit.coordinates.nuisance)
-    values = candidate.fit.x[candidate.fit.x.size - count :]
-    beyond = [
-        effect.name
-        for effect, value in zip(candidate.fit.coordinates.nuisance, values, strict=True)
-        if abs(value) > SCATTER
-    ]
-    return (*candidate.names, *beyond)
 
 
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
