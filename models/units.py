@@ -11,7 +11,3 @@ N_MM2 = 1e-6  # N m^2
 GPA_TO_N_PER_MM2 = 1e3
 G_PER_CM3 = 1e3  # kg/m^3
 DEG = math.pi / 180.0  # rad
-
-# Per millimetre of shaft, N mm / mm and N m / m are the same number, and so are
-# N mm s / rad / mm and N m s / rad / m.
-PER_LENGTH = 1.0

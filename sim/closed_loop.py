@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models import units
+from sim.discretisation import Mesh
 from sim.kernel import wire
 from sim.schedule import Schedule
 from sim.simulation import Run, compile_model, controls, initial_data
@@ -100,7 +101,9 @@ def fly(
     angles = np.zeros((wished.time_s.size, model.nq - 1))
     drive = np.zeros(wished.time_s.size)
     kept: list[dict[str, float]] = []
-    extra = 0.0
+    # A pilot may retract beside the schedule: what is measured and recorded moves with it.
+    moved = np.zeros(wished.time_s.size)
+    free, inserted = wished.free_mm.copy(), wished.inserted_mm.copy()
     for i in range(wished.time_s.size):
         if i:
             data.ctrl[:] = ctrl[i]
@@ -108,18 +111,30 @@ def fly(
             outputs[i] = data.sensordata
             angles[i] = np.cumsum(data.qpos[1:]) if chain else data.qpos[1:]
         # The angle at the drive shaft is what was commanded; the rest is measured.
-        reading = _reading(wished, i, drive[i] + errors[i, 0], outputs[i], errors[i])
+        reading = Reading(
+            time_s=float(wished.time_s[i]),
+            base_deg=drive[i] + errors[i, 0],
+            torque_n_mm=float(outputs[i, wire.O_BASE_TORQUE] / units.N_MM + errors[i, 1]),
+            tip_deg=float(outputs[i, wire.O_TIP_ANGLE] / units.DEG + errors[i, 2]),
+            inserted_mm=float(inserted[i]),
+            free_mm=float(free[i]),
+        )
         wanted = pilot(reading, float(wished.drive[i]))
         if keep is not None:
             kept.append(keep())
         if i + 1 < drive.size:
             drive[i + 1] = wanted
             ctrl[i + 1, wire.U_DRIVE] = wanted * units.DEG
-            advance, before = pilot.advance_mm * units.MM, extra
-            extra = advance
-            ctrl[i + 1, wire.U_CARRIAGE] += extra
-            ctrl[i + 1, wire.U_SPEED] += (extra - before) / step
-    flown = Schedule(**{**_columns(wished), "drive": drive})
+            moved[i + 1] = pilot.advance_mm
+            speed_mm_s = (moved[i + 1] - moved[i]) / step
+            ctrl[i + 1, wire.U_CARRIAGE] += moved[i + 1] * units.MM
+            ctrl[i + 1, wire.U_SPEED] += speed_mm_s * units.MM
+            free[i + 1] -= moved[i + 1]
+            if setup.mesh is Mesh.NEEDLE:
+                inserted[i + 1] = max(inserted[i + 1] + moved[i + 1], 0.0)
+                ctrl[i + 1, wire.U_INSERTED] = inserted[i + 1] * units.MM
+    lengths = {"free_mm": free, "inserted_mm": inserted}
+    flown = Schedule(**{**_columns(wished), **lengths, "drive": drive})
     log = {name: np.array([row[name] for row in kept]) for name in (kept[0] if kept else {})}
     run = Run(setup=setup, inputs=flown, outputs=outputs, angles_rad=angles if keep_shape else None)
     return Flight(run=run, wanted_deg=wished.drive, log=log)
@@ -127,14 +142,3 @@ def fly(
 
 def _columns(schedule: Schedule) -> dict[str, Any]:
     return {name: getattr(schedule, name) for name in schedule.__dataclass_fields__}
-
-
-def _reading(inputs: Schedule, i: int, base_deg: float, outputs: Array, error: Array) -> Reading:
-    return Reading(
-        time_s=float(inputs.time_s[i]),
-        base_deg=base_deg,
-        torque_n_mm=float(outputs[wire.O_BASE_TORQUE] / units.N_MM + error[1]),
-        tip_deg=float(outputs[wire.O_TIP_ANGLE] / units.DEG + error[2]),
-        inserted_mm=float(inputs.inserted_mm[i]),
-        free_mm=float(inputs.free_mm[i]),
-    )

@@ -175,6 +175,18 @@ def test_the_friction_aware_controller_asks_for_retraction_when_it_can_wind_no_f
     assert min(advances) == pytest.approx(-5.0, abs=0.05)
 
 
+def test_a_retraction_that_a_pilot_asks_for_moves_the_needle():
+    """Beyond its torque limit in much dry friction, the needle is drawn back by 5 mm."""
+    dry = Tissue.uniform(viscous_n_mm_s_per_mm=BETA, kinetic_n_mm_per_mm=0.03)
+    design = Design(needle=NITINOL, damping_n_mm_s_per_mm=BETA, limits=MotorLimits(torque_n_mm=1.0))
+    run = tables.turn(
+        "friction_aware", depth_cm=10, free_mm=50, tissue=dry, design=design, noise=None
+    ).run
+    scheduled = 50 + 2.5 * run.time_s
+    assert (run.inputs.free_mm - scheduled).max() == pytest.approx(5.0, abs=0.1)
+    assert run.inputs.inserted_mm == pytest.approx(100.0)
+
+
 @pytest.mark.parametrize(
     ("make", "field"),
     [
