@@ -5,6 +5,7 @@ are read by the same tools.
 """
 
 import json
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -67,7 +68,7 @@ class Recording:
 
     def group(self, prefix: str) -> Array:
         """Numbered signals `prefix_000_...`, (N, count)."""
-        names = [c for c in self.table.columns if c.startswith(f"{prefix}_")]
+        names = [c for c in self.table.columns if re.match(rf"{prefix}_\d{{3}}_", str(c))]
         return np.asarray(self.table[names], float)
 
     def write(self, path: Path, *, force: bool = False) -> None:

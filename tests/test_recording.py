@@ -51,6 +51,12 @@ def test_an_unknown_signal_is_answered_with_the_known_ones(recording):
         recording["tip"]
 
 
+def test_a_group_holds_its_numbered_signals_alone(recording):
+    assert "tissue_energy_mj" in recording.table
+    sites = [c for c in recording.table if c.startswith("tissue_") and c.endswith("_deg")]
+    assert recording.group("tissue").shape[1] == len(sites)
+
+
 def test_nothing_is_overwritten_unless_forced(recording, tmp_path):
     path = tmp_path / "run.csv"
     path.write_text("mine")
