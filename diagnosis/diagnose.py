@@ -1,58 +1,65 @@
 """From a log to a diagnosis: replay, noise, search, verdict, gap and where it lives."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.fit import Fit
-from diagnosis.held_out import held_out
+from diagnosis.advice import advise
+from diagnosis.base_motion import without_base_noise
+from diagnosis.evidence import Evidence
+from diagnosis.further import further
+from diagnosis.gap import Gap, gap_of
+from diagnosis.limits import possible_effects
 from diagnosis.noise import Noise, estimate_noise
+from diagnosis.nuisance import nuisance_of
+from diagnosis.parameters import Interval, intervals
 from diagnosis.predict import Prediction, predict
+from diagnosis.replay_error import replay_change, replay_error, warnings_of
 from diagnosis.rig_log import SENSORS, RigLog
 from diagnosis.rig_model import RigModel
 from diagnosis.search import search
-from diagnosis.verdict import Verdict, judge
+from diagnosis.strength import strongest_first
+from diagnosis.team import Progress, silent, team
+from diagnosis.thinning import thinned
+from diagnosis.verdict import Outcome, Verdict, judge
 from diagnosis.where import Where, locate
 
 Array = NDArray[np.float64]
 
-_BOOTSTRAPS = 400
-
-
-@dataclass(frozen=True, kw_only=True)
-class Gap:
-    """Root mean square residual over noise, held out, before and after; 1 is the floor."""
-
-    before: float
-    after: float
-    shrink: float
-    shrink_low: float
-    shrink_high: float
-
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis:
-    """Everything that a report is made of; predictions are in the order of the trials."""
+    """Everything that a report is made of; predictions are in the order of the trials.
+
+    Attributes:
+      where: the gap to the nominal rig lives, and where what is left of it does.
+      further: gap that one more effect may bring it down to, by effect.
+    """
 
     log: RigLog
     noise: Noise
+    replay_error: dict[str, float]
     verdict: Verdict
     gap: Gap
     where: Where
+    where_left: Where
+    parameters: dict[str, dict[str, Interval]]
+    further: dict[str, float]
+    next_experiment: str
     nominal: list[Prediction]
     explained: list[Prediction]
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Of the log, of its noise and of the replay."""
+        return (*self.log.warnings, *self.noise.warnings, *warnings_of(self.replay_error))
 
-def diagnose(
-    log: RigLog,
-    *,
-    workers: int = 2,
-    progress: Callable[[str, float], None] = lambda what, share: None,
-) -> Diagnosis:
+
+def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> Diagnosis:
     """Diagnose a log."""
-    nominal = [predict(log, trial, [RigModel()])[0] for trial in log.trials]
+    driven = without_base_noise(log)
+    nominal = _predicted(driven, RigModel())
     missed = {
         sensor: [
             trial[sensor] - prediction[sensor]
@@ -62,20 +69,35 @@ def diagnose(
         for sensor in SENSORS
     }
     noise = estimate_noise(log, missed)
-    candidates = search(log, noise, workers=workers, progress=progress)
-    verdict = judge(candidates)
-    best = verdict.best.fit
+    evidence = Evidence(log=driven, noise=noise, nuisance=nuisance_of(driven))
+    coarse, effects = thinned(evidence, nominal), possible_effects(log)
+    with team(workers, progress) as workforce:
+        verdict = judge(search(evidence, coarse, effects, workforce))
+        best = verdict.best.fit
+        left = further(coarse, best, effects, workforce)
+    if verdict.outcome is Outcome.EXPLAINED:
+        verdict = replace(verdict, effects=strongest_first(evidence, verdict.best))
     rig = best.coordinates.rig(best.x)
-    before = tuple(_over_noise(missed, noise, log))
+    explained, change = _predicted(driven, rig), replay_change(evidence, rig)
+    where_left = locate(log, explained, noise)
     return Diagnosis(
         log=log,
         noise=noise,
+        replay_error=replay_error(change),
         verdict=verdict,
-        gap=gap_of(before, best),
+        gap=gap_of(tuple(_over_noise(missed, noise, log)), best),
         where=locate(log, nominal, noise),
+        where_left=where_left,
+        parameters={e: p for e, p in intervals(evidence, best, change).items() if e in verdict.effects},
+        further=left,
+        next_experiment=advise(coarse, verdict, where_left),
         nominal=nominal,
-        explained=[predict(log, trial, [rig])[0] for trial in log.trials],
+        explained=explained,
     )
+
+
+def _predicted(log: RigLog, rig: RigModel) -> list[Prediction]:
+    return [predict(log.rig, trial, [rig])[0] for trial in log.trials]
 
 
 def _over_noise(missed: dict[str, list[Array]], noise: Noise, log: RigLog) -> list[Array]:
@@ -87,42 +109,3 @@ def _over_noise(missed: dict[str, list[Array]], noise: Noise, log: RigLog) -> li
         joined = np.concatenate(parts) if parts else np.zeros(0)
         found.append(joined[np.isfinite(joined)])
     return found
-
-
-def gap_of(before: tuple[Array, ...], best: Fit) -> Gap:
-    """Gap before and after on held-out trials, its shrinkage from resampled blocks."""
-    after = held_out(best)
-    squares = [
-        np.stack([_blocks(b**2), _blocks(a**2)])
-        for b, a in zip(before, after, strict=True)
-        if b.size >= _BLOCK
-    ]
-    pooled = np.concatenate(squares, axis=1) if squares else np.ones((2, 1))
-    ratio = _shrink(pooled)
-    rng = np.random.default_rng(0)
-    picks = rng.integers(0, pooled.shape[1], size=(_BOOTSTRAPS, pooled.shape[1]))
-    low, high = np.quantile([_shrink(pooled[:, pick]) for pick in picks], [0.025, 0.975])
-    return Gap(
-        before=_rms(before),
-        after=_rms(after),
-        shrink=ratio,
-        shrink_low=float(low),
-        shrink_high=float(high),
-    )
-
-
-_BLOCK = 100  # samples that are resampled together: residuals of a gap are not independent
-
-
-def _blocks(values: Array) -> Array:
-    return np.asarray(values[: values.size // _BLOCK * _BLOCK].reshape(-1, _BLOCK).mean(axis=1))
-
-
-def _shrink(squares: Array) -> float:
-    before, after = squares.mean(axis=1)
-    return float(1 - np.sqrt(after / before)) if before > 0 else 0.0
-
-
-def _rms(by_trial: tuple[Array, ...]) -> float:
-    values = np.concatenate(by_trial)
-    return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")

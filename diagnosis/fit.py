@@ -1,8 +1,6 @@
-"""Fitting a set of effects to a log, with the rig's own scatter as a nuisance.
+"""Fitting a set of effects to a log, with what is never known of a rig left open.
 
-Stiffness and damping of a rig are never exactly nominal. Unless they are among the
-effects that are fitted, both may scatter by a few per cent (a prior of 1.5 %),
-which is marginalised with the rest. Minimised is
+Minimised is
 
     sum over trials and sensors ((measured - predicted) / noise)^2 + prior
 
@@ -16,79 +14,15 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
+from diagnosis.coordinates import Coordinates, coordinates_of
 from diagnosis.effects import LIBRARY
-from diagnosis.effects.effect import Effect, Parameter
-from diagnosis.noise import Noise
-from diagnosis.predict import predict, residuals
-from diagnosis.rig_log import RigLog
-from diagnosis.rig_model import RigModel
+from diagnosis.evidence import COARSE, FINE, Evidence
+from diagnosis.predict import predicted_residuals
 
 Array = NDArray[np.float64]
 
-NUISANCE = ("stiffness_error", "damping_error")
-NUISANCE_SPREAD = 0.015
 _STEP = 1e-3  # of finite differences, in the units of the fit
-_MOST_ITERATIONS = 12
-
-
-@dataclass(frozen=True, kw_only=True)
-class Coordinates:
-    """Parameters of a set of effects as a vector that a fit can move in."""
-
-    effects: tuple[Effect, ...]
-    nuisance: tuple[Effect, ...]
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """Of all effects, then of the nuisance."""
-        return tuple(p for e in (*self.effects, *self.nuisance) for p in e.parameters)
-
-    def bounds(self) -> tuple[Array, Array]:
-        """Lowest and highest vector."""
-        low = [_forward(p, p.low) for p in self.parameters]
-        high = [_forward(p, p.high) for p in self.parameters]
-        return np.array(low), np.array(high)
-
-    def starts(self) -> list[Array]:
-        """Vectors to start from: the starts of the effect with most of them."""
-        count = max([len(p.start) for e in self.effects for p in e.parameters] or [1])
-        own = [p for e in self.effects for p in e.parameters]
-        starts = []
-        for i in range(count):
-            values = [_forward(p, p.start[i % len(p.start)]) for p in own]
-            starts.append(np.array(values + [0.0] * len(self.nuisance)))
-        return starts
-
-    def values(self, x: Array) -> list[float]:
-        """Parameter values of a vector."""
-        return [_backward(p, float(v)) for p, v in zip(self.parameters, x, strict=True)]
-
-    def rig(self, x: Array) -> RigModel:
-        """The rig with these effects in it."""
-        rig, values = RigModel(), self.values(x)
-        for effect in (*self.effects, *self.nuisance):
-            count = len(effect.parameters)
-            rig = effect.enter(rig, *values[:count])
-            values = values[count:]
-        return rig
-
-    def prior(self, x: Array) -> Array:
-        """Residuals of the prior: the nuisance scatters by a few per cent."""
-        count = len(self.nuisance)
-        return x[x.size - count :] / NUISANCE_SPREAD if count else np.zeros(0)
-
-
-def _forward(p: Parameter, value: float) -> float:
-    return float(np.log(value)) if p.logarithmic else value / _scale(p)
-
-
-def _backward(p: Parameter, x: float) -> float:
-    return float(np.exp(x)) if p.logarithmic else x * _scale(p)
-
-
-def _scale(p: Parameter) -> float:
-    """Linear parameters are fitted in units of this."""
-    return {"deg": 10.0 if p.name == "phase" else 1.0, "s": 0.1, "N mm": 0.05}.get(p.unit, 1.0)
+_ENOUGH = {COARSE: 1.0, FINE: 0.1}  # a gradient that promises less, in noise, is none
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,100 +59,101 @@ class Fit:
         """Parameters that the named effects have."""
         return sum(len(LIBRARY[n].parameters) for n in self.names)
 
-
-def coordinates_of(names: Sequence[str], *, nuisance: bool = True) -> Coordinates:
-    """The coordinates of a set of effects by name."""
-    others = tuple(LIBRARY[n] for n in NUISANCE if n not in names) if nuisance else ()
-    return Coordinates(effects=tuple(LIBRARY[n] for n in names), nuisance=others)
+    @property
+    def parts(self) -> dict[str, Array]:
+        """The vector by effect."""
+        return self.coordinates.parts(self.x)
 
 
 class Objective:
-    """Residuals of a log as a function of the fit's vector."""
+    """Residuals of a log as a function of the fit's vector, for `mujoco.minimize`.
 
-    def __init__(self, log: RigLog, noise: Noise, coordinates: Coordinates) -> None:
-        self.log, self.noise, self.coordinates = log, noise, coordinates
+    The nuisance moves by a few per cent at the most: its slopes are taken once.
 
-    def by_trial(self, columns: Array) -> list[list[Array]]:
-        """Residuals of every column, (n, M): trial by trial, then column by column."""
-        rigs = [self.coordinates.rig(x) for x in columns.T]
-        found = []
-        for trial in self.log.trials:
-            predictions = predict(self.log, trial, rigs)
-            found.append([residuals(trial, p, self.noise) for p in predictions])
-        return found
+    Attributes:
+      slopes: the last Jacobian that was taken, (N, n).
+    """
+
+    def __init__(self, evidence: Evidence, coordinates: Coordinates) -> None:
+        self.evidence, self.coordinates = evidence, coordinates
+        self.low, self.high = coordinates.bounds()
+        self.slopes: Array | None = None
 
     def __call__(self, x: Array) -> Array:
-        """For `mujoco.minimize`: (n, M) or (n,) to residuals, (N, M) or (N,)."""
+        """(n, M) or (n,) to residuals with the prior, (N, M) or (N,)."""
         columns = x.reshape(x.shape[0], -1)
-        trials = self.by_trial(columns)
+        rigs = [self.coordinates.rig(x) for x in columns.T]
+        trials = predicted_residuals(self.evidence, rigs)
         rows = [
-            np.concatenate([*(t[i] for t in trials), self.coordinates.prior(columns[:, i])])
+            np.concatenate([*(t[i] for t in trials), self.coordinates.weights * columns[:, i]])
             for i in range(columns.shape[1])
         ]
         return np.stack(rows, axis=-1).reshape(-1, *x.shape[1:])
 
+    def jacobian(self, x: Array, at_x: Array) -> Array:
+        """By differences away from the bounds, (N, n)."""
+        flat = x.ravel()
+        steps = np.where(flat + _STEP > self.high, -_STEP, _STEP)
+        fresh = self.slopes is None
+        taken = np.arange(flat.size if fresh else self.coordinates.free)
+        slopes = np.zeros((at_x.size, flat.size)) if fresh else np.array(self.slopes)
+        if taken.size:
+            moved = self(flat[:, None] + np.diag(steps)[:, taken])
+            slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
+        self.slopes = slopes
+        return slopes
+
 
 def fit_effects(
-    log: RigLog,
-    noise: Noise,
+    evidence: Evidence,
     names: Sequence[str],
-    *,
-    nuisance: bool = True,
-    most_iterations: int = _MOST_ITERATIONS,
     start: Array | None = None,
+    *,
+    most_iterations: int = 12,
 ) -> Fit:
-    """Fit a set of effects; of several starts the best is gone on from.
+    """Fit a set of effects.
 
     Args:
-      nuisance: let stiffness and damping scatter, where they are not among the effects.
-      most_iterations: of the fit.
-      start: where to start instead of the effects' own starts.
+      start: the vector to start from; None is neutral.
+      most_iterations: of Gauss-Newton.
+
+    Raises:
+      SimulationFailed: a candidate cannot be simulated.
     """
-    coordinates = coordinates_of(names, nuisance=nuisance)
-    objective = Objective(log, noise, coordinates)
+    coordinates = coordinates_of(names, evidence.nuisance)
+    objective = Objective(evidence, coordinates)
     if not coordinates.parameters:
-        return _finished(objective, names, np.zeros(0))
-    low, high = coordinates.bounds()
-    starts = coordinates.starts() if start is None else [start]
-    columns = np.stack([np.clip(s, low, high) for s in starts], axis=-1)
-    costs = (objective(columns) ** 2).sum(axis=0)
-    best = columns[:, int(np.argmin(costs))]
+        return _fit(objective, names, np.zeros(0), np.zeros((0, 0)))
+    first = np.clip(coordinates.joined({}) if start is None else start, objective.low, objective.high)
     x, _ = minimize.least_squares(
-        best,
+        first,
         objective,
-        bounds=[low, high],
-        eps=_STEP,
+        bounds=[objective.low, objective.high],
+        jacobian=objective.jacobian,
+        x_scale="jac",
+        gtol=_ENOUGH.get(evidence.resolution, 0.1),
+        xtol=1e-5,
         max_iter=most_iterations,
         mu_min=1e-3,
         mu_factor=8.0,
-        gtol=1e-4,
-        xtol=1e-4,
         verbose=minimize.Verbosity.SILENT,
     )
-    return _finished(objective, names, np.asarray(x).ravel())
+    slopes = objective.slopes
+    return _fit(objective, names, np.asarray(x).ravel(), np.zeros((0, 0)) if slopes is None else slopes)
 
 
-def _finished(objective: Objective, names: Sequence[str], x: Array) -> Fit:
-    """Residuals and Jacobian at the end."""
-    n = x.size
-    _, high = objective.coordinates.bounds()
-    steps = _STEP * np.where(x + _STEP > high, -1.0, 1.0)
-    columns = np.concatenate([x[:, None], x[:, None] + np.diag(steps)], axis=1)
-    trials = objective.by_trial(columns)
+def _fit(objective: Objective, names: Sequence[str], x: Array, slopes: Array) -> Fit:
+    """The fit at x; its slopes are those of the last iterate."""
+    trials = predicted_residuals(objective.evidence, [objective.coordinates.rig(x)])
     by_trial = tuple(t[0] for t in trials)
-    jacobian = tuple(
-        np.stack([(t[i + 1] - t[0]) / steps[i] for i in range(n)], axis=-1)
-        if n
-        else np.zeros((t[0].size, 0))
-        for t in trials
-    )
-    prior = objective.coordinates.prior(x)
-    cost = sum(float(r @ r) for r in by_trial) + float(prior @ prior)
+    ends = np.cumsum([r.size for r in by_trial])
+    prior = objective.coordinates.weights * x
+    whole = slopes if x.size else np.zeros((ends[-1], 0))
     return Fit(
         names=tuple(names),
         coordinates=objective.coordinates,
         x=x,
         by_trial=by_trial,
-        jacobian=jacobian,
-        cost=cost,
+        jacobian=tuple(np.split(whole[: ends[-1]], ends[:-1])),
+        cost=sum(float(r @ r) for r in by_trial) + float(prior @ prior),
     )

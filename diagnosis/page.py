@@ -3,23 +3,34 @@
 import base64
 import html
 import io
-from collections.abc import Callable
+from collections.abc import Iterable
 from typing import Any
 
 import matplotlib.pyplot as plt
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from diagnosis.diagnose import Diagnosis
-from diagnosis.rig_log import SENSORS
+from diagnosis.page_pictures import draw_ranking, draw_trials, draw_where
 from diagnosis.verdict import Outcome
 
-_LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;
 color:#222}h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%}
 table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .8em;text-align:left}
 .warning{background:#fff3cd;padding:.5em 1em}"""
+
+
+_WHERE = (
+    "Root mean square of measured less predicted, in units of each sensor's noise: of the nominal "
+    "model, and of what was made of it below."
+)
+_WHICH = (
+    "Probability of each explanation, given the library, the noise and these trials. Two effects that "
+    "explain a log together share theirs."
+)
+_TRIALS = (
+    "Grey: measured. Below each signal: what each prediction misses it by, in units of noise; in the "
+    "grey band lie 95 % of the samples if nothing but noise is left."
+)
 
 
 def sentence(found: Diagnosis) -> str:
@@ -45,18 +56,45 @@ def page(found: Diagnosis, report: dict[str, Any]) -> str:
     """The whole page; `report` is report.json."""
     parts = [f"<h1>{html.escape(sentence(found))}</h1>"]
     parts += [f'<p class="warning">{html.escape(w)}</p>' for w in report["warnings"]]
-    parts += ["<h2>Where the gap lives</h2>", _picture(found, _draw_where)]
-    parts += ["<h2>Which effects explain it</h2>", _picture(found, _draw_ranking)]
+    parts += ["<h2>Where the gap lives</h2>", f"<p>{_WHERE}</p>", _picture(draw_where(found))]
+    parts += ["<h2>Which effects explain it</h2>", f"<p>{_WHICH}</p>", _picture(draw_ranking(found))]
     if report["parameters"]:
         parts.append(_parameters(report["parameters"]))
     parts += ["<h2>How far it shrinks</h2>", f"<p>{_shrinkage(found)}</p>"]
-    parts += ["<h2>Measured, nominal and explained</h2>", _picture(found, _draw_trials)]
-    parts += ["<h2>What cannot be told</h2>", f"<p>{html.escape(_limits(found, report))}</p>"]
+    parts += [f"<p>{html.escape(_further(found))}</p>"]
+    parts += ["<h2>Measured, nominal and explained</h2>", f"<p>{_TRIALS}</p>"]
+    parts.append(_picture(draw_trials(found)))
+    parts += ["<h2>What cannot be told</h2>", _list(_limits(report))]
+    parts += ["<h2>How good the replay is</h2>", _list(_replay(found))]
     body = "\n".join(parts)
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Gap report</title>'
         f"<style>{_STYLE}</style></head><body>{body}</body></html>\n"
     )
+
+
+def _list(lines: Iterable[str]) -> str:
+    return "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in lines) + "</ul>"
+
+
+def _further(found: Diagnosis) -> str:
+    """What one more effect would bring."""
+    first = list(found.further.items())[:3]
+    if not first:
+        return ""
+    named = ", ".join(f"{name} to {gap:.3f}" for name, gap in first)
+    here = found.verdict.best.fit.gap
+    return f"One more effect would bring what is left, {here:.3f} on the trials of the fit: {named}."
+
+
+def _replay(found: Diagnosis) -> list[str]:
+    lines = [
+        f"{sensor}: noise {found.noise[sensor]:.3g}; half the step and twice the elements change the "
+        f"replay by {error:.3f} of it"
+        for sensor, error in found.replay_error.items()
+    ]
+    base = found.noise["base_angle_deg"]
+    return [*lines, f"base_angle_deg: noise {base:.3g}, taken off as far as the motion allows"]
 
 
 def _shrinkage(found: Diagnosis) -> str:
@@ -69,11 +107,10 @@ def _shrinkage(found: Diagnosis) -> str:
     )
 
 
-def _limits(found: Diagnosis, report: dict[str, Any]) -> str:
-    missing = [s for s in SENSORS if not any(t.has(s) for t in found.log.trials)]
-    lines = [f"{s} was not measured: effects that show only there stay open." for s in missing]
+def _limits(report: dict[str, Any]) -> list[str]:
     advice = report["next_experiment"]
-    return " ".join([*lines, advice] if advice else lines) or "Nothing that the data leave open."
+    lines = [*report["cannot_tell"], *([f"Next: {advice}"] if advice else [])]
+    return lines or ["Every effect of the library would show in these trials."]
 
 
 def _parameters(parameters: dict[str, Any]) -> str:
@@ -87,71 +124,8 @@ def _parameters(parameters: dict[str, Any]) -> str:
     return f"<table>{head}{''.join(rows)}</table>"
 
 
-def _picture(found: Diagnosis, draw: Callable[[Diagnosis], Figure]) -> str:
-    figure = draw(found)
+def _picture(figure: Figure) -> str:
     buffer = io.BytesIO()
     figure.savefig(buffer, dpi=90, format="png")
     plt.close(figure)
     return f'<img alt="" src="data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode()}">'
-
-
-def _bars(axis: Axes, names: list[str], values: list[float], title: str) -> None:
-    axis.barh(range(len(names)), values, color="tab:blue")
-    axis.axvline(1.0, color="k", lw=1)
-    axis.set_yticks(range(len(names)), names, fontsize=8)
-    axis.invert_yaxis()
-    axis.set_title(title, fontsize=10)
-
-
-def _draw_where(found: Diagnosis) -> Figure:
-    figure, axes = plt.subplots(1, 4, figsize=(13, 3), layout="constrained")
-    where = found.where
-    _bars(axes[0], list(where.signal), list(where.signal.values()), "by signal")
-    _bars(axes[1], list(where.phase), list(where.phase.values()), "by phase of the motion")
-    bands = [f"{low:g} to {high:g} Hz" for low, high, _ in where.band_hz]
-    _bars(axes[2], bands, [v for *_, v in where.band_hz], "by frequency")
-    _bars(axes[3], [f"{d:g} mm" for d, _ in where.depth_mm], [v for _, v in where.depth_mm], "by depth")
-    figure.supxlabel("residual of the nominal model over noise; the line is the noise floor", fontsize=9)
-    return figure
-
-
-def _draw_ranking(found: Diagnosis) -> Figure:
-    figure, axis = plt.subplots(figsize=(8, 2.6), layout="constrained")
-    best = found.verdict.ranking[:6]
-    axis.barh(range(len(best)), [p for _, p in best], color="tab:red")
-    axis.set_yticks(range(len(best)), [n for n, _ in best], fontsize=9)
-    axis.invert_yaxis()
-    axis.set(xlim=(0, 1), xlabel="probability")
-    return figure
-
-
-def _draw_trials(found: Diagnosis) -> Figure:
-    count = len(found.log.trials)
-    figure, axes = plt.subplots(
-        2 * count, 2, figsize=(13, 4.2 * count), layout="constrained", squeeze=False
-    )
-    each = zip(found.log.trials, found.nominal, found.explained, strict=True)
-    for i, (trial, nominal, explained) in enumerate(each):
-        for j, sensor in enumerate(SENSORS):
-            above, below, time = axes[2 * i, j], axes[2 * i + 1, j], trial["time_s"]
-            if trial.has(sensor):
-                above.plot(time, trial[sensor], color="0.6", lw=0.8, label="measured")
-                below.axhspan(-2, 2, color="0.9", zorder=0)
-                for prediction, colour in ((nominal, "tab:blue"), (explained, "tab:red")):
-                    left = (trial[sensor] - prediction[sensor]) / found.noise[sensor]
-                    below.plot(time, left, color=colour, lw=0.5)
-            above.plot(time, nominal[sensor], color="tab:blue", lw=1, label="nominal")
-            above.plot(time, explained[sensor], color="tab:red", lw=1, label="explained")
-            above.set_title(f"{trial.name}: {_LABELS[sensor]}", fontsize=9, loc="left")
-            below.set(ylabel="over noise", xlabel="time, s")
-            below.set_ylim(*_limits_of(below))
-    axes[0, 0].legend(fontsize=8)
-    return figure
-
-
-def _limits_of(axis: Axes) -> tuple[float, float]:
-    """Residual limits that a few outliers do not set."""
-    values = [np.asarray(line.get_ydata(), float) for line in axis.get_lines()]
-    finite = np.concatenate([v[np.isfinite(v)] for v in values]) if values else np.zeros(1)
-    reach = max(4.0, float(np.quantile(np.abs(finite), 0.995)) * 1.1)
-    return -reach, reach

@@ -1,6 +1,7 @@
 """What the sensors of a rig with given effects would have read, in units of noise.
 
-One batch of MuJoCo needles a trial: all candidates side by side.
+One batch of MuJoCo needles a trial: all candidates side by side. Candidates that
+differ in their sensors alone share a needle.
 """
 
 from collections.abc import Sequence
@@ -9,20 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.evidence import FINE, Evidence, Resolution
 from diagnosis.noise import Noise
-from diagnosis.rig_log import SENSORS, RigLog, Trial
+from diagnosis.rig_log import SENSORS, Rig, Trial
 from diagnosis.rig_model import RigModel
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
-
-ELEMENTS = 12
-LARGEST_STEP_S = 0.01
-
-
-def step_s(trial: Trial) -> float:
-    """Step of a trial's simulation: that of its samples, or 10 ms if those are rarer."""
-    return min(LARGEST_STEP_S, float(np.median(np.diff(trial["time_s"]))))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,12 +32,18 @@ class Prediction:
 
 
 def predict(
-    log: RigLog, trial: Trial, candidates: Sequence[RigModel], *, threads: int = 1
+    rig: Rig, trial: Trial, candidates: Sequence[RigModel], resolution: Resolution = FINE
 ) -> list[Prediction]:
-    """Predictions of one trial by several candidates of one layout."""
-    setups = [c.setup(log.rig, trial, elements=ELEMENTS, step_s=step_s(trial)) for c in candidates]
-    runs = simulate(setups, trial.schedule(), threads=threads)
-    return [_sensed(c, run, trial["time_s"]) for c, run in zip(candidates, runs, strict=True)]
+    """Predictions of one trial by several candidates of one layout.
+
+    Raises:
+      SimulationFailed: a candidate cannot be simulated.
+    """
+    schedule, step = trial.schedule(), resolution.step_of(trial)
+    needles = list(dict.fromkeys(c.without_sensors() for c in candidates))
+    setups = [n.setup(rig, schedule, elements=resolution.elements, step_s=step) for n in needles]
+    runs = dict(zip(needles, simulate(setups, schedule), strict=True))
+    return [_sensed(c, runs[c.without_sensors()], trial["time_s"]) for c in candidates]
 
 
 def _sensed(candidate: RigModel, run: Run, at_s: Array) -> Prediction:
@@ -62,3 +62,12 @@ def residuals(trial: Trial, prediction: Prediction, noise: Noise) -> Array:
             missed = (trial[sensor] - prediction[sensor]) / noise[sensor]
             parts.append(missed[np.isfinite(missed)])
     return np.concatenate(parts) if parts else np.zeros(0)
+
+
+def predicted_residuals(evidence: Evidence, candidates: Sequence[RigModel]) -> list[list[Array]]:
+    """Residuals of every candidate: trial by trial, then candidate by candidate."""
+    found = []
+    for trial in evidence.log.trials:
+        predictions = predict(evidence.log.rig, trial, candidates, evidence.resolution)
+        found.append([residuals(trial, p, evidence.noise) for p in predictions])
+    return found

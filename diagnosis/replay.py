@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.predict import ELEMENTS, step_s
+from diagnosis.evidence import FINE
 from diagnosis.rig_log import SENSORS, Rig, RigLog, Trial
 from diagnosis.rig_model import RigModel
 from sim.simulation import Run, simulate
@@ -43,8 +43,10 @@ def replay(log: RigLog) -> list[Replay]:
 
 
 def _replay(rig: Rig, trial: Trial) -> Replay:
-    setup = RigModel().setup(rig, trial, elements=ELEMENTS, step_s=step_s(trial))
-    run = simulate([setup], trial.schedule(), keep_shape=True)[0]
+    schedule = trial.schedule()
+    step = FINE.step_of(trial)
+    setup = RigModel().setup(rig, schedule, elements=FINE.elements, step_s=step)
+    run = simulate([setup], schedule, keep_shape=True)[0]
     simulated = {"base_torque_n_mm": run.base_torque_n_mm, "tip_angle_deg": run.tip_deg}
     predicted = {name: np.interp(trial["time_s"], run.time_s, simulated[name]) for name in SENSORS}
     return Replay(trial=trial, predicted=predicted, run=run)

@@ -1,6 +1,7 @@
 """A diagnosis as files: `report.json`, `report.html`, `gap.rrd`, `predictions/` (gap-report/1)."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -8,10 +9,10 @@ import pandas as pd
 
 from diagnosis.diagnose import Diagnosis
 from diagnosis.gap_recording import log_gap
-from diagnosis.held_out import intervals
+from diagnosis.limits import cannot_tell
 from diagnosis.page import page, sentence
 from diagnosis.rig_log import RigLog
-from diagnosis.verdict import Outcome, places
+from diagnosis.verdict import places
 from sim.files import refuse_existing, write_text
 
 FORMAT = "gap-report/1"
@@ -26,7 +27,10 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "effects": list(verdict.effects),
         "confusable": [list(names) for names in verdict.confusable],
         "ranking": [{"effect": n, "probability": p} for n, p in verdict.ranking],
-        "parameters": parameters(diagnosis),
+        "parameters": {
+            effect: {name: asdict(interval) for name, interval in own.items()}
+            for effect, own in diagnosis.parameters.items()
+        },
         "gap": {
             "before": gap.before,
             "after": gap.after,
@@ -42,40 +46,13 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
             "depth_mm": [list(d) for d in where.depth_mm],
             "place": places(verdict.effects),
         },
-        "next_experiment": next_experiment(diagnosis),
-        "warnings": list(diagnosis.noise.warnings),
+        "next_experiment": diagnosis.next_experiment,
+        "further": diagnosis.further,
+        "cannot_tell": list(cannot_tell(diagnosis.log)),
+        "replay_error": diagnosis.replay_error,
+        "noise": diagnosis.noise.sigma,
+        "warnings": list(diagnosis.warnings),
     }
-
-
-def parameters(diagnosis: Diagnosis) -> dict[str, dict[str, dict[str, Any]]]:
-    """Accepted effects' parameters with 95 % intervals, in the vocabulary's units."""
-    fit = diagnosis.verdict.best.fit
-    found: dict[str, dict[str, dict[str, Any]]] = {}
-    values = iter(intervals(fit))
-    for effect in (*fit.coordinates.effects, *fit.coordinates.nuisance):
-        mine = {p.name: (p.unit, next(values)) for p in effect.parameters}
-        if effect.name in diagnosis.verdict.effects:
-            found[effect.name] = {
-                name: {"value": v, "low": low, "high": high, "unit": unit}
-                for name, (unit, (v, low, high)) in mine.items()
-            }
-    return found
-
-
-def next_experiment(diagnosis: Diagnosis) -> str:
-    """What to run next; empty where nothing is left to tell apart."""
-    verdict = diagnosis.verdict
-    if verdict.outcome is Outcome.UNKNOWN:
-        worst = max(diagnosis.where.phase, key=lambda k: diagnosis.where.phase[k], default="")
-        signal = max(diagnosis.where.signal, key=lambda k: diagnosis.where.signal[k], default="")
-        return (
-            f"no effect of the library explains the gap; it is largest in {signal} while {worst}: "
-            "repeat that phase alone, at two depths and two rates"
-        )
-    if verdict.outcome is Outcome.UNDECIDED:
-        sets = " and ".join(" + ".join(names) for names in verdict.confusable)
-        return f"{sets} fit alike: add trials at another depth, another rate and with the needle sliding"
-    return ""
 
 
 def output_paths(log: RigLog, folder: Path) -> list[Path]:

@@ -4,16 +4,17 @@ Every field is neutral by default: a `RigModel` as constructed is the nominal ri
 Units are those of the effects' vocabulary.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.rig_log import Rig, Trial
+from diagnosis.rig_log import Rig
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
-from sim.discretisation import Arrangement, Discretisation, Mesh, Slip
+from sim.discretisation import Arrangement, Discretisation, Mesh
+from sim.schedule import Schedule
 from sim.spec import Setup
 
 Array = NDArray[np.float64]
@@ -48,6 +49,8 @@ class RigModel:
     tip_scale: float = 1.0
     tip_delay: float = 0.0
     torque_bias: float = 0.0
+    slip_standing: float = 0.0
+    slip_growing: float = 0.0
 
     def needle(self, rig: Rig, length_mm: float) -> Needle:
         """The needle, of the length that a trial needs."""
@@ -96,9 +99,12 @@ class RigModel:
             sheath_friction_n_mm_per_mm=self.sheath,
         )
 
-    def setup(self, rig: Rig, trial: Trial, *, elements: int, step_s: float) -> Setup:
-        """The MuJoCo needle of a trial."""
-        schedule = trial.schedule()
+    def without_sensors(self) -> "RigModel":
+        """The rig whose sensors show what is."""
+        return replace(self, tip_bias=0.0, tip_scale=1.0, tip_delay=0.0, torque_bias=0.0)
+
+    def setup(self, rig: Rig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
+        """The MuJoCo needle that goes through a schedule."""
         shaft = max(schedule.longest_mm, 1.0)
         standing = schedule.mesh is Mesh.TISSUE
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
@@ -109,13 +115,13 @@ class RigModel:
             discretisation=Discretisation(
                 step_s=step_s,
                 elements=elements,
-                slip=Slip.PLACE,
                 arrangement=Arrangement.SIBLINGS,
             ),
             mesh=schedule.mesh,
             free_mm=float(schedule.free_mm[0]),
             inserted_mm=float(inserted),
             rows=ROWS,
+            slip_share=self.slip_standing if standing else self.slip_growing,
         )
 
     def sensed(self, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> tuple[Array, Array]:

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+from diagnosis.candidate import Candidate
 from diagnosis.effects import LIBRARY
-from diagnosis.search import Candidate, named
 
 # A difference of score of 10 is odds of 150 to 1 for data with the noise that is assumed.
 ALIKE = 10.0
@@ -36,6 +36,7 @@ class Verdict:
       effects: accepted, strongest first.
       confusable: sets of effects that fit alike.
       best: the candidate that predictions and parameters are of.
+      rivals: candidates that explain the log as well as the best.
       ranking: single effects, none and unknown with probabilities that add up to 1.
     """
 
@@ -43,6 +44,7 @@ class Verdict:
     effects: tuple[str, ...]
     confusable: tuple[tuple[str, ...], ...]
     best: Candidate
+    rivals: tuple[Candidate, ...] = ()
     ranking: tuple[tuple[str, float], ...]
 
 
@@ -59,14 +61,15 @@ def judge(candidates: Sequence[Candidate]) -> Verdict:
         )
     best = _simplest(at_floor)
     rivals = [c for c in at_floor if c is not best and _alike(best, c)]
-    outcome = Outcome.NONE if not named(best) else Outcome.EXPLAINED
+    outcome = Outcome.NONE if not best.named else Outcome.EXPLAINED
     if rivals and outcome is Outcome.EXPLAINED:
         outcome = Outcome.UNDECIDED
     return Verdict(
         outcome=outcome,
-        effects=named(best),
-        confusable=tuple(tuple(named(c)) for c in (best, *rivals)) if rivals else (),
+        effects=best.named,
+        confusable=tuple(tuple(c.named) for c in (best, *rivals)) if rivals else (),
         best=best,
+        rivals=tuple(rivals),
         ranking=_ranking(candidates, known=True),
     )
 
@@ -74,16 +77,16 @@ def judge(candidates: Sequence[Candidate]) -> Verdict:
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
     """The simplest of those that score within reach of the best."""
     near = [c for c in at_floor if c.score - at_floor[0].score <= ALIKE]
-    return min(near, key=lambda c: (len(named(c)), c.fit.size, c.score))
+    return min(near, key=lambda c: (len(c.named), c.fit.size, c.score))
 
 
 def _alike(best: Candidate, other: Candidate) -> bool:
     """Whether another explanation fits as well and is not a richer form of the best."""
-    if abs(other.score - best.score) > ALIKE or not named(other):
+    if abs(other.score - best.score) > ALIKE or not other.named:
         return False
-    richer = set(named(best)) <= set(named(other))
-    contained = any(b in LIBRARY[o].contains for o in named(other) for b in named(best))
-    return bool(named(best)) and not richer and not contained
+    richer = set(best.named) <= set(other.named)
+    contained = any(b in LIBRARY[o].contains for o in other.named for b in best.named)
+    return bool(best.named) and not richer and not contained
 
 
 def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:
@@ -95,8 +98,8 @@ def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str
         least = min(c.score for c in candidates)
         for c in candidates:
             weight = math.exp(-0.5 * min(c.score - least, 1400.0))
-            for name in named(c) or ("none",):
-                weights[name] += weight / max(len(named(c)), 1)
+            for name in c.named or ("none",):
+                weights[name] += weight / max(len(c.named), 1)
     total = sum(weights.values())
     ranked = sorted(weights.items(), key=lambda item: -item[1])
     return tuple((name, weight / total) for name, weight in ranked)

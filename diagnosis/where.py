@@ -29,15 +29,18 @@ class Where:
     depth_mm: list[tuple[float, float]]
 
 
+def base_rate(trial: Trial) -> Array:
+    """Rate of the base, deg/s, (N,), from angles averaged over 0.2 s."""
+    time = trial["time_s"]
+    width = max(3, round(_SMOOTH_S / float(np.median(np.diff(time)))))
+    padded = np.pad(trial["base_angle_deg"], width, mode="edge")
+    smooth = np.convolve(padded, np.ones(width) / width, "same")
+    return np.asarray(np.gradient(smooth[width:-width], time))
+
+
 def phases(trial: Trial) -> dict[str, Mask]:
     """Masks of a trial's samples: they may overlap."""
-    time = trial["time_s"]
-    step = float(np.median(np.diff(time)))
-    width = max(3, round(_SMOOTH_S / step))
-    smooth = np.convolve(
-        np.pad(trial["base_angle_deg"], width, mode="edge"), np.ones(width) / width, "same"
-    )
-    rate = np.gradient(smooth[width:-width], time)
+    time, rate = trial["time_s"], base_rate(trial)
     turning = np.abs(rate) > _TURNING_DEG_S
     speed = trial["speed_mm_s"]
     return {

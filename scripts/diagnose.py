@@ -4,10 +4,12 @@ import json
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
 from diagnosis.diagnose import Diagnosis, diagnose
+from diagnosis.limits import cannot_tell
 from diagnosis.page import sentence
 from diagnosis.report import as_json, output_paths, write_report
 from diagnosis.rig_log import read_rig_log
@@ -34,11 +36,12 @@ def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, 
     if found.verdict.effects:
         console.print(_parameter_table(found))
     console.print(_ranking_table(found))
-    advice = as_json(found)["next_experiment"]
-    if advice:
-        console.print(f"next: {advice}", highlight=False)
-    for warning in found.noise.warnings:
-        console.print(f"warning: {warning}", highlight=False)
+    if found.next_experiment:
+        console.print(f"next: {escape(found.next_experiment)}", highlight=False)
+    for limit in cannot_tell(log):
+        console.print(f"open: {escape(limit)}", highlight=False)
+    for warning in found.warnings:
+        console.print(f"warning: {escape(warning)}", highlight=False)
     for path in paths:
         console.print(f"wrote      {path}", highlight=False)
     return 0

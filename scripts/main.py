@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 
 from models.errors import NeedleError
 
@@ -71,7 +72,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return _run(args, console)
     except NeedleError as error:
-        Console(stderr=True).print(f"[bold red]needle {args.command}:[/] {error}", highlight=False)
+        shown = f"[bold red]needle {args.command}:[/] {escape(str(error))}"
+        Console(stderr=True).print(shown, highlight=False)
         return 2
     except KeyboardInterrupt:
         Console(stderr=True).print(f"needle {args.command}: interrupted; nothing half-written is left")

@@ -14,7 +14,7 @@ from models.errors import InvalidValue, NeedleError
 from sim.kernel import wire
 from sim.kernel.callback import install
 from sim.schedule import Schedule
-from sim.spec import Setup, needle_spec
+from sim.spec import Setup, needle_spec, renumbered
 
 Array = NDArray[np.float64]
 
@@ -76,6 +76,13 @@ def compile_model(setup: Setup) -> mujoco.MjModel:
     return needle_spec(setup).compile()
 
 
+def compile_models(setups: Sequence[Setup]) -> list[mujoco.MjModel]:
+    """A model a setup; one whose bodies are those of the first is a copy with other numbers."""
+    first = compile_model(setups[0])
+    rest = [renumbered(first, setups[0], setup) or compile_model(setup) for setup in setups[1:]]
+    return [first, *rest]
+
+
 def controls(inputs: Schedule, setup: Setup) -> Array:
     """`ctrl` at every sample, SI, (N, inputs)."""
     ctrl = np.zeros((inputs.time_s.size, wire.INPUTS))
@@ -119,7 +126,7 @@ def simulate(
       InvalidValue: the setups do not share a layout.
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
-    models = [compile_model(setup) for setup in setups]
+    models = compile_models(setups)
     first = models[0]
     for setup, model in zip(setups, models, strict=True):
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):

@@ -10,6 +10,7 @@ The inputs (`ctrl`) are, in order: drive (rad or N m), carriage (m), inserted
 length (m), axial speed (m/s), torque at the tip (N m, positive resists).
 """
 
+import copy
 from dataclasses import dataclass
 
 import mujoco
@@ -45,6 +46,8 @@ class Setup:
       mesh: what the nodes are fixed to.
       free_mm, inserted_mm: lengths at the start; together the shaft that is modelled.
       rows: least number of rows of the law table.
+      slip_share: between the slips at a place (0) and of the material (1), where it is
+        neither; None: as the discretisation says.
     """
 
     needle: Needle
@@ -55,6 +58,7 @@ class Setup:
     free_mm: float
     inserted_mm: float
     rows: int = 0
+    slip_share: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("free_mm", "inserted_mm"):
@@ -122,6 +126,36 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
     return spec
 
 
+def renumbered(model: mujoco.MjModel, setup: Setup, other: Setup) -> mujoco.MjModel | None:
+    """A copy of `setup`'s model with the numbers of another, or None if its bodies differ.
+
+    Siblings have no torsion in their joints: all that a rig changes in MuJoCo's own
+    numbers is then the servo. It costs a tenth of compiling.
+    """
+    law = law_table(other.needle, other.drive, other.tissue, rows=other.rows)
+    if not _same_bodies(setup, other) or law.size != model.numeric("needle_law").data.size:
+        return None
+    changed = copy.copy(model)
+    changed.numeric("needle").data[:] = header(other, rows=len(law))
+    changed.numeric("needle_law").data[:] = law.ravel()
+    changed.joint("twist_0").stiffness[0] = other.servo_n_m_per_rad
+    if other.drive.kind is DriveKind.ANGLE:
+        changed.actuator("drive").gear[0] = other.servo_n_m_per_rad
+    return changed
+
+
+def _same_bodies(one: Setup, other: Setup) -> bool:
+    siblings = one.discretisation.arrangement is Arrangement.SIBLINGS
+    return (
+        siblings
+        and one.discretisation == other.discretisation
+        and one.drive.kind is other.drive.kind
+        and one.needle.mass_kg_per_m == other.needle.mass_kg_per_m
+        and one.needle.rotary_inertia_kg_m == other.needle.rotary_inertia_kg_m
+        and np.array_equal(one.nodes_mm, other.nodes_mm)
+    )
+
+
 def _mass_kg(setup: Setup) -> float:
     shaft = (setup.nodes_mm[-1] - setup.nodes_mm[0]) * units.MM
     return float(setup.needle.mass_kg_per_m * shaft)
@@ -133,9 +167,10 @@ def _rail_n_per_m(setup: Setup) -> float:
 
 def _convection(setup: Setup) -> float:
     """c in: slip rate = omega + c v dtheta/dx."""
-    if setup.mesh is Mesh.TISSUE:
-        return 1.0 if setup.discretisation.slip is Slip.MATERIAL else 0.0
-    return 0.0 if setup.discretisation.slip is Slip.MATERIAL else -1.0
+    share = setup.slip_share
+    if share is None:
+        share = 1.0 if setup.discretisation.slip is Slip.MATERIAL else 0.0
+    return share if setup.mesh is Mesh.TISSUE else share - 1.0
 
 
 def header(setup: Setup, *, rows: int) -> Array:

@@ -15,7 +15,7 @@ from reference_rig import simulate as simulate_reference
 from diagnosis.diagnose import diagnose
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.fit import coordinates_of
+from diagnosis.coordinates import coordinates_of, starts
 from diagnosis.noise import white_noise
 from diagnosis.report import FORMAT, as_json, write_report
 from diagnosis.rig_log import read_rig_log
@@ -108,7 +108,7 @@ def test_the_library_is_the_vocabulary():
 def test_an_effects_parameters_survive_the_coordinates_of_the_fit(name):
     coordinates = coordinates_of([name])
     low, high = coordinates.bounds()
-    for start in coordinates.starts():
+    for start in starts(LIBRARY[name]):
         assert np.all((low <= start) & (start <= high))
         rig = coordinates.rig(start)
         assert rig != RigModel()
@@ -118,7 +118,7 @@ def test_white_noise_is_measured_under_a_slow_signal():
     rng = np.random.default_rng(1)
     time = np.linspace(0, 20, 4000)
     values = 30 * np.sin(time) + rng.normal(0, 0.3, time.size)
-    assert white_noise(values) == pytest.approx(0.3, rel=0.05)
+    assert white_noise([values]) == pytest.approx(0.3, rel=0.05)
 
 
 def test_white_residuals_are_at_the_floor_and_slow_ones_are_not():

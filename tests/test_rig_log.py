@@ -92,7 +92,7 @@ def test_a_missing_folder_is_named(tmp_path):
         (lambda t: t.assign(inserted_mm=np.nan), r"line 2.*inserted_mm"),
         (lambda t: t.assign(time_s=0.0), "time_s"),
         (lambda t: t.iloc[::-1], "time_s"),
-        (lambda t: t.head(1), "two samples"),
+        (lambda t: t.head(1), "at least 20 rows"),
         (lambda t: t.assign(free_mm=-5.0), "free_mm"),
     ],
 )

@@ -15,7 +15,12 @@ EFFECT = Effect(
     place=Place.DRIVE,
     parameters=(
         Parameter(
-            name="stiffness", unit="N mm / rad", low=0.3, high=500.0, start=(20.0, 5.0), logarithmic=True
+            name="stiffness",
+            unit="N mm / rad",
+            low=0.3,
+            high=500.0,
+            start=(50.0, 15.0, 4.0),
+            logarithmic=True,
         ),
     ),
     enter=_enter,

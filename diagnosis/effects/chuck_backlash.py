@@ -14,7 +14,7 @@ EFFECT = Effect(
     name="chuck_backlash",
     place=Place.DRIVE,
     parameters=(
-        Parameter(name="gap", unit="deg", low=0.02, high=30.0, start=(1.0, 5.0), logarithmic=True),
+        Parameter(name="gap", unit="deg", low=0.02, high=30.0, start=(0.5, 2.0, 8.0), logarithmic=True),
     ),
     enter=_enter,
 )

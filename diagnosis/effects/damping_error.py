@@ -13,6 +13,8 @@ def _enter(rig: RigModel, scale: float) -> RigModel:
 EFFECT = Effect(
     name="damping_error",
     place=Place.PARAMETERS,
-    parameters=(Parameter(name="scale", unit="-", low=0.2, high=5.0, start=(1.05,), logarithmic=True),),
+    parameters=(
+        Parameter(name="scale", unit="-", low=0.2, high=5.0, start=(0.8, 1.25), logarithmic=True),
+    ),
     enter=_enter,
 )

@@ -25,8 +25,11 @@ class Parameter:
     Attributes:
       name, unit: as in the vocabulary.
       low, high: bounds.
-      start: where fits start; several starts are tried.
+      start: where fits may start: the values of one start stand in the same place of
+        every parameter of an effect.
       logarithmic: fitted in its logarithm (positive parameters over decades).
+      scale: what a parameter that is not logarithmic is fitted in units of.
+      period: of an angle, after which it repeats; 0: none.
     """
 
     name: str
@@ -35,6 +38,8 @@ class Parameter:
     high: float
     start: tuple[float, ...]
     logarithmic: bool = False
+    scale: float = 1.0
+    period: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)

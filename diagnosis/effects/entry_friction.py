@@ -14,7 +14,9 @@ EFFECT = Effect(
     name="entry_friction",
     place=Place.INTERFACE,
     parameters=(
-        Parameter(name="level", unit="N mm", low=0.0001, high=3.0, start=(0.05, 0.3), logarithmic=True),
+        Parameter(
+            name="level", unit="N mm", low=0.0001, high=3.0, start=(0.02, 0.08, 0.3), logarithmic=True
+        ),
     ),
     enter=_enter,
 )

@@ -14,8 +14,10 @@ EFFECT = Effect(
     name="layered_tissue",
     place=Place.TISSUE,
     parameters=(
-        Parameter(name="ratio", unit="-", low=0.05, high=20.0, start=(3.0, 0.33), logarithmic=True),
-        Parameter(name="boundary", unit="-", low=0.1, high=0.9, start=(0.5, 0.5)),
+        Parameter(
+            name="ratio", unit="-", low=0.05, high=20.0, start=(3.0, 0.33, 3.0, 0.33), logarithmic=True
+        ),
+        Parameter(name="boundary", unit="-", low=0.1, high=0.9, start=(0.35, 0.35, 0.65, 0.65)),
     ),
     enter=_enter,
 )

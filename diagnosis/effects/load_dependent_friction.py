@@ -14,7 +14,9 @@ EFFECT = Effect(
     name="load_dependent_friction",
     place=Place.NEEDLE,
     parameters=(
-        Parameter(name="coefficient", unit="-", low=0.001, high=3.0, start=(0.2,), logarithmic=True),
+        Parameter(
+            name="coefficient", unit="-", low=0.001, high=3.0, start=(0.05, 0.2, 0.8), logarithmic=True
+        ),
     ),
     enter=_enter,
 )

@@ -22,7 +22,15 @@ EFFECT = Effect(
             start=(0.001, 0.001, 0.001, 0.001),
             logarithmic=True,
         ),
-        Parameter(name="phase", unit="deg", low=-360.0, high=360.0, start=(0.0, 90.0, 180.0, -90.0)),
+        Parameter(
+            name="phase",
+            unit="deg",
+            low=-360.0,
+            high=360.0,
+            start=(0.0, 90.0, 180.0, -90.0),
+            scale=10.0,
+            period=360.0,
+        ),
     ),
     enter=_enter,
 )

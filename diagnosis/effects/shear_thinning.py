@@ -13,6 +13,6 @@ def _enter(rig: RigModel, exponent: float) -> RigModel:
 EFFECT = Effect(
     name="shear_thinning",
     place=Place.INTERFACE,
-    parameters=(Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.8,)),),
+    parameters=(Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2)),),
     enter=_enter,
 )

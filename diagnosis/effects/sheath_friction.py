@@ -15,7 +15,12 @@ EFFECT = Effect(
     place=Place.DRIVE,
     parameters=(
         Parameter(
-            name="level", unit="N mm / mm", low=1e-06, high=0.05, start=(0.0005, 0.003), logarithmic=True
+            name="level",
+            unit="N mm / mm",
+            low=1e-06,
+            high=0.05,
+            start=(0.0002, 0.001, 0.004),
+            logarithmic=True,
         ),
     ),
     enter=_enter,

@@ -21,14 +21,24 @@ EFFECT = Effect(
             unit="N mm / mm",
             low=1e-06,
             high=0.05,
-            start=(0.001, 0.0005),
+            start=(0.0004, 0.001, 0.001, 0.003),
             logarithmic=True,
         ),
         Parameter(
-            name="static", unit="N mm / mm", low=1e-06, high=0.1, start=(0.002, 0.002), logarithmic=True
+            name="static",
+            unit="N mm / mm",
+            low=1e-06,
+            high=0.1,
+            start=(0.001, 0.002, 0.004, 0.006),
+            logarithmic=True,
         ),
         Parameter(
-            name="stribeck", unit="rad/s", low=0.005, high=2.0, start=(0.1, 0.05), logarithmic=True
+            name="stribeck",
+            unit="rad/s",
+            low=0.005,
+            high=2.0,
+            start=(0.07, 0.05, 0.2, 0.1),
+            logarithmic=True,
         ),
     ),
     enter=_enter,

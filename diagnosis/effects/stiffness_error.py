@@ -13,6 +13,8 @@ def _enter(rig: RigModel, scale: float) -> RigModel:
 EFFECT = Effect(
     name="stiffness_error",
     place=Place.PARAMETERS,
-    parameters=(Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(1.05,), logarithmic=True),),
+    parameters=(
+        Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(0.9, 1.15), logarithmic=True),
+    ),
     enter=_enter,
 )

@@ -13,6 +13,6 @@ def _enter(rig: RigModel, bias: float) -> RigModel:
 EFFECT = Effect(
     name="tip_angle_bias",
     place=Place.SENSOR,
-    parameters=(Parameter(name="bias", unit="deg", low=-60.0, high=60.0, start=(0.5,)),),
+    parameters=(Parameter(name="bias", unit="deg", low=-60.0, high=60.0, start=(2.0, -2.0)),),
     enter=_enter,
 )

@@ -13,6 +13,8 @@ def _enter(rig: RigModel, scale: float) -> RigModel:
 EFFECT = Effect(
     name="tip_angle_scale",
     place=Place.SENSOR,
-    parameters=(Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(1.02,), logarithmic=True),),
+    parameters=(
+        Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(0.95, 1.05), logarithmic=True),
+    ),
     enter=_enter,
 )

@@ -15,7 +15,12 @@ EFFECT = Effect(
     place=Place.NEEDLE,
     parameters=(
         Parameter(
-            name="damping", unit="N mm s / rad", low=0.001, high=5.0, start=(0.2,), logarithmic=True
+            name="damping",
+            unit="N mm s / rad",
+            low=0.001,
+            high=5.0,
+            start=(0.05, 0.2, 0.6),
+            logarithmic=True,
         ),
     ),
     enter=_enter,

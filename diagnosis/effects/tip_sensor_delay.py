@@ -13,6 +13,8 @@ def _enter(rig: RigModel, delay: float) -> RigModel:
 EFFECT = Effect(
     name="tip_sensor_delay",
     place=Place.SENSOR,
-    parameters=(Parameter(name="delay", unit="s", low=0.0, high=2.0, start=(0.05, 0.3)),),
+    parameters=(
+        Parameter(name="delay", unit="s", low=0.0, high=2.0, start=(0.02, 0.1, 0.4), scale=0.1),
+    ),
     enter=_enter,
 )

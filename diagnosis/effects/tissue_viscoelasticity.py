@@ -19,11 +19,16 @@ EFFECT = Effect(
             unit="N mm / rad / mm",
             low=0.0005,
             high=2.0,
-            start=(0.02, 0.1),
+            start=(0.05, 0.02, 0.01, 0.1),
             logarithmic=True,
         ),
         Parameter(
-            name="time_constant", unit="s", low=0.01, high=20.0, start=(1.0, 0.3), logarithmic=True
+            name="time_constant",
+            unit="s",
+            low=0.01,
+            high=20.0,
+            start=(0.3, 1.5, 5.0, 0.3),
+            logarithmic=True,
         ),
     ),
     enter=_enter,

@@ -13,6 +13,8 @@ def _enter(rig: RigModel, bias: float) -> RigModel:
 EFFECT = Effect(
     name="torque_bias",
     place=Place.SENSOR,
-    parameters=(Parameter(name="bias", unit="N mm", low=-5.0, high=5.0, start=(0.01,)),),
+    parameters=(
+        Parameter(name="bias", unit="N mm", low=-5.0, high=5.0, start=(0.03, -0.03), scale=0.05),
+    ),
     enter=_enter,
 )

@@ -14,6 +14,9 @@ from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.kernel.work import Frame, Work
 
+# A place is the end of the shaft if it lies within this fraction of the last element.
+_AT_END = 1e-6
+
 
 @inlined
 def is_linear(row: Array) -> bool:
@@ -133,7 +136,7 @@ def add_row(
         per_length = frame.drift / (x[e + 1] - x[e])
         slide = per_length * twist
         rate = left * omega[e] + right * omega[e + 1]
-        at_tip = right == 1.0 and e == n - 1
+        at_tip = e == n - 1 and right > 1.0 - _AT_END
         extra = load * abs(tip_torque if at_tip else spring[e] * twist)
         old = Memory(
             before[slot, k, wire.Z_DRY],

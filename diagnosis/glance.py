@@ -1,0 +1,66 @@
+"""How much an effect could explain, at a glance: no fit, one simulation a start.
+
+On top of a fit with residual r and Jacobian J, an effect at a start moves the
+residual by d. What is left of r once d in any positive amount and J in any are
+taken off tells which effects are worth a fit, and the start that leaves least is
+where to begin it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.coordinates import coordinates_of, starts
+from diagnosis.effects import LIBRARY
+from diagnosis.evidence import Evidence
+from diagnosis.fit import Fit
+from diagnosis.predict import predicted_residuals
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hint:
+    """A set of effects that may be worth a fit.
+
+    Attributes:
+      start: vector to start the fit from.
+      cost: that the fit may come down to.
+    """
+
+    names: tuple[str, ...]
+    start: Array
+    cost: float
+
+
+def glance(evidence: Evidence, base: Fit, name: str) -> Hint:
+    """What adding an effect to a fit promises.
+
+    Raises:
+      SimulationFailed: the effect cannot be simulated at its starts.
+    """
+    coordinates = coordinates_of((*base.names, name), evidence.nuisance)
+    columns = [coordinates.joined(base.parts | {name: s}) for s in starts(LIBRARY[name])]
+    runs = predicted_residuals(evidence, [coordinates.rig(x) for x in columns])
+    kept = np.array([owner != name for owner in base.coordinates.owners], bool)
+    prior = base.coordinates.weights * base.x
+    residual = np.concatenate([*base.by_trial, prior])
+    slopes = np.vstack([*base.jacobian, np.diag(base.coordinates.weights)])[:, kept]
+    basis = np.linalg.qr(slopes)[0]
+    left = _beside(basis, residual)
+    promised, taken = [], []
+    for i in range(len(columns)):
+        moved = np.concatenate([*(run[i] for run in runs), np.where(kept, prior, 0.0)])
+        d = _beside(basis, moved - residual)
+        amount = max(-float(d @ left), 0.0) / max(float(d @ d), 1e-12)
+        promised.append(float(np.sum((left + amount * d) ** 2)))
+        taken.append(float(np.sum((left + d) ** 2)))
+    return Hint(
+        names=(*base.names, name), start=columns[int(np.argmin(taken))], cost=min(*promised, *taken)
+    )
+
+
+def _beside(basis: Array, residual: Array) -> Array:
+    """What a basis cannot take off."""
+    return np.asarray(residual - basis @ (basis.T @ residual))
