@@ -15,6 +15,7 @@ from diagnosis.noise import Noise, estimate_noise
 from diagnosis.nuisance import nuisance_of
 from diagnosis.parameters import Interval, intervals
 from diagnosis.predict import Prediction, predict
+from diagnosis.refine import refined
 from diagnosis.replay_error import replay_change, replay_error, warnings_of
 from diagnosis.rig_log import SENSORS, RigLog
 from diagnosis.rig_model import RigModel
@@ -72,7 +73,8 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     evidence = Evidence(log=driven, noise=noise, nuisance=nuisance_of(driven))
     coarse, effects = thinned(evidence, nominal), possible_effects(log)
     with team(workers, progress) as workforce:
-        verdict = judge(search(evidence, coarse, effects, workforce))
+        noise, candidates = refined(evidence, search(evidence, coarse, effects, workforce))
+        evidence, verdict = replace(evidence, noise=noise), judge(candidates)
         best = verdict.best.fit
         left = further(coarse, best, effects, workforce)
     if verdict.outcome is Outcome.EXPLAINED:

@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 
 from diagnosis.coordinates import Coordinates, coordinates_of
 from diagnosis.effects import LIBRARY
-from diagnosis.evidence import COARSE, FINE, Evidence
+from diagnosis.evidence import Evidence
 from diagnosis.predict import predicted_residuals
 
 Array = NDArray[np.float64]
 
 _STEP = 1e-3  # of finite differences, in the units of the fit
-_ENOUGH = {COARSE: 1.0, FINE: 0.1}  # a gradient that promises less, in noise, is none
+_FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
+_ENOUGH = 0.02  # a gradient that is less than this, in noise, is none
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +69,8 @@ class Fit:
 class Objective:
     """Residuals of a log as a function of the fit's vector, for `mujoco.minimize`.
 
-    The nuisance moves by a few per cent at the most: its slopes are taken once.
+    The nuisance moves by a few per cent at the most: its slopes are taken again only
+    where the effects have moved far.
 
     Attributes:
       slopes: the last Jacobian that was taken, (N, n).
@@ -78,6 +80,7 @@ class Objective:
         self.evidence, self.coordinates = evidence, coordinates
         self.low, self.high = coordinates.bounds()
         self.slopes: Array | None = None
+        self._fresh_at: Array | None = None
 
     def __call__(self, x: Array) -> Array:
         """(n, M) or (n,) to residuals with the prior, (N, M) or (N,)."""
@@ -94,9 +97,10 @@ class Objective:
         """By differences away from the bounds, (N, n)."""
         flat = x.ravel()
         steps = np.where(flat + _STEP > self.high, -_STEP, _STEP)
-        fresh = self.slopes is None
-        taken = np.arange(flat.size if fresh else self.coordinates.free)
-        slopes = np.zeros((at_x.size, flat.size)) if fresh else np.array(self.slopes)
+        taken = np.arange(self.coordinates.free)
+        slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
+        if self._fresh_at is None or np.abs(flat - self._fresh_at)[taken].max(initial=0.0) > _FAR:
+            taken, self._fresh_at = np.arange(flat.size), flat
         if taken.size:
             moved = self(flat[:, None] + np.diag(steps)[:, taken])
             slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
@@ -131,7 +135,7 @@ def fit_effects(
         bounds=[objective.low, objective.high],
         jacobian=objective.jacobian,
         x_scale="jac",
-        gtol=_ENOUGH.get(evidence.resolution, 0.1),
+        gtol=_ENOUGH,
         xtol=1e-5,
         max_iter=most_iterations,
         mu_min=1e-3,

@@ -18,7 +18,7 @@ def further(coarse: Evidence, best: Fit, effects: Sequence[str], team: Team) -> 
     start = coordinates_of(best.names, coarse.nuisance).joined(best.parts)
     base = fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
     calls = [(coarse, base, name) for name in effects if name not in base.names]
-    hints = team.each("looking further", glance, calls)
+    hints = [found[0] for found in team.each("looking further", glance, calls)]
     samples = max(base.samples, 1)
     # The floor of the thinned log is not exactly that of the log: ratios carry over.
     scale = best.gap / np.sqrt(base.cost / samples) if base.cost > 0 else 1.0

@@ -2,8 +2,9 @@
 
 On top of a fit with residual r and Jacobian J, an effect at a start moves the
 residual by d. What is left of r once d in any positive amount and J in any are
-taken off tells which effects are worth a fit, and the start that leaves least is
-where to begin it.
+taken off tells which effects are worth a fit, and the starts that leave least are
+where to begin it: two of them for an effect of several parameters, whose fits may
+get stuck in a valley.
 """
 
 from dataclasses import dataclass
@@ -34,14 +35,16 @@ class Hint:
     cost: float
 
 
-def glance(evidence: Evidence, base: Fit, name: str) -> Hint:
-    """What adding an effect to a fit promises.
+def glance(evidence: Evidence, base: Fit, name: str) -> list[Hint]:
+    """What adding an effect to a fit promises, best start first.
 
     Raises:
       SimulationFailed: the effect cannot be simulated at its starts.
     """
+    effect = LIBRARY[name]
     coordinates = coordinates_of((*base.names, name), evidence.nuisance)
-    columns = [coordinates.joined(base.parts | {name: s}) for s in starts(LIBRARY[name])]
+    own = starts(effect)
+    columns = [coordinates.joined(base.parts | {name: s}) for s in own]
     runs = predicted_residuals(evidence, [coordinates.rig(x) for x in columns])
     kept = np.array([owner != name for owner in base.coordinates.owners], bool)
     prior = base.coordinates.weights * base.x
@@ -49,16 +52,18 @@ def glance(evidence: Evidence, base: Fit, name: str) -> Hint:
     slopes = np.vstack([*base.jacobian, np.diag(base.coordinates.weights)])[:, kept]
     basis = np.linalg.qr(slopes)[0]
     left = _beside(basis, residual)
-    promised, taken = [], []
-    for i in range(len(columns)):
+    hints = []
+    # What the nuisance took over from a missing effect is no good start with it.
+    known = {n: base.parts[n] for n in base.names}
+    for i, start in enumerate(own):
         moved = np.concatenate([*(run[i] for run in runs), np.where(kept, prior, 0.0)])
         d = _beside(basis, moved - residual)
         amount = max(-float(d @ left), 0.0) / max(float(d @ d), 1e-12)
-        promised.append(float(np.sum((left + amount * d) ** 2)))
-        taken.append(float(np.sum((left + d) ** 2)))
-    return Hint(
-        names=(*base.names, name), start=columns[int(np.argmin(taken))], cost=min(*promised, *taken)
-    )
+        cost = float(np.sum((left + amount * d) ** 2))
+        begin = coordinates.joined(known | {name: start})
+        hints.append(Hint(names=(*base.names, name), start=begin, cost=cost))
+    best = sorted(hints, key=lambda h: h.cost)
+    return best[: 2 if len(effect.parameters) > 1 else 1]
 
 
 def _beside(basis: Array, residual: Array) -> Array:

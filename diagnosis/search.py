@@ -17,12 +17,13 @@ import numpy as np
 from diagnosis.candidate import Candidate, candidate
 from diagnosis.coordinates import coordinates_of
 from diagnosis.evidence import Evidence
-from diagnosis.fit import fit_effects
+from diagnosis.fit import Fit, fit_effects
 from diagnosis.glance import Hint, glance
+from diagnosis.refine import refined
 from diagnosis.team import Team
 from diagnosis.whiteness import GAP_LIMIT
 
-_SINGLES, _PAIRS, _BASES = 8, 12, 6  # fits on the thinned log; singles that pairs build on
+_SINGLES, _PAIRS, _BASES = 10, 14, 6  # fits on the thinned log; singles that pairs build on
 _BATCH = 4  # fits between looks at what has been reached
 _NEAR = 3.0  # times the cost at the floor: what promises more is not fitted
 _WORTH = 6.0  # of cost: an effect that promises less is not fitted
@@ -39,14 +40,14 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     """
     found = _plain(evidence, team)
     start = fit_effects(coarse, ())
-    hints = team.each("glancing at effects", glance, [(coarse, start, e) for e in effects])
+    hints = _glances(team, "effects", [(coarse, start, e) for e in effects])
     worth = [h for h in hints if h.cost <= start.cost - _WORTH]
     singles = _fit_best(coarse, worth, _SINGLES, team, "effects")
     found += _finals(evidence, singles, team)
-    if not any(c.floor.reached for c in found):
+    if not _explained(evidence, found):
         bases = product(singles[:_BASES], effects)
         pairs = [(coarse, c.fit, e) for c, e in bases if e not in c.names]
-        hints = team.each("glancing at pairs", glance, pairs)
+        hints = _glances(team, "pairs", pairs)
         found += _finals(evidence, _fit_best(coarse, hints, _PAIRS, team, "pairs"), team)
     best = min(found, key=lambda c: c.score)
     if best.named != best.names:
@@ -54,6 +55,12 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
         there = coordinates_of(best.named, evidence.nuisance).joined(best.fit.parts)
         found.append(candidate(fit_effects(evidence, best.named, there)))
     return sorted(found, key=lambda c: c.score)
+
+
+def _explained(evidence: Evidence, found: Sequence[Candidate]) -> bool:
+    """Whether one of the candidates is at the noise floor, as the best of them leaves it."""
+    _, refloored = refined(evidence, sorted(found, key=lambda c: c.score))
+    return any(c.floor.reached for c in refloored)
 
 
 def _plain(evidence: Evidence, team: Team) -> list[Candidate]:
@@ -64,6 +71,10 @@ def _plain(evidence: Evidence, team: Team) -> list[Candidate]:
     return [exact] if enough else [exact, scattered]
 
 
+def _glances(team: Team, what: str, calls: Sequence[tuple[Evidence, Fit, str]]) -> list[Hint]:
+    return [hint for found in team.each(f"glancing at {what}", glance, calls) for hint in found]
+
+
 def _fit_best(
     evidence: Evidence, hints: Sequence[Hint], most: int, team: Team, what: str
 ) -> list[Candidate]:
@@ -72,17 +83,17 @@ def _fit_best(
     Once something brings the residual to the noise floor, only what promises to come
     near it is still fitted.
     """
-    promising: dict[frozenset[str], Hint] = {}
-    for hint in sorted(hints, key=lambda h: h.cost):
-        promising.setdefault(frozenset(hint.names), hint)
-    waiting, found = list(promising.values())[:most], list[Candidate]()
+    waiting, found = sorted(hints, key=lambda h: h.cost)[:most], list[Candidate]()
     while waiting:
         batch, waiting = waiting[:_BATCH], waiting[_BATCH:]
         fits = team.each(f"fitting {what}", fit_effects, [(evidence, h.names, h.start) for h in batch])
         found += map(candidate, fits)
         floor = min((c.fit.cost for c in found if c.floor.gap <= GAP_LIMIT), default=np.inf)
         waiting = [h for h in waiting if h.cost <= _NEAR * floor]
-    return sorted(found, key=lambda c: c.score)
+    best: dict[frozenset[str], Candidate] = {}
+    for c in sorted(found, key=lambda c: c.score):
+        best.setdefault(frozenset(c.names), c)
+    return list(best.values())
 
 
 def _finals(evidence: Evidence, contenders: Sequence[Candidate], team: Team) -> list[Candidate]:
