@@ -1,9 +1,11 @@
 """A fitted explanation: what it costs, and what it names."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from diagnosis.effects import LIBRARY
 from diagnosis.fit import Fit
 from diagnosis.nuisance import SCATTER
 from diagnosis.whiteness import Floor, floor_of
@@ -14,7 +16,8 @@ class Candidate:
     """A fitted explanation.
 
     Attributes:
-      score: cost plus log(samples) a parameter (BIC); less is better.
+      score: cost plus log(samples) a parameter (BIC), plus what a choice among that many
+        costs: one of 171 pairs fits by chance more often than one of 19 effects.
       floor: how far its residual is above the noise.
     """
 
@@ -36,6 +39,7 @@ class Candidate:
 
 
 def candidate(fit: Fit) -> Candidate:
-    """A fit with its score."""
-    score = fit.cost + fit.size * float(np.log(max(fit.samples, 2)))
+    """A fit with its score: that none, one of all effects or one of all pairs is true is as likely."""
+    freedom = fit.size * float(np.log(max(fit.samples, 2)))
+    score = fit.cost + freedom + 2.0 * math.log(math.comb(len(LIBRARY), len(fit.names)))
     return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))

@@ -3,17 +3,24 @@
 A side stream: nothing that computes imports this module.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
+from numpy.typing import NDArray
 
 from diagnosis.diagnose import Diagnosis
-from diagnosis.rig_log import SENSORS
+from diagnosis.gap_needle import log_needle
+from diagnosis.noise import Noise
+from diagnosis.predict import Prediction
+from diagnosis.rig_log import SENSORS, Trial
 from sim.files import writing
 from sim.rerun_log import APPLICATION, log_series
+
+Array = NDArray[np.float64]
 
 _COLOURS = {"measured": [150, 150, 150], "nominal": [31, 119, 180], "explained": [214, 39, 40]}
 _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
@@ -32,24 +39,40 @@ def log_gap(diagnosis: Diagnosis, sentence: str, path: Path, *, force: bool = Fa
         stream.log("about", rr.TextDocument(f"# {sentence}", media_type="text/markdown"), static=True)
         each = zip(diagnosis.log.trials, diagnosis.nominal, diagnosis.explained, strict=True)
         for i, (trial, nominal, explained) in enumerate(each):
-            time = trial["time_s"]
-            for sensor in SENSORS:
-                shown = {"nominal": nominal[sensor], "explained": explained[sensor]}
-                if trial.has(sensor):
-                    shown = {"measured": trial[sensor]} | shown
-                    noise = diagnosis.noise[sensor]
-                    for name in ("nominal", "explained"):
-                        left = (trial[sensor] - shown[name]) / noise
-                        entity = f"trial_{i + 1}/residual/{sensor}/{name}"
-                        log_series(stream, entity, name, time, np.nan_to_num(left), _COLOURS[name])
-                for name, values in shown.items():
-                    entity = f"trial_{i + 1}/{sensor}/{name}"
-                    log_series(stream, entity, name, time, values, _COLOURS[name])
+            predictions = {"nominal": nominal, "explained": explained}
+            root = f"trial_{i + 1}"
+            _log_signals(stream, root, trial, predictions)
+            missed = _residuals(trial, predictions, diagnosis.noise)
+            for (name, sensor), left in missed.items():
+                entity = f"{root}/residual/{sensor}/{name}"
+                log_series(stream, entity, name, trial["time_s"], left, _COLOURS[name])
+            log_needle(stream, f"{root}/needle", trial, missed)
         stream.disconnect()
 
 
+def _log_signals(stream: Any, root: str, trial: Trial, predictions: Mapping[str, Prediction]) -> None:
+    for sensor in SENSORS:
+        shown = {name: prediction[sensor] for name, prediction in predictions.items()}
+        if trial.has(sensor):
+            shown = {"measured": trial[sensor]} | shown
+        for name, values in shown.items():
+            log_series(stream, f"{root}/{sensor}/{name}", name, trial["time_s"], values, _COLOURS[name])
+
+
+def _residuals(
+    trial: Trial, predictions: Mapping[str, Prediction], noise: Noise
+) -> dict[tuple[str, str], Array]:
+    """Measured less predicted over noise, by prediction and sensor; 0 where nothing was measured."""
+    return {
+        (name, sensor): np.nan_to_num((trial[sensor] - prediction[sensor]) / noise[sensor])
+        for name, prediction in predictions.items()
+        for sensor in SENSORS
+        if trial.has(sensor)
+    }
+
+
 def _blueprint(diagnosis: Diagnosis) -> Any:
-    """A tab a trial: both sensors above, their residuals over noise below."""
+    """A tab a trial: both sensors, their residuals over noise, and these on the needle."""
     tabs = []
     for i, trial in enumerate(diagnosis.log.trials):
         root = f"/trial_{i + 1}"
@@ -58,7 +81,10 @@ def _blueprint(diagnosis: Diagnosis) -> Any:
             rrb.TimeSeriesView(origin=f"{root}/residual/{s}", name=f"{_LABELS[s]}: over noise")
             for s in SENSORS
         ]
-        tabs.append(rrb.Vertical(rrb.Horizontal(*above), rrb.Horizontal(*below), name=trial.name))
+        needle = rrb.Spatial2DView(origin=f"{root}/needle", name="residual on the needle")
+        signals, residuals = rrb.Horizontal(*above), rrb.Horizontal(*below)
+        shares = [3, 3, 1]
+        tabs.append(rrb.Vertical(signals, residuals, needle, row_shares=shares, name=trial.name))
     text = rrb.TextDocumentView(origin="/about", name="Verdict")
     layout = rrb.Vertical(text, rrb.Tabs(*tabs), row_shares=[1, 6])
     return rrb.Blueprint(layout, collapse_panels=True)

@@ -53,10 +53,34 @@ def parser() -> argparse.ArgumentParser:
     diagnose.add_argument("--json", action="store_true", help="print report.json instead")
     _add_output(diagnose, default=None)
 
+    _add_blind(commands.add_parser("blind", help="score the diagnosis on rigs that it has not met"))
+
     inspect = commands.add_parser("inspect", help="open a recording, or list what is inside")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
     inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
     return top
+
+
+def _add_blind(blind: argparse.ArgumentParser) -> None:
+    actions = blind.add_subparsers(dest="action", required=True, metavar="make|score")
+    make = actions.add_parser("make", help="write logs of an independent rig, answers apart")
+    make.add_argument("--out", type=Path, required=True, metavar="DIR", help="a new folder")
+    make.add_argument("--seed", type=int, default=1)
+    make.add_argument("--count", type=int, default=40, help="of logs (default: 40)")
+    make.add_argument("--kinds", nargs="+", metavar="KIND", help="none single pair off_nominal outside")
+    make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these")
+    make.add_argument(
+        "--signature",
+        nargs=2,
+        type=float,
+        default=(1.0, 20.0),
+        metavar=("LOW", "HIGH"),
+        help="over noise",
+    )
+    make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
+    score = actions.add_parser("score", help="diagnose the logs, then compare with the answers")
+    score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
+    _add_output(score, default=None)
 
 
 def _add_output(command: argparse.ArgumentParser, *, default: Path | None) -> None:
@@ -82,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(args: argparse.Namespace, console: Console) -> int:
     # Imported here: `needle --help` need not wait for MuJoCo.
-    from scripts import control, demo, diagnose, insert, inspect, replay, validate
+    from scripts import blind, control, demo, diagnose, insert, inspect, replay, validate
 
     match args.command:
         case "demo":
@@ -106,6 +130,19 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             return diagnose.run(
                 args.log, args.out, json_only=args.json, force=args.force, console=console
             )
+        case "blind" if args.action == "make":
+            return blind.make(
+                args.out,
+                seed=args.seed,
+                count=args.count,
+                kinds=args.kinds,
+                effects=args.effects,
+                signature=(args.signature[0], args.signature[1]),
+                short=args.short,
+                console=console,
+            )
+        case "blind":
+            return blind.run_score(args.folder, args.out, force=args.force, console=console)
         case "replay":
             return replay.run(args.log, args.out, force=args.force, console=console)
         case _:

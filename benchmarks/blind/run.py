@@ -1,0 +1,46 @@
+"""The diagnosis on every log of a folder, two at a time; answers are never looked at.
+
+Reports that are there already are kept: a run that was stopped goes on where it was.
+"""
+
+import json
+import time
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from diagnosis.diagnose import diagnose
+from diagnosis.report import as_json
+from diagnosis.rig_log import read_rig_log
+from models.errors import NeedleError
+from sim.files import write_text
+
+
+def diagnose_all(
+    logs: Path,
+    reports: Path,
+    *,
+    workers: int = 2,
+    watched: Callable[[Sequence[Any]], Iterable[Any]] = iter,
+) -> None:
+    """Write `reports/<case>.json` for every folder in `logs`.
+
+    Args:
+      watched: goes through the tasks, and may show how far it is.
+    """
+    missing = [case for case in sorted(logs.iterdir()) if not (reports / f"{case.name}.json").exists()]
+    with ProcessPoolExecutor(workers) as pool:
+        tasks = [pool.submit(_one, case, reports / f"{case.name}.json") for case in missing]
+        for task in watched(tasks):
+            task.result()
+
+
+def _one(case: Path, report: Path) -> None:
+    start = time.perf_counter()
+    try:
+        found = as_json(diagnose(read_rig_log(case), workers=1))
+    except NeedleError as error:
+        found = {"verdict": "refused", "effects": [], "why": str(error)}
+    found["seconds"] = time.perf_counter() - start
+    write_text(report, json.dumps(found, indent=1), force=True)

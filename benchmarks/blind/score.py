@@ -1,0 +1,124 @@
+"""Reports against sealed answers: what was said, what was so.
+
+A report is exact if its verdict and its set of effects are those of the answer. A
+rig whose stiffness and damping are a little off as well may have both named.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from diagnosis.effects import LIBRARY
+
+OFF_NOMINAL = {"stiffness_error", "damping_error"}
+GAP_GOAL = 1.03
+
+
+def read_scores(folder: Path) -> pd.DataFrame:
+    """One row a log: answer, report and whether they agree; index: the case."""
+    answers = json.loads((folder / "answers" / "answers.json").read_text())
+    rows = {}
+    for case, answer in answers.items():
+        path = folder / "reports" / f"{case}.json"
+        if path.exists():
+            rows[case] = _row(answer, json.loads(path.read_text()))
+    return pd.DataFrame.from_dict(rows, orient="index")
+
+
+def _row(answer: dict[str, Any], report: dict[str, Any]) -> dict[str, Any]:
+    truth, said = set(answer["effects"]), set(report["effects"])
+    free = OFF_NOMINAL if OFF_NOMINAL & set(answer["parameters"]) else set()
+    ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
+    top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
+    right = truth or ({"none"} if answer["verdict"] == "none" else {"unknown"})
+    inside = [_inside(answer, report, effect, name) for effect, name in _parameters(answer)]
+    known = [x for x in inside if x is not None]
+    return {
+        "kind": answer.get("kind", _kind(answer)),
+        "truth": " + ".join(sorted(truth)) or answer["verdict"],
+        "said": " + ".join(sorted(said)) or report["verdict"],
+        "verdict": report["verdict"],
+        "expected": answer["verdict"],
+        "exact": report["verdict"] == answer["verdict"] and said - free == truth - free,
+        "confused": report["verdict"] == "undecided"
+        and any(set(names) - free == truth - free for names in report.get("confusable", [])),
+        "signature": min(answer.get("signature", {}).values(), default=np.nan),
+        "top": top,
+        "probability": ranking.get(top, np.nan),
+        "top_right": top in right,
+        "probability_right": sum(ranking.get(name, 0.0) for name in right),
+        "inside": sum(known),
+        "intervals": len(known),
+        "gap_before": report.get("gap", {}).get("before", np.nan),
+        "gap_after": report.get("gap", {}).get("after", np.nan),
+        "seconds": report.get("seconds", np.nan),
+    }
+
+
+def _kind(answer: dict[str, Any]) -> str:
+    verdict = str(answer["verdict"])
+    if verdict != "explained":
+        return {"none": "none", "unknown": "outside"}.get(verdict, verdict)
+    return "single" if len(answer["effects"]) == 1 else "pair"
+
+
+def _parameters(answer: dict[str, Any]) -> list[tuple[str, str]]:
+    return [(e, name) for e, own in answer["parameters"].items() if e in LIBRARY for name in own]
+
+
+def _inside(answer: dict[str, Any], report: dict[str, Any], effect: str, name: str) -> bool | None:
+    """Whether an interval covers; None where the report has none, or explains otherwise."""
+    found = report.get("parameters", {}).get(effect, {}).get(name)
+    if found is None or not set(answer["effects"]) <= set(report["effects"]):
+        return None
+    return bool(found["low"] <= answer["parameters"][effect][name] <= found["high"])
+
+
+def summary(scores: pd.DataFrame) -> pd.DataFrame:
+    """By kind: logs, exact, undecided, median seconds."""
+    grouped = scores.groupby("kind")
+    return pd.DataFrame(
+        {
+            "logs": grouped.size(),
+            "exact": grouped["exact"].mean(),
+            "undecided": grouped["verdict"].apply(lambda v: float((v == "undecided").mean())),
+            "unknown": grouped["verdict"].apply(lambda v: float((v == "unknown").mean())),
+            "seconds": grouped["seconds"].median(),
+        }
+    )
+
+
+def coverage(scores: pd.DataFrame) -> tuple[float, int]:
+    """Share of the 95 % intervals that cover, and how many there are."""
+    count = int(scores["intervals"].sum())
+    return (float(scores["inside"].sum() / count) if count else float("nan")), count
+
+
+def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
+    """Probability of the first in the ranking against how often it was right.
+
+    Where two effects are true, the probability of both together is that of the pair.
+    """
+    scores = scores[scores["probability"].notna()]
+    share = np.where(scores["top_right"], scores["probability_right"], scores["probability"])
+    edges = np.clip((share * bins).astype(int), 0, bins - 1)
+    table = pd.DataFrame({"bin": edges, "said": share, "was": scores["top_right"].astype(float)})
+    grouped = table.groupby("bin")
+    return pd.DataFrame(
+        {"said": grouped["said"].mean(), "was": grouped["was"].mean(), "logs": grouped.size()}
+    )
+
+
+def calibration_error(scores: pd.DataFrame) -> float:
+    """Expected calibration error: mean distance of said and was, weighted by logs."""
+    table = reliability(scores)
+    return float((table["logs"] * (table["said"] - table["was"]).abs()).sum() / table["logs"].sum())
+
+
+def gap_left(scores: pd.DataFrame) -> float:
+    """Share of the rightly explained logs whose gap is left within 3 % of the noise."""
+    right = scores[(scores["expected"] == "explained") & scores["exact"]]
+    return float((right["gap_after"] <= GAP_GOAL).mean()) if len(right) else float("nan")
