@@ -7,8 +7,12 @@ import numpy as np
 
 from diagnosis.effects import LIBRARY
 from diagnosis.fit import Fit
+from diagnosis.held_out import information
 from diagnosis.nuisance import SCATTER
 from diagnosis.whiteness import Floor, floor_of
+
+_CERTAIN = 5.0  # standard deviations
+_LEAST = 0.003  # simulations of the same rig differ by a tenth of this
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,10 +36,21 @@ class Candidate:
 
     @property
     def named(self) -> tuple[str, ...]:
-        """Its effects, and a scatter of the rig that is too large to be scatter."""
-        parts, open_ = self.fit.parts, {e.name for e in self.fit.coordinates.nuisance}
-        beyond = [n for n in SCATTER if n in open_ and abs(parts[n][0]) > 2 * SCATTER[n]]
-        return (*self.names, *beyond)
+        """Its effects, and stiffness or damping of the rig where they are off by too much.
+
+        Beside effects that is more than scatter explains. Alone it is whatever is
+        certain: the nominal rig does not fit, and this is why.
+        """
+        open_ = {e.name for e in self.fit.coordinates.nuisance}
+        return (*self.names, *(n for n in SCATTER if n in open_ and self._is_off(n)))
+
+    def _is_off(self, name: str) -> bool:
+        entry = self.fit.coordinates.owners.index(name)
+        away = abs(float(self.fit.x[entry]))
+        if self.names:
+            return away > 2 * SCATTER[name]
+        spread = float(np.sqrt(np.linalg.pinv(information(self.fit)[0])[entry, entry]))
+        return away > max(_CERTAIN * spread, _LEAST)
 
 
 def candidate(fit: Fit) -> Candidate:

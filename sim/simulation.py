@@ -19,7 +19,7 @@ from sim.spec import Setup, needle_spec, renumbered
 Array = NDArray[np.float64]
 
 _INTEGRATION = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-_LANDING_TOLERANCE_RAD = 1e-9
+_LANDING_TOLERANCE_RAD = 1e-8
 
 
 class SimulationFailed(NeedleError):
