@@ -1,7 +1,8 @@
 """The run that would best tell two explanations apart, found by simulating candidates.
 
 A rig can do what its log shows that it can: depths, free lengths, axial speeds and
-rates of turning are taken from there. Each candidate run is predicted by both
+rates of turning are taken from there. One whose log never slides may still be able
+to: such runs say that they ask for it. Each candidate run is predicted by both
 explanations; their difference d over the noise, less what either could take back by
 moving its parameters within what the log leaves open, is the expected separation
 
@@ -28,6 +29,7 @@ Array = NDArray[np.float64]
 
 _SAMPLE_S = 0.04
 _REST_S = 0.5
+_SLOW_MM_S = 1.0
 _DIFFERENCE = 1e-3
 DECISIVE = 5.0  # separation at which one run leaves hardly a doubt
 
@@ -77,9 +79,12 @@ def experiments(log: RigLog) -> Iterator[Experiment]:
         "oscillate by 5 deg at 2 Hz": _sine(5.0, 2.0),
     }
     for depth in dict.fromkeys((depths[0], depths[-1])):
-        for speed in dict.fromkeys((0.0, speed_seen)):
+        for speed, able in (
+            (0.0, ""),
+            (speed_seen or _SLOW_MM_S, "" if speed_seen else ", if the rig can"),
+        ):
             for words, (time, angle) in motions.items():
-                sliding = f", sliding out at {speed:g} mm/s" if speed else ""
+                sliding = f", sliding out at {speed:g} mm/s{able}" if speed else ""
                 where = f", {depth:g} mm deep with {free:.0f} mm free{sliding}"
                 yield Experiment(words=words + where, trial=_trial(time, angle, depth, free, -speed))
 

@@ -12,10 +12,10 @@ import yaml
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate as simulate_reference
 
+from diagnosis.coordinates import coordinates_of, starts
 from diagnosis.diagnose import diagnose
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.coordinates import coordinates_of, starts
 from diagnosis.noise import white_noise
 from diagnosis.report import FORMAT, as_json, write_report
 from diagnosis.rig_log import read_rig_log

@@ -119,6 +119,11 @@ CASES = {
         {"tissue": viscous(), "needle": NITINOL.but(load_coefficient=0.5)},
         0.0,
     ),
+    "load_dependent_friction, sliding": (
+        {"load_dependent_friction": {"coefficient": 0.5}},
+        {"tissue": viscous(), "needle": NITINOL.but(load_coefficient=0.5)},
+        -1.7,
+    ),
     "viscoelasticity and dry friction": (
         {"tissue_viscoelasticity": KELVIN_VOIGT, "coulomb_friction": {"level": 0.0015}},
         {"tissue": viscous(kinetic_n_mm_per_mm=0.0015, **SOFT)},
