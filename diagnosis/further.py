@@ -11,13 +11,14 @@ from diagnosis.glance import glance
 from diagnosis.team import Team
 
 _ITERATIONS = 3
+_STARTS = 2
 
 
 def further(coarse: Evidence, best: Fit, effects: Sequence[str], team: Team) -> dict[str, float]:
     """Gap that the best fit may come down to with one more effect, least first."""
     start = coordinates_of(best.names, coarse.nuisance).joined(best.parts)
     base = fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
-    calls = [(coarse, base, name) for name in effects if name not in base.names]
+    calls = [(coarse, base, name, _STARTS) for name in effects if name not in base.names]
     hints = [found[0] for found in team.each("looking further", glance, calls)]
     samples = max(base.samples, 1)
     # The floor of the thinned log is not exactly that of the log: ratios carry over.

@@ -35,15 +35,18 @@ class Hint:
     cost: float
 
 
-def glance(evidence: Evidence, base: Fit, name: str) -> list[Hint]:
+def glance(evidence: Evidence, base: Fit, name: str, most_starts: int | None = None) -> list[Hint]:
     """What adding an effect to a fit promises, best start first.
+
+    Args:
+      most_starts: of the effect that are looked at.
 
     Raises:
       SimulationFailed: the effect cannot be simulated at its starts.
     """
     effect = LIBRARY[name]
     coordinates = coordinates_of((*base.names, name), evidence.nuisance)
-    own = starts(effect)
+    own = starts(effect)[:most_starts]
     columns = [coordinates.joined(base.parts | {name: s}) for s in own]
     runs = predicted_residuals(evidence, [coordinates.rig(x) for x in columns])
     kept = np.array([owner != name for owner in base.coordinates.owners], bool)

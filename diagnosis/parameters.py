@@ -23,7 +23,7 @@ from diagnosis.predict import predicted_residuals
 Array = NDArray[np.float64]
 
 _Z95 = 1.959964
-_REPLICATES = 8
+_REPLICATES = 6
 _SEED = 20
 _NOTHING = np.zeros(0)
 

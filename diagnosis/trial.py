@@ -7,6 +7,7 @@ is an error that names the file, the line or column, what was expected, and the 
 import csv
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -61,14 +62,27 @@ class Trial:
     table: pd.DataFrame
 
     def __getitem__(self, column: str) -> Array:
-        return np.asarray(self.table[column], float)
+        return self._columns[column]
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
-        return sensor in self.table and bool(self.table[sensor].notna().any())
+        return sensor in self._measured
 
     def schedule(self) -> Schedule:
         """What was done to the needle, as the rig measured it."""
+        return self._schedule
+
+    # A fit asks thousands of times for the same; the table never changes.
+    @cached_property
+    def _columns(self) -> dict[str, Array]:
+        return {str(name): np.asarray(self.table[name], float) for name in self.table}
+
+    @cached_property
+    def _measured(self) -> frozenset[str]:
+        return frozenset(name for name, values in self._columns.items() if not np.isnan(values).all())
+
+    @cached_property
+    def _schedule(self) -> Schedule:
         tip = np.nan_to_num(self["tip_torque_n_mm"]) if self.has("tip_torque_n_mm") else np.zeros(0)
         return Schedule(
             time_s=self["time_s"],

@@ -76,11 +76,20 @@ def compile_model(setup: Setup) -> mujoco.MjModel:
     return needle_spec(setup).compile()
 
 
-def compile_models(setups: Sequence[Setup]) -> list[mujoco.MjModel]:
-    """A model a setup; one whose bodies are those of the first is a copy with other numbers."""
-    first = compile_model(setups[0])
-    rest = [renumbered(first, setups[0], setup) or compile_model(setup) for setup in setups[1:]]
-    return [first, *rest]
+_TEMPLATES: dict[tuple[object, ...], mujoco.MjModel] = {}
+_MOST_TEMPLATES = 64
+
+
+def _model(setup: Setup) -> mujoco.MjModel:
+    """A model of its own; where the bodies are known already, a copy with other numbers."""
+    key = setup.bodies
+    if key is None:
+        return compile_model(setup)
+    if key not in _TEMPLATES:
+        if len(_TEMPLATES) >= _MOST_TEMPLATES:
+            _TEMPLATES.clear()
+        _TEMPLATES[key] = compile_model(setup)
+    return renumbered(_TEMPLATES[key], setup)
 
 
 def controls(inputs: Schedule, setup: Setup) -> Array:
@@ -126,7 +135,7 @@ def simulate(
       InvalidValue: the setups do not share a layout.
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
-    models = compile_models(setups)
+    models = [_model(setup) for setup in setups]
     first = models[0]
     for setup, model in zip(setups, models, strict=True):
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):

@@ -75,6 +75,20 @@ class Setup:
         return self._mesh()[0]
 
     @property
+    def bodies(self) -> tuple[object, ...] | None:
+        """What MuJoCo's bodies depend on; set-ups that share it differ in numbers alone.
+
+        None: joints that turn on their neighbour hold the torsion themselves.
+        """
+        if self.discretisation.arrangement is Arrangement.CHAIN:
+            return None
+        law = law_table(self.needle, self.drive, self.tissue, rows=self.rows)
+        inertia = (self.needle.mass_kg_per_m, self.needle.rotary_inertia_kg_m)
+        nodes, stretching = self._mesh()
+        radius = self.needle.radius_mm
+        return (self.discretisation, self.drive.kind, inertia, radius, len(law), stretching, *nodes)
+
+    @property
     def stretching(self) -> int:
         """Elements that share the free length."""
         return self._mesh()[1]
@@ -126,34 +140,20 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
     return spec
 
 
-def renumbered(model: mujoco.MjModel, setup: Setup, other: Setup) -> mujoco.MjModel | None:
-    """A copy of `setup`'s model with the numbers of another, or None if its bodies differ.
+def renumbered(model: mujoco.MjModel, setup: Setup) -> mujoco.MjModel:
+    """A copy of a model of the same bodies, with the numbers of a set-up.
 
     Siblings have no torsion in their joints: all that a rig changes in MuJoCo's own
     numbers is then the servo. It costs a tenth of compiling.
     """
-    law = law_table(other.needle, other.drive, other.tissue, rows=other.rows)
-    if not _same_bodies(setup, other) or law.size != model.numeric("needle_law").data.size:
-        return None
+    law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
     changed = copy.copy(model)
-    changed.numeric("needle").data[:] = header(other, rows=len(law))
+    changed.numeric("needle").data[:] = header(setup, rows=len(law))
     changed.numeric("needle_law").data[:] = law.ravel()
-    changed.joint("twist_0").stiffness[0] = other.servo_n_m_per_rad
-    if other.drive.kind is DriveKind.ANGLE:
-        changed.actuator("drive").gear[0] = other.servo_n_m_per_rad
+    changed.joint("twist_0").stiffness[0] = setup.servo_n_m_per_rad
+    if setup.drive.kind is DriveKind.ANGLE:
+        changed.actuator("drive").gear[0] = setup.servo_n_m_per_rad
     return changed
-
-
-def _same_bodies(one: Setup, other: Setup) -> bool:
-    siblings = one.discretisation.arrangement is Arrangement.SIBLINGS
-    return (
-        siblings
-        and one.discretisation == other.discretisation
-        and one.drive.kind is other.drive.kind
-        and one.needle.mass_kg_per_m == other.needle.mass_kg_per_m
-        and one.needle.rotary_inertia_kg_m == other.needle.rotary_inertia_kg_m
-        and np.array_equal(one.nodes_mm, other.nodes_mm)
-    )
 
 
 def _mass_kg(setup: Setup) -> float:
