@@ -40,6 +40,7 @@ _PLAUSIBLE = {
 }
 _LONGEST_SAMPLE_S = 5.0
 _BYTES_A_ROW = 250
+_SAME_DEPTH_MM = 0.2
 _CHUNK = 1 << 20
 _WRITE = "write numbers with a decimal point, and commas between the cells only"
 _NO_TEXT = "expected UTF-8 text, got a binary file or another encoding; export the table as CSV in UTF-8"
@@ -88,10 +89,15 @@ class Trial:
             time_s=self["time_s"],
             drive=self["base_angle_deg"],
             free_mm=self["free_mm"],
-            inserted_mm=self["inserted_mm"],
+            inserted_mm=_steadied(self["inserted_mm"]),
             speed_mm_s=self["speed_mm_s"],
             tip_torque_n_mm=tip,
         )
+
+
+def _steadied(depth: Array) -> Array:
+    """A depth that hardly changes is constant: what is left is the reading of the stage."""
+    return np.full(depth.shape, np.median(depth)) if np.ptp(depth) < _SAME_DEPTH_MM else depth
 
 
 def refuse_too_large(paths: Sequence[Path]) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from models.errors import NeedleError
+from models.errors import InvalidValue, NeedleError
 
 
 def parser() -> argparse.ArgumentParser:
@@ -49,7 +49,10 @@ def parser() -> argparse.ArgumentParser:
     _add_output(replay, default=Path("out/replay"))
 
     diagnose = commands.add_parser("diagnose", help="say what a rig has that its model lacks")
-    diagnose.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
+    diagnose.add_argument("log", type=Path, metavar="LOG", nargs="?", help="a rig-log/1 folder")
+    diagnose.add_argument(
+        "--paper", action="store_true", help="the published Tables II, IV and V instead"
+    )
     diagnose.add_argument("--json", action="store_true", help="print report.json instead")
     _add_output(diagnose, default=None)
 
@@ -106,7 +109,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(args: argparse.Namespace, console: Console) -> int:
     # Imported here: `needle --help` need not wait for MuJoCo.
-    from scripts import blind, control, demo, diagnose, insert, inspect, replay, validate
+    from scripts import blind, control, demo, diagnose, insert, inspect, paper_gap, replay, validate
 
     match args.command:
         case "demo":
@@ -126,6 +129,10 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             return validate.run(args.out, force=args.force, console=console)
         case "control":
             return control.run(args.out, force=args.force, console=console)
+        case "diagnose" if bool(args.log) == args.paper:
+            raise InvalidValue("LOG", args.log, "either a rig-log/1 folder or --paper")
+        case "diagnose" if args.paper:
+            return paper_gap.run(args.out, json_only=args.json, force=args.force, console=console)
         case "diagnose":
             return diagnose.run(
                 args.log, args.out, json_only=args.json, force=args.force, console=console

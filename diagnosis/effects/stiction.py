@@ -21,7 +21,7 @@ EFFECT = Effect(
             unit="N mm / mm",
             low=1e-06,
             high=0.05,
-            start=(0.0004, 0.001, 0.001, 0.003),
+            start=(0.0004, 0.001, 0.001, 0.003, 0.0005),
             logarithmic=True,
         ),
         Parameter(
@@ -29,7 +29,7 @@ EFFECT = Effect(
             unit="N mm / mm",
             low=1e-06,
             high=0.1,
-            start=(0.001, 0.002, 0.004, 0.006),
+            start=(0.001, 0.002, 0.004, 0.006, 0.002),
             logarithmic=True,
         ),
         Parameter(
@@ -37,7 +37,7 @@ EFFECT = Effect(
             unit="rad/s",
             low=0.005,
             high=2.0,
-            start=(0.07, 0.05, 0.2, 0.1),
+            start=(0.07, 0.05, 0.2, 0.1, 0.8),
             logarithmic=True,
         ),
     ),

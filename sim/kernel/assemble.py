@@ -15,7 +15,7 @@ from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.kernel.work import Frame, Work
 
 # A place is the end of the shaft if it lies within this fraction of the last element.
-_AT_END = 1e-6
+_AT_END = 0.01
 
 
 @inlined
