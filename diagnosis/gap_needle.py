@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
+import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from diagnosis.rig_log import Trial
@@ -48,6 +49,13 @@ def log_needle(stream: Any, entity: str, trial: Trial, missed: Mapping[tuple[str
                     radii=np.full(shown.size, _RADIUS_MM),
                 )
                 stream.send_columns(f"{entity}/{name}/{sensor}", indexes=stamps, columns=columns)
+
+
+def needle_bounds(trial: Trial) -> Any:
+    """What a view of both needles has to show."""
+    longest, margin = float((trial["free_mm"] + trial["inserted_mm"]).max()), 2 * _RADIUS_MM
+    rows = [-margin, max(_ROWS.values()) + margin]
+    return rrb.VisualBounds2D(x_range=[-margin, longest + margin], y_range=rows)
 
 
 def _strips(start: Array, end: Array, level: Array) -> Array:

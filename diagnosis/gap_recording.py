@@ -13,7 +13,7 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from diagnosis.diagnose import Diagnosis
-from diagnosis.gap_needle import log_needle
+from diagnosis.gap_needle import log_needle, needle_bounds
 from diagnosis.noise import Noise
 from diagnosis.predict import Prediction
 from diagnosis.rig_log import SENSORS, Trial
@@ -81,7 +81,9 @@ def _blueprint(diagnosis: Diagnosis) -> Any:
             rrb.TimeSeriesView(origin=f"{root}/residual/{s}", name=f"{_LABELS[s]}: over noise")
             for s in SENSORS
         ]
-        needle = rrb.Spatial2DView(origin=f"{root}/needle", name="residual on the needle")
+        needle = rrb.Spatial2DView(
+            origin=f"{root}/needle", name="residual on the needle", visual_bounds=needle_bounds(trial)
+        )
         signals, residuals = rrb.Horizontal(*above), rrb.Horizontal(*below)
         shares = [3, 3, 1]
         tabs.append(rrb.Vertical(signals, residuals, needle, row_shares=shares, name=trial.name))

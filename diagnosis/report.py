@@ -3,6 +3,7 @@
 import json
 from dataclasses import asdict
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pandas as pd
@@ -62,24 +63,32 @@ def output_paths(log: RigLog, folder: Path) -> list[Path]:
 
 
 def write_report(diagnosis: Diagnosis, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write everything, `report.json` last; returns the paths.
+    """Write everything, or nothing if it is interrupted; returns the paths.
 
     Raises:
       OutputExists: one of them exists and `force` is not given.
     """
     paths = output_paths(diagnosis.log, folder)
     refuse_existing(paths, force=force)
-    log = diagnosis.log
-    report = as_json(diagnosis)
+    folder.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(prefix=".report-", dir=folder) as hidden:
+        drafts = output_paths(diagnosis.log, Path(hidden))
+        _write_drafts(diagnosis, drafts)
+        for draft, path in zip(drafts, paths, strict=True):
+            path.parent.mkdir(exist_ok=True)
+            draft.replace(path)
+    return paths
+
+
+def _write_drafts(diagnosis: Diagnosis, paths: list[Path]) -> None:
+    log, report = diagnosis.log, as_json(diagnosis)
+    write_text(paths[0], json.dumps(report, indent=1, allow_nan=False))
+    write_text(paths[1], page(diagnosis, report))
+    log_gap(diagnosis, sentence(diagnosis), paths[2])
     each = zip(log.trials, diagnosis.nominal, diagnosis.explained, paths[3:], strict=True)
     for trial, nominal, explained, path in each:
         columns = {"time_s": trial["time_s"]}
         for sensor in ("base_torque_n_mm", "tip_angle_deg"):
             columns[f"{sensor}_nominal"] = nominal[sensor]
             columns[f"{sensor}_explained"] = explained[sensor]
-        text = pd.DataFrame(columns).to_csv(index=False, float_format="%.6g")
-        write_text(path, text, force=force)
-    log_gap(diagnosis, sentence(diagnosis), paths[2], force=force)
-    write_text(paths[1], page(diagnosis, report), force=force)
-    write_text(paths[0], json.dumps(report, indent=1, allow_nan=False), force=force)
-    return paths
+        write_text(path, pd.DataFrame(columns).to_csv(index=False, float_format="%.6g"))

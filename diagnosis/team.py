@@ -1,5 +1,6 @@
 """Running one function on many arguments, over processes where there are several."""
 
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
@@ -46,5 +47,13 @@ def team(workers: int, progress: Progress = silent) -> Iterator[Team]:
     if workers <= 1:
         yield Team(progress=progress)
         return
-    with ProcessPoolExecutor(workers) as pool:
-        yield Team(pool=pool, progress=progress)
+    with ProcessPoolExecutor(workers, initializer=_leave_interrupts_to_the_parent) as pool:
+        try:
+            yield Team(pool=pool, progress=progress)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)  # after what runs, some seconds at the most
+            raise
+
+
+def _leave_interrupts_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

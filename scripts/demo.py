@@ -1,7 +1,7 @@
 """`needle demo`: the main job, from one command.
 
-A simulated insertion, the cross-check against the closed-form modes, and the replay
-of a rig's log that ships with the project.
+A simulated insertion, the cross-check against the closed-form modes, the replay of a
+rig's log that ships with the project, and what another rig has that its model lacks.
 """
 
 import time
@@ -10,8 +10,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from diagnosis import report
 from diagnosis.replay import replay
 from diagnosis.rig_log import read_rig_log
+from scripts import diagnose as diagnosing
 from scripts import insert
 from scripts import replay as replaying
 from scripts import validate as validating
@@ -21,8 +23,9 @@ from sim.files import refuse_existing
 from sim.kernel.callback import install
 from sim.paper_protocols import protocol_named
 
-EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "rig-log"
-_STAGES = 4
+EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+EXAMPLE, DRY = EXAMPLES / "rig-log", EXAMPLES / "rig-log-dry"
+_STAGES = 5
 
 
 def run(folder: Path, *, force: bool, console: Console) -> int:
@@ -31,6 +34,7 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     paths = insert.output_paths(folder, protocol)
     paths += [folder / "validate" / name for name in FILES]
     paths += replaying.output_paths(log, folder / "replay")
+    paths += report.output_paths(read_rig_log(DRY), folder / "gap")
     refuse_existing(paths, force=force)
     began = time.monotonic()
 
@@ -52,9 +56,13 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     replaying.write(log, replays, folder / "replay", force=force)
     console.print(replaying.table(log, replays))
 
+    _announce(console, 5, "what a rig has that its model lacks")
+    diagnosing.run(DRY, folder / "gap", json_only=False, force=force, console=console)
+
     console.print(_written(paths))
     console.print(f"done in {time.monotonic() - began:.0f} s; look at a recording with")
     console.print(f"  needle inspect {folder / (protocol.name + '.rrd')}", highlight=False)
+    console.print(f"and open {folder / 'gap' / 'report.html'}", highlight=False)
     return 0 if findings.passed else 1
 
 
