@@ -20,18 +20,8 @@ from typing import Any
 
 from rich.markup import escape
 
-from benchmarks import report, sysid_rig
-from benchmarks.sysid_fit import (
-    LEVEL,
-    SCALE,
-    STIFFNESS,
-    UNIT,
-    UNTOLD,
-    Finding,
-    identified,
-    missing,
-    told,
-)
+from benchmarks import report, sysid_fit, sysid_rig
+from benchmarks.sysid_fit import LEVEL, SCALE, STIFFNESS, UNIT, UNTOLD, Finding
 from diagnosis.diagnose import diagnose
 from diagnosis.report import as_json
 from diagnosis.rig_log import RigLog, read_rig_log
@@ -125,7 +115,8 @@ def _findings(name: str, log: RigLog) -> list[Finding]:
     """The truth, where it is known, and what each makes of the log."""
     truth = [_true(name)] if name in TRUTH else []
     dry = name not in TRUTH or LEVEL in TRUTH[name]
-    return [*truth, diagnosed(name, log), identified(name, log), *([told(name, log)] if dry else [])]
+    found = [*truth, diagnosed(name, log), sysid_fit.identified(name, log)]
+    return [*found, sysid_fit.told(name, log)] if dry else found
 
 
 def _goals(findings: Sequence[Finding]) -> list[report.Goal]:
@@ -163,7 +154,7 @@ def _goals(findings: Sequence[Finding]) -> list[report.Goal]:
 
 def run(folder: Path, given: Path | None = None) -> list[report.Goal]:
     """Measure, print, write; or say why not."""
-    reason = missing()
+    reason = sysid_fit.missing()
     if reason:
         report.say(escape(f"mujoco.sysid: skipped; {reason}"))
         return _goals([])

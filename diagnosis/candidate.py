@@ -7,7 +7,7 @@ import numpy as np
 
 from diagnosis.effects import LIBRARY
 from diagnosis.fit import Fit
-from diagnosis.held_out import information
+from diagnosis.held_out import held_out, information
 from diagnosis.nuisance import SCATTER
 from diagnosis.whiteness import Floor, floor_of
 
@@ -23,11 +23,18 @@ class Candidate:
       score: cost plus log(samples) a parameter (BIC), plus what a choice among that many
         costs: one of 171 pairs fits by chance more often than one of 19 effects.
       floor: how far its residual is above the noise.
+      unseen: the same on trials that the fit has not seen.
     """
 
     fit: Fit
     score: float
     floor: Floor
+    unseen: Floor
+
+    @property
+    def explains(self) -> bool:
+        """Whether nothing beyond noise is left, also where the fit has not looked."""
+        return self.floor.reached and self.unseen.nearly_reached
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -57,4 +64,4 @@ def candidate(fit: Fit) -> Candidate:
     """A fit with its score: that none, one of all effects or one of all pairs is true is as likely."""
     freedom = fit.size * float(np.log(max(fit.samples, 2)))
     score = fit.cost + freedom + 2.0 * math.log(math.comb(len(LIBRARY), len(fit.names)))
-    return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))
+    return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial), unseen=floor_of(held_out(fit)))

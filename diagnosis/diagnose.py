@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from diagnosis.advice import advise
 from diagnosis.base_motion import without_base_noise
+from diagnosis.bridging import bridged, original
 from diagnosis.evidence import Evidence
 from diagnosis.further import further
 from diagnosis.gap import Gap, gap_of
@@ -59,8 +60,9 @@ class Diagnosis:
 
 def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> Diagnosis:
     """Diagnose a log."""
-    driven = without_base_noise(log)
-    nominal = _predicted(driven, RigModel())
+    driven = without_base_noise(bridged(log))
+    replayed = _predicted(driven, RigModel())
+    nominal = _at_samples(log, driven, replayed)
     missed = {
         sensor: [
             trial[sensor] - prediction[sensor]
@@ -71,7 +73,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     }
     noise = estimate_noise(log, missed)
     evidence = Evidence(log=driven, noise=noise, nuisance=nuisance_of(driven))
-    coarse, effects = thinned(evidence, nominal), possible_effects(log)
+    coarse, effects = thinned(evidence, replayed), possible_effects(log)
     with team(workers, progress) as workforce:
         noise, candidates = refined(evidence, search(evidence, coarse, effects, workforce))
         evidence, verdict = replace(evidence, noise=noise), judge(candidates)
@@ -80,7 +82,8 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     if verdict.outcome is Outcome.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(evidence, verdict.best))
     rig = best.coordinates.rig(best.x)
-    explained, change = _predicted(driven, rig), replay_change(evidence, rig)
+    explained = _at_samples(log, driven, _predicted(driven, rig))
+    change = replay_change(evidence, rig)
     where_left = locate(log, explained, noise)
     return Diagnosis(
         log=log,
@@ -100,6 +103,12 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
 
 def _predicted(log: RigLog, rig: RigModel) -> list[Prediction]:
     return [predict(log.rig, trial, [rig])[0] for trial in log.trials]
+
+
+def _at_samples(log: RigLog, driven: RigLog, predictions: list[Prediction]) -> list[Prediction]:
+    """Predictions at the samples of the log itself."""
+    each = zip(log.trials, driven.trials, predictions, strict=True)
+    return [p.rows(original(trial, bridge)) for trial, bridge, p in each]
 
 
 def _over_noise(missed: dict[str, list[Array]], noise: Noise, log: RigLog) -> list[Array]:

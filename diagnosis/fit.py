@@ -18,6 +18,7 @@ from diagnosis.coordinates import Coordinates, coordinates_of
 from diagnosis.effects import LIBRARY
 from diagnosis.evidence import Evidence
 from diagnosis.predict import predicted_residuals
+from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 
@@ -81,16 +82,23 @@ class Objective:
         self.low, self.high = coordinates.bounds()
         self.slopes: Array | None = None
         self._fresh_at: Array | None = None
+        self._rows: int | None = None
 
     def __call__(self, x: Array) -> Array:
         """(n, M) or (n,) to residuals with the prior, (N, M) or (N,)."""
         columns = x.reshape(x.shape[0], -1)
         rigs = [self.coordinates.rig(x) for x in columns.T]
-        trials = predicted_residuals(self.evidence, rigs)
+        try:
+            trials = predicted_residuals(self.evidence, rigs)
+        except SimulationFailed:
+            if self._rows is None or columns.shape[1] > 1:
+                raise
+            return np.full((self._rows, *x.shape[1:]), np.nan)  # a step too far: it is taken back
         rows = [
             np.concatenate([*(t[i] for t in trials), self.coordinates.weights * columns[:, i]])
             for i in range(columns.shape[1])
         ]
+        self._rows = rows[0].size
         return np.stack(rows, axis=-1).reshape(-1, *x.shape[1:])
 
     def jacobian(self, x: Array, at_x: Array) -> Array:

@@ -30,6 +30,10 @@ class Prediction:
         found: Array = getattr(self, sensor)
         return found
 
+    def rows(self, kept: NDArray[np.bool_]) -> "Prediction":
+        """The prediction at some of its samples."""
+        return Prediction(**{sensor: self[sensor][kept] for sensor in SENSORS})
+
 
 def predict(
     rig: Rig, trial: Trial, candidates: Sequence[RigModel], resolution: Resolution = FINE

@@ -48,6 +48,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
             "place": places(verdict.effects),
         },
         "next_experiment": diagnosis.next_experiment,
+        "floor": {"fitted": asdict(verdict.best.floor), "unseen": asdict(verdict.best.unseen)},
         "further": diagnosis.further,
         "cannot_tell": list(cannot_tell(diagnosis.log)),
         "replay_error": diagnosis.replay_error,

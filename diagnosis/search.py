@@ -60,7 +60,7 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
 def _explained(evidence: Evidence, found: Sequence[Candidate]) -> bool:
     """Whether one of the candidates is at the noise floor, as the best of them leaves it."""
     _, refloored = refined(evidence, sorted(found, key=lambda c: c.score))
-    return any(c.floor.reached for c in refloored)
+    return any(c.explains for c in refloored)
 
 
 def _plain(evidence: Evidence, team: Team) -> list[Candidate]:

@@ -50,7 +50,7 @@ class Verdict:
 
 def judge(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first."""
-    at_floor = [c for c in candidates if c.floor.reached]
+    at_floor = [c for c in candidates if c.explains]
     if not at_floor:
         return Verdict(
             outcome=Outcome.UNKNOWN,

@@ -126,7 +126,9 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
     spec.option.gravity = [0, 0, 0]
     disable = mujoco.mjtDisableBit
-    spec.option.disableflags = int(disable.mjDSBL_CONSTRAINT | disable.mjDSBL_CONTACT)
+    spec.option.disableflags = int(
+        disable.mjDSBL_CONSTRAINT | disable.mjDSBL_CONTACT | disable.mjDSBL_AUTORESET
+    )
     _add_numbers(spec, setup)
     tip = _add_bodies(spec, setup)
     _add_actuators(spec, setup, tip)

@@ -18,6 +18,7 @@ mjcb_* are process-wide. A model without our header passes through untouched.
 """
 
 import hashlib
+import logging
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -226,4 +227,7 @@ def install() -> tuple[Any, Any]:
     passive, sensor = _compile()
     mujoco.set_mjcb_passive(passive.ctypes)
     mujoco.set_mjcb_sensor(sensor.ctypes)
+    if mujoco.get_mju_user_warning() is None:
+        # A run that loses its numbers raises; MuJoCo would also write a file where it is called.
+        mujoco.set_mju_user_warning(logging.getLogger("mujoco").info)
     return passive, sensor

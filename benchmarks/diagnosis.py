@@ -1,0 +1,241 @@
+"""Where the time of `needle diagnose` goes, how it grows with the log, and the memory that it takes.
+
+Logs come from the independent rig of `benchmarks.blind`: five trials of 120 s in all at
+100 Hz, with one effect and with a pair of them; and a shorter log once, twice and four
+times over, with new noise each time. Reading and report count, the start of Python does not.
+
+Stages are wall-clock time: what passes until a report of progress counts to what it
+reports. The unit is one replay of the whole log by the nominal needle. Growth is of the
+CPU time of the process and its workers, which other work on the machine changes less.
+
+Each diagnosis has a process of its own, since peaks of memory are of a process's life.
+"""
+
+import multiprocessing
+import resource
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from benchmarks import report
+from benchmarks.blind.bench import Bench
+from benchmarks.blind.case import draw_rig
+from benchmarks.blind.motions import Plan, draw_motions
+from benchmarks.blind.rig import observe
+from benchmarks.blind.sensors import BASE, TIP, TORQUE, Sensors, as_csv, measure, rig_yaml
+from diagnosis.diagnose import diagnose
+from diagnosis.predict import predict
+from diagnosis.report import write_report
+from diagnosis.rig_log import read_rig_log
+from diagnosis.rig_model import RigModel
+from sim.kernel.callback import install
+
+WORKERS = 2
+PLAN = Plan(trials=5, total_s=120.0, rate_hz=100, sliding=0.4, growing=0.0, loaded=0.0)
+SHORT = replace(PLAN, trials=2, total_s=24.0)
+SINGLE, PAIR = ("coulomb_friction",), ("coulomb_friction", "chuck_backlash")
+TIMES_OVER = (1, 2, 4)
+SINGLE_BOUND_S, PAIR_BOUND_S, MEMORY_BOUND_GIB, GROWTH_BOUND = 60.0, 180.0, 1.0, 1.3
+
+_SEED = 5
+_SIGNATURE = (4.0, 6.0)  # of each effect, over the noise
+_NOISE = {TIP: 0.4, TORQUE: 0.015, BASE: 0.02}
+_SENSORS = Sensors(noise=_NOISE, claims=dict.fromkeys(_NOISE, 1.0), steps={})
+_ONE, _TWO = "one effect", "a pair"
+_READING, _BEFORE, _AFTER, _REPORT = "reading", "before the search", "after the search", "report"
+_PEAK_UNIT = 1 if sys.platform == "darwin" else 1024  # of ru_maxrss, bytes
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cost:
+    """Of one diagnosis.
+
+    Attributes:
+      says: what it found.
+      stages_s: wall-clock time by stage, s, in their order.
+      cpu_s: of the process and its workers.
+      peak_gib: at most: as if all workers peaked together, and shared nothing.
+      replay_s: CPU time of one replay of the log by the nominal needle.
+    """
+
+    trials: int
+    says: str
+    stages_s: dict[str, float]
+    cpu_s: float
+    peak_gib: float
+    replay_s: float
+
+    @property
+    def wall_s(self) -> float:
+        """From the log's files to the report's."""
+        return sum(self.stages_s.values())
+
+
+class Stages:
+    """A stopwatch: what passes until a mark counts to the mark's stage."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._last = time.perf_counter()
+
+    def mark(self, stage: str) -> None:
+        """A stage, or a part of it, is done."""
+        now = time.perf_counter()
+        self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self._last
+        self._last = now
+
+    def heard(self, what: str, share: float) -> None:
+        """A report of progress; up to the first there is all that comes before the search."""
+        self.mark(what if _BEFORE in self.seconds else _BEFORE)
+
+
+def write_log(folder: Path, plan: Plan, effects: tuple[str, ...], times_over: int = 1) -> Path:
+    """Write a log of a rig with these effects; its trials come again with new noise.
+
+    Raises:
+      ValueError: the trials of the plan cannot show such effects.
+    """
+    rng = np.random.default_rng(_SEED)
+    motions = draw_motions(rng, plan)
+    bench = Bench(motions, _SENSORS, coarse=True)
+    rig = draw_rig(rng, bench, "pair" if len(effects) > 1 else "single", effects, _SIGNATURE)
+    if rig is None:
+        raise ValueError(f"effects: {effects}; expected some that {plan} can show; try another seed")
+    folder.mkdir(parents=True, exist_ok=True)
+    shown = [(motion, observe(rig, motion)) for motion in motions] * times_over
+    (folder / "rig.yaml").write_text(rig_yaml(_SENSORS, rig, len(shown)))
+    for i, (motion, trace) in enumerate(shown):
+        table = as_csv(measure(rng, _SENSORS, motion, trace))
+        (folder / f"trial_{i + 1:02d}.csv").write_text(table)
+    return folder
+
+
+def cost(folder: Path) -> Cost:
+    """Of diagnosing a log, in a process of its own."""
+    # A server's child starts its count of memory afresh, but would have its workers from the server.
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("forkserver")) as alone:
+        return alone.submit(_cost, folder, multiprocessing.get_start_method()).result()
+
+
+def _cost(folder: Path, usual: str) -> Cost:
+    multiprocessing.set_start_method(usual, force=True)
+    stages, start_s = Stages(), _cpu_s()
+    install()
+    stages.mark("loading")
+    log = read_rig_log(folder)
+    stages.mark(_READING)
+    found = diagnose(log, workers=WORKERS, progress=stages.heard)
+    stages.mark(_AFTER)
+    debug = ["cpu without report", _cpu_s() - start_s, _peak_gib()]
+    write_report(found, folder / "report", force=True)
+    stages.mark(_REPORT)
+    cpu_s, peak_gib = _cpu_s() - start_s, _peak_gib()
+    sys.stderr.write(f"{debug} {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss/1024} {resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss/1024}\n")
+
+    def replay() -> None:
+        for trial in log.trials:
+            predict(log.rig, trial, [RigModel()])
+
+    return Cost(
+        trials=len(log.trials),
+        says=f"{found.verdict.outcome.value}: {' + '.join(found.verdict.effects)}",
+        stages_s=stages.seconds,
+        cpu_s=cpu_s,
+        peak_gib=peak_gib,
+        replay_s=report.least_times_s({"replay": replay}, turns=5)["replay"],
+    )
+
+
+def _cpu_s() -> float:
+    """Of this process and of its workers that have ended."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(usage.ru_utime + usage.ru_stime for usage in used)
+
+
+def _peak_gib() -> float:
+    own, largest_worker = (
+        resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
+    return (own + WORKERS * largest_worker) * _PEAK_UNIT / 2**30
+
+
+def _stage_rows(name: str, one: Cost) -> list[dict[str, Any]]:
+    return [
+        {
+            "log": name,
+            "stage": stage,
+            "seconds": seconds,
+            "share, %": 100 * seconds / one.wall_s,
+            "replays of the log": seconds / one.replay_s,
+        }
+        for stage, seconds in (one.stages_s | {"whole": one.wall_s}).items()
+    ]
+
+
+def _whole_row(name: str, one: Cost) -> dict[str, Any]:
+    return {
+        "log": name,
+        "trials": one.trials,
+        "says": one.says,
+        "wall, s": one.wall_s,
+        "CPU, s": one.cpu_s,
+        "CPU a trial, s": one.cpu_s / one.trials,
+        "one replay, s": one.replay_s,
+        "CPU, replays": one.cpu_s / one.replay_s,
+        "peak, GiB": one.peak_gib,
+    }
+
+
+def _draw(costs: dict[str, Cost], folder: Path) -> None:
+    figure, axis = plt.subplots(figsize=(9, 5), layout="constrained")
+    stages = dict.fromkeys(stage for one in costs.values() for stage in one.stages_s)
+    base = np.zeros(len(costs))
+    for stage, colour in zip(stages, plt.get_cmap("tab20").colors, strict=False):  # type: ignore[attr-defined]
+        height = np.array([one.stages_s.get(stage, 0.0) for one in costs.values()])
+        axis.bar(list(costs), height, bottom=base, label=stage, color=colour)
+        base += height
+    axis.set(ylabel="s", title=f"Where the time of a diagnosis goes, {WORKERS} workers")
+    axis.legend()
+    report.save(figure, folder, "diagnosis_time")
+
+
+def _goals(costs: dict[str, Cost], grown: list[Cost]) -> list[report.Goal]:
+    a_trial = [one.cpu_s / one.trials for one in grown]
+    peak_gib = max(one.peak_gib for one in costs.values())
+    wall_s = [costs[name].wall_s for name in (_ONE, _TWO)]
+    growth = f"time a trial, {TIMES_OVER[-1]} times as many trials: largest over least"
+    return [
+        report.Goal(name=f"diagnosis of {_ONE}", measured=wall_s[0], bound=SINGLE_BOUND_S, unit="s"),
+        report.Goal(name=f"diagnosis of {_TWO}", measured=wall_s[1], bound=PAIR_BOUND_S, unit="s"),
+        report.Goal(name=growth, measured=max(a_trial) / min(a_trial), bound=GROWTH_BOUND),
+        report.Goal(name="diagnosis, memory", measured=peak_gib, bound=MEMORY_BOUND_GIB, unit="GiB"),
+    ]
+
+
+def run(folder: Path) -> list[report.Goal]:
+    """Measure, print, write."""
+    logs = folder / "diagnosis-logs"
+    whole = {
+        _ONE: cost(write_log(logs / "one", PLAN, SINGLE)),
+        _TWO: cost(write_log(logs / "pair", PLAN, PAIR)),
+    }
+    grown = {f"short, {n} x": cost(write_log(logs / f"short-{n}", SHORT, SINGLE, n)) for n in TIMES_OVER}
+    rows = [row for name, one in whole.items() for row in _stage_rows(name, one)]
+    title = "; ".join(f"{name}: a replay takes {one.replay_s:.3f} s" for name, one in whole.items())
+    report.show(f"Where the time of a diagnosis goes. {title}", rows, folder, "diagnosis_time")
+    costs = whole | grown
+    rows = [_whole_row(name, one) for name, one in costs.items()]
+    report.show(f"Diagnoses, {WORKERS} workers", rows, folder, "diagnosis_cost")
+    _draw(costs, folder)
+    return _goals(costs, list(grown.values()))
+
+
+if __name__ == "__main__":
+    folder_ = report.out_folder(report.parser(__doc__))
+    report.show_goals(run(folder_), folder_)
