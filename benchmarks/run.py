@@ -1,12 +1,12 @@
 """Every benchmark, and one table of goals: `python -m benchmarks.run --out DIR`.
 
-About three minutes; PyElastica is skipped where it is not found.
+About eight minutes; PyElastica and `mujoco.sysid` are skipped where they are not found.
 """
 
 import time
 from pathlib import Path
 
-from benchmarks import callback, control_loop, pyelastica, report, work_precision
+from benchmarks import callback, control_loop, diagnosis, pyelastica, report, sysid, work_precision
 
 
 def main() -> None:
@@ -20,6 +20,8 @@ def main() -> None:
         *work_precision.run(folder),
         *control_loop.run(folder),
         *pyelastica.run(folder, options.elastica_python),
+        *diagnosis.run(folder),
+        *sysid.run(folder),
     ]
     report.show_goals(goals, folder)
     report.say(f"{time.perf_counter() - start:.0f} s; tables and pictures in {folder}")

@@ -1,17 +1,20 @@
 """A fitted explanation: what it costs, and what it names."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from diagnosis.effects import LIBRARY
+from diagnosis.evidence import Evidence
 from diagnosis.fit import Fit
-from diagnosis.held_out import held_out, information
+from diagnosis.held_out import held_out, information, surprise
 from diagnosis.nuisance import SCATTER
 from diagnosis.whiteness import Floor, floor_of
+from sim.simulation import SimulationFailed
 
 _CERTAIN = 5.0  # standard deviations
+_SURPRISING = 9.0  # three standard deviations, squared, all parameters and trials together
 _LEAST = 0.003  # simulations of the same rig differ by a tenth of this
 
 
@@ -23,18 +26,32 @@ class Candidate:
       score: cost plus log(samples) a parameter (BIC), plus what a choice among that many
         costs: one of 171 pairs fits by chance more often than one of 19 effects.
       floor: how far its residual is above the noise.
-      unseen: the same on trials that the fit has not seen.
+      unseen: the same on trials that the fit has not seen; None: not looked at.
+      surprise: how far these trials move, over what noise in the parameters explains.
     """
 
     fit: Fit
     score: float
     floor: Floor
-    unseen: Floor
+    unseen: Floor | None = None
+    surprise: float = 0.0
 
     @property
     def explains(self) -> bool:
         """Whether nothing beyond noise is left, also where the fit has not looked."""
-        return self.floor.reached and self.unseen.nearly_reached
+        if not self.floor.reached or self.unseen is None:
+            return False
+        return self.unseen.nearly_reached or self.surprise <= _SURPRISING
+
+    def looked_at(self, evidence: Evidence) -> "Candidate":
+        """The same with unseen trials, if it is worth it."""
+        if not self.floor.reached:
+            return self
+        try:
+            unseen = floor_of(held_out(evidence, self.fit))
+        except SimulationFailed:
+            return self
+        return replace(self, unseen=unseen, surprise=surprise(self.fit))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -64,4 +81,4 @@ def candidate(fit: Fit) -> Candidate:
     """A fit with its score: that none, one of all effects or one of all pairs is true is as likely."""
     freedom = fit.size * float(np.log(max(fit.samples, 2)))
     score = fit.cost + freedom + 2.0 * math.log(math.comb(len(LIBRARY), len(fit.names)))
-    return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial), unseen=floor_of(held_out(fit)))
+    return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))

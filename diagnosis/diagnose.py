@@ -11,6 +11,7 @@ from diagnosis.bridging import bridged, original
 from diagnosis.evidence import Evidence
 from diagnosis.further import further
 from diagnosis.gap import Gap, gap_of
+from diagnosis.held_out import held_out
 from diagnosis.limits import possible_effects
 from diagnosis.noise import Noise, estimate_noise
 from diagnosis.nuisance import nuisance_of
@@ -90,7 +91,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         noise=noise,
         replay_error=replay_error(change),
         verdict=verdict,
-        gap=gap_of(tuple(_over_noise(missed, noise, log)), best),
+        gap=gap_of(tuple(_over_noise(missed, noise, log)), held_out(evidence, best)),
         where=locate(log, nominal, noise),
         where_left=where_left,
         parameters={e: p for e, p in intervals(evidence, best, change).items() if e in verdict.effects},

@@ -59,7 +59,7 @@ class Fit:
     @property
     def size(self) -> int:
         """Parameters that the named effects have."""
-        return sum(len(LIBRARY[n].parameters) for n in self.names)
+        return sum(len(LIBRARY[n].reported) for n in self.names)
 
     @property
     def parts(self) -> dict[str, Array]:

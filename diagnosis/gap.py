@@ -5,9 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.fit import Fit
-from diagnosis.held_out import held_out
-
 Array = NDArray[np.float64]
 
 _BOOTSTRAPS = 400
@@ -25,9 +22,8 @@ class Gap:
     shrink_high: float
 
 
-def gap_of(before: tuple[Array, ...], best: Fit) -> Gap:
+def gap_of(before: tuple[Array, ...], after: tuple[Array, ...]) -> Gap:
     """Gap before and after on held-out trials, its shrinkage from resampled blocks."""
-    after = held_out(best)
     squares = [
         np.stack([_blocks(b**2), _blocks(a**2)])
         for b, a in zip(before, after, strict=True)

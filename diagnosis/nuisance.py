@@ -17,7 +17,8 @@ from sim.discretisation import Mesh
 # One standard deviation of what scatters, as a fraction; beyond two it is an effect.
 SCATTER = {"stiffness_error": 0.015, "damping_error": 0.015}
 # A share between 0 and 1 is as good as open with this.
-SPREAD = SCATTER | {"slip_standing": 0.5, "slip_growing": 0.5}
+CONVENTIONS = {"slip_standing": 0.5, "slip_growing": 0.5}
+SPREAD = SCATTER | CONVENTIONS
 _SLIDING_MM_S = 0.05
 
 

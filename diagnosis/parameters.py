@@ -59,7 +59,8 @@ def intervals(
     found: dict[str, dict[str, Interval]] = {}
     each = zip(coordinates.owners, coordinates.parameters, *values, strict=True)
     for owner, parameter, value, one, other in each:
-        found.setdefault(owner, {})[parameter.name] = _interval(parameter, value, one, other)
+        if parameter.reported:
+            found.setdefault(owner, {})[parameter.name] = _interval(parameter, value, one, other)
     return found
 
 

@@ -23,7 +23,7 @@ _TRUST = 0.08
 
 
 def refined(evidence: Evidence, candidates: Sequence[Candidate]) -> tuple[Noise, list[Candidate]]:
-    """Noise as the best candidate leaves it, and all candidates in its units."""
+    """Noise as the best candidate leaves it, and all candidates in its units and on unseen trials."""
     parts = _by_sensor(evidence, candidates[0].fit.by_trial)
     change = {s: _white(own) for s, own in parts.items()}
     sigma = evidence.noise.sigma | {s: evidence.noise[s] * f for s, f in change.items()}
@@ -31,8 +31,10 @@ def refined(evidence: Evidence, candidates: Sequence[Candidate]) -> tuple[Noise,
         np.concatenate([np.full(size, change[s]) for s, size in sizes.items()])
         for sizes in _sizes(evidence)
     ]
-    rescaled = [_rescaled(c, rows) for c in candidates]
-    return replace(evidence.noise, sigma=sigma), sorted(rescaled, key=lambda c: c.score)
+    noise = replace(evidence.noise, sigma=sigma)
+    again = replace(evidence, noise=noise)
+    rescaled = [_rescaled(c, rows).looked_at(again) for c in candidates]
+    return noise, sorted(rescaled, key=lambda c: c.score)
 
 
 def _white(parts: Sequence[Array]) -> float:

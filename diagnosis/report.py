@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from diagnosis.candidate import Candidate
 from diagnosis.diagnose import Diagnosis
 from diagnosis.gap_recording import log_gap
 from diagnosis.limits import cannot_tell
@@ -48,13 +49,19 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
             "place": places(verdict.effects),
         },
         "next_experiment": diagnosis.next_experiment,
-        "floor": {"fitted": asdict(verdict.best.floor), "unseen": asdict(verdict.best.unseen)},
+        "floor": _floor(verdict.best),
         "further": diagnosis.further,
         "cannot_tell": list(cannot_tell(diagnosis.log)),
         "replay_error": diagnosis.replay_error,
         "noise": diagnosis.noise.sigma,
         "warnings": list(diagnosis.warnings),
     }
+
+
+def _floor(best: Candidate) -> dict[str, Any]:
+    """How near the noise floor the best explanation is, where it was fitted and where not."""
+    unseen = asdict(best.unseen) if best.unseen else None
+    return {"fitted": asdict(best.floor), "unseen": unseen, "surprise": best.surprise}
 
 
 def output_paths(log: RigLog, folder: Path) -> list[Path]:

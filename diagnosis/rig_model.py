@@ -29,6 +29,7 @@ class RigModel:
     stiffness_scale: float = 1.0
     damping_scale: float = 1.0
     exponent: float = 1.0
+    plateau: float = 1e-5
     kinetic: float = 0.0
     static_excess: float = 0.0
     stribeck: float = 1.0
@@ -83,6 +84,7 @@ class RigModel:
         return Interface(
             viscous_n_mm_s_per_mm=damping,
             exponent=self.exponent,
+            plateau_rad_s=self.plateau,
             kinetic_n_mm_per_mm=self.kinetic,
             static_n_mm_per_mm=self.kinetic + self.static_excess,
             stribeck_rad_s=self.stribeck,

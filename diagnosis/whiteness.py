@@ -23,7 +23,7 @@ GAP_LIMIT = 1.03
 SLOW_LIMIT = 1.25
 # Parameters that are fitted without a trial carry noise into it: n parameters add about n to
 # the squares of some hundred blocks, more where the trial alone shows one of them.
-UNSEEN_GAP_LIMIT, UNSEEN_SLOW_LIMIT = 1.05, 1.6
+UNSEEN_GAP_LIMIT, UNSEEN_SLOW_LIMIT = 1.05, 1.35
 
 
 @dataclass(frozen=True, kw_only=True)

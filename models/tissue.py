@@ -2,7 +2,7 @@
 
 Friction acts at the interface between shaft and tissue, against their slip s:
 
-    viscous s |s|^(exponent-1)                       viscous, or a power law
+    viscous s (s^2 + plateau^2)^((exponent-1)/2)     viscous, or a power law above a plateau
     dry level [kinetic + (static - kinetic) exp(-(s/stribeck)^2)], truly sticking
     shared s / sqrt(s^2 + (v/r)^2)                    dry, shared with axial speed v
 
@@ -27,6 +27,8 @@ class Interface(Record):
     viscous_n_mm_s_per_mm: NonNegative = 0.0
     """At 1 rad/s, N mm s / rad per mm."""
     exponent: Positive = 1.0
+    plateau_rad_s: Positive = 1e-5
+    """Rate below which a power law is viscous again: no fluid's viscosity is infinite at rest."""
     kinetic_n_mm_per_mm: NonNegative = 0.0
     static_n_mm_per_mm: NonNegative | None = None
     """None: as kinetic."""

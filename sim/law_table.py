@@ -61,7 +61,7 @@ def _layers(layers: tuple[Layer, ...], needle: Needle) -> list[Array]:
 def _interface(law: Interface) -> Array:
     row = _nothing()
     row[wire.L_VISCOUS] = law.viscous_n_mm_s_per_mm * _PER_MM
-    row[wire.L_EXPONENT] = law.exponent
+    row[wire.L_EXPONENT], row[wire.L_PLATEAU] = law.exponent, law.plateau_rad_s
     row[wire.L_KINETIC] = law.kinetic_n_mm_per_mm * _PER_MM
     row[wire.L_STATIC] = law.static_level_n_mm_per_mm * _PER_MM
     row[wire.L_STRIBECK] = law.stribeck_rad_s or 1.0

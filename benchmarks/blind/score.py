@@ -1,7 +1,9 @@
 """Reports against sealed answers: what was said, what was so.
 
 A report is exact if its verdict and its set of effects are those of the answer. A
-rig whose stiffness and damping are a little off as well may have both named.
+rig whose stiffness and damping are a little off as well may have both named. Where
+the laws themselves leave it open, and an oracle that knows them could not decide
+either, exact is `undecided` with the truth among what cannot be told apart.
 """
 
 import json
@@ -13,6 +15,8 @@ import pandas as pd
 
 from diagnosis.effects import LIBRARY
 
+# The same law where the needle never slides.
+TWINS = {"coulomb_friction", "speed_dependent_friction"}
 OFF_NOMINAL = {"stiffness_error", "damping_error"}
 GAP_GOAL = 1.03
 
@@ -31,6 +35,10 @@ def read_scores(folder: Path) -> pd.DataFrame:
 def _row(answer: dict[str, Any], report: dict[str, Any]) -> dict[str, Any]:
     truth, said = set(answer["effects"]), set(report["effects"])
     free = OFF_NOMINAL if OFF_NOMINAL & set(answer["parameters"]) else set()
+    confused = report["verdict"] == "undecided" and any(
+        set(names) - free == truth - free for names in report.get("confusable", [])
+    )
+    open_ = _is_open(answer)
     ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
     top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
     right = truth or ({"none"} if answer["verdict"] == "none" else {"unknown"})
@@ -42,9 +50,11 @@ def _row(answer: dict[str, Any], report: dict[str, Any]) -> dict[str, Any]:
         "said": " + ".join(sorted(said)) or report["verdict"],
         "verdict": report["verdict"],
         "expected": answer["verdict"],
-        "exact": report["verdict"] == answer["verdict"] and said - free == truth - free,
-        "confused": report["verdict"] == "undecided"
-        and any(set(names) - free == truth - free for names in report.get("confusable", [])),
+        "exact": confused
+        if open_
+        else (report["verdict"] == answer["verdict"] and said - free == truth - free),
+        "confused": confused,
+        "open": open_,
         "signature": min(answer.get("signature", {}).values(), default=np.nan),
         "top": top,
         "probability": ranking.get(top, np.nan),
@@ -56,6 +66,12 @@ def _row(answer: dict[str, Any], report: dict[str, Any]) -> dict[str, Any]:
         "gap_after": report.get("gap", {}).get("after", np.nan),
         "seconds": report.get("seconds", np.nan),
     }
+
+
+def _is_open(answer: dict[str, Any]) -> bool:
+    """Whether no trial can tell the true effect from its twin."""
+    trials = answer.get("details", {}).get("trials", [{"sliding": True}])
+    return bool(TWINS & set(answer["effects"])) and not any(trial["sliding"] for trial in trials)
 
 
 def _kind(answer: dict[str, Any]) -> str:

@@ -30,6 +30,7 @@ class Parameter:
       logarithmic: fitted in its logarithm (positive parameters over decades).
       scale: what a parameter that is not logarithmic is fitted in units of.
       period: of an angle, after which it repeats; 0: none.
+      reported: whether it is of the vocabulary; else it is open in a fit and not told.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Parameter:
     logarithmic: bool = False
     scale: float = 1.0
     period: float = 0.0
+    reported: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,3 +58,8 @@ class Effect:
     parameters: tuple[Parameter, ...]
     enter: Callable[..., RigModel]
     contains: tuple[str, ...] = ()
+
+    @property
+    def reported(self) -> tuple[Parameter, ...]:
+        """Parameters of the vocabulary."""
+        return tuple(p for p in self.parameters if p.reported)

@@ -1,4 +1,8 @@
-"""Viscous torque as a power of the rate, nominal at 1 rad/s."""
+"""Viscous torque as a power of the rate, nominal at 1 rad/s.
+
+A power below 1 would be infinitely viscous at rest. Every fluid, and every simulation,
+has a plateau at low rates; where it begins is left open.
+"""
 
 from dataclasses import replace
 
@@ -6,13 +10,24 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.rig_model import RigModel
 
 
-def _enter(rig: RigModel, exponent: float) -> RigModel:
-    return replace(rig, exponent=exponent)
+def _enter(rig: RigModel, exponent: float, plateau: float = 1e-5) -> RigModel:
+    return replace(rig, exponent=exponent, plateau=plateau)
 
 
 EFFECT = Effect(
     name="shear_thinning",
     place=Place.INTERFACE,
-    parameters=(Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2)),),
+    parameters=(
+        Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2)),
+        Parameter(
+            name="plateau",
+            unit="rad/s",
+            low=1e-5,
+            high=0.1,
+            start=(0.003, 0.003, 0.003),
+            logarithmic=True,
+            reported=False,
+        ),
+    ),
     enter=_enter,
 )

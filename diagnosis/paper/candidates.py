@@ -34,9 +34,9 @@ def _of_library(effect: Effect) -> Candidate:
     return Candidate(
         name=effect.name,
         place=effect.place.value,
-        parameters=tuple(map(_both_signs, effect.parameters))
-        if len(effect.parameters) == 1
-        else effect.parameters,
+        parameters=tuple(map(_both_signs, effect.reported))
+        if len(effect.reported) == 1
+        else effect.reported,
         enter=lambda rig, *values: replace(rig, model=effect.enter(rig.model, *values)),
         contains=effect.contains,
     )

@@ -3,7 +3,7 @@
 Slip s is the rate of the shaft relative to the tissue that touches it. Over an
 implicit stage of length g the site solves, all at the end of the stage,
 
-    f = beta s |s|^(p-1)                              viscous, power law
+    f = beta s (s^2 + plateau^2)^((p-1)/2)            viscous, power law
       + level(s) clamp(z) / z_y,   z = z* + g s       dry: elastic-plastic, z_y presliding
       + shared Z_t / max(|Z|, z_y), Z = Z* + g (s, v/r)  dry, shared with axial sliding
     level(s) = kinetic + (static - kinetic) exp(-(s/stribeck)^2)
@@ -23,8 +23,6 @@ from typing import NamedTuple
 from sim.kernel import wire
 from sim.kernel.compiled import Array, embedded
 
-# Below this rate the power law is linear, so that its slope stays finite: rad/s.
-RATE_FLOOR = 1e-5
 _INNER_ITERATIONS = 40
 
 
@@ -69,7 +67,7 @@ def slip_law(
         torque = viscous * s
         tangent = secant = viscous
     elif viscous != 0.0:
-        q = s * s + RATE_FLOOR * RATE_FLOOR
+        q = s * s + row[wire.L_PLATEAU] ** 2
         m = viscous * q ** (0.5 * (p - 1.0))
         torque = m * s
         secant = m

@@ -45,6 +45,7 @@ DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
     L_POINT,  # 1: acts in one place (the top), with values not per metre
     L_VISCOUS,  # N m s / rad / m
     L_EXPONENT,
+    L_PLATEAU,  # rate below which the power law is linear, rad/s
     L_KINETIC,  # N m / m
     L_STATIC,  # N m / m
     L_STRIBECK,  # rad / s
@@ -55,7 +56,7 @@ DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
     L_PHASE,  # rad
     L_LOAD,  # dry level over the torque that the shaft carries there
     COLUMNS,
-) = range(19)
+) = range(20)
 
 # --- ctrl -------------------------------------------------------------------------
 U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, INPUTS = range(6)
