@@ -116,7 +116,8 @@ class RigModel:
             drive=self.drive(),
             discretisation=Discretisation(
                 step_s=step_s,
-                elements=elements,
+                # A mesh that goes with the needle has the free length in it as well.
+                elements=elements if standing else 2 * elements,
                 arrangement=Arrangement.SIBLINGS,
             ),
             mesh=schedule.mesh,

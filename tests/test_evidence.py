@@ -5,8 +5,12 @@ import pandas as pd
 import pytest
 
 from diagnosis.base_motion import smoothed
+from diagnosis.bridging import bridged, original
+from diagnosis.candidate import candidate
 from diagnosis.diagnose import diagnose
 from diagnosis.evidence import COARSE, FINE, Evidence
+from diagnosis.fit import fit_effects
+from diagnosis.held_out import surprise
 from diagnosis.limits import cannot_tell, possible_effects
 from diagnosis.noise import estimate_noise, white_noise
 from diagnosis.nuisance import nuisance_of
@@ -141,6 +145,49 @@ def test_the_replay_measures_its_own_error():
     # Half the elements on the same samples; dry friction leaves order 1.5 of the elements: 2.8 times.
     coarse = replay_error(replay_change(rough, RigModel(kinetic=0.002)))
     assert coarse["base_torque_n_mm"] > 2 * fine["base_torque_n_mm"]
+
+
+def test_a_gap_is_crossed_as_the_base_went_on_moving():
+    time = np.arange(0, 6, 0.01)
+    angle = 60 * np.sin(2 * np.pi * 0.5 * time)
+    whole = trial(angle)
+    table = whole.table.assign(tip_angle_deg=0.0)
+    gap = (time > 2.3) & (time < 2.55)  # about a turning point, where a straight line is worst
+    log = RigLog(rig=RIG, trials=(Trial(name="a", table=table[~gap].reset_index(drop=True)),))
+    bridge = bridged(log).trials[0]
+    rows = original(log.trials[0], bridge)
+    assert rows.sum() == (~gap).sum()
+    assert np.isnan(bridge["tip_angle_deg"][~rows]).all()
+    truth = 60 * np.sin(2 * np.pi * 0.5 * bridge["time_s"])
+    straight = np.interp(bridge["time_s"], log.trials[0]["time_s"], log.trials[0]["base_angle_deg"])
+    # With twelve readings on both sides, 0.245 s each way, the fourth derivative leaves
+    # 60 (2 pi 0.5)^4 0.245^4 / 24 = 0.9 deg at the most; a line 60 (2 pi 0.5)^2 0.25^2 / 8 = 4.6 deg.
+    assert np.abs(bridge["base_angle_deg"] - truth).max() < 0.9
+    assert np.abs(straight - truth).max() > 3
+    assert bridged(RigLog(rig=RIG, trials=(whole,))).trials[0] is whole
+
+
+def test_an_explanation_has_to_hold_where_it_was_not_fitted():
+    evidence, _ = evidence_of(log_of(RigModel(kinetic=0.001), speed=-1.0))
+    two = Evidence(
+        log=RigLog(rig=RIG, trials=(*evidence.log.trials, *log_of(RigModel(), seed=4).trials)),
+        noise=evidence.noise,
+        nuisance=evidence.nuisance,
+    )
+    # Friction in one trial and none in the other: no level explains both.
+    torn = candidate(fit_effects(two, ("coulomb_friction",), np.array([np.log(0.001), 0, 0, 0])))
+    assert surprise(torn.fit) > 9
+    same = Evidence(
+        log=RigLog(
+            rig=RIG, trials=(*evidence.log.trials, *log_of(RigModel(kinetic=0.001), seed=5).trials)
+        ),
+        noise=evidence.noise,
+        nuisance=evidence.nuisance,
+    )
+    good = candidate(fit_effects(same, ("coulomb_friction",), np.array([np.log(0.001), 0, 0, 0])))
+    assert surprise(good.fit) < 9
+    assert good.looked_at(same).explains
+    assert not torn.looked_at(two).explains
 
 
 def test_what_is_not_measured_cannot_be_told():

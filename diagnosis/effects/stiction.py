@@ -2,14 +2,19 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.rig_model import RigModel
 
+# A fit that has come to static = kinetic has to find back: the corner there is rounded, by
+# 3 % of the level in the corner itself and by a thousandth of that at 1.35 times the level.
+_ROUND = 0.05
+
 
 def _enter(rig: RigModel, kinetic: float, static: float, stribeck: float) -> RigModel:
-    return replace(
-        rig, kinetic=rig.kinetic + kinetic, static_excess=max(static - kinetic, 0.0), stribeck=stribeck
-    )
+    excess = kinetic * _ROUND * float(np.logaddexp(0.0, (static / kinetic - 1.0) / _ROUND))
+    return replace(rig, kinetic=rig.kinetic + kinetic, static_excess=excess, stribeck=stribeck)
 
 
 EFFECT = Effect(
@@ -21,7 +26,7 @@ EFFECT = Effect(
             unit="N mm / mm",
             low=1e-06,
             high=0.05,
-            start=(0.0004, 0.001, 0.001, 0.003, 0.0005),
+            start=(0.0004, 0.001, 0.001, 0.003, 0.0005, 0.001),
             logarithmic=True,
         ),
         Parameter(
@@ -29,7 +34,7 @@ EFFECT = Effect(
             unit="N mm / mm",
             low=1e-06,
             high=0.1,
-            start=(0.001, 0.002, 0.004, 0.006, 0.002),
+            start=(0.001, 0.002, 0.004, 0.006, 0.002, 0.002),
             logarithmic=True,
         ),
         Parameter(
@@ -37,7 +42,7 @@ EFFECT = Effect(
             unit="rad/s",
             low=0.005,
             high=2.0,
-            start=(0.07, 0.05, 0.2, 0.1, 0.8),
+            start=(0.07, 0.05, 0.2, 0.1, 0.8, 0.5),
             logarithmic=True,
         ),
     ),
