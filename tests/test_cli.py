@@ -97,3 +97,9 @@ def test_an_interrupted_run_says_so(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(insert, "perform", interrupted)
     assert main(["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path)]) == 130
     assert list(tmp_path.iterdir()) == []
+
+
+def test_diagnose_asks_for_a_log_or_the_paper(capsys):
+    assert main(["diagnose"]) == 2
+    assert "--paper" in capsys.readouterr().err
+    assert main(["diagnose", "examples/rig-log", "--paper"]) == 2
