@@ -2,7 +2,9 @@
 
 Where samples are missing the base went on moving, and the needle remembers. A cubic
 through the readings on both sides follows a smooth motion across the gap; rows
-without readings of the sensors hold it.
+without readings of the sensors hold it. Where the base turned so fast that a cubic and
+a straight line disagree, neither is certain: what the sensors read in the second after
+such a gap is not used.
 """
 
 from dataclasses import replace
@@ -11,11 +13,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.rig_log import RigLog, Trial
+from diagnosis.rig_log import SENSORS, RigLog, Trial
 
 Array = NDArray[np.float64]
 
 _GAP = 2.5  # steps of the median length that are a gap
+_CERTAIN_DEG = 0.2
+_FORGOTTEN_S = 1.0  # after which a needle has mostly forgotten how the base got where it is
 _SIDE = 12  # readings on each side that the cubic goes through
 
 
@@ -37,7 +41,17 @@ def _bridge(trial: Trial) -> Trial:
     if not filled:
         return trial
     table = pd.concat([trial.table, *filled]).sort_values("time_s", ignore_index=True)
+    for rows in filled:
+        if _doubtful(trial, rows):
+            last = float(rows["time_s"].iloc[-1])
+            after = (table["time_s"] > last) & (table["time_s"] <= last + _FORGOTTEN_S)
+            table.loc[after, [s for s in SENSORS if s in table]] = np.nan
     return replace(trial, table=table)
+
+
+def _doubtful(trial: Trial, rows: pd.DataFrame) -> bool:
+    straight = np.interp(rows["time_s"], trial["time_s"], trial["base_angle_deg"])
+    return bool(np.abs(rows["base_angle_deg"] - straight).max() > _CERTAIN_DEG)
 
 
 def _fill(trial: Trial, before: int, usual: float) -> pd.DataFrame:

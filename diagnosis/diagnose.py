@@ -67,7 +67,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     missed = {
         sensor: [
             trial[sensor] - prediction[sensor]
-            for trial, prediction in zip(log.trials, nominal, strict=True)
+            for trial, prediction in zip(driven.trials, replayed, strict=True)
             if trial.has(sensor)
         ]
         for sensor in SENSORS
@@ -91,7 +91,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         noise=noise,
         replay_error=replay_error(change),
         verdict=verdict,
-        gap=gap_of(tuple(_over_noise(missed, noise, log)), held_out(evidence, best)),
+        gap=gap_of(tuple(_over_noise(missed, noise, driven)), held_out(evidence, best)),
         where=locate(log, nominal, noise),
         where_left=where_left,
         parameters={e: p for e, p in intervals(evidence, best, change).items() if e in verdict.effects},

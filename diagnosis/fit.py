@@ -121,7 +121,7 @@ def fit_effects(
     names: Sequence[str],
     start: Array | None = None,
     *,
-    most_iterations: int = 12,
+    most_iterations: int = 20,
 ) -> Fit:
     """Fit a set of effects.
 

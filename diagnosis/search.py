@@ -23,7 +23,7 @@ from diagnosis.refine import refined
 from diagnosis.team import Team
 from diagnosis.whiteness import GAP_LIMIT
 
-_SINGLES, _PAIRS, _BASES = 10, 14, 6  # fits on the thinned log; singles that pairs build on
+_PAIRS, _BASES = 14, 6  # pairs that are fitted on the thinned log; singles that they build on
 _BATCH = 4  # fits between looks at what has been reached
 _NEAR = 3.0  # times the cost at the floor: what promises more is not fitted
 _WORTH = 6.0  # of cost: an effect that promises less is not fitted
@@ -41,20 +41,32 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     found = _plain(evidence, team)
     start = fit_effects(coarse, ())
     hints = _glances(team, "effects", [(coarse, start, e) for e in effects])
-    worth = [h for h in hints if h.cost <= start.cost - _WORTH]
-    singles = _fit_best(coarse, worth, _SINGLES, team, "effects")
+    # Where something is missing, scatter has taken over a part of it, and a glance may be blind.
+    missing = candidate(start).floor.gap > GAP_LIMIT
+    worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
+    singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
     if not _explained(evidence, found):
         bases = product(singles[:_BASES], effects)
         pairs = [(coarse, c.fit, e) for c, e in bases if e not in c.names]
         hints = _glances(team, "pairs", pairs)
         found += _finals(evidence, _fit_best(coarse, hints, _PAIRS, team, "pairs"), team)
+        found += _members(evidence, min(found, key=lambda c: c.score), team)
     best = min(found, key=lambda c: c.score)
     if best.named != best.names:
         # What is no scatter is fitted without the prior of scatter, which would pull it.
         there = coordinates_of(best.named, evidence.nuisance).joined(best.fit.parts)
         found.append(candidate(fit_effects(evidence, best.named, there)))
     return sorted(found, key=lambda c: c.score)
+
+
+def _members(evidence: Evidence, best: Candidate, team: Team) -> list[Candidate]:
+    """Each effect of a pair alone, from where the pair is: one of the two may have been a crutch."""
+    if len(best.names) < 2:
+        return []
+    starts = [coordinates_of((n,), evidence.nuisance).joined(best.fit.parts) for n in best.names]
+    calls = [(evidence, (n,), start) for n, start in zip(best.names, starts, strict=True)]
+    return [candidate(fit) for fit in team.each("fitting members", fit_effects, calls)]
 
 
 def _explained(evidence: Evidence, found: Sequence[Candidate]) -> bool:
