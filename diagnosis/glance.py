@@ -3,7 +3,7 @@
 On top of a fit with residual r and Jacobian J, an effect at a start moves the
 residual by d. What is left of r once d in any positive amount and J in any are
 taken off tells which effects are worth a fit, and the starts that leave least are
-where to begin it: two of them for an effect of several parameters, whose fits may
+where to begin it: as many as the effect has parameters, since fits of several may
 get stuck in a valley.
 """
 
@@ -66,7 +66,7 @@ def glance(evidence: Evidence, base: Fit, name: str, most_starts: int | None = N
         begin = coordinates.joined(known | {name: start})
         hints.append(Hint(names=(*base.names, name), start=begin, cost=cost))
     best = sorted(hints, key=lambda h: h.cost)
-    return best[: 2 if len(effect.parameters) > 1 else 1]
+    return best[: len(effect.parameters)]
 
 
 def _beside(basis: Array, residual: Array) -> Array:

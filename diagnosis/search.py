@@ -23,7 +23,7 @@ from diagnosis.refine import refined
 from diagnosis.team import Team
 from diagnosis.whiteness import GAP_LIMIT
 
-_PAIRS, _BASES = 14, 6  # pairs that are fitted on the thinned log; singles that they build on
+_PAIRS, _BASES = 20, 6  # pairs that are fitted on the thinned log; singles that they build on
 _BATCH = 4  # fits between looks at what has been reached
 _NEAR = 3.0  # times the cost at the floor: what promises more is not fitted
 _WORTH = 6.0  # of cost: an effect that promises less is not fitted
