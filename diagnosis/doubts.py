@@ -62,8 +62,8 @@ def _gaps(trial: Trial) -> list[str]:
     rows = np.concatenate(([False], pauses))
     return [
         f"{trial.name}: time_s jumps by up to {steps.max():.3g} s before {lines(rows)}; "
-        "the base is taken to have moved smoothly across the gap; where it turned fast there, the readings "
-        "of the second after are not used"
+        "the base is taken to have moved smoothly across the gap; where it turned fast there, the "
+        "readings of the second after are not used"
     ]
 
 

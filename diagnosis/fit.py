@@ -22,7 +22,6 @@ from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 
-_STEP = 1e-3  # of finite differences, in the units of the fit
 _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
 _ENOUGH = 0.02  # a gradient that is less than this, in noise, is none
 
@@ -74,11 +73,13 @@ class Objective:
     where the effects have moved far.
 
     Attributes:
+      difference: that slopes are taken over.
       slopes: the last Jacobian that was taken, (N, n).
     """
 
-    def __init__(self, evidence: Evidence, coordinates: Coordinates) -> None:
+    def __init__(self, evidence: Evidence, coordinates: Coordinates, difference: float = 1e-3) -> None:
         self.evidence, self.coordinates = evidence, coordinates
+        self.difference = difference
         self.low, self.high = coordinates.bounds()
         self.slopes: Array | None = None
         self._fresh_at: Array | None = None
@@ -104,7 +105,7 @@ class Objective:
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """By differences away from the bounds, (N, n)."""
         flat = x.ravel()
-        steps = np.where(flat + _STEP > self.high, -_STEP, _STEP)
+        steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
         taken = np.arange(self.coordinates.free)
         slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
         if self._fresh_at is None or np.abs(flat - self._fresh_at)[taken].max(initial=0.0) > _FAR:
@@ -136,9 +137,18 @@ def fit_effects(
     objective = Objective(evidence, coordinates)
     if not coordinates.parameters:
         return _fit(objective, names, np.zeros(0), np.zeros((0, 0)))
-    first = np.clip(coordinates.joined({}) if start is None else start, objective.low, objective.high)
+    x = np.clip(coordinates.joined({}) if start is None else start, objective.low, objective.high)
+    for difference in max((e.differences for e in coordinates.all), key=len):
+        objective = Objective(evidence, coordinates, difference)
+        x = _descended(objective, x, most_iterations)
+    slopes = objective.slopes
+    return _fit(objective, names, x, np.zeros((0, 0)) if slopes is None else slopes)
+
+
+def _descended(objective: Objective, start: Array, most_iterations: int) -> Array:
+    """Where Gauss-Newton comes to from a start."""
     x, _ = minimize.least_squares(
-        first,
+        start,
         objective,
         bounds=[objective.low, objective.high],
         jacobian=objective.jacobian,
@@ -150,8 +160,7 @@ def fit_effects(
         mu_factor=8.0,
         verbose=minimize.Verbosity.SILENT,
     )
-    slopes = objective.slopes
-    return _fit(objective, names, np.asarray(x).ravel(), np.zeros((0, 0)) if slopes is None else slopes)
+    return np.asarray(x).ravel()
 
 
 def _fit(objective: Objective, names: Sequence[str], x: Array, slopes: Array) -> Fit:

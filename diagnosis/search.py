@@ -78,9 +78,9 @@ def _explained(evidence: Evidence, found: Sequence[Candidate]) -> bool:
 def _plain(evidence: Evidence, team: Team) -> list[Candidate]:
     """The nominal rig, and the nominal rig with its scatter if that is needed."""
     calls = [(replace(evidence, nuisance=()), ()), (evidence, ())]
-    exact, scattered = map(candidate, team.each("replaying", fit_effects, calls))
-    enough = exact.floor.reached and exact.score <= scattered.score + 10
-    return [exact] if enough else [exact, scattered]
+    exact, *scattered = map(candidate, team.each("replaying", fit_effects, calls))
+    enough = exact.floor.reached and all(exact.score <= s.score + 10 for s in scattered)
+    return [exact] if enough else [exact, *scattered]
 
 
 def _glances(team: Team, what: str, calls: Sequence[tuple[Evidence, Fit, str]]) -> list[Hint]:

@@ -51,6 +51,8 @@ class Effect:
     Attributes:
       enter: the rig with this effect in it, given parameter values in order.
       contains: simpler effects that this one becomes for some parameters.
+      differences: that slopes are taken over, in the units of the fit, one fit after the
+        other. Where stick and slip make a residual rough, a wide one sees past that.
     """
 
     name: str
@@ -58,6 +60,7 @@ class Effect:
     parameters: tuple[Parameter, ...]
     enter: Callable[..., RigModel]
     contains: tuple[str, ...] = ()
+    differences: tuple[float, ...] = (1e-3,)
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

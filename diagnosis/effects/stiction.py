@@ -48,4 +48,5 @@ EFFECT = Effect(
     ),
     enter=_enter,
     contains=("coulomb_friction",),
+    differences=(0.1, 0.03),
 )
