@@ -57,6 +57,8 @@ def page(found: Diagnosis, report: dict[str, Any]) -> str:
     parts = [f"<h1>{html.escape(sentence(found))}</h1>"]
     parts += [f'<p class="warning">{html.escape(w)}</p>' for w in report["warnings"]]
     parts += ["<h2>Where the gap lives</h2>", f"<p>{_WHERE}</p>", _picture(draw_where(found))]
+    stretch, largest = found.where.worst
+    parts.append(f"<p>Along time it is largest in {html.escape(stretch)}: {largest:.2f}.</p>")
     parts += ["<h2>Which effects explain it</h2>", f"<p>{_WHICH}</p>", _picture(draw_ranking(found))]
     if report["parameters"]:
         parts.append(_parameters(report["parameters"]))

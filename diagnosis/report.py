@@ -46,6 +46,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
             "phase": where.phase,
             "band_hz": [list(b) for b in where.band_hz],
             "depth_mm": [list(d) for d in where.depth_mm],
+            "time_s": [list(t) for t in where.time_s],
             "place": places(verdict.effects),
         },
         "next_experiment": diagnosis.next_experiment,

@@ -1,4 +1,4 @@
-"""Where the gap lives: by signal, by phase of the motion, by frequency, by depth."""
+"""Where the gap lives: by signal, by phase of the motion, by frequency, by depth, along time."""
 
 from dataclasses import dataclass
 
@@ -17,16 +17,30 @@ _SMOOTH_S = 0.2
 _TURNING_DEG_S = 1.0  # a base that is slower than this holds
 _AFTER_REVERSAL_S = 2.0
 _SLIDING_MM_S = 0.05
+_STRETCH_S = 5.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Where:
-    """Root mean square of residual over noise, by part; 1 is the noise floor."""
+    """Root mean square of residual over noise, by part; 1 is the noise floor.
+
+    Attributes:
+      band_hz: lowest and highest frequency, and the gap between them.
+      depth_mm: median depth of trials, and their gap.
+      time_s: trial, start and end of a stretch of 5 s, and the gap in it.
+    """
 
     signal: dict[str, float]
     phase: dict[str, float]
     band_hz: list[tuple[float, float, float]]
     depth_mm: list[tuple[float, float]]
+    time_s: list[tuple[str, float, float, float]]
+
+    @property
+    def worst(self) -> tuple[str, float]:
+        """The stretch with the largest gap in words, and that gap."""
+        name, begin, end, gap = max(self.time_s, key=lambda stretch: stretch[-1])
+        return f"{name}, {begin:.0f} to {end:.0f} s", gap
 
 
 def base_rate(trial: Trial) -> Array:
@@ -68,6 +82,7 @@ def locate(log: RigLog, predictions: list[Prediction], noise: Noise) -> Where:
     phase: dict[str, list[Array]] = {}
     band: dict[tuple[float, float], list[float]] = {}
     depth: dict[float, list[Array]] = {}
+    stretch: dict[tuple[str, float], list[Array]] = {}
     for trial, prediction in zip(log.trials, predictions, strict=True):
         masks = phases(trial)
         for sensor in SENSORS:
@@ -82,12 +97,21 @@ def locate(log: RigLog, predictions: list[Prediction], noise: Noise) -> Where:
                 band.setdefault(key, []).append(value)
             middle = round(float(np.median(trial["inserted_mm"])), 1)
             depth.setdefault(middle, []).append(missed[fine])
+            for begin, own in _stretches(trial["time_s"][fine], missed[fine]):
+                stretch.setdefault((trial.name, begin), []).append(own)
     return Where(
         signal={k: _rms(v) for k, v in signal.items()},
         phase={k: _rms(v) for k, v in phase.items() if sum(x.size for x in v)},
         band_hz=[(*k, float(np.sqrt(np.mean(v)))) for k, v in band.items()],
         depth_mm=[(k, _rms(depth[k])) for k in sorted(depth)],
+        time_s=[(n, b, b + _STRETCH_S, _rms(own)) for (n, b), own in stretch.items()],
     )
+
+
+def _stretches(time: Array, missed: Array) -> list[tuple[float, Array]]:
+    """Residuals of every 5 s, with the time at which these begin."""
+    begins = np.floor(time / _STRETCH_S) * _STRETCH_S
+    return [(float(begin), missed[begins == begin]) for begin in np.unique(begins)]
 
 
 def _rms(parts: list[Array]) -> float:

@@ -9,6 +9,7 @@ from rich.progress import track
 from rich.table import Table
 
 from benchmarks.blind import picture, score
+from benchmarks.blind.detection import limits
 from benchmarks.blind.make import make_logs
 from benchmarks.blind.run import diagnose_all
 from models.errors import InvalidValue
@@ -45,17 +46,25 @@ def make(
     return 0
 
 
-def run_score(folder: Path, out: Path | None, *, force: bool, console: Console) -> int:
+def run_score(
+    folder: Path, out: Path | None, *, trials: int | None, force: bool, console: Console
+) -> int:
     """Diagnose what has no report yet, then hold the reports to the answers."""
+    if trials is not None and trials < 1:
+        raise InvalidValue("trials", trials, "at least one", "leave it out for all")
     if not (folder / "logs").is_dir() or not (folder / "answers" / "answers.json").is_file():
         raise InvalidValue(
             "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
         )
     paths = [out / name for name in ("scores.csv", "score.png")] if out else []
     refuse_existing(paths, force=force)
-    diagnose_all(folder / "logs", folder / "reports", watched=lambda s: track(s, description="logs"))
-    scores = score.read_scores(folder)
+    reports = score.reports_in(folder, trials)
+    diagnose_all(folder / "logs", reports, trials=trials, watched=lambda s: track(s, description="logs"))
+    scores = score.read_scores(folder, trials)
     console.print(_table(score.summary(scores)))
+    weak = limits(scores).dropna()
+    if len(weak):
+        console.print(_limits(weak))
     console.print(_goals(scores))
     for case, row in scores[~scores["exact"]].iterrows():
         console.print(f"{case}: {row['truth']}, said {row['said']} ({row['verdict']})", highlight=False)
@@ -73,6 +82,15 @@ def _table(summary: pd.DataFrame) -> Table:
     for kind, row in summary.iterrows():
         shares = [f"{100 * row[c]:.1f} %" for c in ("exact", "undecided", "unknown")]
         table.add_row(str(kind), f"{row['logs']:.0f}", *shares, f"{row['seconds']:.0f}")
+    return table
+
+
+def _limits(found: pd.DataFrame) -> Table:
+    table = Table("effect", "logs", "named", "from", title="Detection limit, over noise")
+    for effect, row in found.iterrows():
+        table.add_row(
+            str(effect), f"{row['logs']:.0f}", f"{100 * row['named']:.0f} %", f"{row['limit']:.2f}"
+        )
     return table
 
 

@@ -56,6 +56,8 @@ def _gap_table(found: Diagnosis) -> Table:
         table.add_row(f"{low:g} to {high:g} Hz", f"{value:.2f}")
     for depth, value in where.depth_mm:
         table.add_row(f"{depth:g} mm deep", f"{value:.2f}")
+    stretch, value = where.worst
+    table.add_row(stretch, f"{value:.2f}")
     return table
 
 

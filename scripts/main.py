@@ -83,6 +83,7 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
     score = actions.add_parser("score", help="diagnose the logs, then compare with the answers")
     score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
+    score.add_argument("--trials", type=int, metavar="N", help="look at the first N of every log only")
     _add_output(score, default=None)
 
 
@@ -149,7 +150,9 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 console=console,
             )
         case "blind":
-            return blind.run_score(args.folder, args.out, force=args.force, console=console)
+            return blind.run_score(
+                args.folder, args.out, trials=args.trials, force=args.force, console=console
+            )
         case "replay":
             return replay.run(args.log, args.out, force=args.force, console=console)
         case _:

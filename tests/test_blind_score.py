@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from benchmarks.blind.detection import limits
 from benchmarks.blind.make import make_logs
 from benchmarks.blind.rig import Motion, observe
 from benchmarks.blind.rig import Rig as BlindRig
@@ -139,3 +140,35 @@ def test_logs_and_answers_are_asked_for_by_name(tmp_path, capsys):
     out = str(tmp_path / "new")
     assert main(["blind", "make", "--out", out, "--effects", "magnetism"]) == 2
     assert "magnetism" in capsys.readouterr().err
+
+
+def test_the_first_trials_alone_tell_less(folder):
+    """A log of one trial is diagnosed too, beside the reports on whole logs."""
+    case = sorted((folder / "logs").iterdir())[0].name
+    single = folder.parent / "single"
+    (single / "logs").mkdir(parents=True)
+    (single / "logs" / case).symlink_to(folder / "logs" / case)
+    (single / "answers").symlink_to(folder / "answers")
+    assert main(["blind", "score", str(single), "--trials", "1"]) == 0
+    report = json.loads((single / "reports_of_1" / f"{case}.json").read_text())
+    whole = json.loads((folder / "reports" / f"{case}.json").read_text())
+    assert report["gap"]["before"] != whole["gap"]["before"]
+    assert not (single / "reports").exists()
+    assert main(["blind", "score", str(single), "--trials", "0"]) == 2
+
+
+def test_a_detection_limit_is_between_what_was_missed_and_what_was_named():
+    rows = [
+        ("a", 0.1, False),
+        ("a", 0.2, True),
+        ("a", 0.25, False),
+        ("a", 0.3, False),
+        ("a", 1.2, True),
+        ("a", 2.0, True),
+    ]
+    rows += [("b", 1.0, True), ("c", 0.1, False), ("a + b", 0.5, False)]
+    table = pd.DataFrame(rows, columns=["truth", "signature", "exact"]).assign(expected="explained")
+    found = limits(table)
+    assert found.loc["a", "limit"] == pytest.approx(np.sqrt(0.3 * 1.2))
+    assert found.loc[["b", "c"], "limit"].isna().all()
+    assert list(found.index) == ["a", "b", "c"]

@@ -1,5 +1,7 @@
 """What a diagnosis rests on before it fits anything: noise, base motion, thinning, limits."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -12,14 +14,15 @@ from diagnosis.evidence import COARSE, FINE, Evidence
 from diagnosis.fit import fit_effects
 from diagnosis.held_out import surprise
 from diagnosis.limits import cannot_tell, possible_effects
-from diagnosis.noise import estimate_noise, white_noise
+from diagnosis.noise import Noise, estimate_noise, white_noise
 from diagnosis.nuisance import nuisance_of
-from diagnosis.predict import predict, predicted_residuals
+from diagnosis.predict import Prediction, predict, predicted_residuals
 from diagnosis.replay_error import LARGEST, replay_change, replay_error
 from diagnosis.rig import NominalNeedle, NominalTissue, Rig, SensorNoise, TrialEntry
 from diagnosis.rig_log import RigLog, Trial
 from diagnosis.rig_model import RigModel
 from diagnosis.thinning import thinned
+from diagnosis.where import locate
 
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02
 RIG = Rig(
@@ -165,6 +168,33 @@ def test_a_gap_is_crossed_as_the_base_went_on_moving():
     assert np.abs(bridge["base_angle_deg"] - truth).max() < 0.9
     assert np.abs(straight - truth).max() > 3
     assert bridged(RigLog(rig=RIG, trials=(whole,))).trials[0] is whole
+
+
+def test_a_gap_is_found_where_it_was_put():
+    """A tip that is off by five noises while the base holds after its second turn, and no torque."""
+    rng = np.random.default_rng(3)
+    motion = trial(turns())
+    table = motion.table.assign(base_torque_n_mm=0.0, tip_angle_deg=0.0)
+    predicted = Prediction(
+        tip_angle_deg=rng.normal(0, TIP, len(table)), base_torque_n_mm=rng.normal(0, TORQUE, len(table))
+    )
+    off = (table["time_s"] >= 5.8) & (table["time_s"] < 9)
+    predicted = replace(predicted, tip_angle_deg=predicted.tip_angle_deg + 5 * TIP * off.to_numpy())
+    log = RigLog(rig=RIG, trials=(Trial(name=motion.name, table=table),))
+    noise = Noise(sigma={"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE})
+    found = locate(log, [predicted], noise)
+    # 1 is white noise, good to 1 / sqrt(2 N) = 2 % for 1200 samples; the share of 3.2 s in 12 adds.
+    assert found.signal["base_torque_n_mm"] == pytest.approx(1, abs=0.06)
+    assert found.signal["tip_angle_deg"] == pytest.approx(np.sqrt(1 + 25 * 3.2 / 12), rel=0.05)
+    assert found.phase["holding"] > 1.2 * found.phase["turning"]
+    assert "translating" not in found.phase
+    name, gap = found.worst
+    assert name == "trial_01.csv, 5 to 10 s"
+    assert gap == pytest.approx(np.sqrt(1 + 25 * 3.2 / 5 / 2), rel=0.05)
+    bands = {low: value for low, _, value in found.band_hz}
+    assert bands[0.1] > 2
+    assert bands[10.0] < 1.2
+    assert found.depth_mm[0][0] == 90.0
 
 
 def test_an_explanation_has_to_hold_where_it_was_not_fitted():

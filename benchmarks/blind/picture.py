@@ -7,13 +7,12 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
+from benchmarks.blind.detection import limits
 from benchmarks.blind.score import GAP_GOAL, calibration_error, coverage, gap_left, reliability
-
-_BINS = (0.1, 0.2, 0.35, 0.6, 1.0, 1.7, 3.0, 6.0, 12.0, 40.0)
 
 
 def draw(scores: pd.DataFrame, path: Path) -> None:
-    """Confusion, reliability, exactness against signature, and the gap that is left."""
+    """Confusion, reliability, detection of each effect, and the gap that is left."""
     figure, axes = plt.subplots(2, 2, figsize=(15, 13), layout="constrained", width_ratios=(2, 1))
     _confusion(axes[0, 0], scores)
     _reliability(axes[0, 1], scores)
@@ -55,16 +54,25 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
 
 
 def _detection(axis: Axes, scores: pd.DataFrame) -> None:
-    found = scores[scores["signature"].notna() & (scores["expected"] == "explained")]
-    groups = found.groupby(np.digitize(found["signature"], _BINS))
-    middle = groups["signature"].median()
-    axis.semilogx(middle, groups["exact"].mean(), "o-", color="tab:blue", label="exact")
-    wrong = groups.apply(lambda g: float(((g["verdict"] == "explained") & ~g["exact"]).mean()))
-    axis.semilogx(middle, wrong, "o-", color="tab:red", label="explained wrongly")
-    for x, y, size in zip(middle, groups["exact"].mean(), groups.size(), strict=True):
-        axis.annotate(str(size), (x, y), fontsize=8)
+    """Every log of one effect at its signature, and where it starts to be named."""
+    one = scores[(scores["expected"] == "explained") & ~scores["truth"].str.contains(" + ", regex=False)]
+    found, effects = limits(one), sorted(one["truth"].unique(), reverse=True)
+    rows = {effect: row for row, effect in enumerate(effects)}
+    wrong = (one["verdict"] == "explained") & ~one["exact"]
+    groups = {
+        "exact": (one["exact"], "tab:blue", "o"),
+        "not named": (~one["exact"] & ~wrong, "0.6", "x"),
+        "explained wrongly": (wrong, "tab:red", "s"),
+    }
+    for label, (chosen, colour, marker) in groups.items():
+        own, shown = one[chosen], f"{label}: {chosen.sum()}"
+        at = own["signature"], own["truth"].map(rows)
+        axis.scatter(*at, c=colour, marker=marker, s=25, label=shown)
+    limit = found["limit"].dropna()
+    axis.scatter(limit, limit.index.map(rows), c="k", marker="|", s=200, label="detection limit")
+    axis.set_yticks(range(len(effects)), effects, fontsize=8)
     axis.set(
-        xlabel="signature of the weaker effect, over noise", ylabel="share of logs", ylim=(-0.05, 1.05)
+        xscale="log", xlabel="signature of the effect, over noise", title="how small an effect is named"
     )
     axis.legend(fontsize=8)
 

@@ -7,6 +7,7 @@ import json
 import time
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,24 +23,27 @@ def diagnose_all(
     reports: Path,
     *,
     workers: int = 2,
+    trials: int | None = None,
     watched: Callable[[Sequence[Any]], Iterable[Any]] = iter,
 ) -> None:
     """Write `reports/<case>.json` for every folder in `logs`.
 
     Args:
+      trials: that are looked at of every log, the first; None: all.
       watched: goes through the tasks, and may show how far it is.
     """
     missing = [case for case in sorted(logs.iterdir()) if not (reports / f"{case.name}.json").exists()]
     with ProcessPoolExecutor(workers) as pool:
-        tasks = [pool.submit(_one, case, reports / f"{case.name}.json") for case in missing]
+        tasks = [pool.submit(_one, case, reports / f"{case.name}.json", trials) for case in missing]
         for task in watched(tasks):
             task.result()
 
 
-def _one(case: Path, report: Path) -> None:
+def _one(case: Path, report: Path, trials: int | None) -> None:
     start = time.perf_counter()
     try:
-        found = as_json(diagnose(read_rig_log(case), workers=1))
+        log = read_rig_log(case)
+        found = as_json(diagnose(replace(log, trials=log.trials[:trials]), workers=1))
     except NeedleError as error:
         found = {"verdict": "refused", "effects": [], "why": str(error)}
     found["seconds"] = time.perf_counter() - start

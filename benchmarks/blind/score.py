@@ -21,24 +21,33 @@ OFF_NOMINAL = {"stiffness_error", "damping_error"}
 GAP_GOAL = 1.03
 
 
-def read_scores(folder: Path) -> pd.DataFrame:
-    """One row a log: answer, report and whether they agree; index: the case."""
+def read_scores(folder: Path, trials: int | None = None) -> pd.DataFrame:
+    """One row a log: answer, report and whether they agree; index: the case.
+
+    Args:
+      trials: that the reports are of; None: all.
+    """
     answers = json.loads((folder / "answers" / "answers.json").read_text())
     rows = {}
     for case, answer in answers.items():
-        path = folder / "reports" / f"{case}.json"
+        path = reports_in(folder, trials) / f"{case}.json"
         if path.exists():
-            rows[case] = _row(answer, json.loads(path.read_text()))
+            rows[case] = _row(answer, json.loads(path.read_text()), trials)
     return pd.DataFrame.from_dict(rows, orient="index")
 
 
-def _row(answer: dict[str, Any], report: dict[str, Any]) -> dict[str, Any]:
+def reports_in(folder: Path, trials: int | None = None) -> Path:
+    """Where reports on all, or on the first few, trials of every log are."""
+    return folder / ("reports" if trials is None else f"reports_of_{trials}")
+
+
+def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> dict[str, Any]:
     truth, said = set(answer["effects"]), set(report["effects"])
     free = OFF_NOMINAL if OFF_NOMINAL & set(answer["parameters"]) else set()
     confused = report["verdict"] == "undecided" and any(
         set(names) - free == truth - free for names in report.get("confusable", [])
     )
-    open_ = _is_open(answer)
+    open_ = _is_open(answer, trials)
     ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
     top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
     right = truth or ({"none"} if answer["verdict"] == "none" else {"unknown"})
@@ -68,10 +77,10 @@ def _row(answer: dict[str, Any], report: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _is_open(answer: dict[str, Any]) -> bool:
+def _is_open(answer: dict[str, Any], trials: int | None) -> bool:
     """Whether no trial can tell the true effect from its twin."""
-    trials = answer.get("details", {}).get("trials", [{"sliding": True}])
-    return bool(TWINS & set(answer["effects"])) and not any(trial["sliding"] for trial in trials)
+    seen = answer.get("details", {}).get("trials", [{"sliding": True}])[:trials]
+    return bool(TWINS & set(answer["effects"])) and not any(trial["sliding"] for trial in seen)
 
 
 def _kind(answer: dict[str, Any]) -> str:

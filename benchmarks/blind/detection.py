@@ -1,0 +1,43 @@
+"""How small an effect may be and still be named: its detection limit.
+
+Logs of one effect are sorted by signature (its root mean square over noise). The limit
+is where named turns into not named with the fewest logs on the wrong side, half-way
+between its neighbours on a logarithmic scale.
+"""
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+
+def limits(scores: pd.DataFrame) -> pd.DataFrame:
+    """By effect: logs, the share that was named, and the detection limit over noise.
+
+    The limit is NaN where all logs, or none, were named: it lies beside them.
+    """
+    alone = scores[
+        (scores["expected"] == "explained") & ~scores["truth"].str.contains(" + ", regex=False)
+    ]
+    grouped = alone[alone["signature"] > 0].groupby("truth")
+    rows = {
+        effect: {
+            "logs": len(own),
+            "named": own["exact"].mean(),
+            "smallest": own["signature"].min(),
+            "limit": _limit(own["signature"].to_numpy(float), own["exact"].to_numpy(bool)),
+        }
+        for effect, own in grouped
+    }
+    return pd.DataFrame.from_dict(rows, orient="index", columns=["logs", "named", "smallest", "limit"])
+
+
+def _limit(signature: NDArray[np.float64], named: NDArray[np.bool_]) -> float:
+    if named.all() or not named.any():
+        return float("nan")
+    order = np.argsort(signature)
+    sorted_, found = signature[order], named[order]
+    named_below = np.concatenate(([0], np.cumsum(found)))
+    missed_above = np.concatenate((np.cumsum(~found[::-1])[::-1], [0]))
+    best = int(np.argmin(named_below + missed_above))
+    between = sorted_[max(best - 1, 0) : best + 1]
+    return float(np.exp(np.log(between).mean()))
