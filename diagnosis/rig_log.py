@@ -11,7 +11,8 @@ from diagnosis.contradictions import refuse_contradictions
 from diagnosis.doubts import doubts_of_log
 from diagnosis.faults import without_faults
 from diagnosis.rig import Rig, read_rig
-from diagnosis.trial import OPTIONAL, REQUIRED, SENSORS, Trial, UnusableLog, read_trial, refuse_too_large
+from diagnosis.trial import OPTIONAL, REQUIRED, SENSORS, Trial, UnusableLog
+from diagnosis.trial_file import read_trial, refuse_too_large
 
 __all__ = ["OPTIONAL", "REQUIRED", "SENSORS", "Rig", "RigLog", "Trial", "UnusableLog", "read_rig_log"]
 

@@ -17,7 +17,8 @@ from diagnosis.contradictions import misfit
 from diagnosis.faults import quantum, scatter
 from diagnosis.rig_log import UnusableLog, read_rig_log
 from diagnosis.spelling import look_alike
-from diagnosis.trial import COLUMNS, MOST_ROWS
+from diagnosis.trial import COLUMNS
+from diagnosis.trial_file import MOST_ROWS
 from scripts.main import main
 
 TIP, TORQUE, BASE = 0.4, 0.015, 0.02
