@@ -3,7 +3,8 @@
 1. Every effect of the vocabulary is glanced at, and the most promising are fitted,
    on the thinned log; the best of these are then fitted on the log itself.
 2. If none of them brings the residual to the noise floor, every pair of a leading
-   effect with any other is glanced at, and so on as before.
+   effect with any other is glanced at, and so on as before. If one does, but a second
+   effect promises to take more off than noise could, that pair is fitted as well.
 3. Fits are ranked by cost plus log(samples) a parameter (BIC): richer effects pay
    for their freedom. What the nuisance of the rig's own scatter explains is `none`.
 """
@@ -27,6 +28,7 @@ _PAIRS, _BASES = 20, 6  # pairs that are fitted on the thinned log; singles that
 _BATCH = 4  # fits between looks at what has been reached
 _NEAR = 3.0  # times the cost at the floor: what promises more is not fitted
 _WORTH = 6.0  # of cost: an effect that promises less is not fitted
+_MORE = 0.99  # of the cost, half a per cent of the gap: by chance a second effect leaves 99.8 %
 _FINALISTS = 4  # that are fitted on the log itself
 _CONTENDING = 60.0  # and lie no further than this from the best, in cost
 
@@ -46,18 +48,24 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
-    if not _explained(evidence, found):
-        bases = product(singles[:_BASES], effects)
-        pairs = [(coarse, c.fit, e) for c, e in bases if e not in c.names]
-        hints = _glances(team, "pairs", pairs)
-        found += _finals(evidence, _fit_best(coarse, hints, _PAIRS, team, "pairs"), team)
-        found += _members(evidence, min(found, key=lambda c: c.score), team)
+    second = _seconds(coarse, singles, effects, team, alone=_explained(evidence, found))
+    found += _finals(evidence, _fit_best(coarse, second, _PAIRS, team, "pairs"), team)
+    found += _members(evidence, min(found, key=lambda c: c.score), team)
     best = min(found, key=lambda c: c.score)
     if best.named != best.names:
         # What is no scatter is fitted without the prior of scatter, which would pull it.
         there = coordinates_of(best.named, evidence.nuisance).joined(best.fit.parts)
         found.append(candidate(fit_effects(evidence, best.named, there)))
     return sorted(found, key=lambda c: c.score)
+
+
+def _seconds(
+    coarse: Evidence, singles: Sequence[Candidate], effects: Sequence[str], team: Team, *, alone: bool
+) -> list[Hint]:
+    """Pairs that are worth a fit; where an effect alone explains the log, hardly ever any."""
+    bases = product(singles[: 1 if alone else _BASES], effects)
+    hints = _glances(team, "pairs", [(coarse, c.fit, e) for c, e in bases if e not in c.names])
+    return [h for h in hints if not alone or h.cost < _MORE * singles[0].fit.cost]
 
 
 def _members(evidence: Evidence, best: Candidate, team: Team) -> list[Candidate]:

@@ -12,11 +12,16 @@ import yaml
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate as simulate_reference
 
+from diagnosis.base_motion import without_base_noise
+from diagnosis.bridging import bridged
 from diagnosis.coordinates import coordinates_of, starts
 from diagnosis.diagnose import diagnose
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
+from diagnosis.evidence import Evidence
+from diagnosis.fit import fit_effects
 from diagnosis.noise import white_noise
+from diagnosis.nuisance import nuisance_of
 from diagnosis.report import FORMAT, as_json, write_report
 from diagnosis.rig_log import read_rig_log
 from diagnosis.rig_model import RigModel
@@ -159,6 +164,19 @@ def test_probabilities_are_of_everything_and_add_up(dry_diagnosis):
     assert {r["effect"] for r in ranking} == {*VOCABULARY, "none", "unknown"}
     assert sum(r["probability"] for r in ranking) == pytest.approx(1.0)
     assert ranking[0]["effect"] == "coulomb_friction"
+
+
+def test_a_weak_second_effect_is_found_though_the_first_alone_is_at_the_floor(tmp_path):
+    folder = make_log(
+        tmp_path / "log", {"tip_angle_bias": {"bias": 2.5}, "tip_drag": {"damping": 0.025}}
+    )
+    log = read_rig_log(folder)
+    found = diagnose(log)
+    assert set(found.verdict.effects) == {"tip_angle_bias", "tip_drag"}
+    driven = without_base_noise(bridged(log))
+    evidence = Evidence(log=driven, noise=found.noise, nuisance=nuisance_of(driven))
+    alone = fit_effects(evidence, ("tip_angle_bias",))
+    assert floor_of(alone.by_trial).reached
 
 
 def test_the_report_is_strict_json_with_predictions_beside_it(dry_diagnosis, tmp_path):
