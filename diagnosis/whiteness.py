@@ -21,9 +21,6 @@ GAP_LIMIT = 1.03
 # White blocks have 1 +- 1 / sqrt(2 blocks), 0.025 for 20 000 samples; noise of the base
 # angle, which comes back as torque, is not quite white.
 SLOW_LIMIT = 1.25
-# Parameters that are fitted without a trial carry noise into it: n parameters add about n to
-# the squares of some hundred blocks, more where the trial alone shows one of them.
-UNSEEN_GAP_LIMIT, UNSEEN_SLOW_LIMIT = 1.05, 1.35
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,11 +34,6 @@ class Floor:
     def reached(self) -> bool:
         """Whether nothing beyond noise is left."""
         return self.gap <= GAP_LIMIT and self.slow <= SLOW_LIMIT
-
-    @property
-    def nearly_reached(self) -> bool:
-        """Whether little is left on unseen trials, to which noise in the parameters adds."""
-        return self.gap <= UNSEEN_GAP_LIMIT and self.slow <= UNSEEN_SLOW_LIMIT
 
 
 def floor_of(by_trial: Sequence[Array]) -> Floor:
