@@ -28,7 +28,7 @@ _PAIRS, _BASES = 20, 6  # pairs that are fitted on the thinned log; singles that
 _BATCH = 4  # fits between looks at what has been reached
 _NEAR = 3.0  # times the cost at the floor: what promises more is not fitted
 _WORTH = 6.0  # of cost: an effect that promises less is not fitted
-_MORE = 0.99  # of the cost, half a per cent of the gap: by chance a second effect leaves 99.8 %
+_MORE = 0.99  # of the cost, half a per cent of the gap: chance takes off up to 0.3 %
 _FINALISTS = 4  # that are fitted on the log itself
 _CONTENDING = 60.0  # and lie no further than this from the best, in cost
 

@@ -24,9 +24,9 @@ def draw(scores: pd.DataFrame, path: Path) -> None:
 
 def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
     """Rows: what was so; columns: what was said. Pairs are told as right or not."""
-    one = scores[scores["kind"] != "pair"].assign(
-        said=lambda s: np.where(s["exact"], s["truth"], s["said"]),
-    )
+    one = scores[scores["kind"] != "pair"]
+    said = one["said"].mask(one["verdict"] == "undecided", "undecided").mask(one["exact"], one["truth"])
+    one = one.assign(said=said)
     table = pd.crosstab(one["truth"], one["said"])
     names = [*table.index, *(c for c in table.columns if c not in table.index)]
     table = table.reindex(columns=names, fill_value=0)
@@ -74,7 +74,7 @@ def _detection(axis: Axes, scores: pd.DataFrame) -> None:
     axis.set(
         xscale="log", xlabel="signature of the effect, over noise", title="how small an effect is named"
     )
-    axis.legend(fontsize=8)
+    axis.legend(fontsize=8, ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.1))
 
 
 def _left(axis: Axes, scores: pd.DataFrame) -> None:
