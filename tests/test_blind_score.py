@@ -166,9 +166,15 @@ def test_a_detection_limit_is_between_what_was_missed_and_what_was_named():
         ("a", 1.2, True),
         ("a", 2.0, True),
     ]
-    rows += [("b", 1.0, True), ("c", 0.1, False), ("a + b", 0.5, False)]
+    rows += [
+        ("b", 1.0, True),
+        ("c", 0.1, False),
+        ("d", 0.1, True),
+        ("d", 0.2, False),
+        ("a + b", 0.5, False),
+    ]
     table = pd.DataFrame(rows, columns=["truth", "signature", "exact"]).assign(expected="explained")
     found = limits(table)
     assert found.loc["a", "limit"] == pytest.approx(np.sqrt(0.3 * 1.2))
-    assert found.loc[["b", "c"], "limit"].isna().all()
-    assert list(found.index) == ["a", "b", "c"]
+    assert found.loc[["b", "c", "d"], "limit"].isna().all()
+    assert list(found.index) == ["a", "b", "c", "d"]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 def limits(scores: pd.DataFrame) -> pd.DataFrame:
     """By effect: logs, the share that was named, and the detection limit over noise.
 
-    The limit is NaN where all logs, or none, were named: it lies beside them.
+    The limit is NaN where it lies beside the logs: all, or none, were named, or no order is seen.
     """
     alone = scores[
         (scores["expected"] == "explained") & ~scores["truth"].str.contains(" + ", regex=False)
@@ -32,12 +32,11 @@ def limits(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def _limit(signature: NDArray[np.float64], named: NDArray[np.bool_]) -> float:
-    if named.all() or not named.any():
-        return float("nan")
     order = np.argsort(signature)
     sorted_, found = signature[order], named[order]
     named_below = np.concatenate(([0], np.cumsum(found)))
     missed_above = np.concatenate((np.cumsum(~found[::-1])[::-1], [0]))
     best = int(np.argmin(named_below + missed_above))
-    between = sorted_[max(best - 1, 0) : best + 1]
-    return float(np.exp(np.log(between).mean()))
+    if best in (0, len(found)):
+        return float("nan")
+    return float(np.sqrt(sorted_[best - 1] * sorted_[best]))
