@@ -15,9 +15,7 @@ def limits(scores: pd.DataFrame) -> pd.DataFrame:
 
     The limit is NaN where it lies beside the logs: all, or none, were named, or no order is seen.
     """
-    alone = scores[
-        (scores["expected"] == "explained") & ~scores["truth"].str.contains(" + ", regex=False)
-    ]
+    alone = of_one_effect(scores)
     grouped = alone[alone["signature"] > 0].groupby("truth")
     rows = {
         effect: {
@@ -29,6 +27,12 @@ def limits(scores: pd.DataFrame) -> pd.DataFrame:
         for effect, own in grouped
     }
     return pd.DataFrame.from_dict(rows, orient="index", columns=["logs", "named", "smallest", "limit"])
+
+
+def of_one_effect(scores: pd.DataFrame) -> pd.DataFrame:
+    """The logs in which one effect, and no second, is true."""
+    several = scores["truth"].str.contains(" + ", regex=False)
+    return scores[(scores["expected"] == "explained") & ~several]
 
 
 def _limit(signature: NDArray[np.float64], named: NDArray[np.bool_]) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from benchmarks.blind.detection import limits
+from benchmarks.blind.detection import limits, of_one_effect
 from benchmarks.blind.score import GAP_GOAL, calibration_error, coverage, gap_left, reliability
 
 
@@ -55,7 +55,7 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
 
 def _detection(axis: Axes, scores: pd.DataFrame) -> None:
     """Every log of one effect at its signature, and where it starts to be named."""
-    one = scores[(scores["expected"] == "explained") & ~scores["truth"].str.contains(" + ", regex=False)]
+    one = of_one_effect(scores)
     found, effects = limits(one), sorted(one["truth"].unique(), reverse=True)
     rows = {effect: row for row, effect in enumerate(effects)}
     wrong = (one["verdict"] == "explained") & ~one["exact"]
