@@ -12,6 +12,7 @@ import pytest
 
 from benchmarks.blind.detection import limits
 from benchmarks.blind.make import make_logs
+from benchmarks.blind.picture import draw
 from benchmarks.blind.rig import Motion, observe
 from benchmarks.blind.rig import Rig as BlindRig
 from benchmarks.blind.run import diagnose_all
@@ -178,3 +179,11 @@ def test_a_detection_limit_is_between_what_was_missed_and_what_was_named():
     assert found.loc["a", "limit"] == pytest.approx(np.sqrt(0.3 * 1.2))
     assert found.loc[["b", "c", "d"], "limit"].isna().all()
     assert list(found.index) == ["a", "b", "c", "d"]
+
+
+def test_logs_without_a_known_signature_are_drawn_too(scores, tmp_path):
+    """As those of a rig of the user's own, whose answers name the effect alone."""
+    draw(scores.assign(signature=np.nan), tmp_path / "own.png")
+    draw(scores[scores["kind"] == "none"], tmp_path / "none.png")
+    assert (tmp_path / "own.png").stat().st_size > 10_000
+    assert (tmp_path / "none.png").stat().st_size > 10_000

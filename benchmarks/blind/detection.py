@@ -15,8 +15,7 @@ def limits(scores: pd.DataFrame) -> pd.DataFrame:
 
     The limit is NaN where it lies beside the logs: all, or none, were named, or no order is seen.
     """
-    alone = of_one_effect(scores)
-    grouped = alone[alone["signature"] > 0].groupby("truth")
+    grouped = of_one_effect(scores).groupby("truth")
     rows = {
         effect: {
             "logs": len(own),
@@ -30,9 +29,9 @@ def limits(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def of_one_effect(scores: pd.DataFrame) -> pd.DataFrame:
-    """The logs in which one effect, and no second, is true."""
+    """The logs in which one effect, and no second, is true and its signature is known."""
     several = scores["truth"].str.contains(" + ", regex=False)
-    return scores[(scores["expected"] == "explained") & ~several]
+    return scores[(scores["expected"] == "explained") & ~several & (scores["signature"] > 0)]
 
 
 def _limit(signature: NDArray[np.float64], named: NDArray[np.bool_]) -> float:

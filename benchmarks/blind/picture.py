@@ -56,6 +56,9 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
 def _detection(axis: Axes, scores: pd.DataFrame) -> None:
     """Every log of one effect at its signature, and where it starts to be named."""
     one = of_one_effect(scores)
+    if one.empty:
+        axis.set(title="no log of one effect whose signature is known", xticks=[], yticks=[])
+        return
     found, effects = limits(one), sorted(one["truth"].unique(), reverse=True)
     rows = {effect: row for row, effect in enumerate(effects)}
     wrong = (one["verdict"] == "explained") & ~one["exact"]
