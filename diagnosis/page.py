@@ -25,7 +25,8 @@ _WHERE = (
 )
 _WHICH = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
-    "explain a log together share theirs."
+    "explain a log together share theirs. A richer explanation has to lead a simpler one by odds of "
+    "150 to 1 before it is named."
 )
 _TRIALS = (
     "Grey: measured. Below each signal: what each prediction misses it by, in units of noise; in the "

@@ -22,7 +22,6 @@ from diagnosis.fit import Fit, fit_effects
 from diagnosis.glance import Hint, glance
 from diagnosis.refine import refined
 from diagnosis.team import Team
-from diagnosis.whiteness import GAP_LIMIT
 
 _PAIRS, _BASES = 20, 6  # pairs that are fitted on the thinned log; singles that they build on
 _BATCH = 4  # fits between looks at what has been reached
@@ -44,7 +43,7 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     start = fit_effects(coarse, ())
     hints = _glances(team, "effects", [(coarse, start, e) for e in effects])
     # Where something is missing, scatter has taken over a part of it, and a glance may be blind.
-    missing = candidate(start).floor.gap > GAP_LIMIT
+    missing = not candidate(start).floor.small
     worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
@@ -108,7 +107,7 @@ def _fit_best(
         batch, waiting = waiting[:_BATCH], waiting[_BATCH:]
         fits = team.each(f"fitting {what}", fit_effects, [(evidence, h.names, h.start) for h in batch])
         found += map(candidate, fits)
-        floor = min((c.fit.cost for c in found if c.floor.gap <= GAP_LIMIT), default=np.inf)
+        floor = min((c.fit.cost for c in found if c.floor.small), default=np.inf)
         waiting = [h for h in waiting if h.cost <= _NEAR * floor]
     best: dict[frozenset[str], Candidate] = {}
     for c in sorted(found, key=lambda c: c.score):

@@ -135,6 +135,17 @@ def test_white_residuals_are_at_the_floor_and_slow_ones_are_not():
     assert not floor_of([slow]).reached
 
 
+def test_the_floor_allows_for_chance_where_samples_are_few():
+    # Noise as its own first differences tell it: 1.03 alone would turn down one in fourteen.
+    white = np.random.default_rng(3).normal(size=(400, 600))
+    told = np.sqrt(0.5 * np.mean(np.diff(white, axis=1) ** 2, axis=1))
+    floors = [floor_of([row / sigma]) for row, sigma in zip(white, told, strict=True)]
+    assert np.std([floor.gap for floor in floors]) == pytest.approx(0.5 / np.sqrt(600), rel=0.15)
+    assert sum(floor.gap > 1.03 for floor in floors) > 10
+    assert sum(not floor.reached for floor in floors) <= 1
+    assert floor_of([np.zeros(20_000)]).gap_limit == 1.03
+
+
 @pytest.fixture(scope="module")
 def dry(tmp_path_factory):
     folder = tmp_path_factory.mktemp("dry") / "log"
