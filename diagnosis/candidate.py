@@ -1,6 +1,7 @@
 """A fitted explanation: what it costs, and what it names."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -79,6 +80,12 @@ class Candidate:
 
 def candidate(fit: Fit) -> Candidate:
     """A fit with its score: that none, one of all effects or one of all pairs is true is as likely."""
-    freedom = fit.size * float(np.log(max(fit.samples, 2)))
-    score = fit.cost + freedom + 2.0 * math.log(math.comb(len(LIBRARY), len(fit.names)))
-    return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))
+    return Candidate(
+        fit=fit, score=fit.cost + price(fit.names, fit.samples), floor=floor_of(fit.by_trial)
+    )
+
+
+def price(names: Sequence[str], samples: int) -> float:
+    """What a set of effects has to take off the cost before it is worth its freedom."""
+    freedom = sum(len(LIBRARY[n].reported) for n in names)
+    return freedom * math.log(max(samples, 2)) + 2.0 * math.log(math.comb(len(LIBRARY), len(names)))

@@ -42,8 +42,8 @@ class Coordinates:
 
     def bounds(self) -> tuple[Array, Array]:
         """Lowest and highest vector."""
-        low = [_forward(p, p.low) for p in self.parameters]
-        high = [_forward(p, p.high) for p in self.parameters]
+        low = [p.forward(p.low) for p in self.parameters]
+        high = [p.forward(p.high) for p in self.parameters]
         return np.array(low), np.array(high)
 
     def parts(self, x: Array) -> dict[str, Array]:
@@ -62,7 +62,7 @@ class Coordinates:
 
     def values(self, x: Array) -> list[float]:
         """Parameter values of a vector."""
-        return [_backward(p, float(v)) for p, v in zip(self.parameters, x, strict=True)]
+        return [p.backward(float(v)) for p, v in zip(self.parameters, x, strict=True)]
 
     def rig(self, x: Array) -> RigModel:
         """The rig with these effects in it."""
@@ -100,14 +100,6 @@ def starts(effect: Effect) -> list[Array]:
     """Where a fit of an effect may start: vectors of its own parameters."""
     each = zip(*(p.start for p in effect.parameters), strict=True)
     return [
-        np.array([_forward(p, v) for p, v in zip(effect.parameters, values, strict=True)])
+        np.array([p.forward(v) for p, v in zip(effect.parameters, values, strict=True)])
         for values in each
     ]
-
-
-def _forward(p: Parameter, value: float) -> float:
-    return float(np.log(value)) if p.logarithmic else value / p.scale
-
-
-def _backward(p: Parameter, x: float) -> float:
-    return float(np.exp(x)) if p.logarithmic else x * p.scale

@@ -9,12 +9,13 @@ from diagnosis.advice import advise
 from diagnosis.base_motion import without_base_noise
 from diagnosis.bridging import bridged, original
 from diagnosis.evidence import Evidence
-from diagnosis.further import further
+from diagnosis.further import further, on_thinned
 from diagnosis.gap import Gap, gap_of
 from diagnosis.held_out import held_out
+from diagnosis.hidden import hidden
 from diagnosis.limits import possible_effects
 from diagnosis.noise import Noise, estimate_noise
-from diagnosis.nuisance import nuisance_of
+from diagnosis.nuisance import SCATTER, nuisance_of
 from diagnosis.parameters import Interval, intervals
 from diagnosis.predict import Prediction, predict
 from diagnosis.refine import refined
@@ -38,6 +39,8 @@ class Diagnosis:
     Attributes:
       where: the gap to the nominal rig lives, and where what is left of it does.
       further: gap that one more effect may bring it down to, by effect.
+      hidden: parameters at the largest strength that the log would hide, by effect; empty where
+        the log is not explained.
     """
 
     log: RigLog
@@ -49,6 +52,7 @@ class Diagnosis:
     where_left: Where
     parameters: dict[str, dict[str, Interval]]
     further: dict[str, float]
+    hidden: dict[str, dict[str, float]]
     next_experiment: str
     nominal: list[Prediction]
     explained: list[Prediction]
@@ -79,7 +83,11 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         noise, candidates = refined(evidence, search(evidence, coarse, effects, workforce))
         evidence, verdict = replace(evidence, noise=noise), judge(candidates)
         best = verdict.best.fit
-        left = further(coarse, best, effects, workforce)
+        base = on_thinned(coarse, best)
+        left = further(coarse, best, base, effects, workforce)
+        calls = [(coarse, base, e, best.samples) for e in left if e not in SCATTER]
+        calls = calls if verdict.settled else []
+        hiding = dict(sorted(workforce.each("looking for what hides", hidden, calls)))
     if verdict.outcome is Outcome.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(evidence, verdict.best))
     rig = best.coordinates.rig(best.x)
@@ -96,6 +104,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         where_left=where_left,
         parameters={e: p for e, p in intervals(evidence, best, change).items() if e in verdict.effects},
         further=left,
+        hidden=hiding,
         next_experiment=advise(coarse, verdict, where_left),
         nominal=nominal,
         explained=explained,

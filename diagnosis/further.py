@@ -1,4 +1,4 @@
-"""What each further effect would add to an explanation."""
+"""What each further effect would add to an explanation, on the thinned log."""
 
 from collections.abc import Sequence
 
@@ -14,10 +14,20 @@ _ITERATIONS = 3
 _STARTS = 2
 
 
-def further(coarse: Evidence, best: Fit, effects: Sequence[str], team: Team) -> dict[str, float]:
-    """Gap that the best fit may come down to with one more effect, least first."""
+def on_thinned(coarse: Evidence, best: Fit) -> Fit:
+    """The best fit, once more on the thinned log."""
     start = coordinates_of(best.names, coarse.nuisance).joined(best.parts)
-    base = fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
+    return fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
+
+
+def further(
+    coarse: Evidence, best: Fit, base: Fit, effects: Sequence[str], team: Team
+) -> dict[str, float]:
+    """Gap that the best fit may come down to with one more effect, least first.
+
+    Args:
+      base: the best fit on the thinned log.
+    """
     calls = [(coarse, base, name, _STARTS) for name in effects if name not in base.names]
     hints = [found[0] for found in team.each("looking further", glance, calls)]
     samples = max(base.samples, 1)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.backdrop import Backdrop
 from diagnosis.coordinates import coordinates_of, starts
 from diagnosis.effects import LIBRARY
 from diagnosis.evidence import Evidence
@@ -49,26 +50,15 @@ def glance(evidence: Evidence, base: Fit, name: str, most_starts: int | None = N
     own = starts(effect)[:most_starts]
     columns = [coordinates.joined(base.parts | {name: s}) for s in own]
     runs = predicted_residuals(evidence, [coordinates.rig(x) for x in columns])
-    kept = np.array([owner != name for owner in base.coordinates.owners], bool)
-    prior = base.coordinates.weights * base.x
-    residual = np.concatenate([*base.by_trial, prior])
-    slopes = np.vstack([*base.jacobian, np.diag(base.coordinates.weights)])[:, kept]
-    basis = np.linalg.qr(slopes)[0]
-    left = _beside(basis, residual)
+    backdrop = Backdrop(base, name)
     hints = []
     # What the nuisance took over from a missing effect is no good start with it.
     known = {n: base.parts[n] for n in base.names}
     for i, start in enumerate(own):
-        moved = np.concatenate([*(run[i] for run in runs), np.where(kept, prior, 0.0)])
-        d = _beside(basis, moved - residual)
-        amount = max(-float(d @ left), 0.0) / max(float(d @ d), 1e-12)
-        cost = float(np.sum((left + amount * d) ** 2))
+        d = backdrop.moved([run[i] for run in runs])
+        amount = max(-float(d @ backdrop.left), 0.0) / max(float(d @ d), 1e-12)
+        cost = float(np.sum((backdrop.left + amount * d) ** 2))
         begin = coordinates.joined(known | {name: start})
         hints.append(Hint(names=(*base.names, name), start=begin, cost=cost))
     best = sorted(hints, key=lambda h: h.cost)
     return best[: len(effect.parameters)]
-
-
-def _beside(basis: Array, residual: Array) -> Array:
-    """What a basis cannot take off."""
-    return np.asarray(residual - basis @ (basis.T @ residual))

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.diagnose import Diagnosis
 from diagnosis.page_pictures import draw_ranking, draw_trials, draw_where
+from diagnosis.page_tables import hidden_table, parameter_table
 from diagnosis.verdict import Outcome
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;
@@ -27,6 +28,10 @@ _WHICH = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
     "explain a log together share theirs. A richer explanation has to lead a simpler one by odds of "
     "150 to 1 before it is named."
+)
+_HIDDEN = (
+    "How strong each further effect may be and go unseen in these trials: of one that is stronger, "
+    "95 in 100 logs like this would show it. A factor stands for its inverse too."
 )
 _TRIALS = (
     "Grey: measured. Below each signal: what each prediction misses it by, in units of noise; in the "
@@ -62,11 +67,13 @@ def page(found: Diagnosis, report: dict[str, Any]) -> str:
     parts.append(f"<p>Along time it is largest in {html.escape(stretch)}: {largest:.2f}.</p>")
     parts += ["<h2>Which effects explain it</h2>", f"<p>{_WHICH}</p>", _picture(draw_ranking(found))]
     if report["parameters"]:
-        parts.append(_parameters(report["parameters"]))
+        parts.append(parameter_table(report["parameters"]))
     parts += ["<h2>How far it shrinks</h2>", f"<p>{_shrinkage(found)}</p>"]
     parts += [f"<p>{html.escape(_further(found))}</p>"]
     parts += ["<h2>Measured, nominal and explained</h2>", f"<p>{_TRIALS}</p>"]
     parts.append(_picture(draw_trials(found)))
+    if found.hidden:
+        parts += ["<h2>What could hide</h2>", f"<p>{_HIDDEN}</p>", hidden_table(found.hidden)]
     parts += ["<h2>What cannot be told</h2>", _list(_limits(report))]
     parts += ["<h2>How good the replay is</h2>", _list(_replay(found))]
     body = "\n".join(parts)
@@ -114,17 +121,6 @@ def _limits(report: dict[str, Any]) -> list[str]:
     advice = report["next_experiment"]
     lines = [*report["cannot_tell"], *([f"Next: {advice}"] if advice else [])]
     return lines or ["Every effect of the library would show in these trials."]
-
-
-def _parameters(parameters: dict[str, Any]) -> str:
-    rows = [
-        f"<tr><td>{effect}</td><td>{name}</td><td>{p['value']:.4g}</td>"
-        f"<td>{p['low']:.4g} to {p['high']:.4g}</td><td>{p['unit']}</td></tr>"
-        for effect, values in parameters.items()
-        for name, p in values.items()
-    ]
-    head = "<tr><th>effect</th><th>parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>"
-    return f"<table>{head}{''.join(rows)}</table>"
 
 
 def _picture(figure: Figure) -> str:

@@ -52,6 +52,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "next_experiment": diagnosis.next_experiment,
         "floor": _floor(verdict.best),
         "further": diagnosis.further,
+        "hidden": diagnosis.hidden,
         "cannot_tell": list(cannot_tell(diagnosis.log)),
         "replay_error": diagnosis.replay_error,
         "noise": diagnosis.noise.sigma,

@@ -47,6 +47,11 @@ class Verdict:
     rivals: tuple[Candidate, ...] = ()
     ranking: tuple[tuple[str, float], ...]
 
+    @property
+    def settled(self) -> bool:
+        """Whether the log is explained, be it by nothing."""
+        return self.outcome in (Outcome.NONE, Outcome.EXPLAINED)
+
 
 def judge(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first."""

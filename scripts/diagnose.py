@@ -11,9 +11,12 @@ from rich.table import Table
 from diagnosis.diagnose import Diagnosis, diagnose
 from diagnosis.limits import cannot_tell
 from diagnosis.page import sentence
+from diagnosis.page_tables import strength
 from diagnosis.report import as_json, output_paths, write_report
 from diagnosis.rig_log import read_rig_log
 from sim.files import refuse_existing
+
+_SHOWN = 0.0005  # what rounds to more than 0.000
 
 
 def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, console: Console) -> int:
@@ -36,6 +39,8 @@ def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, 
     if found.verdict.effects:
         console.print(_parameter_table(found))
     console.print(_ranking_table(found))
+    if found.hidden and not found.verdict.effects:
+        console.print(_hidden_table(found))
     if found.next_experiment:
         console.print(f"next: {escape(found.next_experiment)}", highlight=False)
     for limit in cannot_tell(log):
@@ -70,8 +75,16 @@ def _parameter_table(found: Diagnosis) -> Table:
     return table
 
 
+def _hidden_table(found: Diagnosis) -> Table:
+    table = Table("effect", "may hide up to", title="What could be there unseen")
+    for effect, values in found.hidden.items():
+        table.add_row(effect, strength(effect, values))
+    return table
+
+
 def _ranking_table(found: Diagnosis) -> Table:
     table = Table("explanation", "probability", title="Ranking")
     for name, probability in found.verdict.ranking[:5]:
-        table.add_row(name, f"{probability:.3f}")
+        if probability >= _SHOWN:
+            table.add_row(name, f"{probability:.3f}")
     return table

@@ -65,6 +65,7 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
         "confused": confused,
         "open": open_,
         "signature": min(answer.get("signature", {}).values(), default=np.nan),
+        "over_hidden": _over_hidden(answer, report),
         "top": top,
         "probability": ranking.get(top, np.nan),
         "top_right": top in right,
@@ -75,6 +76,18 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
         "gap_after": report.get("gap", {}).get("after", np.nan),
         "seconds": report.get("seconds", np.nan),
     }
+
+
+def _over_hidden(answer: dict[str, Any], report: dict[str, Any]) -> float:
+    """Strength of the one true effect over what the report says may hide; NaN: it does not say."""
+    if len(answer["effects"]) != 1:
+        return float("nan")
+    effect = answer["effects"][0]
+    first = LIBRARY[effect].parameters[0]
+    most = report.get("hidden", {}).get(effect, {}).get(first.name)
+    if most is None:
+        return float("nan")
+    return first.strength(answer["parameters"][effect][first.name]) / first.strength(most)
 
 
 def _is_open(answer: dict[str, Any], trials: int | None) -> bool:

@@ -1,5 +1,6 @@
 """A torsion spring between drive shaft and needle."""
 
+import math
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
@@ -21,6 +22,7 @@ EFFECT = Effect(
             high=500.0,
             start=(50.0, 15.0, 4.0),
             logarithmic=True,
+            nothing=math.inf,
         ),
     ),
     enter=_enter,

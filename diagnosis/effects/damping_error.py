@@ -14,7 +14,9 @@ EFFECT = Effect(
     name="damping_error",
     place=Place.PARAMETERS,
     parameters=(
-        Parameter(name="scale", unit="-", low=0.2, high=5.0, start=(0.8, 1.25), logarithmic=True),
+        Parameter(
+            name="scale", unit="-", low=0.2, high=5.0, start=(0.8, 1.25), logarithmic=True, nothing=1.0
+        ),
     ),
     enter=_enter,
 )

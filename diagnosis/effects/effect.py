@@ -1,8 +1,11 @@
 """What an effect is: a name of the vocabulary, its parameters, and how it enters a rig."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+
+import numpy as np
 
 from diagnosis.rig_model import RigModel
 
@@ -31,6 +34,7 @@ class Parameter:
       scale: what a parameter that is not logarithmic is fitted in units of.
       period: of an angle, after which it repeats; 0: none.
       reported: whether it is of the vocabulary; else it is open in a fit and not told.
+      nothing: value at which the effect is not there; None: a shape, at which it always is.
     """
 
     name: str
@@ -42,6 +46,37 @@ class Parameter:
     scale: float = 1.0
     period: float = 0.0
     reported: bool = True
+    nothing: float | None = 0.0
+
+    def forward(self, value: float) -> float:
+        """What a fit moves in."""
+        return float(np.log(value)) if self.logarithmic else value / self.scale
+
+    def backward(self, x: float) -> float:
+        """The value again."""
+        return float(np.exp(x)) if self.logarithmic else x * self.scale
+
+    def at_strength(self, value: float, share: float) -> float:
+        """A value moved so far that the effect is a share of what it was."""
+        match self.nothing:
+            case None:
+                return value
+            case math.inf:
+                return value / share
+            case 1.0:
+                return float(value**share)
+        return value * share
+
+    def strength(self, value: float) -> float:
+        """How far a value is from nothing; `at_strength` multiplies it. A shape has none."""
+        match self.nothing:
+            case None:
+                return math.nan
+            case math.inf:
+                return 1.0 / abs(value)
+            case 1.0:
+                return abs(math.log(value))
+        return abs(value)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,9 +15,17 @@ EFFECT = Effect(
     place=Place.TISSUE,
     parameters=(
         Parameter(
-            name="ratio", unit="-", low=0.05, high=20.0, start=(3.0, 0.33, 3.0, 0.33), logarithmic=True
+            name="ratio",
+            unit="-",
+            low=0.05,
+            high=20.0,
+            start=(3.0, 0.33, 3.0, 0.33),
+            logarithmic=True,
+            nothing=1.0,
         ),
-        Parameter(name="boundary", unit="-", low=0.1, high=0.9, start=(0.35, 0.35, 0.65, 0.65)),
+        Parameter(
+            name="boundary", unit="-", low=0.1, high=0.9, start=(0.35, 0.35, 0.65, 0.65), nothing=None
+        ),
     ),
     enter=_enter,
 )

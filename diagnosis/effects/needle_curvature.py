@@ -30,6 +30,7 @@ EFFECT = Effect(
             start=(0.0, 90.0, 180.0, -90.0),
             scale=10.0,
             period=360.0,
+            nothing=None,
         ),
     ),
     enter=_enter,

@@ -18,7 +18,7 @@ EFFECT = Effect(
     name="shear_thinning",
     place=Place.INTERFACE,
     parameters=(
-        Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2)),
+        Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2), nothing=1.0),
         Parameter(
             name="plateau",
             unit="rad/s",
@@ -27,6 +27,7 @@ EFFECT = Effect(
             start=(0.003, 0.003, 0.003),
             logarithmic=True,
             reported=False,
+            nothing=None,
         ),
     ),
     enter=_enter,

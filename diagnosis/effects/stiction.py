@@ -44,6 +44,7 @@ EFFECT = Effect(
             high=2.0,
             start=(0.07, 0.05, 0.2, 0.1, 0.8, 0.5),
             logarithmic=True,
+            nothing=None,
         ),
     ),
     enter=_enter,

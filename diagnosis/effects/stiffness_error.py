@@ -14,7 +14,9 @@ EFFECT = Effect(
     name="stiffness_error",
     place=Place.PARAMETERS,
     parameters=(
-        Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(0.9, 1.15), logarithmic=True),
+        Parameter(
+            name="scale", unit="-", low=0.3, high=3.0, start=(0.9, 1.15), logarithmic=True, nothing=1.0
+        ),
     ),
     enter=_enter,
 )

@@ -14,7 +14,9 @@ EFFECT = Effect(
     name="tip_angle_scale",
     place=Place.SENSOR,
     parameters=(
-        Parameter(name="scale", unit="-", low=0.3, high=3.0, start=(0.95, 1.05), logarithmic=True),
+        Parameter(
+            name="scale", unit="-", low=0.3, high=3.0, start=(0.95, 1.05), logarithmic=True, nothing=1.0
+        ),
     ),
     enter=_enter,
 )

@@ -1,5 +1,6 @@
 """Kelvin-Voigt tissue in series with the interface."""
 
+import math
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
@@ -21,6 +22,7 @@ EFFECT = Effect(
             high=2.0,
             start=(0.05, 0.02, 0.01, 0.1),
             logarithmic=True,
+            nothing=math.inf,
         ),
         Parameter(
             name="time_constant",
@@ -29,6 +31,7 @@ EFFECT = Effect(
             high=20.0,
             start=(0.3, 1.5, 5.0, 0.3),
             logarithmic=True,
+            nothing=None,
         ),
     ),
     enter=_enter,
