@@ -7,6 +7,7 @@ resists is a convention of the rig, not a finding: it stays as fitted.
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
 
 from diagnosis.evidence import Evidence
 from diagnosis.fit import Fit
@@ -15,11 +16,14 @@ from diagnosis.predict import predict, residuals
 
 Array = NDArray[np.float64]
 
+_AT_BOUND = 1e-6  # from a bound, in the units of the fit
+_FAINT = 3e-5  # pull of what nothing else tells
+
 
 def information(fit: Fit, *, without: int | None = None) -> tuple[Array, Array]:
     """J'J and J'r with the prior, over all trials but one."""
     n = fit.x.size
-    matrix, gradient = 1e-9 * np.eye(n), np.zeros(n)
+    matrix, gradient = _FAINT**2 * np.eye(n), np.zeros(n)
     for i, (residual, jacobian) in enumerate(zip(fit.by_trial, fit.jacobian, strict=True)):
         if i != without:
             matrix += jacobian.T @ jacobian
@@ -48,11 +52,15 @@ def surprise(fit: Fit) -> float:
     """How far predictions of unseen trials move, over what noise in the parameters explains.
 
     About 1 or less where all trials tell the same: sum of |J step|^2 over that of the
-    trace of J C J', with C the covariance of the parameters without the trial.
+    trace of J C J', with C the covariance of the parameters without the trial, of those
+    that are not held by a bound.
     """
     moved, explained = 0.0, 0.0
+    low, high = fit.coordinates.bounds()
     for i, (jacobian, step) in enumerate(zip(fit.jacobian, _steps(fit), strict=True)):
+        there = fit.x + step
         known = _open(fit)
+        known = known[(there > low + _AT_BOUND)[known] & (there < high - _AT_BOUND)[known]]
         spread = np.linalg.pinv(information(fit, without=i)[0][np.ix_(known, known)])
         moved += float(np.sum((jacobian @ step) ** 2))
         explained += float(np.sum((jacobian[:, known] @ spread) * jacobian[:, known]))
@@ -65,15 +73,25 @@ def _open(fit: Fit) -> NDArray[np.int_]:
 
 
 def _steps(fit: Fit) -> list[Array]:
-    """How the parameters move without each trial, within their bounds."""
+    """How the parameters move without each trial: the least squares of the others, within bounds."""
     known = _open(fit)
-    low, high = fit.coordinates.bounds()
-    found = []
-    for i in range(len(fit.by_trial)):
-        step = np.zeros(fit.x.size)
-        if known.size and len(fit.by_trial) > 1:
-            matrix, gradient = information(fit, without=i)
-            inner = matrix[np.ix_(known, known)]
-            step[known] = -np.linalg.lstsq(inner, gradient[known], rcond=None)[0]
-        found.append(np.clip(fit.x + step, low, high) - fit.x if step.any() else step)
+    found = [np.zeros(fit.x.size) for _ in fit.by_trial]
+    if known.size and len(fit.by_trial) > 1:
+        for i, step in enumerate(found):
+            step[known] = _bounded(fit, known, i)
     return found
+
+
+def _bounded(fit: Fit, known: NDArray[np.int_], without: int) -> Array:
+    """The step of some entries. Clipping a free one will not do: where one is held, others move less."""
+    others = [i for i in range(len(fit.by_trial)) if i != without]
+    weights = fit.coordinates.weights
+    slopes = np.vstack(
+        [*(fit.jacobian[i] for i in others), np.diag(weights), _FAINT * np.eye(fit.x.size)]
+    )
+    left = np.concatenate([*(fit.by_trial[i] for i in others), weights * fit.x, np.zeros(fit.x.size)])
+    basis, root = np.linalg.qr(slopes[:, known])
+    low, high = (np.asarray(bound - fit.x)[known] for bound in fit.coordinates.bounds())
+    room = 0.1 * _AT_BOUND  # lsq_linear asks for some between bounds
+    solved = lsq_linear(root, -basis.T @ left, bounds=(low - room, high + room), method="bvls")
+    return np.asarray(np.clip(solved.x, low, high))

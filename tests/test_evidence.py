@@ -5,13 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.optimize import lsq_linear
 
 from diagnosis.base_motion import smoothed
 from diagnosis.bridging import bridged, original
 from diagnosis.candidate import candidate
+from diagnosis.coordinates import coordinates_of
 from diagnosis.diagnose import diagnose
 from diagnosis.evidence import COARSE, FINE, Evidence
-from diagnosis.fit import fit_effects
+from diagnosis.fit import Fit, fit_effects
 from diagnosis.held_out import surprise
 from diagnosis.limits import cannot_tell, possible_effects
 from diagnosis.noise import Noise, estimate_noise, white_noise
@@ -243,3 +245,29 @@ def test_dry_friction_that_never_slides_is_undecided_and_the_next_experiment_sli
         rig=RIG, trials=(*log.trials, *log_of(RigModel(kinetic=0.001), speed=-2.0, seed=1).trials)
     )
     assert diagnose(sliding, workers=1).verdict.effects == ("coulomb_friction",)
+
+
+def test_a_parameter_that_is_held_by_its_bound_holds_the_others_on_unseen_trials():
+    """A linear rig whose third parameter is a little beyond its bound and looks like the first."""
+    coordinates = coordinates_of(("stiction",))
+    low, high = coordinates.bounds()
+    rng = np.random.default_rng(4)
+    slopes, readings = [], []
+    true = 0.5 * (low + high)
+    true[2] = high[2] + 0.03
+    for _ in range(4):
+        columns = rng.normal(size=(500, 3))
+        columns[:, 2] = -columns[:, 0] + 0.05 * columns[:, 2]
+        slopes.append(10 * columns)
+        readings.append(slopes[-1] @ true + rng.normal(size=500))
+    best = lsq_linear(np.vstack(slopes), np.concatenate(readings), bounds=(low, high)).x
+    fit = Fit(
+        names=("stiction",),
+        coordinates=coordinates,
+        x=best,
+        by_trial=tuple(j @ best - y for j, y in zip(slopes, readings, strict=True)),
+        jacobian=tuple(slopes),
+        cost=0.0,
+    )
+    assert best[2] == pytest.approx(high[2])
+    assert surprise(fit) < 3
