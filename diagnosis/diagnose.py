@@ -40,7 +40,7 @@ class Diagnosis:
       where: the gap to the nominal rig lives, and where what is left of it does.
       further: gap that one more effect may bring it down to, by effect.
       hidden: parameters at the largest strength that the log would hide, by effect; empty where
-        the log is not explained.
+        the log is not explained, or by two effects.
     """
 
     log: RigLog
@@ -85,8 +85,9 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         best = verdict.best.fit
         base = on_thinned(coarse, best)
         left = further(coarse, best, base, effects, workforce)
-        calls = [(coarse, base, e, best.samples) for e in left if e not in SCATTER]
-        calls = calls if verdict.settled else []
+        calls = [(coarse, best, base, e) for e in left if e not in SCATTER]
+        # Three effects at once are not searched for.
+        calls = calls if verdict.settled and len(best.names) < 2 else []
         hiding = dict(sorted(workforce.each("looking for what hides", hidden, calls)))
     if verdict.outcome is Outcome.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(evidence, verdict.best))

@@ -2,9 +2,10 @@
 
 Beside the best fit, an effect moves the residual by d that the fit cannot take back.
 Fitted, it takes about d'd off the cost, and is named if that is worth its freedom, the
-choice, and the odds that a richer explanation has to lead by. Noise moves sqrt(d'd) by
-one standard deviation: an effect whose sqrt(d'd) is 1.64 more than asked is seen in 95
-of 100 logs. Its strength is found by simulating it weaker or stronger until it is that.
+choice, and the odds that a richer explanation has to lead by; as the second of two, if it
+is worth a search. Noise moves sqrt(d'd) by one standard deviation: an effect whose
+sqrt(d'd) is 1.64 more than asked is seen in 95 of 100 logs. Its strength is found by
+simulating it weaker or stronger until it is that.
 """
 
 import math
@@ -18,6 +19,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.evidence import Evidence
 from diagnosis.fit import Fit
 from diagnosis.predict import predicted_residuals
+from diagnosis.search import SECOND_LEAVES
 from diagnosis.verdict import ALIKE
 
 _SURE = 1.645
@@ -25,12 +27,13 @@ _ROUNDS = 4  # sizes grow with the strength, but for dry friction below what bre
 _MOST = 30.0  # times weaker or stronger in one round
 
 
-def hidden(evidence: Evidence, base: Fit, name: str, samples: int) -> tuple[str, dict[str, float]]:
+def hidden(evidence: Evidence, best: Fit, base: Fit, name: str) -> tuple[str, dict[str, float]]:
     """An effect, and its parameters at the largest strength that a log may hide.
 
     Args:
-      evidence: the thinned log, of which `base` is a fit.
-      samples: of the log itself.
+      evidence: the thinned log.
+      best: what explains the log itself, one effect or none.
+      base: the same on the thinned log.
 
     Returns:
       The name and values by parameter, of the shape that fits start from; none if the log hides
@@ -40,7 +43,7 @@ def hidden(evidence: Evidence, base: Fit, name: str, samples: int) -> tuple[str,
       SimulationFailed: the effect cannot be simulated.
     """
     backdrop, coordinates = Backdrop(base, name), coordinates_of((*base.names, name), evidence.nuisance)
-    asked = price((*base.names, name), samples) - price(base.names, samples) + ALIKE
+    asked = math.sqrt(_asked(best, name)) + _SURE
     parameters, share = LIBRARY[name].parameters, 1.0
     for _ in range(_ROUNDS):
         values = [p.at_strength(p.start[0], share) for p in parameters]
@@ -49,6 +52,13 @@ def hidden(evidence: Evidence, base: Fit, name: str, samples: int) -> tuple[str,
         own = np.array([p.forward(v) for p, v in zip(parameters, values, strict=True)])
         rig = coordinates.rig(coordinates.joined(base.parts | {name: own}))
         moved = backdrop.moved([run[0] for run in predicted_residuals(evidence, [rig])])
-        wanted = (math.sqrt(asked) + _SURE) / max(float(np.linalg.norm(moved)), 1e-9)
-        share *= float(np.clip(wanted, 1 / _MOST, _MOST))
+        more = asked / max(float(np.linalg.norm(moved)), 1e-9)
+        share *= float(np.clip(more, 1 / _MOST, _MOST))
     return name, {p.name: p.at_strength(p.start[0], share) for p in parameters if p.reported}
+
+
+def _asked(best: Fit, name: str) -> float:
+    """What an effect has to take off the cost to be named."""
+    names = (*best.names, name)
+    asked = price(names, best.samples) - price(best.names, best.samples) + ALIKE
+    return max(asked, (1 - SECOND_LEAVES) * best.cost) if best.names else asked

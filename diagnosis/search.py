@@ -27,7 +27,7 @@ _PAIRS, _BASES = 20, 6  # pairs that are fitted on the thinned log; singles that
 _BATCH = 4  # fits between looks at what has been reached
 _NEAR = 3.0  # times the cost at the floor: what promises more is not fitted
 _WORTH = 6.0  # of cost: an effect that promises less is not fitted
-_MORE = 0.99  # of the cost, half a per cent of the gap: chance takes off up to 0.3 %
+SECOND_LEAVES = 0.99  # of the cost, at most: half a per cent of the gap; chance takes off up to 0.3 %
 _FINALISTS = 4  # that are fitted on the log itself
 _CONTENDING = 60.0  # and lie no further than this from the best, in cost
 
@@ -64,7 +64,7 @@ def _seconds(
     """Pairs that are worth a fit; where an effect alone explains the log, hardly ever any."""
     bases = product(singles[: 1 if alone else _BASES], effects)
     hints = _glances(team, "pairs", [(coarse, c.fit, e) for c, e in bases if e not in c.names])
-    return [h for h in hints if not alone or h.cost < _MORE * singles[0].fit.cost]
+    return [h for h in hints if not alone or h.cost < SECOND_LEAVES * singles[0].fit.cost]
 
 
 def _members(evidence: Evidence, best: Candidate, team: Team) -> list[Candidate]:
