@@ -47,7 +47,9 @@ def glance(evidence: Evidence, base: Fit, name: str, most_starts: int | None = N
     """
     effect = LIBRARY[name]
     coordinates = coordinates_of((*base.names, name), evidence.nuisance)
-    own = starts(effect)[:most_starts]
+    # What the nuisance has found already costs no more than its prior to name.
+    found = [base.parts[name]] if name in base.parts else []
+    own = [*found, *starts(effect)[:most_starts]]
     columns = [coordinates.joined(base.parts | {name: s}) for s in own]
     runs = predicted_residuals(evidence, [coordinates.rig(x) for x in columns])
     backdrop = Backdrop(base, name)

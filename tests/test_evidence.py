@@ -14,6 +14,7 @@ from diagnosis.coordinates import coordinates_of
 from diagnosis.diagnose import diagnose
 from diagnosis.evidence import COARSE, FINE, Evidence
 from diagnosis.fit import Fit, fit_effects
+from diagnosis.glance import glance
 from diagnosis.held_out import surprise
 from diagnosis.limits import cannot_tell, possible_effects
 from diagnosis.noise import Noise, estimate_noise, white_noise
@@ -271,3 +272,17 @@ def test_a_parameter_that_is_held_by_its_bound_holds_the_others_on_unseen_trials
     )
     assert best[2] == pytest.approx(high[2])
     assert surprise(fit) < 3
+
+
+def test_what_scatter_has_found_costs_only_its_prior_to_name():
+    """A stiffness that is far off is found as scatter first; a glance at it need not move it."""
+    evidence, _ = evidence_of(log_of(RigModel(stiffness_scale=1.43)))
+    base = fit_effects(evidence, ())
+    scale = base.parts["stiffness_error"]
+    assert np.exp(scale[0]) == pytest.approx(1.43, rel=0.02)
+    best = glance(evidence, base, "stiffness_error")[0]
+    prior = base.coordinates.weights[base.coordinates.owners.index("stiffness_error")] * scale[0]
+    assert prior**2 > 100
+    # The rest of the fit is where it is for the sake of the prior too, a little.
+    assert best.cost == pytest.approx(base.cost - prior**2, rel=0.01)
+    assert best.start[0] == pytest.approx(scale[0])
