@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.effects import LIBRARY
 from diagnosis.evidence import Evidence
@@ -42,7 +43,8 @@ class Candidate:
     @property
     def explains(self) -> bool:
         """Whether nothing beyond noise is left, also where the fit has not looked."""
-        return self.floor.reached and self.unseen is not None and self.surprise <= _SURPRISING
+        held = self.unseen is not None and self.surprise <= _SURPRISING
+        return self.floor.reached and held and not self.torn
 
     def looked_at(self, evidence: Evidence) -> "Candidate":
         """The same with unseen trials, if it is worth it."""
@@ -66,16 +68,37 @@ class Candidate:
         Beside effects that is more than scatter explains. Alone it is whatever is
         certain: the nominal rig does not fit, and this is why.
         """
-        open_ = {e.name for e in self.fit.coordinates.nuisance}
-        return (*self.names, *(n for n in SCATTER if n in open_ and self._is_off(n)))
+        return (*self.names, *(n for n in self._open_scatter() if self._is_off(n)))
+
+    @property
+    def of_scatter(self) -> bool:
+        """Whether it is stiffness or damping alone."""
+        return bool(self.names) and set(self.names) <= set(SCATTER)
+
+    @property
+    def torn(self) -> bool:
+        """Whether stiffness and damping are off for certain, and it is open which: a ratio shows."""
+        if self.names or self.named:
+            return False
+        away, spread = self._scatter()
+        off = away @ np.linalg.pinv(spread) @ away > _CERTAIN**2
+        return bool(off) and float(np.abs(away).sum()) > _LEAST
 
     def _is_off(self, name: str) -> bool:
-        entry = self.fit.coordinates.owners.index(name)
-        away = abs(float(self.fit.x[entry]))
         if self.names:
-            return away > 2 * SCATTER[name]
-        spread = float(np.sqrt(np.linalg.pinv(information(self.fit)[0])[entry, entry]))
-        return away > max(_CERTAIN * spread, _LEAST)
+            return abs(float(self.fit.parts[name][0])) > 2 * SCATTER[name]
+        away, spread = self._scatter()
+        entry = self._open_scatter().index(name)
+        return abs(float(away[entry])) > max(_CERTAIN * float(np.sqrt(spread[entry, entry])), _LEAST)
+
+    def _open_scatter(self) -> list[str]:
+        return [e.name for e in self.fit.coordinates.nuisance if e.name in SCATTER]
+
+    def _scatter(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """What is open of stiffness and damping, and its covariance."""
+        entries = [self.fit.coordinates.owners.index(n) for n in self._open_scatter()]
+        spread = np.asarray(np.linalg.pinv(information(self.fit)[0]), float)
+        return self.fit.x[entries], spread[np.ix_(entries, entries)]
 
 
 def candidate(fit: Fit) -> Candidate:

@@ -20,6 +20,7 @@ from diagnosis.coordinates import coordinates_of
 from diagnosis.evidence import Evidence
 from diagnosis.fit import Fit, fit_effects
 from diagnosis.glance import Hint, glance
+from diagnosis.nuisance import SCATTER
 from diagnosis.refine import refined
 from diagnosis.team import Team
 
@@ -44,7 +45,8 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     hints = _glances(team, "effects", [(coarse, start, e) for e in effects])
     # Where something is missing, scatter has taken over a part of it, and a glance may be blind.
     missing = not candidate(start).floor.small
-    worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
+    either = SCATTER if any(c.torn for c in found) else ()
+    worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH or h.names[-1] in either]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
     second = _seconds(coarse, singles, effects, team, alone=_explained(evidence, found))

@@ -55,7 +55,7 @@ class Verdict:
 
 def judge(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first."""
-    at_floor = [c for c in candidates if c.explains]
+    at_floor = _explaining(candidates)
     if not at_floor:
         return Verdict(
             outcome=Outcome.UNKNOWN,
@@ -77,6 +77,14 @@ def judge(candidates: Sequence[Candidate]) -> Verdict:
         rivals=tuple(rivals),
         ranking=_ranking(candidates, known=True),
     )
+
+
+def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates at the floor, but for effects that add nothing to a rig that is off itself."""
+    torn = [c.score for c in candidates if c.torn and c.floor.reached]
+    return [
+        c for c in candidates if c.explains and (c.score < min(torn, default=math.inf) or c.of_scatter)
+    ]
 
 
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:

@@ -125,6 +125,32 @@ def test_the_score_sees_a_wrong_answer(folder, scores, tmp_path):
     assert read_scores(shifted)["exact"].mean() < 0.3 < summary(scores)["exact"].mean()
 
 
+@pytest.mark.parametrize(
+    ("truth", "parameters", "said", "exact"),
+    [
+        (["stiffness_error"], {"stiffness_error": 1.4}, ["damping_error"], False),
+        (["tip_drag", "stiffness_error"], {"stiffness_error": 1.02}, ["tip_drag"], True),
+        (["tip_drag", "stiffness_error"], {"stiffness_error": 1.4}, ["tip_drag"], False),
+        (["tip_drag"], {"stiffness_error": 1.01}, ["tip_drag", "stiffness_error"], True),
+        (["tip_drag"], {}, ["tip_drag", "stiffness_error"], False),
+    ],
+)
+def test_what_is_a_little_off_beside_an_effect_may_be_named_or_not(
+    tmp_path, truth, parameters, said, exact
+):
+    answer = {
+        "verdict": "explained",
+        "effects": truth,
+        "parameters": {name: {"scale": scale} for name, scale in parameters.items()},
+    }
+    (tmp_path / "answers").mkdir()
+    (tmp_path / "reports").mkdir()
+    (tmp_path / "answers" / "answers.json").write_text(json.dumps({"case_1": answer}))
+    report = {"verdict": "explained", "effects": said}
+    (tmp_path / "reports" / "case_1.json").write_text(json.dumps(report))
+    assert bool(read_scores(tmp_path)["exact"]["case_1"]) is exact
+
+
 def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
     assert main(["blind", "score", str(folder), "--out", str(tmp_path / "score")]) == 0
     printed = capsys.readouterr().out

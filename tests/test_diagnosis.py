@@ -8,7 +8,7 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
-from reference_log import make_log
+from reference_log import BETA, make_log
 
 from diagnosis.base_motion import without_base_noise
 from diagnosis.bridging import bridged
@@ -23,6 +23,7 @@ from diagnosis.nuisance import nuisance_of
 from diagnosis.report import FORMAT, as_json, write_report
 from diagnosis.rig_log import read_rig_log
 from diagnosis.rig_model import RigModel
+from diagnosis.verdict import Outcome
 from diagnosis.whiteness import floor_of
 from scripts.main import main
 from sim.rerun_table import entries
@@ -134,6 +135,17 @@ def test_a_weak_second_effect_is_found_though_the_first_alone_is_at_the_floor(tm
     evidence = Evidence(log=driven, noise=found.noise, nuisance=nuisance_of(driven))
     alone = fit_effects(evidence, ("tip_angle_bias",))
     assert floor_of(alone.by_trial).reached
+
+
+def test_without_torque_a_damping_that_is_off_is_undecided_against_stiffness(tmp_path):
+    """The tip feels only their ratio: each alone is within a rig's scatter, the ratio is not."""
+    folder = make_log(tmp_path / "log", {}, damping=0.96 * BETA, seed=5)
+    for path in folder.glob("trial_*.csv"):
+        pd.read_csv(path).drop(columns="base_torque_n_mm").to_csv(path, index=False)
+    found = diagnose(read_rig_log(folder))
+    assert found.verdict.outcome is Outcome.UNDECIDED
+    assert set(found.verdict.confusable) == {("damping_error",), ("stiffness_error",)}
+    assert found.next_experiment.startswith("no run that this rig can do")
 
 
 def test_the_report_is_strict_json_with_predictions_beside_it(dry_diagnosis, tmp_path):

@@ -1,7 +1,7 @@
 """Reports against sealed answers: what was said, what was so.
 
-A report is exact if its verdict and its set of effects are those of the answer. A
-rig whose stiffness and damping are a little off as well may have both named. Where
+A report is exact if its verdict and its set of effects are those of the answer. Where
+stiffness or damping are off by up to 3 % beside an effect, they may be named or not. Where
 the laws themselves leave it open, and an oracle that knows them could not decide
 either, exact is `undecided` with the truth among what cannot be told apart.
 """
@@ -17,7 +17,9 @@ from diagnosis.effects import LIBRARY
 
 # The same law where the needle never slides.
 TWINS = {"coulomb_friction", "speed_dependent_friction"}
+# Without the base torque only their ratio shows.
 OFF_NOMINAL = {"stiffness_error", "damping_error"}
+A_LITTLE = 0.03  # no rig is nearer to its nominal constants
 GAP_GOAL = 1.03
 
 
@@ -43,7 +45,7 @@ def reports_in(folder: Path, trials: int | None = None) -> Path:
 
 def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> dict[str, Any]:
     truth, said = set(answer["effects"]), set(report["effects"])
-    free = OFF_NOMINAL if OFF_NOMINAL & set(answer["parameters"]) else set()
+    free = _free(answer, truth)
     confused = report["verdict"] == "undecided" and any(
         set(names) - free == truth - free for names in report.get("confusable", [])
     )
@@ -78,6 +80,16 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
     }
 
 
+def _free(answer: dict[str, Any], truth: set[str]) -> set[str]:
+    """What may be named or not: stiffness and damping that are a little off beside an effect."""
+    scales = {n: p["scale"] for n, p in answer["parameters"].items() if n in OFF_NOMINAL}
+    return {
+        name
+        for name, scale in scales.items()
+        if name not in truth or (len(truth) > 1 and abs(scale - 1.0) <= A_LITTLE)
+    }
+
+
 def _over_hidden(answer: dict[str, Any], report: dict[str, Any]) -> float:
     """Strength of the one true effect over what the report says may hide; NaN: it does not say."""
     if len(answer["effects"]) != 1:
@@ -92,8 +104,11 @@ def _over_hidden(answer: dict[str, Any], report: dict[str, Any]) -> float:
 
 def _is_open(answer: dict[str, Any], trials: int | None) -> bool:
     """Whether no trial can tell the true effect from its twin."""
-    seen = answer.get("details", {}).get("trials", [{"sliding": True}])[:trials]
-    return bool(TWINS & set(answer["effects"])) and not any(trial["sliding"] for trial in seen)
+    details, truth = answer.get("details", {}), set(answer["effects"])
+    seen = details.get("trials", [{"sliding": True}])[:trials]
+    at_rest = not any(trial["sliding"] for trial in seen)
+    without_torque = details.get("missing") == "base_torque_n_mm"
+    return (bool(TWINS & truth) and at_rest) or (bool(OFF_NOMINAL & truth) and without_torque)
 
 
 def _kind(answer: dict[str, Any]) -> str:
