@@ -100,4 +100,8 @@ def _goals(scores: pd.DataFrame) -> Table:
     table.add_row("probabilities are off by", f"{score.calibration_error(scores):.3f}")
     table.add_row(f"95 % intervals that cover (of {count})", f"{100 * share:.1f} %")
     table.add_row("gap left within 1.03 noise", f"{100 * score.gap_left(scores):.1f} %")
+    below, unseen = score.hidden_below(scores)
+    if unseen:
+        told = f"effects that went unseen, as weak as the reports say may hide (of {unseen})"
+        table.add_row(told, f"{100 * below:.0f} %")
     return table

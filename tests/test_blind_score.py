@@ -16,7 +16,7 @@ from benchmarks.blind.picture import draw
 from benchmarks.blind.rig import Motion, observe
 from benchmarks.blind.rig import Rig as BlindRig
 from benchmarks.blind.run import diagnose_all
-from benchmarks.blind.score import coverage, read_scores, summary
+from benchmarks.blind.score import coverage, hidden_below, read_scores, summary
 from diagnosis.predict import predict
 from diagnosis.rig import NominalNeedle, NominalTissue, Rig, SensorNoise, TrialEntry
 from diagnosis.rig_log import Trial
@@ -149,6 +149,24 @@ def test_what_is_a_little_off_beside_an_effect_may_be_named_or_not(
     report = {"verdict": "explained", "effects": said}
     (tmp_path / "reports" / "case_1.json").write_text(json.dumps(report))
     assert bool(read_scores(tmp_path)["exact"]["case_1"]) is exact
+
+
+def test_what_went_unseen_is_held_to_what_the_report_says_may_hide(tmp_path):
+    parameters = {"base_compliance": {"stiffness": 80.0}}  # half as strong as 40
+    answer = {"verdict": "explained", "effects": ["base_compliance"], "parameters": parameters}
+    hidden = {
+        "a": {"base_compliance": {"stiffness": 40.0}},
+        "b": {"base_compliance": {"stiffness": 160.0}},
+    }
+    (tmp_path / "answers").mkdir()
+    (tmp_path / "reports").mkdir()
+    (tmp_path / "answers" / "answers.json").write_text(json.dumps({"a": answer, "b": answer}))
+    for case, own in hidden.items():
+        report = {"verdict": "none", "effects": [], "hidden": own}
+        (tmp_path / "reports" / f"{case}.json").write_text(json.dumps(report))
+    scores = read_scores(tmp_path)
+    assert scores["over_hidden"].to_dict() == pytest.approx({"a": 0.5, "b": 2.0})
+    assert hidden_below(scores) == (0.5, 2)
 
 
 def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):

@@ -150,6 +150,12 @@ def coverage(scores: pd.DataFrame) -> tuple[float, int]:
     return (float(scores["inside"].sum() / count) if count else float("nan")), count
 
 
+def hidden_below(scores: pd.DataFrame) -> tuple[float, int]:
+    """Of the effects that went unseen: share no stronger than the report said, and how many."""
+    unseen = scores.loc[scores["verdict"] == "none", "over_hidden"].dropna()
+    return (float((unseen <= 1.0).mean()) if len(unseen) else float("nan")), len(unseen)
+
+
 def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
     """Probability of the first in the ranking against how often it was right.
 
