@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from benchmarks.blind import picture, score
+from benchmarks.blind import honesty, picture, score
 from benchmarks.blind.detection import limits
 from benchmarks.blind.make import make_logs
 from benchmarks.blind.run import diagnose_all
@@ -61,7 +61,7 @@ def run_score(
     reports = score.reports_in(folder, trials)
     diagnose_all(folder / "logs", reports, trials=trials, watched=lambda s: track(s, description="logs"))
     scores = score.read_scores(folder, trials)
-    console.print(_table(score.summary(scores)))
+    console.print(_table(honesty.summary(scores)))
     weak = limits(scores).dropna()
     if len(weak):
         console.print(_limits(weak))
@@ -96,11 +96,11 @@ def _limits(found: pd.DataFrame) -> Table:
 
 def _goals(scores: pd.DataFrame) -> Table:
     table = Table("of all logs", "measured", title="Honesty")
-    share, count = score.coverage(scores)
-    table.add_row("probabilities are off by", f"{score.calibration_error(scores):.3f}")
+    share, count = honesty.coverage(scores)
+    table.add_row("probabilities are off by", f"{honesty.calibration_error(scores):.3f}")
     table.add_row(f"95 % intervals that cover (of {count})", f"{100 * share:.1f} %")
-    table.add_row("gap left within 1.03 noise", f"{100 * score.gap_left(scores):.1f} %")
-    below, unseen = score.hidden_below(scores)
+    table.add_row("gap left within 1.03 noise", f"{100 * honesty.gap_left(scores):.1f} %")
+    below, unseen = honesty.hidden_below(scores)
     if unseen:
         told = f"effects that went unseen, as weak as the reports say may hide (of {unseen})"
         table.add_row(told, f"{100 * below:.0f} %")

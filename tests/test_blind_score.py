@@ -11,12 +11,13 @@ import pandas as pd
 import pytest
 
 from benchmarks.blind.detection import limits
+from benchmarks.blind.honesty import coverage, hidden_below, summary
 from benchmarks.blind.make import make_logs
 from benchmarks.blind.picture import draw
 from benchmarks.blind.rig import Motion, observe
 from benchmarks.blind.rig import Rig as BlindRig
 from benchmarks.blind.run import diagnose_all
-from benchmarks.blind.score import coverage, hidden_below, read_scores, summary
+from benchmarks.blind.score import read_scores
 from diagnosis.predict import predict
 from diagnosis.rig import NominalNeedle, NominalTissue, Rig, SensorNoise, TrialEntry
 from diagnosis.rig_log import Trial
