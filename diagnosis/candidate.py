@@ -78,8 +78,11 @@ class Candidate:
     @property
     def torn(self) -> bool:
         """Whether stiffness and damping are off for certain, and it is open which: a ratio shows."""
-        if self.names or self.named:
-            return False
+        return not self.named and self.leans
+
+    @property
+    def leans(self) -> bool:
+        """Whether stiffness and damping, together, are off for certain."""
         away, spread = self._scatter()
         off = away @ np.linalg.pinv(spread) @ away > _CERTAIN**2
         return bool(off) and float(np.abs(away).sum()) > _LEAST

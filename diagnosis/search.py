@@ -9,7 +9,7 @@
    for their freedom. What the nuisance of the rig's own scatter explains is `none`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import product
 
@@ -41,17 +41,19 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
       effects: that may be tried.
     """
     found = _plain(evidence, team)
+    found += [c for torn in found if torn.torn for c in _each_alone(evidence, torn, SCATTER, team)]
     start = fit_effects(coarse, ())
     hints = _glances(team, "effects", [(coarse, start, e) for e in effects])
     # Where something is missing, scatter has taken over a part of it, and a glance may be blind.
     missing = not candidate(start).floor.small
-    either = SCATTER if any(c.torn for c in found) else ()
-    worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH or h.names[-1] in either]
+    worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
     second = _seconds(coarse, singles, effects, team, alone=_explained(evidence, found))
     found += _finals(evidence, _fit_best(coarse, second, _PAIRS, team, "pairs"), team)
-    found += _members(evidence, min(found, key=lambda c: c.score), team)
+    best = min(found, key=lambda c: c.score)
+    if len(best.names) > 1:
+        found += _each_alone(evidence, best, best.names, team)
     best = min(found, key=lambda c: c.score)
     if best.named != best.names:
         # What is no scatter is fitted without the prior of scatter, which would pull it.
@@ -69,13 +71,13 @@ def _seconds(
     return [h for h in hints if not alone or h.cost < SECOND_LEAVES * singles[0].fit.cost]
 
 
-def _members(evidence: Evidence, best: Candidate, team: Team) -> list[Candidate]:
-    """Each effect of a pair alone, from where the pair is: one of the two may have been a crutch."""
-    if len(best.names) < 2:
-        return []
-    starts = [coordinates_of((n,), evidence.nuisance).joined(best.fit.parts) for n in best.names]
-    calls = [(evidence, (n,), start) for n, start in zip(best.names, starts, strict=True)]
-    return [candidate(fit) for fit in team.each("fitting members", fit_effects, calls)]
+def _each_alone(
+    evidence: Evidence, whole: Candidate, names: Iterable[str], team: Team
+) -> list[Candidate]:
+    """Each of what a candidate names alone, from where that is: others may have been a crutch."""
+    starts = [(n, coordinates_of((n,), evidence.nuisance).joined(whole.fit.parts)) for n in names]
+    calls = [(evidence, (n,), start) for n, start in starts]
+    return [candidate(fit) for fit in team.each("fitting each alone", fit_effects, calls)]
 
 
 def _explained(evidence: Evidence, found: Sequence[Candidate]) -> bool:

@@ -81,10 +81,8 @@ def judge(candidates: Sequence[Candidate]) -> Verdict:
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
     """Candidates at the floor, but for effects that add nothing to a rig that is off itself."""
-    torn = [c.score for c in candidates if c.torn and c.floor.reached]
-    return [
-        c for c in candidates if c.explains and (c.score < min(torn, default=math.inf) or c.of_scatter)
-    ]
+    torn = min((c.score for c in candidates if c.torn and c.floor.reached), default=math.inf)
+    return [c for c in candidates if c.explains and (c.score < torn or c.of_scatter or not c.leans)]
 
 
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
