@@ -17,7 +17,7 @@ from sim.simulation import SimulationFailed
 
 _CERTAIN = 5.0  # standard deviations
 # Times what noise in the parameters explains, all parameters and trials together. What is true
-# moves up to 9 where it is rough (stick and slip), mostly by 1; what only mimics it, by 20 and more.
+# moves up to 9 where it is rough (stick and slip), mostly by 1; what only mimics it, by 15 and more.
 _SURPRISING = 12.0
 _LEAST = 0.003  # simulations of the same rig differ by a tenth of this
 
