@@ -43,7 +43,7 @@ def hidden(evidence: Evidence, best: Fit, base: Fit, name: str) -> tuple[str, di
       SimulationFailed: the effect cannot be simulated.
     """
     backdrop, coordinates = Backdrop(base, name), coordinates_of((*base.names, name), evidence.nuisance)
-    asked = math.sqrt(_asked(best, name)) + _SURE
+    asked = math.sqrt(_asked(best, base, name)) + _SURE
     parameters, share = LIBRARY[name].parameters, 1.0
     for _ in range(_ROUNDS):
         values = [p.at_strength(p.start[0], share) for p in parameters]
@@ -57,8 +57,8 @@ def hidden(evidence: Evidence, best: Fit, base: Fit, name: str) -> tuple[str, di
     return name, {p.name: p.at_strength(p.start[0], share) for p in parameters if p.reported}
 
 
-def _asked(best: Fit, name: str) -> float:
+def _asked(best: Fit, base: Fit, name: str) -> float:
     """What an effect has to take off the cost to be named."""
     names = (*best.names, name)
     asked = price(names, best.samples) - price(best.names, best.samples) + ALIKE
-    return max(asked, (1 - SECOND_LEAVES) * best.cost) if best.names else asked
+    return max(asked, (1 - SECOND_LEAVES) * base.cost) if best.names else asked

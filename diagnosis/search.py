@@ -49,8 +49,10 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
-    second = _seconds(coarse, singles, effects, team, alone=_explained(evidence, found))
-    found += _finals(evidence, _fit_best(coarse, second, _PAIRS, team, "pairs"), team)
+    alone = _explained(evidence, found)
+    second = _seconds(coarse, singles, effects, team, alone=alone)
+    pairs = _finals(evidence, _fit_best(coarse, second, _PAIRS, team, "pairs"), team)
+    found += _more_than_asked(pairs, found, singles[0]) if alone and singles else pairs
     best = min(found, key=lambda c: c.score)
     if len(best.names) > 1:
         found += _each_alone(evidence, best, best.names, team)
@@ -69,6 +71,14 @@ def _seconds(
     bases = product(singles[: 1 if alone else _BASES], effects)
     hints = _glances(team, "pairs", [(coarse, c.fit, e) for c, e in bases if e not in c.names])
     return [h for h in hints if not alone or h.cost < SECOND_LEAVES * singles[0].fit.cost]
+
+
+def _more_than_asked(
+    pairs: Sequence[Candidate], found: Sequence[Candidate], single: Candidate
+) -> list[Candidate]:
+    """Pairs that take off the log itself what a second effect has to promise on the thinned one."""
+    most = min(c.fit.cost for c in found) - (1 - SECOND_LEAVES) * single.fit.cost
+    return [c for c in pairs if c.fit.cost <= most]
 
 
 def _each_alone(
