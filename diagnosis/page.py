@@ -26,8 +26,8 @@ _WHERE = (
 )
 _WHICH = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
-    "explain a log together share theirs. A richer explanation has to lead a simpler one by odds of "
-    "150 to 1 before it is named."
+    "explain a log together share theirs. A second effect, or more parameters, have to lead by odds "
+    "of 150 to 1 before they are named; stiction leads dry friction by 12 to 1."
 )
 _HIDDEN = (
     "How strong each further effect may be and go unseen in these trials: of one that is stronger, "
