@@ -100,7 +100,7 @@ class Candidate:
     def _scatter(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """What is open of stiffness and damping, and its covariance."""
         entries = [self.fit.coordinates.owners.index(n) for n in self._open_scatter()]
-        spread = np.asarray(np.linalg.pinv(information(self.fit)[0]), float)
+        spread = np.asarray(np.linalg.pinv(information(self.fit)), float)
         return self.fit.x[entries], spread[np.ix_(entries, entries)]
 
 

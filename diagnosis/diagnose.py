@@ -12,10 +12,10 @@ from diagnosis.evidence import Evidence
 from diagnosis.further import further, on_thinned
 from diagnosis.gap import Gap, gap_of
 from diagnosis.held_out import held_out
-from diagnosis.hidden import hidden
+from diagnosis.hidden import hiding_beside
 from diagnosis.limits import possible_effects
 from diagnosis.noise import Noise, estimate_noise
-from diagnosis.nuisance import SCATTER, nuisance_of
+from diagnosis.nuisance import nuisance_of
 from diagnosis.parameters import Interval, intervals
 from diagnosis.predict import Prediction, predict
 from diagnosis.refine import refined
@@ -85,10 +85,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         best = verdict.best.fit
         base = on_thinned(coarse, best)
         left = further(coarse, best, base, effects, workforce)
-        calls = [(coarse, best, base, e) for e in left if e not in SCATTER]
-        # Three effects at once are not searched for.
-        calls = calls if verdict.settled and len(best.names) < 2 else []
-        hiding = dict(sorted(workforce.each("looking for what hides", hidden, calls)))
+        hiding = hiding_beside(coarse, best, base, effects, workforce) if verdict.settled else {}
     if verdict.outcome is Outcome.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(evidence, verdict.best))
     rig = best.coordinates.rig(best.x)

@@ -20,18 +20,16 @@ _AT_BOUND = 1e-6  # from a bound, in the units of the fit
 _FAINT = 3e-5  # pull of what nothing else tells
 
 
-def information(fit: Fit, *, without: int | None = None) -> tuple[Array, Array]:
-    """J'J and J'r with the prior, over all trials but one."""
-    n = fit.x.size
-    matrix, gradient = _FAINT**2 * np.eye(n), np.zeros(n)
-    for i, (residual, jacobian) in enumerate(zip(fit.by_trial, fit.jacobian, strict=True)):
-        if i != without:
-            matrix += jacobian.T @ jacobian
-            gradient += jacobian.T @ residual
-    weights = fit.coordinates.weights**2
-    matrix += np.diag(weights)
-    gradient += weights * fit.x
-    return matrix, gradient
+def information(fit: Fit, *, without: int | None = None) -> Array:
+    """J'J with the prior, over all trials but one: the inverse covariance of the parameters."""
+    slopes = _slopes(fit, without=without)
+    return np.asarray(slopes.T @ slopes)
+
+
+def _slopes(fit: Fit, *, without: int | None) -> Array:
+    """Jacobian of all trials but one and of the prior, one below the other."""
+    seen = [jacobian for i, jacobian in enumerate(fit.jacobian) if i != without]
+    return np.vstack([*seen, np.diag(fit.coordinates.weights), _FAINT * np.eye(fit.x.size)])
 
 
 def held_out(evidence: Evidence, fit: Fit) -> tuple[Array, ...]:
@@ -61,7 +59,7 @@ def surprise(fit: Fit) -> float:
         there = fit.x + step
         known = _open(fit)
         known = known[(there > low + _AT_BOUND)[known] & (there < high - _AT_BOUND)[known]]
-        spread = np.linalg.pinv(information(fit, without=i)[0][np.ix_(known, known)])
+        spread = np.linalg.pinv(information(fit, without=i)[np.ix_(known, known)])
         moved += float(np.sum((jacobian @ step) ** 2))
         explained += float(np.sum((jacobian[:, known] @ spread) * jacobian[:, known]))
     return moved / explained if explained > 0 else 0.0
@@ -84,13 +82,9 @@ def _steps(fit: Fit) -> list[Array]:
 
 def _bounded(fit: Fit, known: NDArray[np.int_], without: int) -> Array:
     """The step of some entries. Clipping a free one will not do: where one is held, others move less."""
-    others = [i for i in range(len(fit.by_trial)) if i != without]
-    weights = fit.coordinates.weights
-    slopes = np.vstack(
-        [*(fit.jacobian[i] for i in others), np.diag(weights), _FAINT * np.eye(fit.x.size)]
-    )
-    left = np.concatenate([*(fit.by_trial[i] for i in others), weights * fit.x, np.zeros(fit.x.size)])
-    basis, root = np.linalg.qr(slopes[:, known])
+    seen = [residual for i, residual in enumerate(fit.by_trial) if i != without]
+    left = np.concatenate([*seen, fit.coordinates.weights * fit.x, np.zeros(fit.x.size)])
+    basis, root = np.linalg.qr(_slopes(fit, without=without)[:, known])
     low, high = (np.asarray(bound - fit.x)[known] for bound in fit.coordinates.bounds())
     room = 0.1 * _AT_BOUND  # lsq_linear asks for some between bounds
     solved = lsq_linear(root, -basis.T @ left, bounds=(low - room, high + room), method="bvls")

@@ -9,6 +9,7 @@ simulating it weaker or stronger until it is that.
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -18,13 +19,30 @@ from diagnosis.coordinates import coordinates_of
 from diagnosis.effects import LIBRARY
 from diagnosis.evidence import Evidence
 from diagnosis.fit import Fit
+from diagnosis.nuisance import SCATTER
 from diagnosis.predict import predicted_residuals
 from diagnosis.search import SECOND_LEAVES
+from diagnosis.team import Team
 from diagnosis.verdict import ALIKE
 
 _SURE = 1.645
 _ROUNDS = 4  # sizes grow with the strength, but for dry friction below what breaks loose
 _MOST = 30.0  # times weaker or stronger in one round
+
+
+def hiding_beside(
+    coarse: Evidence, best: Fit, base: Fit, effects: Sequence[str], team: Team
+) -> dict[str, dict[str, float]]:
+    """What `hidden` finds of every further effect, by name.
+
+    Stiffness and damping are left out, which every fit leaves open, and all effects beside
+    two others: three at once are not searched for.
+    """
+    if len(best.names) > 1:
+        return {}
+    others = [name for name in effects if name not in (*best.names, *SCATTER)]
+    calls = [(coarse, best, base, name) for name in others]
+    return dict(team.each("looking for what hides", hidden, calls))
 
 
 def hidden(evidence: Evidence, best: Fit, base: Fit, name: str) -> tuple[str, dict[str, float]]:

@@ -113,7 +113,7 @@ def _outlook(evidence: Evidence, trial: Trial, fit: Fit) -> tuple[Array, Array]:
     slopes = [(moved - readings[0]) / _DIFFERENCE for moved in readings[1:]]
     if not slopes:
         return readings[0], np.zeros((readings[0].size, 0))
-    root = np.linalg.cholesky(np.linalg.pinv(information(fit)[0]) + 1e-12 * np.eye(fit.x.size))
+    root = np.linalg.cholesky(np.linalg.pinv(information(fit)) + 1e-12 * np.eye(fit.x.size))
     return readings[0], np.stack(slopes, axis=-1) @ root
 
 

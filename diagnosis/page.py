@@ -3,6 +3,7 @@
 import base64
 import html
 import io
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from diagnosis.diagnose import Diagnosis
 from diagnosis.page_pictures import draw_ranking, draw_trials, draw_where
 from diagnosis.page_tables import hidden_table, parameter_table
-from diagnosis.verdict import Outcome
+from diagnosis.verdict import ALIKE, NESTED, Outcome
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;
 color:#222}h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%}
@@ -27,7 +28,8 @@ _WHERE = (
 _WHICH = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
     "explain a log together share theirs. A second effect, or more parameters, have to lead by odds "
-    "of 150 to 1 before they are named; stiction leads dry friction by 12 to 1."
+    f"of {math.exp(ALIKE / 2):.0f} to 1 before they are named; an effect and one that contains it are "
+    f"told apart by {math.exp(NESTED / 2):.0f} to 1."
 )
 _HIDDEN = (
     "How strong each further effect may be and go unseen in these trials: of one that is stronger, "

@@ -48,7 +48,7 @@ def intervals(
     """
     if fit.x.size == 0:
         return {}
-    inverse = np.asarray(np.linalg.pinv(information(fit)[0]), float)
+    inverse = np.asarray(np.linalg.pinv(information(fit)), float)
     again = _shifts(evidence, fit, inverse)
     finer = _answer(fit, inverse, [np.concatenate([*c.values(), _NOTHING]) for c in change])
     spread = np.sqrt(np.diag(inverse) + np.mean(again**2, axis=0) + finer**2)

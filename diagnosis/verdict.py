@@ -97,17 +97,29 @@ def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
     return best if _nested(best, simplest) and leads > NESTED else simplest
 
 
-def _nested(one: Candidate, other: Candidate) -> bool:
-    """Whether an effect of one is a special case of an effect of the other."""
-    each = [(a, b) for a in one.named for b in other.named]
-    return any(a in LIBRARY[b].contains or b in LIBRARY[a].contains for a, b in each)
-
-
 def _alike(best: Candidate, other: Candidate) -> bool:
     """Whether another explanation fits as well and is not a richer form of the best."""
-    if not best.named or not other.named or set(best.named) <= set(other.named):
+    apart = abs(other.score - best.score)
+    if not best.named or not other.named:
         return False
-    return abs(other.score - best.score) <= (NESTED if _nested(best, other) else ALIKE)
+    if _nested(best, other):
+        return apart <= NESTED
+    return apart <= ALIKE and not _covers(other, best)
+
+
+def _nested(one: Candidate, other: Candidate) -> bool:
+    """Whether they differ in one effect, which is a special case of the other's."""
+    mine, theirs = set(one.named) - set(other.named), set(other.named) - set(one.named)
+    if len(mine) != 1 or len(theirs) != 1:
+        return False
+    a, b = mine.pop(), theirs.pop()
+    return a in LIBRARY[b].contains or b in LIBRARY[a].contains
+
+
+def _covers(other: Candidate, best: Candidate) -> bool:
+    """Whether each effect of the best is there, or contained in one that is."""
+    within = {name for o in other.named for name in (o, *LIBRARY[o].contains)}
+    return set(best.named) <= within
 
 
 def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:

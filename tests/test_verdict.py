@@ -59,3 +59,10 @@ def test_a_second_effect_has_to_lead_the_first_alone():
     assert (near.outcome, near.effects) == (Outcome.EXPLAINED, ("tip_drag",))
     far = verdict_on((["tip_drag"], 112.0), (["tip_drag", "torque_bias"], 100.0))
     assert set(far.effects) == {"tip_drag", "torque_bias"}
+
+
+def test_a_richer_form_with_a_second_effect_is_held_to_the_wider_margin():
+    near = verdict_on((["coulomb_friction"], 108.0), (["stiction", "torque_bias"], 100.0))
+    assert (near.outcome, near.effects) == (Outcome.EXPLAINED, ("coulomb_friction",))
+    far = verdict_on((["coulomb_friction"], 112.0), (["stiction", "torque_bias"], 100.0))
+    assert set(far.effects) == {"stiction", "torque_bias"}

@@ -43,20 +43,20 @@ class Hypothesis:
 
     def bounds(self) -> tuple[Array, Array]:
         """Lowest and highest vector."""
-        low = np.array([p.forward(p.low) for p in self.parameters])
-        return low, np.array([p.forward(p.high) for p in self.parameters])
+        low = np.array([_forward(p, p.low) for p in self.parameters])
+        return low, np.array([_forward(p, p.high) for p in self.parameters])
 
     def starts(self) -> list[Array]:
         """Where fits start: as many as the candidate with most starts has."""
         count = max((len(p.start) for p in self.parameters), default=1)
         return [
-            np.array([p.forward(p.start[i % len(p.start)]) for p in self.parameters])
+            np.array([_forward(p, p.start[i % len(p.start)]) for p in self.parameters])
             for i in range(count)
         ]
 
     def values(self, x: Array) -> list[float]:
         """Parameter values of a vector."""
-        return [p.backward(float(v)) for p, v in zip(self.parameters, x, strict=True)]
+        return [_backward(p, float(v)) for p, v in zip(self.parameters, x, strict=True)]
 
     def rig(self, x: Array) -> PaperRig:
         """The rig with these candidates in it."""
@@ -66,3 +66,11 @@ class Hypothesis:
             rig = candidate.enter(rig, *values[:count])
             values = values[count:]
         return rig
+
+
+def _forward(p: Parameter, value: float) -> float:
+    return float(np.log(value)) if p.logarithmic else (value - p.low) / (p.high - p.low)
+
+
+def _backward(p: Parameter, x: float) -> float:
+    return float(np.exp(x)) if p.logarithmic else p.low + x * (p.high - p.low)
