@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Parameter
 
 
 def parameter_table(parameters: Mapping[str, Any]) -> str:
@@ -19,16 +20,24 @@ def parameter_table(parameters: Mapping[str, Any]) -> str:
 
 def hidden_table(hidden: Mapping[str, Mapping[str, float]]) -> str:
     """What further effects may go unseen, and how strong."""
-    return _table(("effect", "may hide up to"), [(e, strength(e, own)) for e, own in hidden.items()])
+    rows = [(effect, strength(effect, values)) for effect, values in hidden.items()]
+    return _table(("effect", "may be there unseen"), rows)
 
 
 def strength(effect: str, values: Mapping[str, float]) -> str:
-    """The largest strength of an effect that may hide, in words."""
+    """How strong an effect that hides may be, in words."""
     own = {p.name: p for p in LIBRARY[effect].parameters}
-    told = [
-        f"{name} {_rounded(value)} {own[name].unit}".removesuffix(" -") for name, value in values.items()
-    ]
-    return ", ".join(told) or "any strength"
+    return ", ".join(_bounded(own[name], value) for name, value in values.items()) or "any strength"
+
+
+def _bounded(parameter: Parameter, value: float) -> str:
+    """The values that hide: from the given one to that at which the effect is not there."""
+    size = abs(value)
+    told = f"{_rounded(size)} {parameter.unit}".removesuffix(" -")
+    if parameter.nothing is None:
+        return f"{parameter.name} {told}"
+    name = f"|{parameter.name}|" if parameter.low < 0 else parameter.name
+    return f"{name} {'≥' if size < parameter.nothing else '≤'} {told}"
 
 
 def _rounded(value: float) -> str:

@@ -76,7 +76,7 @@ def _parameter_table(found: Diagnosis) -> Table:
 
 
 def _hidden_table(found: Diagnosis) -> Table:
-    table = Table("effect", "may hide up to", title="What could be there unseen")
+    table = Table("effect", "may be there", title="What could be there unseen")
     for effect, values in found.hidden.items():
         table.add_row(effect, strength(effect, values))
     return table

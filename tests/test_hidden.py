@@ -8,6 +8,7 @@ from reference_log import TIP, make_log
 
 from diagnosis.diagnose import diagnose
 from diagnosis.effects import LIBRARY
+from diagnosis.page_tables import strength
 from diagnosis.rig_log import read_rig_log
 from diagnosis.verdict import Outcome
 
@@ -31,6 +32,21 @@ def test_an_effect_at_no_strength_is_the_nominal_rig(name):
         assert p.strength(p.at_strength(start, 0.3)) == pytest.approx(0.3 * p.strength(start))
         gone = p.at_strength(start, 1e-9)
         assert gone > 1e6 if math.isinf(p.nothing) else gone == pytest.approx(p.nothing, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("effect", "values", "words"),
+    [
+        ("base_compliance", {"stiffness": 240.0}, "stiffness ≥ 240 N mm / rad"),
+        ("tip_drag", {"damping": 0.02}, "damping ≤ 0.02 N mm s / rad"),
+        ("tip_angle_bias", {"bias": -0.025}, "|bias| ≤ 0.025 deg"),
+        ("tip_angle_scale", {"scale": 0.99}, "scale ≥ 0.9900"),
+        ("layered_tissue", {"ratio": 1.1, "boundary": 0.35}, "ratio ≤ 1.1000, boundary 0.3500"),
+        ("stiction", {}, "any strength"),
+    ],
+)
+def test_what_hides_is_told_with_its_direction(effect, values, words):
+    assert strength(effect, values) == words
 
 
 def test_a_bias_hides_below_its_closed_form(nothing):
