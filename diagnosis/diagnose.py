@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from diagnosis.advice import advise
 from diagnosis.base_motion import without_base_noise
 from diagnosis.bridging import bridged, original
-from diagnosis.evidence import Evidence
+from diagnosis.evidence import FINE, Evidence, Resolution
 from diagnosis.further import further, on_thinned
 from diagnosis.gap import Gap, gap_of
 from diagnosis.held_out import held_out
@@ -80,7 +80,8 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     evidence = Evidence(log=driven, noise=noise, nuisance=nuisance_of(driven))
     coarse, effects = thinned(evidence, replayed), possible_effects(log)
     with team(workers, progress) as workforce:
-        noise, candidates = refined(evidence, search(evidence, coarse, effects, workforce))
+        evidence, found = search(evidence, coarse, effects, workforce)
+        noise, candidates = refined(evidence, found)
         evidence, verdict = replace(evidence, noise=noise), judge(candidates)
         best = verdict.best.fit
         base = on_thinned(coarse, best)
@@ -89,7 +90,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     if verdict.outcome is Outcome.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(evidence, verdict.best))
     rig = best.coordinates.rig(best.x)
-    explained = _at_samples(log, driven, _predicted(driven, rig))
+    explained = _at_samples(log, driven, _predicted(driven, rig, evidence.resolution))
     change = replay_change(evidence, rig)
     where_left = locate(log, explained, noise)
     return Diagnosis(
@@ -109,8 +110,8 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     )
 
 
-def _predicted(log: RigLog, rig: RigModel) -> list[Prediction]:
-    return [predict(log.rig, trial, [rig])[0] for trial in log.trials]
+def _predicted(log: RigLog, rig: RigModel, resolution: Resolution = FINE) -> list[Prediction]:
+    return [predict(log.rig, trial, [rig], resolution)[0] for trial in log.trials]
 
 
 def _at_samples(log: RigLog, driven: RigLog, predictions: list[Prediction]) -> list[Prediction]:

@@ -18,6 +18,7 @@ import numpy as np
 from diagnosis.candidate import Candidate, candidate
 from diagnosis.coordinates import coordinates_of
 from diagnosis.evidence import Evidence
+from diagnosis.finer import finely_fitted
 from diagnosis.fit import Fit, fit_effects
 from diagnosis.glance import Hint, glance
 from diagnosis.nuisance import SCATTER
@@ -33,8 +34,10 @@ _FINALISTS = 4  # that are fitted on the log itself
 _CONTENDING = 60.0  # and lie no further than this from the best, in cost
 
 
-def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: Team) -> list[Candidate]:
-    """Candidates that were fitted on the log itself, best first; `none` is among them.
+def search(
+    evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: Team
+) -> tuple[Evidence, list[Candidate]]:
+    """Candidates that were fitted on the log itself, best first, and evidence as fine as they ask.
 
     Args:
       coarse: the thinned evidence.
@@ -49,6 +52,7 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
     worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
+    evidence, found = finely_fitted(evidence, found, team)
     alone = _explained(evidence, found)
     second = _seconds(coarse, singles, effects, team, alone=alone)
     pairs = _finals(evidence, _fit_best(coarse, second, _PAIRS, team, "pairs"), team)
@@ -61,7 +65,7 @@ def search(evidence: Evidence, coarse: Evidence, effects: Sequence[str], team: T
         # What is no scatter is fitted without the prior of scatter, which would pull it.
         there = coordinates_of(best.named, evidence.nuisance).joined(best.fit.parts)
         found.append(candidate(fit_effects(evidence, best.named, there)))
-    return sorted(found, key=lambda c: c.score)
+    return finely_fitted(evidence, found, team)
 
 
 def _seconds(
