@@ -1,10 +1,10 @@
 """How much an effect could explain, at a glance: no fit, one simulation a start.
 
 On top of a fit with residual r and Jacobian J, an effect at a start moves the
-residual by d. What is left of r once d in any positive amount and J in any are
-taken off tells which effects are worth a fit, and the starts that leave least are
-where to begin it: as many as the effect has parameters, since fits of several may
-get stuck in a valley.
+residual by d. What is left of r once d in any positive amount is taken off, and J in any
+that keeps parameters within bounds, tells which effects are worth a fit, and the starts
+that leave least are where to begin it: as many as the effect has parameters, since fits
+of several may get stuck in a valley.
 """
 
 from dataclasses import dataclass
@@ -29,11 +29,13 @@ class Hint:
     Attributes:
       start: vector to start the fit from.
       cost: that the fit may come down to.
+      gain: of this, by the last of the effects: what the others come down to without it, less that.
     """
 
     names: tuple[str, ...]
     start: Array
     cost: float
+    gain: float
 
 
 def glance(evidence: Evidence, base: Fit, name: str, most_starts: int | None = None) -> list[Hint]:
@@ -53,14 +55,13 @@ def glance(evidence: Evidence, base: Fit, name: str, most_starts: int | None = N
     columns = [coordinates.joined(base.parts | {name: s}) for s in own]
     runs = predicted_residuals(evidence, [coordinates.rig(x) for x in columns])
     backdrop = Backdrop(base, name)
+    without = backdrop.promised()
     hints = []
     # What the nuisance took over from a missing effect is no good start with it.
     known = {n: base.parts[n] for n in base.names}
     for i, start in enumerate(own):
-        d = backdrop.moved([run[i] for run in runs])
-        amount = max(-float(d @ backdrop.left), 0.0) / max(float(d @ d), 1e-12)
-        cost = float(np.sum((backdrop.left + amount * d) ** 2))
+        cost = backdrop.promised([run[i] for run in runs])
         begin = coordinates.joined(known | {name: start})
-        hints.append(Hint(names=(*base.names, name), start=begin, cost=cost))
+        hints.append(Hint(names=(*base.names, name), start=begin, cost=cost, gain=without - cost))
     best = sorted(hints, key=lambda h: h.cost)
     return best[: len(effect.parameters)]

@@ -7,8 +7,8 @@ resists is a convention of the rig, not a finding: it stays as fitted.
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
+from diagnosis.bounded import least_squares
 from diagnosis.evidence import Evidence
 from diagnosis.fit import Fit
 from diagnosis.nuisance import CONVENTIONS
@@ -81,11 +81,9 @@ def _steps(fit: Fit) -> list[Array]:
 
 
 def _bounded(fit: Fit, known: NDArray[np.int_], without: int) -> Array:
-    """The step of some entries. Clipping a free one will not do: where one is held, others move less."""
+    """The step of some entries that the other trials ask for."""
     seen = [residual for i, residual in enumerate(fit.by_trial) if i != without]
     left = np.concatenate([*seen, fit.coordinates.weights * fit.x, np.zeros(fit.x.size)])
     basis, root = np.linalg.qr(_slopes(fit, without=without)[:, known])
     low, high = (np.asarray(bound - fit.x)[known] for bound in fit.coordinates.bounds())
-    room = 0.1 * _AT_BOUND  # lsq_linear asks for some between bounds
-    solved = lsq_linear(root, -basis.T @ left, bounds=(low - room, high + room), method="bvls")
-    return np.asarray(np.clip(solved.x, low, high))
+    return least_squares(root, -basis.T @ left, low, high)

@@ -49,7 +49,7 @@ def search(
     hints = _glances(team, "effects", [(coarse, start, e) for e in effects])
     # Where something is missing, scatter has taken over a part of it, and a glance may be blind.
     missing = not candidate(start).floor.small
-    worth = [h for h in hints if missing or h.cost <= start.cost - _WORTH]
+    worth = [h for h in hints if missing or h.gain >= _WORTH]
     singles = _fit_best(coarse, worth, len(worth), team, "effects")
     found += _finals(evidence, singles, team)
     evidence, found = finely_fitted(evidence, found, team)
@@ -74,7 +74,9 @@ def _seconds(
     """Pairs that are worth a fit; where an effect alone explains the log, hardly ever any."""
     bases = product(singles[: 1 if alone else _BASES], effects)
     hints = _glances(team, "pairs", [(coarse, c.fit, e) for c, e in bases if e not in c.names])
-    return [h for h in hints if not alone or h.cost < SECOND_LEAVES * singles[0].fit.cost]
+    if not alone:
+        return [h for h in hints if h.gain >= _WORTH]
+    return [h for h in hints if h.cost < SECOND_LEAVES * singles[0].fit.cost]
 
 
 def _more_than_asked(

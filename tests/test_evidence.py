@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 from scipy.optimize import lsq_linear
 
+from diagnosis.backdrop import Backdrop
 from diagnosis.base_motion import smoothed
 from diagnosis.bridging import bridged, original
 from diagnosis.candidate import candidate
@@ -248,30 +249,52 @@ def test_dry_friction_that_never_slides_is_undecided_and_the_next_experiment_sli
     assert diagnose(sliding, workers=1).verdict.effects == ("coulomb_friction",)
 
 
-def test_a_parameter_that_is_held_by_its_bound_holds_the_others_on_unseen_trials():
-    """A linear rig whose third parameter is a little beyond its bound and looks like the first."""
+def held_by_a_bound(beyond):
+    """A linear rig whose third parameter is beyond its bound and looks like the first."""
     coordinates = coordinates_of(("stiction",))
     low, high = coordinates.bounds()
     rng = np.random.default_rng(4)
     slopes, readings = [], []
     true = 0.5 * (low + high)
-    true[2] = high[2] + 0.03
+    true[2] = high[2] + beyond
     for _ in range(4):
         columns = rng.normal(size=(500, 3))
         columns[:, 2] = -columns[:, 0] + 0.05 * columns[:, 2]
         slopes.append(10 * columns)
         readings.append(slopes[-1] @ true + rng.normal(size=500))
     best = lsq_linear(np.vstack(slopes), np.concatenate(readings), bounds=(low, high)).x
-    fit = Fit(
+    assert best[2] == pytest.approx(high[2])
+    by_trial = tuple(j @ best - y for j, y in zip(slopes, readings, strict=True))
+    return Fit(
         names=("stiction",),
         coordinates=coordinates,
         x=best,
-        by_trial=tuple(j @ best - y for j, y in zip(slopes, readings, strict=True)),
+        by_trial=by_trial,
         jacobian=tuple(slopes),
-        cost=0.0,
+        cost=float(sum(r @ r for r in by_trial)),
     )
-    assert best[2] == pytest.approx(high[2])
-    assert surprise(fit) < 3
+
+
+def test_a_parameter_that_is_held_by_its_bound_holds_the_others_on_unseen_trials():
+    assert surprise(held_by_a_bound(0.03)) < 3
+
+
+def test_what_lies_beyond_a_bound_is_not_promised():
+    """Held to the least squares of everything at once, by another algorithm."""
+    fit = held_by_a_bound(2.0)
+    low, high = (bound - fit.x for bound in fit.coordinates.bounds())
+    slopes, residual = np.vstack(fit.jacobian), np.concatenate(fit.by_trial)
+    beyond = lsq_linear(slopes, -residual).cost * 2
+    assert beyond < 0.6 * fit.cost
+    backdrop = Backdrop(fit, "tip_drag")
+    assert backdrop.promised() == pytest.approx(fit.cost, rel=1e-3)
+    for sign in (1, -1):  # an effect may be there, or not, but not be there negatively
+        d = sign * np.random.default_rng(5).normal(size=residual.size) - sign * 0.3 * residual
+        system = np.column_stack([slopes, d])
+        room = [np.append(low - 1e-9, 0.0), np.append(high + 1e-9, np.inf)]
+        least = 2 * lsq_linear(system, -residual, bounds=room, method="trf", tol=1e-12).cost
+        moved = np.split(residual + d, len(fit.by_trial))
+        assert backdrop.promised(moved) == pytest.approx(least, rel=1e-3)
 
 
 def test_what_scatter_has_found_costs_only_its_prior_to_name():
