@@ -3,14 +3,15 @@
 The usual needle is good to a few hundredths of the noise. It is not where elastic
 tissue is met by a needle that moves, element by element, or where noise is very small.
 So the best explanation is replayed with twice the elements, and with half the step: where
-that changes a trial by more than a tenth of what is left, the leading explanations are
-fitted again so finely.
+that changes a trial by more than a tenth of the noise, and by no small part of what is
+left there beyond noise, the leading explanations are fitted again so finely.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.candidate import Candidate, candidate
 from diagnosis.evidence import Evidence, Resolution
@@ -18,7 +19,10 @@ from diagnosis.fit import Fit, fit_effects
 from diagnosis.predict import predicted_residuals
 from diagnosis.team import Team
 
-_ENOUGH = 0.1  # of what is left: of noise, it makes 1.12 of the slow part, which may be 1.25
+Array = NDArray[np.float64]
+
+_ENOUGH = 0.1  # of noise: it makes 1.12 of the slow part, which may be 1.25
+_PART = 0.25  # of the sum of squares beyond noise: a smaller one is not why a log is not explained
 _ELEMENTS, _STEP_S = 48, 0.0025  # finest
 _CONTENDING = 60.0  # of score: what lies further behind is out of the question
 
@@ -54,9 +58,12 @@ def _matters(evidence: Evidence, best: Fit, resolution: Resolution) -> bool:
         return False
     finer = replace(evidence, resolution=resolution)
     runs = predicted_residuals(finer, [best.coordinates.rig(best.x)])
-    each = zip(runs, best.by_trial, strict=True)
-    changes = [np.mean((run[0] - before) ** 2) for run, before in each if before.size]
-    return bool(np.sqrt(max(changes, default=0.0)) > _ENOUGH * max(best.gap, 1.0))
+    return any(_is_much(r[0] - left, left) for r, left in zip(runs, best.by_trial, strict=True))
+
+
+def _is_much(change: Array, left: Array) -> bool:
+    """Whether a change of a trial's residual matters to what is left of it."""
+    return float(change @ change) > max(_ENOUGH**2 * left.size, _PART * (float(left @ left) - left.size))
 
 
 def _again(evidence: Evidence, candidates: Sequence[Candidate], team: Team) -> list[Candidate]:
