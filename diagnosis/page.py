@@ -27,9 +27,9 @@ _WHERE = (
 )
 _WHICH = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
-    "explain a log together share theirs. A second effect, or more parameters, have to lead by odds "
-    f"of {math.exp(ALIKE / 2):.0f} to 1 before they are named; an effect and one that contains it are "
-    f"told apart by {math.exp(NESTED / 2):.0f} to 1."
+    f"explain a log together share theirs. Odds below {math.exp(ALIKE / 2):.0f} to 1 decide nothing: "
+    "a second effect, or more parameters, have to lead by more before they are named. An effect that "
+    f"contains a simpler one has to lead that by {math.exp(NESTED / 2):.0f} to 1."
 )
 _HIDDEN = (
     "How strong each further effect may be and go unseen in these trials: of one that is stronger, "

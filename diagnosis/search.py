@@ -17,6 +17,7 @@ import numpy as np
 
 from diagnosis.candidate import Candidate, candidate
 from diagnosis.coordinates import coordinates_of
+from diagnosis.effects import LIBRARY
 from diagnosis.evidence import Evidence
 from diagnosis.finer import finely_fitted
 from diagnosis.fit import Fit, fit_effects
@@ -120,7 +121,7 @@ def _fit_best(
     """Fits of the most promising hints, best first.
 
     Once something brings the residual to the noise floor, only what promises to come
-    near it is still fitted.
+    near it is still fitted, and what that contains.
     """
     waiting, found = sorted(hints, key=lambda h: h.cost)[:most], list[Candidate]()
     while waiting:
@@ -128,7 +129,8 @@ def _fit_best(
         fits = team.each(f"fitting {what}", fit_effects, [(evidence, h.names, h.start) for h in batch])
         found += map(candidate, fits)
         floor = min((c.fit.cost for c in found if c.floor.small), default=np.inf)
-        waiting = [h for h in waiting if h.cost <= _NEAR * floor]
+        inner = {i for c in found if c.floor.small for n in c.names for i in LIBRARY[n].contains}
+        waiting = [h for h in waiting if h.cost <= _NEAR * floor or not inner.isdisjoint(h.names)]
     best: dict[frozenset[str], Candidate] = {}
     for c in sorted(found, key=lambda c: c.score):
         best.setdefault(frozenset(c.names), c)

@@ -1,5 +1,7 @@
 """A replay is made finer where, and only where, the log asks for it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -60,15 +62,30 @@ def evidence_of(effects):
     return Evidence(log=log, noise=Noise(sigma=sigma, warnings=()), nuisance=nuisance_of(log))
 
 
+def fitted(evidence, effects):
+    """By the usual needle, and by one as fine as the log asks."""
+    with team(1) as alone:
+        usual = candidate(fit_effects(evidence, tuple(effects)))
+        finer, found = finely_fitted(evidence, [usual], alone)
+    return usual, finer.resolution, found[0]
+
+
 @pytest.mark.parametrize(
     ("effects", "asks"),
     [({"tissue_viscoelasticity": ELASTIC}, True), ({"damping_error": {"scale": 1.3}}, False)],
 )
 def test_a_replay_is_as_fine_as_the_log_asks(effects, asks):
-    evidence = evidence_of(effects)
-    with team(1) as alone:
-        usual = candidate(fit_effects(evidence, tuple(effects)))
-        finer, found = finely_fitted(evidence, [usual], alone)
-    assert (finer.resolution != FINE) is asks
+    usual, resolution, found = fitted(evidence_of(effects), effects)
+    assert (resolution != FINE) is asks
     assert usual.floor.reached is not asks  # a true explanation that the usual needle has to refuse
-    assert found[0].floor.reached
+    assert found.floor.reached
+
+
+def test_what_is_far_from_explained_is_not_replayed_more_finely():
+    evidence = evidence_of({"tissue_viscoelasticity": ELASTIC})
+    one = evidence.log.trials[0]
+    ringing = one["tip_angle_deg"] + 10 * TIP * np.sin(2 * np.pi * 2.3 * one["time_s"])
+    log = replace(evidence.log, trials=(replace(one, table=one.table.assign(tip_angle_deg=ringing)),))
+    usual, resolution, found = fitted(replace(evidence, log=log), ["tissue_viscoelasticity"])
+    assert resolution == FINE
+    assert found is usual

@@ -37,7 +37,8 @@ def verdict_on(*each):
         (8, Outcome.EXPLAINED, ("stiction",)),
         (3, Outcome.UNDECIDED, ("coulomb_friction",)),
         (-3, Outcome.UNDECIDED, ("coulomb_friction",)),
-        (-8, Outcome.EXPLAINED, ("coulomb_friction",)),
+        (-8, Outcome.UNDECIDED, ("coulomb_friction",)),
+        (-12, Outcome.EXPLAINED, ("coulomb_friction",)),
     ],
 )
 def test_an_effect_and_one_that_contains_it_are_told_apart_by_their_scores(lead, outcome, effects):
