@@ -7,12 +7,12 @@ rig's log that ships with the project, and what another rig has that its model l
 import time
 from pathlib import Path
 
+from diagnosis.rig_log import read_rig_log
 from rich.console import Console
 from rich.table import Table
 
 from diagnosis import report
 from diagnosis.replay import replay
-from diagnosis.rig_log import read_rig_log
 from scripts import diagnose as diagnosing
 from scripts import insert
 from scripts import replay as replaying

@@ -8,12 +8,14 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
-from diagnosis.diagnose import Diagnosis, diagnose
-from diagnosis.limits import cannot_tell
-from diagnosis.page import sentence
-from diagnosis.page_tables import strength
-from diagnosis.report import as_json, output_paths, write_report
-from diagnosis.rig_log import read_rig_log
+from diagnosis.assessment.identifiability import unidentifiable
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.pipeline import diagnose
+from diagnosis.report.json_report import as_json
+from diagnosis.report.sentences import headline, largest_residual
+from diagnosis.report.tables import limit_in_words
+from diagnosis.report.write import output_paths, write_report
+from diagnosis.result import Diagnosis
 from sim.files import refuse_existing
 
 _SHOWN = 0.0005  # what rounds to more than 0.000
@@ -26,43 +28,47 @@ def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, 
         refuse_existing(output_paths(log, folder), force=force)
     shown = Console(stderr=True)
     with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
-        task = bar.add_task("replaying", total=1.0)
+        task = bar.add_task("replaying the nominal rig", total=1.0)
         found = diagnose(
-            log, progress=lambda what, share: bar.update(task, description=what, completed=share)
+            log, progress=lambda stage, share: bar.update(task, description=stage, completed=share)
         )
     paths = write_report(found, folder, force=force) if folder else []
     if json_only:
         console.print_json(json.dumps(as_json(found)))
         return 0
-    console.print(f"[bold]{sentence(found)}[/]", highlight=False)
-    console.print(_gap_table(found))
-    if found.verdict.effects:
-        console.print(_parameter_table(found))
-    console.print(_ranking_table(found))
-    if found.hidden and not found.verdict.effects:
-        console.print(_hidden_table(found))
-    if found.next_experiment:
-        console.print(f"next: {escape(found.next_experiment)}", highlight=False)
-    for limit in cannot_tell(log):
-        console.print(f"open: {escape(limit)}", highlight=False)
-    for warning in found.warnings:
-        console.print(f"warning: {escape(warning)}", highlight=False)
+    _summary(found, console)
     for path in paths:
         console.print(f"wrote      {path}", highlight=False)
     return 0
 
 
-def _gap_table(found: Diagnosis) -> Table:
-    table = Table("where the gap lives", "noise units", title="Gap to the nominal model")
-    where = found.where
-    for name, value in (*where.signal.items(), *where.phase.items()):
+def _summary(found: Diagnosis, console: Console) -> None:
+    told = found.assessment
+    console.print(f"[bold]{escape(headline(found))}[/]", highlight=False)
+    for warning in found.warnings:
+        console.print(f"warning: {escape(warning)}", highlight=False)
+    console.print(_breakdown_table(found))
+    if found.verdict.effects:
+        console.print(_parameter_table(found))
+    console.print(_ranking_table(found))
+    if told.detection_limits and not found.verdict.effects:
+        console.print(_limits_table(found))
+    if told.next_experiment:
+        console.print(f"next: {escape(told.next_experiment)}", highlight=False)
+    for sentence in unidentifiable(found.log):
+        console.print(f"open: {escape(sentence)}", highlight=False)
+
+
+def _breakdown_table(found: Diagnosis) -> Table:
+    table = Table("where", "residual / σ", title="Residual of the nominal model")
+    parts = found.assessment.breakdown
+    for name, value in (*parts.signal.items(), *parts.phase.items()):
         table.add_row(name, f"{value:.2f}")
-    for low, high, value in where.band_hz:
+    for low, high, value in parts.band_hz:
         table.add_row(f"{low:g} to {high:g} Hz", f"{value:.2f}")
-    for depth, value in where.depth_mm:
+    for depth, value in parts.depth_mm:
         table.add_row(f"{depth:g} mm deep", f"{value:.2f}")
-    stretch, value = where.worst
-    table.add_row(stretch, f"{value:.2f}")
+    table.caption = escape(largest_residual(found))
     return table
 
 
@@ -75,10 +81,10 @@ def _parameter_table(found: Diagnosis) -> Table:
     return table
 
 
-def _hidden_table(found: Diagnosis) -> Table:
-    table = Table("effect", "may be there", title="What could be there unseen")
-    for effect, values in found.hidden.items():
-        table.add_row(effect, strength(effect, values))
+def _limits_table(found: Diagnosis) -> Table:
+    table = Table("effect", "may be present and go unseen", title="Detection limits")
+    for effect, values in found.assessment.detection_limits.items():
+        table.add_row(effect, limit_in_words(effect, values))
     return table
 
 

@@ -4,15 +4,16 @@ import math
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, stiffness: float) -> RigModel:
-    return replace(rig, base_stiffness=stiffness)
+def _apply(rig: RigParameters, stiffness: float) -> RigParameters:
+    return replace(rig, base_stiffness_n_mm_per_rad=stiffness)
 
 
 EFFECT = Effect(
     name="base_compliance",
+    title="a torsion spring between drive shaft and needle",
     place=Place.DRIVE,
     parameters=(
         Parameter(
@@ -22,8 +23,8 @@ EFFECT = Effect(
             high=500.0,
             start=(50.0, 15.0, 4.0),
             logarithmic=True,
-            nothing=math.inf,
+            neutral=math.inf,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

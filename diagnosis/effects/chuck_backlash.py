@@ -3,18 +3,19 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, gap: float) -> RigModel:
-    return replace(rig, backlash=gap)
+def _apply(rig: RigParameters, gap: float) -> RigParameters:
+    return replace(rig, backlash_deg=gap)
 
 
 EFFECT = Effect(
     name="chuck_backlash",
+    title="play (backlash) in the chuck",
     place=Place.DRIVE,
     parameters=(
         Parameter(name="gap", unit="deg", low=0.02, high=30.0, start=(0.5, 2.0, 8.0), logarithmic=True),
     ),
-    enter=_enter,
+    apply=_apply,
 )

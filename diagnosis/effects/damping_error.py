@@ -3,20 +3,21 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, scale: float) -> RigModel:
+def _apply(rig: RigParameters, scale: float) -> RigParameters:
     return replace(rig, damping_scale=rig.damping_scale * scale)
 
 
 EFFECT = Effect(
     name="damping_error",
+    title="a wrong damping of the tissue",
     place=Place.PARAMETERS,
     parameters=(
         Parameter(
-            name="scale", unit="-", low=0.2, high=5.0, start=(0.8, 1.25), logarithmic=True, nothing=1.0
+            name="scale", unit="-", low=0.2, high=5.0, start=(0.8, 1.25), logarithmic=True, neutral=1.0
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

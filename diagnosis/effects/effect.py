@@ -1,4 +1,4 @@
-"""What an effect is: a name of the vocabulary, its parameters, and how it enters a rig."""
+"""What an effect is: a name of the vocabulary, its parameters, and what it changes of a rig."""
 
 import math
 from collections.abc import Callable
@@ -7,7 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
 class Place(StrEnum):
@@ -34,7 +34,7 @@ class Parameter:
       scale: what a parameter that is not logarithmic is fitted in units of.
       period: of an angle, after which it repeats; 0: none.
       reported: whether it is of the vocabulary; else it is open in a fit and not told.
-      nothing: value at which the effect is not there; None: a shape, at which it always is.
+      neutral: value at which the effect is not there; None: a shape, at which it always is.
     """
 
     name: str
@@ -46,19 +46,19 @@ class Parameter:
     scale: float = 1.0
     period: float = 0.0
     reported: bool = True
-    nothing: float | None = 0.0
+    neutral: float | None = 0.0
 
-    def forward(self, value: float) -> float:
-        """What a fit moves in."""
+    def to_fit(self, value: float) -> float:
+        """The coordinate of a value that a fit moves in."""
         return float(np.log(value)) if self.logarithmic else value / self.scale
 
-    def backward(self, x: float) -> float:
-        """The value again."""
+    def from_fit(self, x: float) -> float:
+        """The value of a coordinate."""
         return float(np.exp(x)) if self.logarithmic else x * self.scale
 
-    def at_strength(self, value: float, share: float) -> float:
+    def towards_neutral(self, value: float, share: float) -> float:
         """A value moved so far that the effect is a share of what it was."""
-        match self.nothing:
+        match self.neutral:
             case None:
                 return value
             case math.inf:
@@ -67,9 +67,9 @@ class Parameter:
                 return float(value**share)
         return value * share
 
-    def strength(self, value: float) -> float:
-        """How far a value is from nothing; `at_strength` multiplies it. A shape has none."""
-        match self.nothing:
+    def distance_from_neutral(self, value: float) -> float:
+        """How strong the effect is at a value; `towards_neutral` multiplies it. NaN: a shape."""
+        match self.neutral:
             case None:
                 return math.nan
             case math.inf:
@@ -84,17 +84,21 @@ class Effect:
     """An unmodelled effect.
 
     Attributes:
-      enter: the rig with this effect in it, given parameter values in order.
+      title: in plain words.
+      apply: the rig with this effect in it, given parameter values in order.
       contains: simpler effects that this one becomes for some parameters.
+      needs: column of a log without which it cannot show; empty: none beyond the usual.
       differences: that slopes are taken over, in the units of the fit, one fit after the
         other. Where stick and slip make a residual rough, a wide one sees past that.
     """
 
     name: str
+    title: str
     place: Place
     parameters: tuple[Parameter, ...]
-    enter: Callable[..., RigModel]
+    apply: Callable[..., RigParameters]
     contains: tuple[str, ...] = ()
+    needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
 
     @property

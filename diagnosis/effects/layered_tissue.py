@@ -3,15 +3,16 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, ratio: float, boundary: float) -> RigModel:
-    return replace(rig, layer_ratio=ratio, layer_boundary=boundary)
+def _apply(rig: RigParameters, ratio: float, boundary: float) -> RigParameters:
+    return replace(rig, layer_ratio=ratio, layer_boundary_fraction=boundary)
 
 
 EFFECT = Effect(
     name="layered_tissue",
+    title="two tissue layers of different damping",
     place=Place.TISSUE,
     parameters=(
         Parameter(
@@ -21,11 +22,11 @@ EFFECT = Effect(
             high=20.0,
             start=(3.0, 0.33, 3.0, 0.33),
             logarithmic=True,
-            nothing=1.0,
+            neutral=1.0,
         ),
         Parameter(
-            name="boundary", unit="-", low=0.1, high=0.9, start=(0.35, 0.35, 0.65, 0.65), nothing=None
+            name="boundary", unit="-", low=0.1, high=0.9, start=(0.35, 0.35, 0.65, 0.65), neutral=None
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

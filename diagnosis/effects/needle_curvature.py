@@ -3,15 +3,16 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, torque: float, phase: float) -> RigModel:
-    return replace(rig, curvature=torque, curvature_phase=phase)
+def _apply(rig: RigParameters, torque: float, phase: float) -> RigParameters:
+    return replace(rig, curvature_n_mm_per_mm=torque, curvature_phase_deg=phase)
 
 
 EFFECT = Effect(
     name="needle_curvature",
+    title="a bent shaft",
     place=Place.NEEDLE,
     parameters=(
         Parameter(
@@ -30,8 +31,8 @@ EFFECT = Effect(
             start=(0.0, 90.0, 180.0, -90.0),
             scale=10.0,
             period=360.0,
-            nothing=None,
+            neutral=None,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

@@ -7,18 +7,19 @@ has a plateau at low rates; where it begins is left open.
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, exponent: float, plateau: float = 1e-5) -> RigModel:
-    return replace(rig, exponent=exponent, plateau=plateau)
+def _apply(rig: RigParameters, exponent: float, plateau: float = 1e-5) -> RigParameters:
+    return replace(rig, rate_exponent=exponent, plateau_rad_s=plateau)
 
 
 EFFECT = Effect(
     name="shear_thinning",
+    title="shear thinning (or thickening) of the viscous torque",
     place=Place.INTERFACE,
     parameters=(
-        Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2), nothing=1.0),
+        Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2), neutral=1.0),
         Parameter(
             name="plateau",
             unit="rad/s",
@@ -27,8 +28,8 @@ EFFECT = Effect(
             start=(0.003, 0.003, 0.003),
             logarithmic=True,
             reported=False,
-            nothing=None,
+            neutral=None,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

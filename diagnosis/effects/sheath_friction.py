@@ -3,15 +3,16 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, level: float) -> RigModel:
-    return replace(rig, sheath=rig.sheath + level)
+def _apply(rig: RigParameters, level: float) -> RigParameters:
+    return replace(rig, sheath_friction_n_mm_per_mm=rig.sheath_friction_n_mm_per_mm + level)
 
 
 EFFECT = Effect(
     name="sheath_friction",
+    title="dry friction in the sheath of the free shaft",
     place=Place.DRIVE,
     parameters=(
         Parameter(
@@ -23,5 +24,5 @@ EFFECT = Effect(
             logarithmic=True,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

@@ -5,20 +5,26 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 # A fit that has come to static = kinetic has to find back: the corner there is rounded, by
 # 3 % of the level in the corner itself and by a thousandth of that at 1.35 times the level.
 _ROUND = 0.05
 
 
-def _enter(rig: RigModel, kinetic: float, static: float, stribeck: float) -> RigModel:
+def _apply(rig: RigParameters, kinetic: float, static: float, stribeck: float) -> RigParameters:
     excess = kinetic * _ROUND * float(np.logaddexp(0.0, (static / kinetic - 1.0) / _ROUND))
-    return replace(rig, kinetic=rig.kinetic + kinetic, static_excess=excess, stribeck=stribeck)
+    return replace(
+        rig,
+        kinetic_n_mm_per_mm=rig.kinetic_n_mm_per_mm + kinetic,
+        static_excess_n_mm_per_mm=excess,
+        stribeck_rad_s=stribeck,
+    )
 
 
 EFFECT = Effect(
     name="stiction",
+    title="stiction (dry friction that falls with the rate, Stribeck)",
     place=Place.INTERFACE,
     parameters=(
         Parameter(
@@ -44,10 +50,10 @@ EFFECT = Effect(
             high=2.0,
             start=(0.07, 0.05, 0.2, 0.1, 0.8, 0.5),
             logarithmic=True,
-            nothing=None,
+            neutral=None,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
     contains=("coulomb_friction",),
     differences=(0.1, 0.03),
 )

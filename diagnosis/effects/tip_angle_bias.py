@@ -3,16 +3,18 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, bias: float) -> RigModel:
-    return replace(rig, tip_bias=rig.tip_bias + bias)
+def _apply(rig: RigParameters, bias: float) -> RigParameters:
+    return replace(rig, tip_bias_deg=rig.tip_bias_deg + bias)
 
 
 EFFECT = Effect(
     name="tip_angle_bias",
+    title="an offset of the tip sensor",
     place=Place.SENSOR,
     parameters=(Parameter(name="bias", unit="deg", low=-60.0, high=60.0, start=(2.0, -2.0)),),
-    enter=_enter,
+    apply=_apply,
+    needs="tip_angle_deg",
 )

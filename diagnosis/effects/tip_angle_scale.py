@@ -3,20 +3,22 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, scale: float) -> RigModel:
+def _apply(rig: RigParameters, scale: float) -> RigParameters:
     return replace(rig, tip_scale=scale)
 
 
 EFFECT = Effect(
     name="tip_angle_scale",
+    title="a wrong gain of the tip sensor",
     place=Place.SENSOR,
     parameters=(
         Parameter(
-            name="scale", unit="-", low=0.3, high=3.0, start=(0.95, 1.05), logarithmic=True, nothing=1.0
+            name="scale", unit="-", low=0.3, high=3.0, start=(0.95, 1.05), logarithmic=True, neutral=1.0
         ),
     ),
-    enter=_enter,
+    apply=_apply,
+    needs="tip_angle_deg",
 )

@@ -3,15 +3,16 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, damping: float) -> RigModel:
-    return replace(rig, tip_drag=rig.tip_drag + damping)
+def _apply(rig: RigParameters, damping: float) -> RigParameters:
+    return replace(rig, tip_drag_n_mm_s_per_rad=rig.tip_drag_n_mm_s_per_rad + damping)
 
 
 EFFECT = Effect(
     name="tip_drag",
+    title="viscous drag at the tip",
     place=Place.NEEDLE,
     parameters=(
         Parameter(
@@ -23,5 +24,5 @@ EFFECT = Effect(
             logarithmic=True,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

@@ -3,18 +3,20 @@
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, delay: float) -> RigModel:
-    return replace(rig, tip_delay=delay)
+def _apply(rig: RigParameters, delay: float) -> RigParameters:
+    return replace(rig, tip_delay_s=delay)
 
 
 EFFECT = Effect(
     name="tip_sensor_delay",
+    title="a delay of the tip sensor",
     place=Place.SENSOR,
     parameters=(
         Parameter(name="delay", unit="s", low=0.0, high=2.0, start=(0.02, 0.1, 0.4), scale=0.1),
     ),
-    enter=_enter,
+    apply=_apply,
+    needs="tip_angle_deg",
 )

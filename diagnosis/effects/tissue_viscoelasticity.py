@@ -4,15 +4,18 @@ import math
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.rig_model import RigModel
+from diagnosis.replay.rig_parameters import RigParameters
 
 
-def _enter(rig: RigModel, stiffness: float, time_constant: float) -> RigModel:
-    return replace(rig, tissue_stiffness=stiffness, tissue_time=time_constant)
+def _apply(rig: RigParameters, stiffness: float, time_constant: float) -> RigParameters:
+    return replace(
+        rig, tissue_stiffness_n_mm_per_rad_per_mm=stiffness, tissue_time_constant_s=time_constant
+    )
 
 
 EFFECT = Effect(
     name="tissue_viscoelasticity",
+    title="elastic (Kelvin-Voigt) tissue",
     place=Place.TISSUE,
     parameters=(
         Parameter(
@@ -22,7 +25,7 @@ EFFECT = Effect(
             high=2.0,
             start=(0.05, 0.02, 0.01, 0.1),
             logarithmic=True,
-            nothing=math.inf,
+            neutral=math.inf,
         ),
         Parameter(
             name="time_constant",
@@ -31,8 +34,8 @@ EFFECT = Effect(
             high=20.0,
             start=(0.3, 1.5, 5.0, 0.3),
             logarithmic=True,
-            nothing=None,
+            neutral=None,
         ),
     ),
-    enter=_enter,
+    apply=_apply,
 )

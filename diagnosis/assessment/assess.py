@@ -1,0 +1,138 @@
+"""Everything that is told beside the verdict."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.assessment.advice import advise
+from diagnosis.assessment.detection_limits import detection_limits
+from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
+from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
+from diagnosis.assessment.intervals import Interval, intervals
+from diagnosis.assessment.residual_breakdown import ResidualBreakdown, residual_breakdown
+from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.rig_log import RigLog
+from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
+from diagnosis.replay.replay import Prediction, replay, residuals
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.verdict import Verdict
+from diagnosis.workers import Failure, Task, Workers, attempt
+from sim.simulation import SimulationFailed
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assessment:
+    """What is told beside the verdict.
+
+    Attributes:
+      gap: before and after, on held-out trials.
+      breakdown: of the residual of the nominal rig.
+      breakdown_after: of what the best explanation leaves.
+      parameters: by effect that was accepted.
+      with_one_more: gap that one more effect may bring it down to, by effect.
+      detection_limits: parameters at the largest strength that may go unseen, by effect; empty where
+        the log is not explained, or by two effects.
+      next_experiment: in words; empty where nothing is left to tell apart.
+      numerical_error: of the replay, in sigma, by sensor.
+      explained: readings that the best explanation predicts, at the samples of the log, by trial.
+    """
+
+    gap: GapReduction
+    breakdown: ResidualBreakdown
+    breakdown_after: ResidualBreakdown
+    parameters: dict[str, dict[str, Interval]]
+    with_one_more: dict[str, float]
+    detection_limits: dict[str, dict[str, float]]
+    next_experiment: str
+    numerical_error: dict[str, float]
+    explained: list[Prediction]
+    warnings: tuple[str, ...]
+
+
+def assess(
+    log: RigLog,
+    problem: FitProblem,
+    coarse: FitProblem,
+    nominal: Sequence[Prediction],
+    verdict: Verdict,
+    effects: Sequence[str],
+    workers: Workers,
+) -> Assessment:
+    """Assess a verdict.
+
+    Args:
+      problem: the log itself, as finely replayed and with the noise that the verdict rests on.
+      coarse: the decimated log, with the same noise.
+      nominal: readings that the nominal rig predicts, by trial of the problem.
+      effects: that may be tried.
+
+    Raises:
+      SimulationFailed: the best explanation cannot be simulated.
+    """
+    best = verdict.best.fit
+    rig = best.parameterization.rig(best.x)
+    predictions = replay(problem.log, rig, problem.resolution)
+    change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
+    error = numerical_error(change)
+    explained = at_samples(problem, predictions)
+    left = residual_breakdown(log, explained, problem.noise)
+    after, lost = _held_out(problem, verdict.best)
+    with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
+    own = intervals(problem, best, change)
+    return Assessment(
+        gap=gap_reduction(nominal_residuals(problem, nominal), after),
+        breakdown=residual_breakdown(log, at_samples(problem, nominal), problem.noise),
+        breakdown_after=left,
+        parameters={e: p for e, p in own.items() if e in verdict.effects},
+        with_one_more=with_one_more,
+        detection_limits=limits,
+        next_experiment=advise(coarse, verdict, left),
+        numerical_error=error,
+        explained=explained,
+        warnings=(*numerical_warnings(error), *lost),
+    )
+
+
+def _further_effects(
+    coarse: FitProblem, verdict: Verdict, effects: Sequence[str], workers: Workers
+) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
+    """The gap with one more effect, and detection limits where the log is explained."""
+    best = verdict.best.fit
+    base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
+    if isinstance(base, Failure):
+        return {}, {}
+    left = gap_with_one_more(coarse, best, base, effects, workers)
+    if not verdict.settled:
+        return left, {}
+    return left, detection_limits(coarse, best, base, effects, workers)
+
+
+def at_samples(problem: FitProblem, predictions: Sequence[Prediction]) -> list[Prediction]:
+    """Predictions at the samples of the log itself."""
+    each = zip(problem.log.trials, predictions, strict=True)
+    return [prediction.rows(trial.logged) for trial, prediction in each]
+
+
+def nominal_residuals(problem: FitProblem, nominal: Sequence[Prediction]) -> tuple[Array, ...]:
+    """Residuals / sigma of the nominal rig, one array per trial."""
+    each = zip(problem.log.trials, nominal, strict=True)
+    return tuple(residuals(trial, prediction, problem.noise) for trial, prediction in each)
+
+
+def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], tuple[str, ...]]:
+    """Residuals of trials that the fit has not seen, and a warning where there are none."""
+    if best.held_out is not None:
+        return best.held_out, ()
+    try:
+        return held_out_residuals(problem, best.fit), ()
+    except SimulationFailed as failed:
+        warning = (
+            "the gap after is that on the trials of the fit: what the others say of a trial that is "
+            f"left out cannot be simulated ({failed})"
+        )
+        return best.fit.by_trial, (warning,)

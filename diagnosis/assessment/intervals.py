@@ -1,0 +1,101 @@
+"""Parameters of a fit with intervals that cover.
+
+Three things move a fitted parameter: the noise of the sensors, whose covariance is
+that of least squares, prior included; what is left of the base angle's noise in the
+motion that drives the replay; and the replay's own error. The second is seen by doing
+it again: noise is put on the smoothed motion, smoothed again, and the fit answers by
+a Gauss-Newton step, as it does to a finer replay.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import INTERVAL_Z
+from diagnosis.effects.effect import Parameter
+from diagnosis.fitting.cross_validation import information
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.base_smoothing import smooth_base
+
+Array = NDArray[np.float64]
+
+_REPLICATES = 6
+_SEED = 20
+_NOTHING = np.zeros(0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Interval:
+    """A parameter's value and 95 % interval, in its unit."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+
+
+def intervals(
+    problem: FitProblem, fit: Fit, change: Sequence[Mapping[str, Array]]
+) -> dict[str, dict[str, Interval]]:
+    """By effect and parameter, nuisance included.
+
+    Args:
+      change: of the prediction with a finer replay, / sigma, by trial and sensor.
+    """
+    if fit.x.size == 0:
+        return {}
+    inverse = np.asarray(np.linalg.pinv(information(fit)), float)
+    again = _shifts(problem, fit, inverse)
+    finer = _answer(fit, inverse, [np.concatenate([*c.values(), _NOTHING]) for c in change])
+    spread = np.sqrt(np.diag(inverse) + np.mean(again**2, axis=0) + finer**2)
+    parameterization = fit.parameterization
+    low, high = parameterization.bounds()
+    ends = [np.clip(fit.x + s * INTERVAL_Z * spread, low, high) for s in (-1, 1)]
+    values = [parameterization.values(x) for x in (fit.x, *ends)]
+    found: dict[str, dict[str, Interval]] = {}
+    each = zip(parameterization.owners, parameterization.parameters, *values, strict=True)
+    for owner, parameter, value, one, other in each:
+        if parameter.reported:
+            found.setdefault(owner, {})[parameter.name] = _interval(parameter, value, one, other)
+    return found
+
+
+def _interval(parameter: Parameter, value: float, one: float, other: float) -> Interval:
+    """An angle is told in the half periods about 0."""
+    period = parameter.period
+    turns = period * round(value / period) if period else 0.0
+    low, high = min(one, other) - turns, max(one, other) - turns
+    return Interval(value=value - turns, low=low, high=high, unit=parameter.unit)
+
+
+def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
+    """How far the fit moves with the noise that is left in the base angle, (K, n)."""
+    rng = np.random.default_rng(_SEED)
+    rig = fit.parameterization.rig(fit.x)
+    found = []
+    for _ in range(_REPLICATES):
+        runs = _noisier(problem, rng).residuals([rig])
+        moved = [run[0] - residual for run, residual in zip(runs, fit.by_trial, strict=True)]
+        found.append(_answer(fit, inverse, moved))
+    return np.array(found)
+
+
+def _answer(fit: Fit, inverse: Array, moved: Sequence[Array]) -> Array:
+    """How far a fit moves when its residuals do, (n,)."""
+    pull = sum(slopes.T @ change for slopes, change in zip(fit.jacobian, moved, strict=True))
+    return np.asarray(-inverse @ pull)
+
+
+def _noisier(problem: FitProblem, rng: np.random.Generator) -> FitProblem:
+    """The problem, the motion of its base read and smoothed once more."""
+    sigma_deg = problem.noise["base_angle_deg"]
+    trials = []
+    for trial in problem.log.trials:
+        motion = trial.base_motion_deg
+        read = motion + rng.normal(0.0, sigma_deg, motion.size)
+        again = smooth_base(trial.time_s, read, sigma_deg)
+        trials.append(replace(trial, base_motion_deg=again))
+    return replace(problem, log=replace(problem.log, trials=tuple(trials)))

@@ -1,0 +1,75 @@
+"""The run that would best tell two explanations apart, found by simulating candidates.
+
+A rig can do what its log shows that it can: depths, free lengths, axial speeds and
+rates of turning are taken from there. One whose log never slides may still be able
+to: such runs say that they ask for it. Each candidate run is predicted by both
+explanations; their difference d over the noise, less what either could take back by
+moving its parameters within what the log leaves open, is the expected separation
+
+    sqrt(d' (1 + Ja Ca Ja' + Jb Cb Jb')^-1 d),
+
+in standard deviations of a test between the two.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.assessment.experiments import SAMPLE_S, Experiment
+from diagnosis.fitting.cross_validation import information
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.replay.replay import predict
+from diagnosis.replay.resolution import COARSE
+
+Array = NDArray[np.float64]
+
+_DIFFERENCE = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Proposal:
+    """A run, and by how many standard deviations it would tell two explanations apart."""
+
+    experiment: Experiment
+    separation: float
+
+
+def best_experiment(
+    problem: FitProblem, one: Fit, other: Fit, feasible: Iterable[Experiment]
+) -> Proposal:
+    """Of the runs that the rig can do, the one that separates two fits best."""
+    proposals = [Proposal(experiment=e, separation=separation(problem, e, one, other)) for e in feasible]
+    return max(proposals, key=lambda p: p.separation)
+
+
+def separation(problem: FitProblem, experiment: Experiment, one: Fit, other: Fit) -> float:
+    """Expected standard deviations between two fits on a run of both sensors that the log has."""
+    a, spread_a = _outlook(problem, experiment.trial, one)
+    b, spread_b = _outlook(problem, experiment.trial, other)
+    d = a - b
+    loose = np.concatenate([spread_a, spread_b], axis=1)
+    # Woodbury: (1 + L L')^-1 d, with the few columns of L.
+    held = np.linalg.solve(np.eye(loose.shape[1]) + loose.T @ loose, loose.T @ d)
+    return float(np.sqrt(max(float(d @ d - (loose.T @ d) @ held), 0.0)))
+
+
+def _outlook(problem: FitProblem, trial: PreparedTrial, fit: Fit) -> tuple[Array, Array]:
+    """Readings / sigma that a fit expects, and how the spread of its parameters changes them."""
+    steps = np.vstack([np.zeros(fit.x.size), _DIFFERENCE * np.eye(fit.x.size)])
+    rigs = [fit.parameterization.rig(fit.x + step) for step in steps]
+    per_sample = float(np.sqrt(SAMPLE_S / problem.log.trials[0].sample_s))
+    seen = [s for s in SENSORS if any(t.has(s) for t in problem.log.trials)]
+    readings = [
+        np.concatenate([p[s] / problem.noise[s] * per_sample for s in seen])
+        for p in predict(problem.log.rig, trial, rigs, COARSE)
+    ]
+    slopes = [(moved - readings[0]) / _DIFFERENCE for moved in readings[1:]]
+    if not slopes:
+        return readings[0], np.zeros((readings[0].size, 0))
+    root = np.linalg.cholesky(np.linalg.pinv(information(fit)) + 1e-12 * np.eye(fit.x.size))
+    return readings[0], np.stack(slopes, axis=-1) @ root

@@ -1,0 +1,213 @@
+"""Every number that decides something in the diagnosis, in one place, in the order of its stages.
+
+Under each stands its scale, where it comes from, and on what it was set. Three kinds of origin:
+
+  derived    follows from noise statistics or from the method; no log was looked at
+  physical   what no rig of this kind can do; far from anything that a real one does
+  set on     chosen on logs, which are named; a score on these logs is no test of it
+
+A score is -2 log(likelihood) plus penalties: a difference of s are odds of exp(s / 2) to 1. Sigma is
+one standard deviation of a sensor's noise. Costs are sums of squared residuals / sigma.
+"""
+
+# Reading a log: what is refused (log/)
+
+YAML_MOST_BYTES = 200_000
+YAML_MOST_LEVELS = 10
+"""Physical: a rig.yaml has 1 kB and three levels; what is larger is another file, or harmful."""
+NOMINAL_RANGE = {
+    ("needle", "diameter_mm"): (0.05, 10.0),
+    ("needle", "shear_modulus_gpa"): (0.01, 1000.0),
+    ("needle", "density_g_cm3"): (0.1, 30.0),
+    ("tissue", "damping_n_mm_s_per_mm"): (1e-8, 10.0),
+    ("sensors", "tip_angle_noise_deg"): (0.0, 90.0),
+    ("sensors", "base_angle_noise_deg"): (0.0, 90.0),
+    ("sensors", "base_torque_noise_n_mm"): (0.0, 100.0),
+}
+"""Physical: beyond these a constant of rig.yaml is in another unit."""
+READING_RANGE = {
+    "time_s": (-1e11, 1e11),
+    "base_angle_deg": (-1e5, 1e5),
+    "tip_angle_deg": (-1e5, 1e5),
+    "base_torque_n_mm": (-1e4, 1e4),
+    "tip_torque_n_mm": (-1e4, 1e4),
+    "inserted_mm": (-1e-6, 1000.0),
+    "free_mm": (-1e-6, 1000.0),
+    "speed_mm_s": (-1000.0, 1000.0),
+}
+"""Physical: beyond these a reading is in another unit, or a sentinel for a missing value."""
+FEWEST_ROWS = 20
+MOST_ROWS = 2_000_000
+MOST_BYTES_PER_ROW = 250
+"""Rows of one trial at least, of all trials together at most (hours at 100 Hz), bytes per row."""
+LONGEST_SAMPLE_S = 5.0
+"""Physical: a needle relaxes within seconds; rarer samples tell nothing, and may be in milliseconds."""
+NAME_LIKENESS = 0.75
+"""Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
+tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
+
+# Sensor faults: which readings are set aside (log/sensor_faults.py)
+
+FALSE_ALARM_CHANCE = 1e-9
+"""Derived: of calling a run of equal readings frozen, per column; one false alarm in 10^9 columns."""
+FROZEN_LEAST_RUN = 20
+FROZEN_LEAST_S = 0.5
+FROZEN_TIMES_USUAL_RUN = 5.0
+"""Shortest run that is frozen: samples, seconds, and times the median run of a slow sensor."""
+SATURATED_LEAST_RUN = 20
+SATURATED_SHARE = 0.5
+SATURATED_NEAR_SIGMA = 1.5
+SATURATED_BESIDE = 10
+"""Samples at an end of the range; their share of those within 1.5 sigma of it; samples lost beside."""
+BELIEVED_SCATTER = 0.2
+"""Times the claim: a sensor that scatters less is filtered or simulated, and repeats prove nothing."""
+SPIKE_SIGMA = 20.0
+SPIKE_SHARE = 0.2
+"""A lone sample so far off its neighbours, which agree within this share of its jump."""
+
+# Consistency: columns that no passive needle can have produced together (log/consistency.py)
+
+LARGE_TURN_DEG = 20.0
+"""Physical: smaller motions are not judged; noise and play of a rig are far below."""
+UNEXPLAINED_OPPOSITE, UNEXPLAINED_SAME = 0.2, 0.6
+"""Shares of variance that a lagging copy of wrong and of right sign leaves where a sign is refused. A
+log with right signs leaves a small share under the right one, so that both are far from it."""
+SWAPPED_SHARE = 1 / 8
+SWAPPED_LEAST = 0.1
+"""Share of variance that is left if columns change places, over that as they are named, and the least of
+the latter that is looked at."""
+TWIST_CORRELATION = 0.5
+"""Correlation of torque and twist: near 1 on a passive shaft, negative where a sign is wrong."""
+NEGATIVE_WORK = -0.2
+"""Physical: share of the moved work; a passive needle gives back less than it got, so 0 and above."""
+DISTINCT_NOISES = 4.0
+"""Ratio of two claimed noises from which their scatter tells two columns apart: twice NOISE_RATIO."""
+NOISE_RATIO = (0.5, 2.0)
+"""Derived: a scatter within these of a claim agrees with it. Claims are good to 15 %, estimates 2 %."""
+BACKWARD_TRAVEL_MM, BACKWARD_SHARE = 5.0, 0.2
+"""Physical: depth that changes by more, against the speed, to within this share of it."""
+TORQUE_OVER_TWIST = 5.0
+"""Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2."""
+
+# Plausibility: what is used with a warning (log/plausibility.py)
+
+PAUSE_STEPS, PAUSE_STEPS_UNEVEN = 10.0, 30.0
+UNEVEN_QUARTILES = 1.5
+COMMON_PAUSES = 0.05
+"""Median steps that are a pause, of evenly and of unevenly sampled logs (quartiles 1.5 x apart); from
+5 % of long steps they are the log's way of sampling."""
+REST_SAMPLES = 10
+REST_SIGMA = 5.0
+STILL_SIGMA = 3.0
+"""Start off rest: mean of so many readings, in its standard deviations, while the base is still."""
+LENGTH_SLACK_MM, LENGTH_SLACK = 2.0, 0.2
+"""By which free length and integrated speed may disagree: absolute, and as a share of the travel."""
+TIP_TURNS_AT_MOST, TIP_TURNS_AT_LEAST = 20.0, 0.03
+"""Turn of the tip over that of the base; beyond, one of them is in radians (57) or revolutions."""
+TIP_QUIET = 0.1
+TURN_LEAST_DEG, TURN_LEAST_SIGMA = 1.0, 20.0
+"""Of the claim, below which a tip that hardly turns has another unit; base motions that are judged."""
+LEAST_FREE_SHAFT_MM = 20.0
+"""Physical: shaft that a torque twists at least; tissue holds the rest."""
+
+# Preparing a log for replay (prepare/)
+
+STEADY_DEPTH_MM = 0.2
+"""A depth that changes by less is constant: what is left is the reading of the stage."""
+GAP_STEPS = 2.5
+"""Median steps that are a gap: one missing sample is interpolated, two are bridged."""
+GAP_CERTAIN_DEG = 0.2
+GAP_FORGOTTEN_S = 1.0
+GAP_SIDE_SAMPLES = 12
+"""Where a cubic through 12 readings on each side and a line differ by more, the readings of the second
+after the gap are not used: by then the needle has mostly relaxed. Set on blind logs of seeds 1 and 2."""
+SMOOTHING_SIGMA = 3.0
+"""Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
+LEAST_DIFFERENCES = 20
+"""Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
+
+# Noise floor (fitting/noise_floor.py, fitting/noise_reestimation.py)
+
+GAP_LIMIT = 1.03
+"""Root mean square of residual / sigma at the noise floor. Numerical error below a tenth of sigma adds
+0.005; noise of the base angle that returns as torque the rest. White residuals measured 0.98 to 1.02 on
+practice logs, unexplained ones 6 and more."""
+SLOW_LIMIT = 1.25
+"""The same of means of 25 samples, scaled by 5. White: 0.95 to 1.07; unexplained: 30 and more."""
+FLOOR_SIGMA = 3.5
+"""Derived: standard deviations of both under chance, which widen the limits where samples are few: one
+white residual in 4000 is above."""
+NOISE_TRUST = 0.08
+"""Noise re-estimated from the residual may differ from the first estimate (good to 2 %) by this share;
+beyond, something fast is left in the residual."""
+
+# What a rig may be off by without a name (fitting/nuisance.py)
+
+SCATTER = {"stiffness_error": 0.015, "damping_error": 0.015}
+"""One standard deviation, as a fraction, of what a rig's own constants are off by. A choice: nothing in
+a log tells a true error of 3 % from an inaccurate constant."""
+SCATTER_NAMED = 2.0
+"""Standard deviations of that scatter beyond which it is named beside other effects."""
+SLIDING_MM_S = 0.05
+"""Axial speed from which the needle counts as sliding."""
+
+# Selecting an explanation (selection/)
+
+SIMPLE_LEAD = 10.0
+"""Score by which unrelated or richer explanations have to lead: odds of 150 to 1."""
+NESTED_LEAD = 5.0
+"""Score by which an effect has to lead one that it contains. Derived: where the simple one is true it
+leads by what freedom costs, 2 log(samples), about 18, less a chi-square of two; it is behind by 5 once
+in 100 000 logs, and ahead by less than 10, which is undecided, twice in 100. Set on seeds 6 and 9."""
+SCATTER_CERTAIN_SIGMA = 5.0
+SCATTER_LEAST = 0.003
+"""Stiffness or damping alone is named if it is off for certain, and by ten times what two simulations of
+the same rig differ by."""
+SHIFT_LIMIT = 12.0
+"""Held-out shift statistic, 1 is expected. What is true comes to 9.4 at most where stick and slip is
+rough (250 blind logs), what only mimics it to 15, 21, 39, 45. Set on seeds 1, 2 and 5."""
+WORTH_FITTING = 6.0
+"""Cost that an effect has to promise before it is fitted: a chi-square of one exceeds it in 1.4 %."""
+SECOND_LEAVES = 0.99
+"""Share of the cost that a second effect beside one at the floor may leave: half a per cent of the gap.
+By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 % once."""
+NEAR_FLOOR = 3.0
+"""Times the cost at the floor: what promises to leave more is not fitted any more."""
+MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
+"""Pairs that are fitted, leading single effects that they build on, fits between two looks."""
+FINALISTS = 4
+CONTENDING = 60.0
+"""Candidates that are fitted on the log itself, and the score behind the best beyond which they are out
+of the question: six times the largest lead that any decision asks for, since the decimated log weighs costs
+to 5 % only."""
+NOMINAL_LEAD = 10.0
+"""Score by which the scatter of stiffness and damping has to improve on the exact nominal rig before it
+is kept beside it."""
+
+# How fine a replay has to be (replay/, selection/mesh_refinement.py)
+
+REFINE_SIGMA = 0.1
+REFINE_SHARE = 0.25
+"""A finer replay matters if it changes a trial by a tenth of sigma (which makes 1.12 of the slow part,
+whose limit is 1.25) and by this share of the sum of squares beyond noise. Set on seed 10."""
+FINEST_ELEMENTS, FINEST_STEP_S = 48, 0.0025
+NUMERICAL_ERROR_WARNED = 0.14
+"""Derived: numerical error of so much of sigma adds 1 % to a gap at the floor."""
+
+# What is told beside the verdict (assessment/)
+
+DETECTION_SIGMA = 1.645
+"""Derived: an effect that exceeds what is asked by so many standard deviations is seen in 95 of 100."""
+DECISIVE_SIGMA = 5.0
+"""Separation at which one run of a proposed experiment decides."""
+MOST_RUNS = 100
+"""Repetitions of a proposed experiment beyond which it is not proposed."""
+SAME_DEPTH_MM = 1.0
+"""Depths of trials that differ by less tell nothing of what varies with depth."""
+INTERVAL_Z = 1.959964
+"""Derived: 95 % of a normal distribution."""
+TURNING_DEG_S = 1.0
+AFTER_REVERSAL_S = 2.0
+STRETCH_S = 5.0
+BANDS_HZ = ((0.0, 0.1), (0.1, 1.0), (1.0, 10.0), (10.0, 1000.0))
+"""Parts that the residual is broken down into: turning, after a reversal, stretches, frequencies."""

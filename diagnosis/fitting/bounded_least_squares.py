@@ -1,0 +1,20 @@
+"""Linear least squares within bounds."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
+
+Array = NDArray[np.float64]
+
+_ROOM = 1e-7  # that the solver asks for between bounds, in the units of a fit
+
+
+def bounded_least_squares(matrix: Array, wanted: Array, low: Array, high: Array) -> Array:
+    """The x between `low` and `high`, which may be equal, of least |matrix x - wanted|.
+
+    Clipping a free solution will not do: where one entry is held, others move less.
+    """
+    if not matrix.shape[1]:
+        return np.zeros(0)
+    solved = lsq_linear(matrix, wanted, bounds=(low - _ROOM, high + _ROOM), method="bvls")
+    return np.asarray(np.clip(solved.x, low, high))

@@ -1,0 +1,103 @@
+"""A log with fewer samples, on which a coarse needle answers as a fine one does.
+
+What effects do is slow beside the samples. Samples are averaged over windows of
+40 ms, and what the averaging and the coarse needle do to the nominal rig is taken off:
+
+    decimated = mean(measured - nominal, fine) + nominal, coarse
+
+so that the residual of the nominal rig on the decimated log is the mean of that on the
+log. Sums of squares / sigma^2 are kept, at a tenth of the cost.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
+
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.replay.replay import Prediction, predict
+from diagnosis.replay.resolution import COARSE
+from diagnosis.replay.rig_parameters import NOMINAL
+
+Array = NDArray[np.float64]
+
+
+def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
+    """The problem for a coarse needle, given the fine nominal predictions of its trials.
+
+    Raises:
+      SimulationFailed: the nominal rig cannot be simulated so coarsely.
+    """
+    log = problem.log
+    each = zip(log.trials, nominal, strict=True)
+    trials = tuple(_decimated(log.rig, trial, prediction) for trial, prediction in each)
+    share = sum(t.time_s.size for t in trials) / sum(t.time_s.size for t in log.trials)
+    sigma = {sensor: s * np.sqrt(share) for sensor, s in problem.noise.sigma.items()}
+    return replace(
+        problem,
+        log=PreparedLog(rig=log.rig, trials=trials),
+        noise=replace(problem.noise, sigma=sigma),
+        resolution=COARSE,
+    )
+
+
+def _decimated(rig: NominalRig, trial: PreparedTrial, nominal: Prediction) -> PreparedTrial:
+    bare, width_s = _without_readings(trial)
+    coarse = predict(rig, bare, [NOMINAL], COARSE)[0]
+    readings = {}
+    for sensor in SENSORS:
+        if trial.has(sensor):
+            residual = trial.readings[sensor] - nominal[sensor]
+            readings[sensor] = _means(trial.time_s, residual, bare.time_s, width_s) + coarse[sensor]
+    return replace(bare, readings=readings)
+
+
+def _without_readings(trial: PreparedTrial) -> tuple[PreparedTrial, float]:
+    """The inputs of a trial at the middles of windows, and the width of these, s."""
+    time_s = trial.time_s
+    width_s = max(COARSE.step_s, trial.sample_s)
+    middles_s = time_s[0] + width_s * np.arange(int((time_s[-1] - time_s[0]) / width_s) + 1)
+
+    def sampled(values: Array) -> Array:
+        return np.asarray(np.interp(middles_s, time_s, values))
+
+    base = _means(time_s, trial.base_motion_deg, middles_s, width_s)
+    torque = trial.tip_torque_n_mm
+    inputs = replace(
+        trial,
+        time_s=middles_s,
+        base_motion_deg=np.where(np.isnan(base), sampled(trial.base_motion_deg), base),
+        inserted_mm=sampled(trial.inserted_mm),
+        free_mm=sampled(trial.free_mm),
+        speed_mm_s=sampled(trial.speed_mm_s),
+        tip_torque_n_mm=None if torque is None else sampled(torque),
+        readings={},
+        logged=np.zeros(middles_s.size, bool),
+    )
+    return inputs, width_s
+
+
+def _means(time_s: Array, values: Array, middles_s: Array, width_s: float) -> Array:
+    """Means over windows about `middles_s`, (M,); NaN where a window holds hardly a sample."""
+    fine = np.isfinite(values)
+    known, at = values[fine], time_s[fine]
+    if known.size < 2:
+        return np.full(middles_s.shape, np.nan)
+    half = np.minimum(0.5 * width_s, np.minimum(middles_s - time_s[0], time_s[-1] - middles_s))
+    area = np.asarray(cumulative_trapezoid(known, at, initial=0), float)
+    means = np.interp(middles_s + half, at, area) - np.interp(middles_s - half, at, area)
+    narrow = half < 1e-9
+    means = np.where(narrow, np.interp(middles_s, at, known), means / np.where(narrow, 1.0, 2 * half))
+    return np.where(_sparse(at, middles_s, half), np.nan, means)
+
+
+def _sparse(at_s: Array, middles_s: Array, half_s: Array) -> NDArray[np.bool_]:
+    """Windows with fewer than half of the usual number of samples."""
+    reach = half_s + 1e-9
+    count = np.searchsorted(at_s, middles_s + reach, "right") - np.searchsorted(at_s, middles_s - reach)
+    return np.asarray((count < 0.5 * np.median(count)) & (half_s > 1e-9))

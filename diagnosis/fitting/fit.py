@@ -1,0 +1,160 @@
+"""Fitting a set of effects to a log, with what is never known of a rig left open.
+
+Minimised is
+
+    sum over trials and sensors ((measured - predicted) / sigma)^2 + prior
+
+by MuJoCo's own box-bounded Gauss-Newton; the columns of one Jacobian run as a batch.
+"""
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from mujoco import minimize
+from numpy.typing import NDArray
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.fitting.objective import Objective
+from diagnosis.fitting.parameterization import Parameterization, parameterization_of
+from diagnosis.fitting.problem import FitProblem
+
+Array = NDArray[np.float64]
+
+_GRADIENT_TOLERANCE = 0.02  # in sigma
+_STEP_TOLERANCE = 1e-5
+_MOST_ITERATIONS = 20
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fit:
+    """A fitted set of effects.
+
+    Attributes:
+      names: of the effects.
+      x: the vector, (n,); `parameterization` says what it means.
+      by_trial: residuals / sigma, one array per trial.
+      jacobian: d residual / d x, one (N, n) array per trial.
+      cost: sum of squares with the prior.
+      status: how the optimiser ended.
+    """
+
+    names: tuple[str, ...]
+    parameterization: Parameterization
+    x: Array
+    by_trial: tuple[Array, ...]
+    jacobian: tuple[Array, ...]
+    cost: float
+    status: FitStatus
+
+    @property
+    def samples(self) -> int:
+        """Residuals in all."""
+        return sum(r.size for r in self.by_trial)
+
+    @property
+    def gap(self) -> float:
+        """Root mean square of residual / sigma, on the data of the fit."""
+        return float(np.sqrt(sum(float(r @ r) for r in self.by_trial) / max(self.samples, 1)))
+
+    @property
+    def size(self) -> int:
+        """Parameters that the named effects have."""
+        return sum(len(LIBRARY[n].reported) for n in self.names)
+
+    @property
+    def parts(self) -> dict[str, Array]:
+        """The vector by effect."""
+        return self.parameterization.parts(self.x)
+
+
+def fit_effects(
+    problem: FitProblem,
+    names: Sequence[str],
+    start: Array | None = None,
+    *,
+    most_iterations: int = _MOST_ITERATIONS,
+) -> Fit:
+    """Fit a set of effects.
+
+    Args:
+      start: the vector to start from; None is neutral.
+      most_iterations: of Gauss-Newton.
+
+    Raises:
+      SimulationFailed: the rig cannot be simulated where the fit starts, or close to where it is.
+    """
+    parameterization = parameterization_of(names, problem.nuisance)
+    objective = Objective(problem, parameterization)
+    if not parameterization.parameters:
+        return nominal_fit(
+            [trial[0] for trial in problem.residuals([parameterization.rig(np.zeros(0))])]
+        )
+    x = np.clip(parameterization.joined({}) if start is None else start, objective.low, objective.high)
+    for difference in max((e.differences for e in parameterization.all), key=len):
+        objective = Objective(problem, parameterization, difference)
+        x, message = _minimised(objective, x, most_iterations)
+    at_bound = _at_bound(objective, x)
+    return _fit(objective, names, x, FitStatus.of_message(message, at_bound))
+
+
+def nominal_fit(by_trial: Sequence[Array]) -> Fit:
+    """The fit of nothing, given the residuals / sigma of the nominal rig."""
+    return Fit(
+        names=(),
+        parameterization=parameterization_of(()),
+        x=np.zeros(0),
+        by_trial=tuple(by_trial),
+        jacobian=tuple(np.zeros((r.size, 0)) for r in by_trial),
+        cost=sum(float(r @ r) for r in by_trial),
+        status=FitStatus(termination=Termination.NOTHING_TO_FIT, message="nothing to fit"),
+    )
+
+
+def _minimised(objective: Objective, start: Array, most_iterations: int) -> tuple[Array, str]:
+    """Where Gauss-Newton comes to from a start, and what it says of its end."""
+    said = io.StringIO()
+    x, _ = minimize.least_squares(
+        start,
+        objective,
+        bounds=[objective.low, objective.high],
+        jacobian=objective.jacobian,
+        x_scale="jac",
+        gtol=_GRADIENT_TOLERANCE,
+        xtol=_STEP_TOLERANCE,
+        max_iter=most_iterations,
+        mu_min=1e-3,
+        mu_factor=8.0,
+        verbose=minimize.Verbosity.FINAL,
+        output=said,
+    )
+    return np.asarray(x).ravel(), said.getvalue()
+
+
+def _at_bound(objective: Objective, x: Array) -> tuple[str, ...]:
+    """Parameters of the named effects that stopped at a bound, as effect.parameter."""
+    parameterization = objective.parameterization
+    names = [f"{e.name}.{p.name}" for e in parameterization.effects for p in e.parameters]
+    held = (x <= objective.low) | (x >= objective.high)
+    return tuple(name for name, at in zip(names, held, strict=False) if at)
+
+
+def _fit(objective: Objective, names: Sequence[str], x: Array, status: FitStatus) -> Fit:
+    """The fit at x; its slopes are those of the last iterate."""
+    by_trial = tuple(
+        trial[0] for trial in objective.problem.residuals([objective.parameterization.rig(x)])
+    )
+    ends = np.cumsum([r.size for r in by_trial])
+    prior = objective.parameterization.weights * x
+    slopes = np.zeros((ends[-1], x.size)) if objective.slopes is None else objective.slopes
+    return Fit(
+        names=tuple(names),
+        parameterization=objective.parameterization,
+        x=x,
+        by_trial=by_trial,
+        jacobian=tuple(np.split(slopes[: ends[-1]], ends[:-1])),
+        cost=sum(float(r @ r) for r in by_trial) + float(prior @ prior),
+        status=status,
+    )

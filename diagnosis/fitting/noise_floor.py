@@ -1,0 +1,63 @@
+"""Whether a residual is at the noise floor: as small as noise, and as white.
+
+The gap is the root mean square of the residual over its noise. What is left of an
+effect is slow beside the samples: the means of blocks of 25 samples, scaled by 5,
+have the same root mean square as the samples if these are white, and a larger one
+if something slow is left.
+
+Chance moves both. Of n white samples, the root mean square / sigma that their
+own first differences tell scatters by 1 / (2 sqrt(n)) (von Neumann's ratio), that of
+m means by 1 / sqrt(2 m). Limits are wide enough for 3.5 of these (criteria.FLOOR_SIGMA).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import FLOOR_SIGMA, GAP_LIMIT, SLOW_LIMIT
+
+Array = NDArray[np.float64]
+
+_BLOCK = 25  # samples
+
+
+@dataclass(frozen=True, kw_only=True)
+class NoiseFloor:
+    """How far a residual is above the noise floor: 1 is at it.
+
+    Attributes:
+      gap: root mean square of residual / sigma.
+      slow: that of means, scaled.
+      gap_limit: largest gap that is at the floor.
+      slow_limit: largest slow part that is.
+    """
+
+    gap: float
+    slow: float
+    gap_limit: float = GAP_LIMIT
+    slow_limit: float = SLOW_LIMIT
+
+    @property
+    def small(self) -> bool:
+        """Whether the residual is no larger than noise."""
+        return self.gap <= self.gap_limit
+
+    @property
+    def reached(self) -> bool:
+        """Whether nothing beyond noise is left."""
+        return self.small and self.slow <= self.slow_limit
+
+
+def floor_of(by_trial: Sequence[Array]) -> NoiseFloor:
+    """Gap and slow part of residuals / sigma, one array per trial."""
+    values = np.concatenate([r for r in by_trial if r.size]) if by_trial else np.zeros(0)
+    blocks = [r[: r.size // _BLOCK * _BLOCK].reshape(-1, _BLOCK).mean(axis=1) for r in by_trial]
+    means = np.concatenate(blocks) if blocks else np.zeros(0)
+    return NoiseFloor(
+        gap=float(np.sqrt(np.mean(values**2))) if values.size else float("nan"),
+        slow=float(np.sqrt(_BLOCK * np.mean(means**2))) if means.size else 1.0,
+        gap_limit=float(max(GAP_LIMIT, 1 + 0.5 * FLOOR_SIGMA / np.sqrt(max(values.size, 1)))),
+        slow_limit=float(max(SLOW_LIMIT, 1 + FLOOR_SIGMA / np.sqrt(2 * max(means.size, 1)))),
+    )

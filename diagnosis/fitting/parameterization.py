@@ -1,0 +1,107 @@
+"""Parameters of a set of effects as a vector that a fit can move in.
+
+Positive parameters that span decades are fitted in their logarithm, others in a
+unit of their own, so that a step of 0.001 is small for each and not lost in rounding.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Effect, Parameter
+from diagnosis.fitting.nuisance import PRIOR_SIGMA
+from diagnosis.replay.rig_parameters import RigParameters
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameterization:
+    """What the entries of a fit's vector mean: effects, then the rig's own scatter.
+
+    Attributes:
+      effects: that are fitted freely.
+      nuisance: what is left open in every fit.
+    """
+
+    effects: tuple[Effect, ...]
+    nuisance: tuple[Effect, ...]
+
+    @property
+    def all(self) -> tuple[Effect, ...]:
+        """Effects and nuisance, in the order of the vector."""
+        return (*self.effects, *self.nuisance)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Of all effects, then of the nuisance."""
+        return tuple(p for e in self.all for p in e.parameters)
+
+    def bounds(self) -> tuple[Array, Array]:
+        """Lowest and highest vector."""
+        low = [p.to_fit(p.low) for p in self.parameters]
+        high = [p.to_fit(p.high) for p in self.parameters]
+        return np.array(low), np.array(high)
+
+    def parts(self, x: Array) -> dict[str, Array]:
+        """The part of a vector that belongs to each effect, by name."""
+        ends = np.cumsum([len(e.parameters) for e in self.all])
+        return (
+            dict(zip([e.name for e in self.all], np.split(x, ends[:-1]), strict=True))
+            if ends.size
+            else {}
+        )
+
+    def joined(self, parts: Mapping[str, Array]) -> Array:
+        """The vector with these parts; what is not among them stays neutral."""
+        own = [parts.get(e.name, np.zeros(len(e.parameters))) for e in self.all]
+        return np.concatenate(own) if own else np.zeros(0)
+
+    def values(self, x: Array) -> list[float]:
+        """Parameter values of a vector."""
+        return [p.from_fit(float(v)) for p, v in zip(self.parameters, x, strict=True)]
+
+    def rig(self, x: Array) -> RigParameters:
+        """The rig with these effects in it."""
+        rig, values = RigParameters(), self.values(x)
+        for effect in self.all:
+            count = len(effect.parameters)
+            rig = effect.apply(rig, *values[:count])
+            values = values[count:]
+        return rig
+
+    @property
+    def free(self) -> int:
+        """Entries that belong to the effects; the nuisance follows."""
+        return sum(len(e.parameters) for e in self.effects)
+
+    @property
+    def owners(self) -> tuple[str, ...]:
+        """The effect that every entry of the vector belongs to."""
+        return tuple(e.name for e in self.all for _ in e.parameters)
+
+    @property
+    def weights(self) -> Array:
+        """Of the prior on every entry: one over the spread of what scatters."""
+        open_ = {e.name for e in self.nuisance}
+        return np.array(
+            [1 / PRIOR_SIGMA[o] if o in open_ and o in PRIOR_SIGMA else 0.0 for o in self.owners]
+        )
+
+
+def parameterization_of(names: Sequence[str], nuisance: Sequence[Effect] = ()) -> Parameterization:
+    """Of a set of effects by name; nuisance among them is theirs."""
+    others = tuple(e for e in nuisance if e.name not in names)
+    return Parameterization(effects=tuple(LIBRARY[n] for n in names), nuisance=others)
+
+
+def starts(effect: Effect) -> list[Array]:
+    """Where a fit of an effect may start: vectors of its own parameters."""
+    each = zip(*(p.start for p in effect.parameters), strict=True)
+    return [
+        np.array([p.to_fit(v) for p, v in zip(effect.parameters, values, strict=True)])
+        for values in each
+    ]

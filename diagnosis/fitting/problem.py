@@ -1,0 +1,47 @@
+"""What a fit rests on: a prepared log, its noise, what is left open, how finely it is replayed."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects.effect import Effect
+from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.replay.replay import predict, residuals
+from diagnosis.replay.resolution import FINE, Resolution
+from diagnosis.replay.rig_parameters import RigParameters
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitProblem:
+    """A log that effects can be fitted to.
+
+    Attributes:
+      nuisance: what every fit leaves open.
+    """
+
+    log: PreparedLog
+    noise: Noise
+    nuisance: tuple[Effect, ...]
+    resolution: Resolution = FINE
+
+    def residuals(self, rigs: Sequence[RigParameters]) -> list[list[Array]]:
+        """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
+
+        Raises:
+          SimulationFailed: a rig cannot be simulated.
+        """
+        found = []
+        for trial in self.log.trials:
+            predictions = predict(self.log.rig, trial, rigs, self.resolution)
+            found.append([residuals(trial, p, self.noise) for p in predictions])
+        return found
+
+    def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
+        """The same with its noise changed as another problem's was, from `before` to `noise`."""
+        sigma = {s: own * noise[s] / before[s] for s, own in self.noise.sigma.items()}
+        return replace(self, noise=replace(self.noise, sigma=sigma))

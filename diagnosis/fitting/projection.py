@@ -1,0 +1,54 @@
+"""Orthogonal projection of what an effect changes on what the parameters of a fit could take back."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.fitting.bounded_least_squares import bounded_least_squares
+from diagnosis.fitting.fit import Fit
+
+Array = NDArray[np.float64]
+
+
+class Projection:
+    """Residuals beside all that the parameters of a fit could explain of them."""
+
+    def __init__(self, base: Fit, name: str) -> None:
+        """Of a fit; nuisance of the name of the effect is its own, not the fit's."""
+        self._kept = np.array([owner != name for owner in base.parameterization.owners], bool)
+        self._prior = base.parameterization.weights * base.x
+        self._residual = np.concatenate([*base.by_trial, self._prior])
+        slopes = np.vstack([*base.jacobian, np.diag(base.parameterization.weights)])[:, self._kept]
+        self._basis, self._root = np.linalg.qr(slopes)
+        self._low, self._high = (
+            np.asarray(b - base.x)[self._kept] for b in base.parameterization.bounds()
+        )
+
+    def beyond(self, by_trial: Sequence[Array]) -> Array:
+        """What residuals, one array a trial, differ by from the fit's, less what it could take back."""
+        moved = self._from_fit(by_trial)
+        return np.asarray(moved - self._basis @ (self._basis.T @ moved))
+
+    def reachable_cost(self, by_trial: Sequence[Array] | None = None) -> float:
+        """Cost that the fit comes down to within its bounds, with any positive amount of a difference.
+
+        Args:
+          by_trial: residuals with the difference, one array a trial; None: without any.
+        """
+        moved = np.zeros_like(self._residual) if by_trial is None else self._from_fit(by_trial)
+        within = self._basis.T @ moved
+        beside = moved - self._basis @ within
+        size = max(float(np.linalg.norm(beside)), 1e-12)
+        last = np.append(np.zeros(within.size), size)
+        system = np.vstack([np.column_stack([self._root, within]), last])
+        seen = np.append(self._basis.T @ self._residual, beside @ self._residual / size)
+        step = bounded_least_squares(
+            system, -seen, np.append(self._low, 0.0), np.append(self._high, np.inf)
+        )
+        unseen = float(self._residual @ self._residual - seen @ seen)
+        return unseen + float(np.sum((seen + system @ step) ** 2))
+
+    def _from_fit(self, by_trial: Sequence[Array]) -> Array:
+        there = np.concatenate([*by_trial, np.where(self._kept, self._prior, 0.0)])
+        return np.asarray(there - self._residual)

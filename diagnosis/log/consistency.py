@@ -1,0 +1,227 @@
+"""Columns that a passive needle, driven at its base, cannot have produced together.
+
+The tip follows the base: a lagging copy of the base angle explains it, with a gain
+above 0. The drive puts work into the needle and gets at most some of it back. Wrong
+signs and swapped columns break this grossly, so that only gross breaks are refused:
+friction, play, delays and gains of a real rig are far from them.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from diagnosis.criteria import (
+    BACKWARD_SHARE,
+    BACKWARD_TRAVEL_MM,
+    DISTINCT_NOISES,
+    LARGE_TURN_DEG,
+    NEGATIVE_WORK,
+    NOISE_RATIO,
+    SWAPPED_LEAST,
+    SWAPPED_SHARE,
+    TORQUE_OVER_TWIST,
+    TWIST_CORRELATION,
+    UNEXPLAINED_OPPOSITE,
+    UNEXPLAINED_SAME,
+)
+from diagnosis.log.plausibility import stiffest_n_mm_per_rad, torque_over_twist, travelled_mm
+from diagnosis.log.sensor_faults import scatter
+from diagnosis.log.trial import SENSORS, Trial, UnusableLog
+
+Array = NDArray[np.float64]
+
+_BINS = 1500
+_LAGS_S = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
+_DELAYS_S = (0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BinnedTrial:
+    """A trial in equal bins of time.
+
+    Attributes:
+      base_angle_deg, tip_angle_deg, base_torque_n_mm: means of the bins; empty if not measured.
+      bin_s: length of a bin.
+    """
+
+    base_angle_deg: Array
+    tip_angle_deg: Array
+    base_torque_n_mm: Array
+    bin_s: float
+
+
+def refuse_contradictions(
+    path: Path, trial: Trial, noise: Mapping[str, float], rigidity_n_mm2: float
+) -> None:
+    """Refuse a trial with wrong signs or swapped columns.
+
+    Args:
+      path: of the trial, for the message.
+      trial: without its faulty readings.
+      noise: claimed standard deviation by column.
+      rigidity_n_mm2: nominal torsional rigidity.
+
+    Raises:
+      UnusableLog: names the columns and the fix.
+    """
+    _refuse_swapped_noise(path, trial, noise)
+    _refuse_swapped_lengths(path, trial)
+    if trial.has("tip_torque_n_mm") and np.nanmax(np.abs(trial["tip_torque_n_mm"])) > 0:
+        return  # the tip may be driven as well
+    turning = _binned(trial)
+    if turning.tip_angle_deg.size and turning.base_torque_n_mm.size:
+        _refuse_swapped_torque(path, turning, stiffest_n_mm_per_rad(trial, rigidity_n_mm2))
+    _refuse_swapped_angles(path, turning)
+    _refuse_opposite_angles(path, turning)
+    _refuse_negative_work(path, turning)
+
+
+def misfit(driving: Array, following: Array, bin_s: float) -> tuple[float, float]:
+    """Shares of a signal's variance that lagging copies of another leave unexplained.
+
+    The copies pass a delay and a first-order lag; the better of several is taken,
+    once with gains above 0, once with gains below.
+    """
+    least = {True: 1.0, False: 1.0}
+    wanted = following - following.mean()
+    for lag_s in _LAGS_S:
+        gain = 1 - np.exp(-bin_s / lag_s) if lag_s else 1.0
+        lagged = lfilter([gain], [1, gain - 1], driving - driving[0])
+        for delay_s in _DELAYS_S:
+            shift = min(round(delay_s / bin_s), lagged.size)
+            copy = np.concatenate((np.zeros(shift), lagged[: lagged.size - shift]))
+            copy -= copy.mean()
+            product, size = copy @ wanted, (copy @ copy) * (wanted @ wanted)
+            if size > 0:
+                same = bool(product > 0)
+                least[same] = min(least[same], 1 - product**2 / size)
+    return float(least[True]), float(least[False])
+
+
+def _binned(trial: Trial) -> BinnedTrial:
+    time = trial["time_s"]
+    count = min(_BINS, time.size // 2)
+    bin_s = float(time[-1] - time[0]) / count
+    index = np.minimum(((time - time[0]) / bin_s).astype(int), count - 1)
+
+    def means(column: str) -> Array:
+        if not trial.has(column):
+            return np.zeros(0)
+        values = trial[column]
+        good = np.isfinite(values)
+        number = np.bincount(index[good], minlength=count)
+        filled = np.flatnonzero(number)
+        sums = np.bincount(index[good], values[good], count)[filled]
+        return np.interp(np.arange(count), filled, sums / number[filled])
+
+    return BinnedTrial(
+        base_angle_deg=means("base_angle_deg"),
+        tip_angle_deg=means("tip_angle_deg"),
+        base_torque_n_mm=means("base_torque_n_mm"),
+        bin_s=bin_s,
+    )
+
+
+def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) -> None:
+    """Each of two columns scatters as rig.yaml claims of the other."""
+    measured = [name for name in ("base_angle_deg", *SENSORS) if trial.has(name) and noise[name] > 0]
+    for one, other in combinations(measured, 2):
+        if 1 / DISTINCT_NOISES < noise[one] / noise[other] < DISTINCT_NOISES:
+            continue
+        if _agrees(trial[one], noise[other]) and _agrees(trial[other], noise[one]):
+            _swapped(path, one, other, "each scatters as rig.yaml claims of the other")
+
+
+def _refuse_swapped_lengths(path: Path, trial: Trial) -> None:
+    """No needle goes deeper while it moves out."""
+    travel, deeper = travelled_mm(trial), trial["inserted_mm"] - trial["inserted_mm"][0]
+    moved = np.ptp(deeper)
+    if moved > BACKWARD_TRAVEL_MM and np.abs(deeper + travel).max() < BACKWARD_SHARE * moved:
+        raise UnusableLog(
+            f"{path}: inserted_mm changes as speed_mm_s (+ into the tissue) says, but backwards; "
+            "expected it to follow or stay; if inserted_mm and free_mm are swapped, swap their names, "
+            "else change the sign of speed_mm_s"
+        )
+
+
+def _refuse_swapped_torque(path: Path, turning: BinnedTrial, stiffness_n_mm_per_rad: float) -> None:
+    """A torque far beyond what the twist gives, unless it changes places with an angle."""
+    base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
+    too_much = torque_over_twist(base, tip, torque, stiffness_n_mm_per_rad) > TORQUE_OVER_TWIST
+    if not too_much or np.ptp(torque) < LARGE_TURN_DEG:
+        return
+    orders = {"tip_angle_deg": (base, torque, tip), "base_angle_deg": (torque, tip, base)}
+    for name, (base, tip, torque) in orders.items():
+        plausible = torque_over_twist(base, tip, torque, stiffness_n_mm_per_rad) < TORQUE_OVER_TWIST / 2
+        if plausible and _correlation(torque, base - tip) > TWIST_CORRELATION:
+            _swapped(path, name, "base_torque_n_mm", "only then does the twist give the torque")
+
+
+def _refuse_swapped_angles(path: Path, turning: BinnedTrial) -> None:
+    """The base follows the tip, and torque rises as the tip runs ahead."""
+    base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
+    if not _both_turn(turning) or (torque.size and _correlation(torque, base - tip) > 0):
+        return
+    forth, back = misfit(base, tip, turning.bin_s)[0], misfit(tip, base, turning.bin_s)[0]
+    if forth > SWAPPED_LEAST and back < SWAPPED_SHARE * forth:
+        _swapped(path, "base_angle_deg", "tip_angle_deg", "the tip moves first and the base follows")
+
+
+def _refuse_opposite_angles(path: Path, turning: BinnedTrial) -> None:
+    if not _both_turn(turning):
+        return
+    same, opposite = misfit(turning.base_angle_deg, turning.tip_angle_deg, turning.bin_s)
+    if opposite < UNEXPLAINED_OPPOSITE and same > UNEXPLAINED_SAME:
+        raise UnusableLog(
+            f"{path}: tip_angle_deg turns the opposite way of base_angle_deg; expected the same "
+            "positive direction; change the sign of the one that is wrong"
+        )
+
+
+def _refuse_negative_work(path: Path, turning: BinnedTrial) -> None:
+    """Work on the needle, with an offset of the torque taken off or not, is far below zero."""
+    base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
+    if torque.size == 0 or np.ptp(base) < LARGE_TURN_DEG:
+        return
+    if tip.size and _correlation(torque, base - tip) > -TWIST_CORRELATION:
+        return
+    turned = np.diff(base)
+    shares = []
+    for offset in (0.0, torque[:3].mean()):
+        work = (torque[1:] + torque[:-1] - 2 * offset) * turned
+        shares.append(work.sum() / max(np.abs(work).sum(), 1e-300))
+    if max(shares) < NEGATIVE_WORK:
+        raise UnusableLog(
+            f"{path}: base_torque_n_mm works against base_angle_deg, as if the needle drove the drive; "
+            "expected a torque into the needle, positive as the angle; change the sign of the one that "
+            "is wrong"
+        )
+
+
+def _both_turn(turning: BinnedTrial) -> bool:
+    base, tip = turning.base_angle_deg, turning.tip_angle_deg
+    return tip.size > 0 and bool(min(np.ptp(base), 2 * np.ptp(tip)) >= LARGE_TURN_DEG)
+
+
+def _agrees(values: Array, claim: float) -> bool:
+    """Whether a reading scatters as a claim says."""
+    low, high = NOISE_RATIO
+    return low < scatter(values) / claim < high
+
+
+def _correlation(one: Array, other: Array) -> float:
+    if np.ptp(one) == 0 or np.ptp(other) == 0:
+        return 0.0
+    return float(np.corrcoef(one, other)[0, 1])
+
+
+def _swapped(path: Path, one: str, other: str, why: str) -> None:
+    raise UnusableLog(
+        f"{path}: {one} and {other} seem to be swapped: {why}; expected each in the column of its name; "
+        "swap the two names in the header"
+    )

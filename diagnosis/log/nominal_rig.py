@@ -1,0 +1,59 @@
+"""`rig.yaml`: what the experimenter believes of the rig, the nominal model."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from models.needle import Needle, NonNegative, Positive
+from models.record import Record
+
+
+class NominalNeedle(Record):
+    """The needle as the experimenter believes it to be."""
+
+    diameter_mm: Positive
+    shear_modulus_gpa: Positive
+    density_g_cm3: Positive
+
+
+class NominalTissue(Record):
+    """The tissue as the experimenter believes it to be."""
+
+    damping_n_mm_s_per_mm: Positive
+
+
+class SensorNoise(Record):
+    """One standard deviation of each sensor, as claimed."""
+
+    tip_angle_noise_deg: NonNegative
+    base_torque_noise_n_mm: NonNegative
+    base_angle_noise_deg: NonNegative
+
+    def by_column(self) -> dict[str, float]:
+        """Standard deviation by the column that the sensor fills."""
+        return {
+            "base_angle_deg": self.base_angle_noise_deg,
+            "base_torque_n_mm": self.base_torque_noise_n_mm,
+            "tip_angle_deg": self.tip_angle_noise_deg,
+        }
+
+
+class TrialEntry(Record):
+    """Where a trial is."""
+
+    file: str
+
+
+class NominalRig(Record):
+    """All of `rig.yaml`."""
+
+    format: Literal["rig-log/1"]
+    needle: NominalNeedle
+    tissue: NominalTissue
+    sensors: SensorNoise
+    trials: tuple[TrialEntry, ...] = Field(min_length=1)
+
+    @property
+    def rigidity_n_mm2(self) -> float:
+        """Nominal torsional rigidity kappa = J G, N mm^2."""
+        return Needle(**dict(self.needle)).rigidity_n_mm2

@@ -1,0 +1,54 @@
+"""Reading `rig-log/1`: a folder with `rig.yaml` and one CSV per trial.
+
+What cannot be used is an error that says how to fix it; what is doubtful is used
+with a warning, or set aside with one. The files themselves are only ever read.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from diagnosis.log.consistency import refuse_contradictions
+from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.plausibility import plausibility_warnings
+from diagnosis.log.rig_yaml import read_rig
+from diagnosis.log.sensor_faults import without_faults
+from diagnosis.log.trial import SENSORS, Trial, UnusableLog
+from diagnosis.log.trial_file import read_trial, refuse_too_large
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigLog:
+    """A rig's log: the nominal rig and its trials.
+
+    Attributes:
+      warnings: what was doubtful, and what was done with it.
+    """
+
+    rig: NominalRig
+    trials: tuple[Trial, ...]
+    warnings: tuple[str, ...] = ()
+
+
+def read_rig_log(folder: Path) -> RigLog:
+    """Read and check a log.
+
+    Raises:
+      UnusableLog: names the file, the line or column, and how to fix it.
+    """
+    rig = read_rig(folder / "rig.yaml")
+    noise = rig.sensors.by_column()
+    paths = [folder / entry.file for entry in rig.trials]
+    refuse_too_large(paths)
+    trials, warnings = [], []
+    for path in paths:
+        trial, found = without_faults(read_trial(path), noise)
+        refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)
+        warnings += found
+        trials.append(trial)
+    if not any(trial.has(sensor) for trial in trials for sensor in SENSORS):
+        raise UnusableLog(
+            f"{folder}: expected readings of {' or '.join(SENSORS)} in one trial at least, found none "
+            f"that can be used; add the column; {'; '.join(warnings)[:400]}"
+        )
+    warnings += plausibility_warnings(trials, noise, rig.rigidity_n_mm2)
+    return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings))

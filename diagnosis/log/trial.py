@@ -1,0 +1,50 @@
+"""A trial of a log: what was done to the needle, and what the sensors read."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from models.errors import NeedleError
+
+Array = NDArray[np.float64]
+
+REQUIRED = ("time_s", "base_angle_deg", "inserted_mm", "free_mm", "speed_mm_s")
+SENSORS = ("base_torque_n_mm", "tip_angle_deg")
+OPTIONAL = (*SENSORS, "tip_torque_n_mm")
+COLUMNS = (*REQUIRED, *OPTIONAL)
+
+
+class UnusableLog(NeedleError):
+    """A log that cannot be used: file, line or column, what was expected and found, the fix."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trial:
+    """One trial as the rig logged it: a table with the columns of the format, one row per sample.
+
+    Attributes:
+      name: of the file.
+      table: required columns, and the optional ones that the file has.
+    """
+
+    name: str
+    table: pd.DataFrame
+
+    def __getitem__(self, column: str) -> Array:
+        """A column, (N,); `base_angle_deg` is what the encoder read."""
+        return self._columns[column]
+
+    def has(self, sensor: str) -> bool:
+        """Whether the trial measured this at all."""
+        return sensor in self._measured
+
+    @cached_property
+    def _columns(self) -> dict[str, Array]:
+        return {str(name): np.asarray(self.table[name], float) for name in self.table}
+
+    @cached_property
+    def _measured(self) -> frozenset[str]:
+        return frozenset(name for name, values in self._columns.items() if not np.isnan(values).all())

@@ -1,0 +1,184 @@
+"""Reading a trial: one CSV, one row a sample.
+
+Nothing is guessed and nothing is repaired: what cannot be read as the format says is an
+error that names the file, the line or column, what was expected, what was found, the fix.
+"""
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from diagnosis.criteria import (
+    FEWEST_ROWS,
+    LONGEST_SAMPLE_S,
+    MOST_BYTES_PER_ROW,
+    MOST_ROWS,
+    READING_RANGE,
+)
+from diagnosis.log.trial import COLUMNS, OPTIONAL, REQUIRED, Trial, UnusableLog
+from diagnosis.log.unit_hints import look_alike
+
+Array = NDArray[np.float64]
+
+_CHUNK_BYTES = 1 << 20
+_WRITE = "write numbers with a decimal point, and commas between the cells only"
+_NO_TEXT = (
+    "expected UTF-8 text, found a binary file or another encoding; export the table as CSV in UTF-8"
+)
+
+
+def refuse_too_large(paths: Sequence[Path]) -> None:
+    """Check that trials are there and not too many rows together, before one is read.
+
+    Lines are counted by chunks, up to the first too many: quick, and in little memory.
+
+    Raises:
+      UnusableLog: names the first file that is missing or too much.
+    """
+    size, lines = 0, 0
+    for path in paths:
+        if not path.is_file():
+            found = "a folder" if path.is_dir() else "no such file"
+            raise UnusableLog(f"{path}: expected a CSV file, found {found}; see 'trials' in rig.yaml")
+        size += path.stat().st_size
+        if size <= MOST_ROWS * MOST_BYTES_PER_ROW:
+            lines += _count_lines(path, most=MOST_ROWS + len(paths) - lines)
+        if size > MOST_ROWS * MOST_BYTES_PER_ROW or lines > MOST_ROWS + len(paths):
+            raise UnusableLog(
+                f"{path}: with this file the log is too large; expected at most {MOST_ROWS} rows in all "
+                f"trials together; decimate it, e.g. keep every 10th row: 100 rows per second are plenty"
+            )
+
+
+def read_trial(path: Path) -> Trial:
+    """Read and check a trial.
+
+    Raises:
+      UnusableLog: names the file, the line or column, and how to fix it.
+    """
+    try:
+        _check_header(path, *_first_lines(path))
+        table = pd.read_csv(
+            path, encoding="utf-8-sig", skipinitialspace=True, skip_blank_lines=False, low_memory=False
+        )
+    except UnicodeDecodeError as error:
+        raise UnusableLog(f"{path}: {_NO_TEXT}") from error
+    except (OSError, ValueError, csv.Error) as error:
+        raise UnusableLog(
+            f"{path}: expected a readable CSV file; {str(error).strip()}; {_WRITE}"
+        ) from error
+    table = _known_columns(table)
+    for name in table:
+        table[name] = _numbers(path, table[name], empty_allowed=name in OPTIONAL)
+    _check_time(path, np.asarray(table["time_s"]))
+    return Trial(name=path.name, table=table)
+
+
+def _count_lines(path: Path, *, most: int) -> int:
+    """Lines of a file, or some number above `most` if it has more."""
+    lines = 0
+    try:
+        with path.open("rb") as file:
+            while lines <= most and (chunk := file.read(_CHUNK_BYTES)):
+                lines += chunk.count(b"\n")
+    except OSError as error:
+        raise UnusableLog(f"{path}: expected a readable CSV file; {error}") from error
+    return lines
+
+
+def _first_lines(path: Path) -> tuple[str, str]:
+    with path.open(encoding="utf-8-sig") as file:
+        first, second = file.readline(_CHUNK_BYTES), file.readline(_CHUNK_BYTES)
+    if "\0" in first + second:
+        raise UnusableLog(f"{path}: {_NO_TEXT}")
+    return first.strip(), second.strip()
+
+
+def _check_header(path: Path, first: str, second: str) -> None:
+    place = f"{path}, line 1"
+    if not first:
+        raise UnusableLog(f"{place}: expected the names of the columns, found an empty line or file")
+    if "," not in first:
+        raise UnusableLog(
+            f"{place}: expected names with commas between, found {first[:60]!r}; "
+            "export with commas between the cells and decimal points in the numbers"
+        )
+    header, cells = next(csv.reader([first])), next(csv.reader([second]), [])
+    _check_names(place, [name.strip() for name in header])
+    if second and len(cells) != len(header):
+        raise UnusableLog(
+            f"{path}, line 2: expected {len(header)} cells as in the header, found {len(cells)}; "
+            "write numbers with a decimal point, and no comma at the end of a line"
+        )
+
+
+def _check_names(place: str, names: Sequence[str]) -> None:
+    double = [name for name in COLUMNS if names.count(name) > 1]
+    if double:
+        raise UnusableLog(f"{place}: column {double[0]!r} is there twice; rename or remove one")
+    unknown = [name for name in names if name not in COLUMNS]
+    for name in (name for name in COLUMNS if name not in names):
+        alike = look_alike(unknown, name, COLUMNS)
+        if alike:
+            raise UnusableLog(
+                f"{place}: column {name!r} is missing; {alike.found!r} looks like it: {alike.fix}, "
+                "or give it another name if it is something else"
+            )
+        if name in REQUIRED:
+            raise UnusableLog(
+                f"{place}: column {name!r} is missing; expected {', '.join(REQUIRED)} "
+                f"and what was measured; the file has {', '.join(names)[:300]}; add or rename it"
+            )
+
+
+def _known_columns(table: pd.DataFrame) -> pd.DataFrame:
+    """The columns of the format; blank lines at the end are no samples."""
+    table = table.rename(columns=str.strip)
+    table = table[[name for name in COLUMNS if name in table.columns]]
+    filled = np.flatnonzero(table.notna().any(axis=1))
+    return table.iloc[: filled[-1] + 1 if filled.size else 0].copy()
+
+
+def _numbers(path: Path, column: pd.Series, *, empty_allowed: bool) -> pd.Series:
+    """A column as finite, plausible numbers; NaN where an optional one is empty."""
+    numeric = column if column.dtype != bool else column.astype(str)
+    values = pd.to_numeric(numeric, errors="coerce").astype(float)
+    low, high = READING_RANGE[str(column.name)]
+    empty = column.isna() if empty_allowed else np.zeros(len(column), bool)
+    wrong = np.flatnonzero(~(values.between(low, high) | empty))
+    if wrong.size:
+        row = int(wrong[0])
+        span = f"{round(low, 3) + 0.0:g} to {high:g}"
+        got = "an empty cell" if pd.isna(column.iloc[row]) else repr(str(column.iloc[row])[:40])
+        fix = "leave cells empty where the sensor gave nothing" if empty_allowed else "correct the row"
+        raise UnusableLog(
+            f"{path}, line {row + 2}, column {column.name!r}: expected a number from {span}, "
+            f"found {got}; {fix}; check unit and order of the columns"
+        )
+    return values
+
+
+def _check_time(path: Path, time_s: Array) -> None:
+    if time_s.size < FEWEST_ROWS:
+        raise UnusableLog(
+            f"{path}: expected at least {FEWEST_ROWS} rows (far more are useful), found {time_s.size}; "
+            "take the trial out of rig.yaml, or record it longer"
+        )
+    steps = np.diff(time_s)
+    back = np.flatnonzero(steps <= 0)
+    if back.size:
+        row = int(back[0]) + 1
+        fix = "remove one of the two rows" if steps[row - 1] == 0 else "sort the rows by time"
+        raise UnusableLog(
+            f"{path}, line {row + 2}, column 'time_s': expected a time after {time_s[row - 1]:.9g} "
+            f"of the line above, found {time_s[row]:.9g}; {fix}"
+        )
+    if np.median(steps) > LONGEST_SAMPLE_S:
+        raise UnusableLog(
+            f"{path}, column 'time_s': expected samples at most {LONGEST_SAMPLE_S:g} s apart, found "
+            f"{np.median(steps):g} s; if these are milliseconds, divide by 1000"
+        )

@@ -1,0 +1,113 @@
+"""From a log to a diagnosis, stage by stage:
+
+RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -> Assessment -> Diagnosis
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
+from diagnosis.assessment.contributions import strongest_first
+from diagnosis.assessment.identifiability import testable_effects
+from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.fit import nominal_fit
+from diagnosis.fitting.nuisance import nuisance_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.prepare import prepare
+from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.sensor_noise import estimate_noise
+from diagnosis.replay.replay import Prediction, replay
+from diagnosis.result import Diagnosis
+from diagnosis.selection.renoised import renoised
+from diagnosis.selection.search import SearchState, search
+from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
+from diagnosis.workers import Progress, Workers, process_pool, silent
+from sim.kernel.callback import install
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NominalReplay:
+    """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
+
+    Attributes:
+      problem: the log, its noise, and what is left open of the rig.
+      predictions: of the nominal rig, by trial of the problem.
+    """
+
+    problem: FitProblem
+    predictions: list[Prediction]
+
+
+def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> Diagnosis:
+    """Diagnose a log.
+
+    Args:
+      workers: processes.
+      progress: is told the stage and its share that is done.
+
+    Raises:
+      SimulationFailed: the nominal rig cannot be simulated.
+    """
+    install()  # before processes are started, which inherit the compiled callback
+    nominal = replay_nominal(log)
+    with process_pool(workers, progress) as pool:
+        found = _searched(log, nominal, pool)
+        problem, coarse, verdict = _judged(found)
+        assessment = assess(log, problem, coarse, nominal.predictions, verdict, found.effects, pool)
+    return Diagnosis(
+        log=log,
+        noise=problem.noise,
+        nominal=at_samples(problem, nominal.predictions),
+        verdict=verdict,
+        assessment=assessment,
+        record=found.record,
+    )
+
+
+def replay_nominal(log: RigLog) -> NominalReplay:
+    """The nominal rig on a log, with the noise that its residual shows.
+
+    Raises:
+      SimulationFailed: the nominal rig cannot be simulated.
+    """
+    prepared, base_sigma_deg = prepare(log)
+    predictions = replay(prepared)
+    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg)
+    problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared))
+    return NominalReplay(problem=problem, predictions=predictions)
+
+
+def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
+    """Measured minus nominal, in units of the sensor, by sensor and trial."""
+    each = list(zip(log.trials, predictions, strict=True))
+    return {s: [t.readings[s] - p[s] for t, p in each if t.has(s)] for s in SENSORS}
+
+
+def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
+    """The search for what explains the log."""
+    problem = nominal.problem
+    start = SearchState(
+        problem=problem,
+        coarse=decimated(problem, nominal.predictions),
+        effects=testable_effects(log),
+        nominal=nominal_fit(nominal_residuals(problem, nominal.predictions)),
+    )
+    return search(start, workers)
+
+
+def _judged(found: SearchState) -> tuple[FitProblem, FitProblem, Verdict]:
+    """Both problems with the noise that the best explanation leaves, and the verdict in its units."""
+    before = found.problem.noise
+    noise, candidates = renoised(found.problem, found.candidates)
+    problem = replace(found.problem, noise=noise)
+    verdict = verdict_on(candidates)
+    if verdict.kind is VerdictKind.EXPLAINED:
+        verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
+    return problem, found.coarse.renoised(noise, before=before), verdict

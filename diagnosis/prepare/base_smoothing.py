@@ -1,0 +1,64 @@
+"""The motion of the base behind its noisy readings.
+
+The replay is driven by the measured base angle. Its noise would come back as torque
+noise, and worse: it would shake dry friction near the base loose, since hundredths
+of a degree are not small beside a presliding angle of 0.1 deg. So readings are
+averaged over as long a window as the motion allows: polynomials fitted in windows of
+growing length, until a window's value leaves the confidence intervals of the shorter
+ones (intersection of confidence intervals; Goldenshluger and Nemirovski, 1997).
+Windows about, before and after a sample are weighed by what each leaves of the noise.
+While the base holds, seconds are averaged; in a fast turn, next to nothing.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import savgol_coeffs
+
+from diagnosis.criteria import SMOOTHING_SIGMA
+
+Array = NDArray[np.float64]
+
+_WIDTHS = (5, 9, 17, 33, 65, 129, 257, 513)  # samples
+# Order of the polynomial, and place of the sample in its window from 0 to 1.
+_SIDES = ((2, 0.5), (1, 0.0), (1, 1.0), (0, 0.5), (0, 0.0), (0, 1.0))
+
+
+def smooth_base(time_s: Array, reading_deg: Array, sigma_deg: float) -> Array:
+    """Motion of the base, deg, (N,), behind the readings of its encoder and their noise."""
+    if sigma_deg <= 0:
+        return reading_deg
+    even = np.linspace(
+        time_s[0], time_s[-1], round((time_s[-1] - time_s[0]) / np.median(np.diff(time_s))) + 1
+    )
+    raw = np.interp(even, time_s, reading_deg)
+    chains = [_longest(raw, sigma_deg, *side) for side in _SIDES]
+    weight = np.array([1 / spread**2 for _, spread in chains])
+    value = np.array([value for value, _ in chains])
+    return np.asarray(np.interp(time_s, even, (weight * value).sum(axis=0) / weight.sum(axis=0)))
+
+
+def _longest(raw: Array, sigma: float, order: int, place: float) -> tuple[Array, Array]:
+    """Value of the longest window that agrees with the shorter ones, and its spread.
+
+    Args:
+      order: of the polynomial.
+      place: of the sample in its window, from 0 (first) to 1 (last).
+    """
+    best, spread = raw.copy(), np.full(raw.size, sigma)
+    low, high = raw - SMOOTHING_SIGMA * sigma, raw + SMOOTHING_SIGMA * sigma
+    open_ = np.ones(raw.size, bool)
+    for width in _WIDTHS:
+        if width > raw.size:
+            break
+        before = round(place * (width - 1))
+        weights = savgol_coeffs(width, order, pos=before, use="dot")
+        value = np.full(raw.size, np.nan)  # where the window reaches beyond the trial
+        value[before : raw.size - (width - 1 - before)] = np.correlate(raw, weights, "valid")
+        own = sigma * float(np.linalg.norm(weights))
+        low, high = (
+            np.maximum(low, value - SMOOTHING_SIGMA * own),
+            np.minimum(high, value + SMOOTHING_SIGMA * own),
+        )
+        open_ &= low <= high
+        best, spread = np.where(open_, value, best), np.where(open_, own, spread)
+    return best, spread

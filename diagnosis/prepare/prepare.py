@@ -1,0 +1,33 @@
+"""From a log to what can be replayed: gaps are filled, and the motion of the base is found."""
+
+import numpy as np
+
+from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.prepare.base_smoothing import smooth_base
+from diagnosis.prepare.gap_filling import fill_gaps
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.sensor_noise import base_noise_deg
+
+
+def prepare(log: RigLog) -> tuple[PreparedLog, float]:
+    """The log to replay, and the noise of the base's encoder, deg, that was taken off."""
+    filled = [fill_gaps(trial) for trial in log.trials]
+    sigma_deg = base_noise_deg(log.rig, filled)
+    each = zip(log.trials, filled, strict=True)
+    trials = tuple(_prepared(trial, rows, sigma_deg) for trial, rows in each)
+    return PreparedLog(rig=log.rig, trials=trials), sigma_deg
+
+
+def _prepared(trial: Trial, filled: Trial, sigma_deg: float) -> PreparedTrial:
+    return PreparedTrial(
+        name=trial.name,
+        time_s=filled["time_s"],
+        base_motion_deg=smooth_base(filled["time_s"], filled["base_angle_deg"], sigma_deg),
+        inserted_mm=filled["inserted_mm"],
+        free_mm=filled["free_mm"],
+        speed_mm_s=filled["speed_mm_s"],
+        tip_torque_n_mm=filled["tip_torque_n_mm"] if filled.has("tip_torque_n_mm") else None,
+        readings={sensor: filled[sensor] for sensor in SENSORS if filled.has(sensor)},
+        logged=np.isin(filled["time_s"], trial["time_s"]),
+    )

@@ -1,0 +1,84 @@
+"""A log that can be replayed: the motion that drives the needle, beside what the sensors read.
+
+The encoder's reading (`base_angle_deg` of a logged trial) and the motion of the base that is behind
+it (`base_motion_deg` here) are two things: a replay is driven by the motion.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import STEADY_DEPTH_MM
+from diagnosis.log.nominal_rig import NominalRig
+from sim.schedule import Schedule
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PreparedTrial:
+    """A trial to replay; every array has the shape of `time_s`, (N,).
+
+    Attributes:
+      name: of its file.
+      base_motion_deg: angle of the drive shaft, without the encoder's noise and across gaps.
+      tip_torque_n_mm: known torque at the tip; None: none.
+      readings: by sensor, in the unit of its name; NaN where it gave nothing.
+      logged: rows that are samples of the log; the others fill its gaps.
+    """
+
+    name: str
+    time_s: Array
+    base_motion_deg: Array
+    inserted_mm: Array
+    free_mm: Array
+    speed_mm_s: Array
+    tip_torque_n_mm: Array | None
+    readings: Mapping[str, Array]
+    logged: Mask
+
+    def has(self, sensor: str) -> bool:
+        """Whether the trial measured this at all."""
+        return sensor in self._measured
+
+    # A fit asks thousands of times for the same; nothing of a trial ever changes.
+    @cached_property
+    def schedule(self) -> Schedule:
+        """What was done to the needle."""
+        torque = self.tip_torque_n_mm
+        return Schedule(
+            time_s=self.time_s,
+            drive=self.base_motion_deg,
+            free_mm=self.free_mm,
+            inserted_mm=_steadied(self.inserted_mm),
+            speed_mm_s=self.speed_mm_s,
+            tip_torque_n_mm=np.zeros(0) if torque is None else np.nan_to_num(torque),
+        )
+
+    @cached_property
+    def sample_s(self) -> float:
+        """Median time between samples."""
+        return float(np.median(np.diff(self.time_s)))
+
+    @cached_property
+    def _measured(self) -> frozenset[str]:
+        return frozenset(name for name, values in self.readings.items() if np.isfinite(values).any())
+
+
+@dataclass(frozen=True, kw_only=True)
+class PreparedLog:
+    """The nominal rig and its trials, ready for replay."""
+
+    rig: NominalRig
+    trials: tuple[PreparedTrial, ...]
+
+
+def _steadied(depth_mm: Array) -> Array:
+    """A depth that hardly changes is constant: what is left is the reading of the stage."""
+    if np.ptp(depth_mm) >= STEADY_DEPTH_MM:
+        return depth_mm
+    return np.full(depth_mm.shape, np.median(depth_mm))

@@ -1,0 +1,103 @@
+"""Replaying trials: what the sensors of rigs with given parameters would have read.
+
+The simulated needle is driven by the motion of the base, the depth, the free length and the axial
+speed of each trial. One batch of MuJoCo needles per trial: all rigs side by side. Rigs that differ in
+their sensors alone share a needle.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.replay.resolution import FINE, Resolution
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from sim.simulation import Run, simulate
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prediction:
+    """Readings of one rig on one trial: by sensor, at the samples, (N,)."""
+
+    tip_angle_deg: Array
+    base_torque_n_mm: Array
+
+    def __getitem__(self, sensor: str) -> Array:
+        readings: Array = getattr(self, sensor)
+        return readings
+
+    def rows(self, kept: NDArray[np.bool_]) -> "Prediction":
+        """The prediction at some of its samples."""
+        return Prediction(**{sensor: self[sensor][kept] for sensor in SENSORS})
+
+
+def replay(
+    log: PreparedLog, rig: RigParameters = NOMINAL, resolution: Resolution = FINE
+) -> list[Prediction]:
+    """Predictions of every trial by one rig, by default the nominal one.
+
+    Raises:
+      SimulationFailed: the rig cannot be simulated.
+    """
+    return [predict(log.rig, trial, [rig], resolution)[0] for trial in log.trials]
+
+
+def predict(
+    nominal: NominalRig,
+    trial: PreparedTrial,
+    rigs: Sequence[RigParameters],
+    resolution: Resolution = FINE,
+) -> list[Prediction]:
+    """Predictions of one trial by several rigs, in their order.
+
+    Raises:
+      SimulationFailed: one of them cannot be simulated.
+    """
+    needles = list(dict.fromkeys(rig.without_sensors() for rig in rigs))
+    runs = dict(zip(needles, _run(nominal, trial, needles, resolution), strict=True))
+    return [_sensed(rig, runs[rig.without_sensors()], trial.time_s) for rig in rigs]
+
+
+def shape_of(
+    nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
+) -> Run:
+    """The whole simulated run of one trial, on its own steps, with the shape of the shaft."""
+    return _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+
+
+def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
+    """Measured minus predicted / sigma, all sensors of the trial one after another, (M,)."""
+    parts = []
+    for sensor in SENSORS:
+        if trial.has(sensor):
+            left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
+            parts.append(left[np.isfinite(left)])
+    return np.concatenate(parts) if parts else np.zeros(0)
+
+
+def _run(
+    nominal: NominalRig,
+    trial: PreparedTrial,
+    rigs: Sequence[RigParameters],
+    resolution: Resolution,
+    *,
+    keep_shape: bool = False,
+) -> list[Run]:
+    step_s, elements = resolution.step_of(trial), resolution.elements
+    setups = [r.setup(nominal, trial.schedule, elements=elements, step_s=step_s) for r in rigs]
+    return simulate(setups, trial.schedule, keep_shape=keep_shape)
+
+
+def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
+    tip, torque = rig.sensed(run.time_s, run.tip_deg, run.base_torque_n_mm)
+    return Prediction(
+        tip_angle_deg=np.interp(at_s, run.time_s, tip),
+        base_torque_n_mm=np.interp(at_s, run.time_s, torque),
+    )

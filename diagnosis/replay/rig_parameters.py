@@ -1,0 +1,153 @@
+"""The parameters of a rig that effects change, and the MuJoCo needle that they make of a nominal rig.
+
+Every field is neutral by default: `RigParameters()` is the nominal rig. Units are in the names;
+scales, shares, ratios, exponents and coefficients have none.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.log.nominal_rig import NominalRig
+from models.drive import Drive
+from models.needle import Needle
+from models.tissue import Interface, Layer, Tissue
+from sim.discretisation import Arrangement, Discretisation, Mesh
+from sim.schedule import Schedule
+from sim.spec import Setup
+
+Array = NDArray[np.float64]
+
+LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigParameters:
+    """What may differ from the nominal rig.
+
+    Attributes:
+      static_excess_n_mm_per_mm: static over kinetic level of dry friction.
+      shared_n_mm_per_mm: dry friction that shares itself with the axial motion.
+      tissue_stiffness_n_mm_per_rad_per_mm: of Kelvin-Voigt tissue; 0: rigid.
+      layer_ratio: damping of the deep layer over that of the shallow one.
+      layer_boundary_fraction: of the inserted length.
+      base_stiffness_n_mm_per_rad: of a spring between drive shaft and needle; 0: rigid.
+      material_share_constant_depth: share of the material derivative in the rate that tissue resists
+        where the depth is constant; the rest is the spatial derivative of equation (9).
+      material_share_growing_depth: the same where the depth changes.
+    """
+
+    stiffness_scale: float = 1.0
+    damping_scale: float = 1.0
+    rate_exponent: float = 1.0
+    plateau_rad_s: float = 1e-5
+    kinetic_n_mm_per_mm: float = 0.0
+    static_excess_n_mm_per_mm: float = 0.0
+    stribeck_rad_s: float = 1.0
+    shared_n_mm_per_mm: float = 0.0
+    tissue_stiffness_n_mm_per_rad_per_mm: float = 0.0
+    tissue_time_constant_s: float = 0.0
+    layer_ratio: float = 1.0
+    layer_boundary_fraction: float = 0.5
+    entry_friction_n_mm: float = 0.0
+    sheath_friction_n_mm_per_mm: float = 0.0
+    load_coefficient: float = 0.0
+    backlash_deg: float = 0.0
+    base_stiffness_n_mm_per_rad: float = 0.0
+    tip_drag_n_mm_s_per_rad: float = 0.0
+    curvature_n_mm_per_mm: float = 0.0
+    curvature_phase_deg: float = 0.0
+    tip_bias_deg: float = 0.0
+    tip_scale: float = 1.0
+    tip_delay_s: float = 0.0
+    torque_bias_n_mm: float = 0.0
+    material_share_constant_depth: float = 0.0
+    material_share_growing_depth: float = 0.0
+
+    def needle(self, rig: NominalRig, length_mm: float) -> Needle:
+        """The needle, of the length that a trial needs."""
+        nominal = dict(rig.needle)
+        nominal["shear_modulus_gpa"] *= self.stiffness_scale
+        return Needle(
+            **nominal,
+            length_mm=length_mm,
+            tip_drag_n_mm_s_per_rad=self.tip_drag_n_mm_s_per_rad,
+            curvature_n_mm_per_mm=self.curvature_n_mm_per_mm,
+            curvature_phase_deg=self.curvature_phase_deg,
+            load_coefficient=self.load_coefficient,
+        )
+
+    def tissue(self, rig: NominalRig) -> Tissue:
+        """The tissue; two layers keep the total damping nominal."""
+        damping = rig.tissue.damping_n_mm_s_per_mm * self.damping_scale
+        if self.layer_ratio == 1.0:
+            layers: tuple[Layer, ...] = (Layer(interface=self._interface(damping)),)
+        else:
+            boundary, ratio = self.layer_boundary_fraction, self.layer_ratio
+            shallow = damping / (boundary + ratio * (1 - boundary))
+            layers = (
+                Layer(interface=self._interface(shallow), fraction=boundary),
+                Layer(interface=self._interface(ratio * shallow)),
+            )
+        return Tissue(layers=layers, entry_friction_n_mm=self.entry_friction_n_mm)
+
+    def _interface(self, damping: float) -> Interface:
+        return Interface(
+            viscous_n_mm_s_per_mm=damping,
+            exponent=self.rate_exponent,
+            plateau_rad_s=self.plateau_rad_s,
+            kinetic_n_mm_per_mm=self.kinetic_n_mm_per_mm,
+            static_n_mm_per_mm=self.kinetic_n_mm_per_mm + self.static_excess_n_mm_per_mm,
+            stribeck_rad_s=self.stribeck_rad_s,
+            shared_n_mm_per_mm=self.shared_n_mm_per_mm,
+            stiffness_n_mm_per_rad_per_mm=self.tissue_stiffness_n_mm_per_rad_per_mm or None,
+            time_constant_s=self.tissue_time_constant_s,
+        )
+
+    def drive(self) -> Drive:
+        """Chuck and sheath."""
+        return Drive(
+            stiffness_n_mm_per_rad=self.base_stiffness_n_mm_per_rad or None,
+            backlash_deg=self.backlash_deg,
+            sheath_friction_n_mm_per_mm=self.sheath_friction_n_mm_per_mm,
+        )
+
+    def without_sensors(self) -> "RigParameters":
+        """The rig whose sensors show what is."""
+        return replace(self, tip_bias_deg=0.0, tip_scale=1.0, tip_delay_s=0.0, torque_bias_n_mm=0.0)
+
+    def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
+        """The MuJoCo needle that goes through a schedule."""
+        shaft = max(schedule.longest_mm, 1.0)
+        standing = schedule.mesh is Mesh.TISSUE
+        inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
+        return Setup(
+            needle=self.needle(rig, shaft),
+            tissue=self.tissue(rig),
+            drive=self.drive(),
+            discretisation=Discretisation(
+                step_s=step_s,
+                # A mesh that goes with the needle has the free length in it as well.
+                elements=elements if standing else 2 * elements,
+                arrangement=Arrangement.SIBLINGS,
+            ),
+            mesh=schedule.mesh,
+            free_mm=float(schedule.free_mm[0]),
+            inserted_mm=float(inserted),
+            rows=LAW_ROWS,
+            slip_share=self.material_share_constant_depth
+            if standing
+            else self.material_share_growing_depth,
+        )
+
+    def sensed(self, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> tuple[Array, Array]:
+        """What the sensors show of tip and base torque."""
+        shown = tip_deg
+        if self.tip_delay_s != 0.0:
+            shown = np.interp(time_s - self.tip_delay_s, time_s, tip_deg)
+        return self.tip_bias_deg + self.tip_scale * shown, torque_n_mm + self.torque_bias_n_mm
+
+
+NOMINAL = RigParameters()
+"""The rig that rig.yaml describes."""

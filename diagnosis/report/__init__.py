@@ -1,0 +1,1 @@
+"""A diagnosis as files: JSON, a page, a recording, predictions."""

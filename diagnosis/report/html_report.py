@@ -1,0 +1,102 @@
+"""`report.html`: the diagnosis for people, in one file that opens without a network."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
+from diagnosis.report import html_parts as html
+from diagnosis.report.figures import draw_breakdown, draw_ranking, draw_trials
+from diagnosis.report.sentences import (
+    headline,
+    largest_residual,
+    reduction,
+    replay_quality,
+    with_one_more,
+)
+from diagnosis.report.tables import limits_table, parameter_table, search_table
+from diagnosis.result import Diagnosis
+
+_BREAKDOWN = (
+    "Root mean square of measured minus predicted, in units of each sensor's noise (σ), before and "
+    "after adding the effect."
+)
+_RANKING = (
+    "Probability of each explanation, given the library, the noise and these trials. Two effects that "
+    f"explain a log together share theirs. Odds below {math.exp(SIMPLE_LEAD / 2):.0f} to 1 decide "
+    "nothing: a second effect, or more parameters, have to lead by more before they are named. An effect that "
+    f"contains a simpler one has to lead that by {math.exp(NESTED_LEAD / 2):.0f} to 1."
+)
+_LIMITS = (
+    "How strong each further effect may be and go unseen in these trials: of one that is stronger, "
+    "95 in 100 logs like this would show it. Limits on factors apply both ways."
+)
+_TRIALS = (
+    "Grey: measured. Below each signal: measured minus predicted, in σ; in the grey band lie 95 % of "
+    "the samples if nothing but noise is left."
+)
+_SEARCH = "Which stage made, kept or dropped which explanation, and why."
+
+
+def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
+    """The whole page; `report` is report.json."""
+    parts = [
+        html.heading(headline(found), level=1),
+        *html.warnings(report["warnings"]),
+        *_where(found),
+        *_which(found, report),
+        html.heading("How much is explained"),
+        html.paragraph(reduction(found)),
+        html.paragraph(with_one_more(found)),
+        *_trials(found),
+        *_limits(found),
+        html.heading("What these trials cannot tell"),
+        html.bullets(_open_questions(report)),
+        html.heading("Noise and numerical error"),
+        html.bullets(replay_quality(found)),
+        html.heading("How the search went"),
+        html.paragraph(_SEARCH),
+        search_table(found.record),
+    ]
+    return html.document("Gap report", parts)
+
+
+def _where(found: Diagnosis) -> list[str]:
+    alt = "Bars of residual / σ by signal, phase, frequency and depth, nominal and explained"
+    return [
+        html.heading("Where the gap is"),
+        html.paragraph(_BREAKDOWN),
+        html.picture(draw_breakdown(found), alt),
+        html.paragraph(f"{largest_residual(found)}."),
+    ]
+
+
+def _which(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:
+    ranked = ", ".join(f"{name} {p:.3f}" for name, p in found.verdict.ranking[:3])
+    parts = [
+        html.heading("Which effects explain it"),
+        html.paragraph(_RANKING),
+        html.picture(draw_ranking(found), f"Probabilities of explanations: {ranked}"),
+    ]
+    return [*parts, parameter_table(report["parameters"])] if report["parameters"] else parts
+
+
+def _trials(found: Diagnosis) -> list[str]:
+    return [
+        html.heading("Measured, nominal and explained"),
+        html.paragraph(_TRIALS),
+        html.picture(draw_trials(found), "Time series of every trial, with residuals below"),
+    ]
+
+
+def _limits(found: Diagnosis) -> list[str]:
+    limits = found.assessment.detection_limits
+    if not limits:
+        return []
+    return [html.heading("Detection limits"), html.paragraph(_LIMITS), limits_table(limits)]
+
+
+def _open_questions(report: Mapping[str, Any]) -> list[str]:
+    advice = report["next_experiment"]
+    lines = [*report["cannot_tell"], *([f"Next: {advice}"] if advice else [])]
+    return lines or ["Every effect of the library would show in these trials."]

@@ -1,0 +1,77 @@
+"""What a diagnosis says in sentences, for the page, the screen and the recording."""
+
+from collections.abc import Sequence
+
+from diagnosis.effects import LIBRARY
+from diagnosis.result import Diagnosis
+from diagnosis.selection.verdict import VerdictKind
+
+
+def headline(found: Diagnosis) -> str:
+    """The verdict in one sentence."""
+    gap, effects = found.assessment.gap, found.verdict.effects
+    before, after = f"{gap.before:.2f} σ", f"{gap.after:.2f} σ (σ = sensor noise)"
+    match found.verdict.kind:
+        case VerdictKind.NONE:
+            return f"No gap beyond noise: the nominal model explains the log, residual {after}"
+        case VerdictKind.EXPLAINED:
+            verb = "explain" if len(effects) > 1 else "explains"
+            return _capital(f"{titles(effects)} {verb} the gap: residual {before} → {after}")
+        case VerdictKind.UNDECIDED:
+            sets = "; or ".join(titles(names) for names in found.verdict.confusable)
+            return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
+        case _:
+            return (
+                "Unknown: no effect of the library, nor any pair that was tried, explains the gap: "
+                f"residual {before}, at best {after}"
+            )
+
+
+def titles(effects: Sequence[str]) -> str:
+    """Effects in plain words."""
+    return " and ".join(LIBRARY[name].title for name in effects)
+
+
+def reduction(found: Diagnosis) -> str:
+    """How much of the gap is explained."""
+    gap = found.assessment.gap
+    return (
+        f"On held-out trials, which the fit has not seen, the residual falls from {gap.before:.2f} σ to "
+        f"{gap.after:.3f} σ: by {100 * gap.shrink:.1f} % "
+        f"(95 % interval {100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %). "
+        "1 σ is the noise floor."
+    )
+
+
+def with_one_more(found: Diagnosis) -> str:
+    """What adding another effect would change; empty where nothing was tried."""
+    first = list(found.assessment.with_one_more.items())[:3]
+    if not first:
+        return ""
+    here = found.verdict.best.fit.gap
+    named = ", ".join(f"{name} to {gap:.3f} σ" for name, gap in first)
+    change = "changes almost nothing" if here - first[0][1] < _ALMOST_NOTHING_SIGMA else "would change"
+    return f"Adding another effect {change}: from {here:.3f} σ on the trials of the fit, {named}."
+
+
+def replay_quality(found: Diagnosis) -> list[str]:
+    """Noise and numerical error of each sensor."""
+    lines = [
+        f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: {error:.3f} σ"
+        for sensor, error in found.assessment.numerical_error.items()
+    ]
+    base = found.noise["base_angle_deg"]
+    return [*lines, f"base_angle_deg: σ = {base:.3g}, smoothed out as far as the motion allows"]
+
+
+def largest_residual(found: Diagnosis) -> str:
+    """Where along time the residual of the nominal model is largest."""
+    stretch, value = found.assessment.breakdown.worst
+    return f"Largest residual: {value:.2f} σ, {stretch}"
+
+
+_ALMOST_NOTHING_SIGMA = 0.01
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

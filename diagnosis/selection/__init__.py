@@ -1,0 +1,1 @@
+"""Which explanation: screening, the search with its record, and the verdict."""

@@ -1,0 +1,115 @@
+"""A fitted explanation: its score, what it names, and whether it explains the log."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import (
+    SCATTER,
+    SCATTER_CERTAIN_SIGMA,
+    SCATTER_LEAST,
+    SCATTER_NAMED,
+    SHIFT_LIMIT,
+)
+from diagnosis.fitting.cross_validation import held_out_residuals, information, shift_statistic
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.complexity import complexity_penalty
+from sim.simulation import SimulationFailed
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Candidate:
+    """A fitted explanation.
+
+    Attributes:
+      score: cost plus complexity penalty; the least is best.
+      floor: how far its residual is above the noise.
+      held_out: residuals / sigma of each trial, predicted from the others; None: not looked at.
+      held_out_floor: how far these are above the noise.
+      held_out_failure: why they could not be simulated; empty: they could, or were not looked at.
+      shift: held-out shift statistic; about 1 where all trials tell the same.
+    """
+
+    fit: Fit
+    score: float
+    floor: NoiseFloor
+    held_out: tuple[Array, ...] | None = None
+    held_out_floor: NoiseFloor | None = None
+    held_out_failure: str = ""
+    shift: float = 0.0
+
+    @property
+    def explains(self) -> bool:
+        """Whether nothing beyond noise is left, also on trials that the fit has not seen."""
+        holds = self.held_out is not None and self.shift <= SHIFT_LIMIT
+        return self.floor.reached and holds and not self.unidentifiable
+
+    def cross_validated(self, problem: FitProblem) -> "Candidate":
+        """The same with held-out trials, if it is at the noise floor."""
+        if not self.floor.reached:
+            return self
+        try:
+            left = held_out_residuals(problem, self.fit)
+        except SimulationFailed as failed:
+            return replace(self, held_out_failure=str(failed))
+        shift = shift_statistic(self.fit)
+        return replace(self, held_out=left, held_out_floor=floor_of(left), shift=shift)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of its effects; none for the nominal rig."""
+        return self.fit.names
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """Its effects, and stiffness or damping of the rig where they are off by too much.
+
+        Beside effects that is more than scatter explains. Alone it is whatever is
+        certain: the nominal rig does not fit, and this is why.
+        """
+        return (*self.names, *(n for n in self._open_scatter() if self._is_off(n)))
+
+    @property
+    def only_scatter(self) -> bool:
+        """Whether it is stiffness or damping alone."""
+        return bool(self.names) and set(self.names) <= set(SCATTER)
+
+    @property
+    def unidentifiable(self) -> bool:
+        """Whether stiffness and damping are off for certain, and it is open which: a ratio shows."""
+        return not self.named and self.jointly_significant
+
+    @property
+    def jointly_significant(self) -> bool:
+        """Whether stiffness and damping, together, are off for certain."""
+        away, spread = self._scatter()
+        off = away @ np.linalg.pinv(spread) @ away > SCATTER_CERTAIN_SIGMA**2
+        return bool(off) and float(np.abs(away).sum()) > SCATTER_LEAST
+
+    def _is_off(self, name: str) -> bool:
+        if self.names:
+            return abs(float(self.fit.parts[name][0])) > SCATTER_NAMED * SCATTER[name]
+        away, spread = self._scatter()
+        entry = self._open_scatter().index(name)
+        certain = SCATTER_CERTAIN_SIGMA * float(np.sqrt(spread[entry, entry]))
+        return abs(float(away[entry])) > max(certain, SCATTER_LEAST)
+
+    def _open_scatter(self) -> list[str]:
+        return [e.name for e in self.fit.parameterization.nuisance if e.name in SCATTER]
+
+    def _scatter(self) -> tuple[Array, Array]:
+        """What is open of stiffness and damping, and its covariance."""
+        entries = [self.fit.parameterization.owners.index(n) for n in self._open_scatter()]
+        spread = np.asarray(np.linalg.pinv(information(self.fit)), float)
+        return self.fit.x[entries], spread[np.ix_(entries, entries)]
+
+
+def candidate(fit: Fit) -> Candidate:
+    """A fit with its score and noise floor."""
+    score = fit.cost + complexity_penalty(fit.names, fit.samples)
+    return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))

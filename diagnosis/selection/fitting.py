@@ -1,0 +1,96 @@
+"""Fitting many sets of effects, with a record of what was made, dropped or failed."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.parameterization import parameterization_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.record import RecordEntry, dropped, failed, made, not_fitted
+from diagnosis.selection.screening import Screened
+from diagnosis.workers import Failure, Task, Workers
+
+Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
+"""Candidates, and the record of how they came about."""
+
+
+def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> Made:
+    """Candidates of calls of `fit_effects` (problem, names, start), in their order."""
+    tasks = [Task(effects=tuple(call[1]), arguments=call) for call in calls]
+    results = workers.each(stage, fit_effects, tasks)
+    found = [candidate(fit) for fit in results if not isinstance(fit, Failure)]
+    failures = [fit for fit in results if isinstance(fit, Failure)]
+    return found, (*made(stage, found), *failed(stage, failures))
+
+
+def fit_screened(
+    stage: str, problem: FitProblem, screened: Sequence[Screened], most: int, workers: Workers
+) -> Made:
+    """Fits of the most promising sets, the best of each set, best first.
+
+    Once something brings the residual to the noise floor, only what promises to come near it
+    is still fitted, and what that contains.
+    """
+    waiting = sorted(screened, key=lambda s: s.cost)[:most]
+    found, record, skipped = list[Candidate](), list[RecordEntry](), list[Screened]()
+    while waiting:
+        batch, waiting = waiting[:FITS_AT_ONCE], waiting[FITS_AT_ONCE:]
+        new, entries = fit_all(stage, [(problem, s.names, s.start) for s in batch], workers)
+        found += new
+        record += entries
+        at_floor = [c for c in found if c.floor.small]
+        floor = min((c.fit.cost for c in at_floor), default=np.inf)
+        inner = {i for c in at_floor for n in c.names for i in LIBRARY[n].contains}
+        skipped += [s for s in waiting if not _still(s, floor, inner)]
+        waiting = [s for s in waiting if _still(s, floor, inner)]
+    record += not_fitted(stage, _sets(skipped), "promises to stay far above what is at the noise floor")
+    best = _best_of_each_set(found)
+    out = [c for c in found if c not in best]
+    return best, (*record, *dropped(stage, out, "another start of the same effects came to less"))
+
+
+def fit_finalists(
+    stage: str, problem: FitProblem, contenders: Sequence[Candidate], workers: Workers
+) -> Made:
+    """The best contenders, fitted on the log itself.
+
+    Args:
+      contenders: on the decimated log, best first.
+    """
+    near = [c for c in contenders if c.score - contenders[0].score <= CONTENDING]
+    finalists, beyond = near[:FINALISTS], near[FINALISTS:]
+    far = [c for c in contenders if c not in near]
+    found, record = fit_all(stage, [(problem, c.names, c.fit.x) for c in finalists], workers)
+    lost = (
+        *dropped(stage, beyond, f"{FINALISTS} others are better on the decimated log"),
+        *dropped(stage, far, f"behind the best on the decimated log by more than {CONTENDING:g}"),
+    )
+    return found, (*record, *lost)
+
+
+def fit_each_alone(
+    stage: str, problem: FitProblem, whole: Candidate, names: Iterable[str], workers: Workers
+) -> Made:
+    """Each of what a candidate names alone, from where that is."""
+    starts = [(n, parameterization_of((n,), problem.nuisance).joined(whole.fit.parts)) for n in names]
+    return fit_all(stage, [(problem, (n,), start) for n, start in starts], workers)
+
+
+def _still(one: Screened, floor: float, inner: set[str]) -> bool:
+    return one.cost <= NEAR_FLOOR * floor or not inner.isdisjoint(one.names)
+
+
+def _sets(screened: Iterable[Screened]) -> Iterable[tuple[str, ...]]:
+    return dict.fromkeys(s.names for s in screened)
+
+
+def _best_of_each_set(found: Sequence[Candidate]) -> list[Candidate]:
+    best: dict[frozenset[str], Candidate] = {}
+    for c in sorted(found, key=lambda c: c.score):
+        best.setdefault(frozenset(c.names), c)
+    return list(best.values())

@@ -1,0 +1,78 @@
+"""The record of a search: which stage made, kept or dropped which explanation, and why."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from diagnosis.selection.candidate import Candidate
+from diagnosis.workers import Failure
+
+
+class Decision(StrEnum):
+    """What happened to an explanation."""
+
+    MADE = "made"
+    KEPT = "kept"
+    DROPPED = "dropped"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordEntry:
+    """One decision of one stage.
+
+    Attributes:
+      effects: of the explanation; none: the nominal rig.
+      reason: why, in words.
+      score: of a candidate that was fitted; None: it was not.
+      gap: root mean square of its residual / sigma; None likewise.
+    """
+
+    stage: str
+    effects: tuple[str, ...]
+    decision: Decision
+    reason: str
+    score: float | None = None
+    gap: float | None = None
+
+
+def made(stage: str, candidates: Iterable[Candidate]) -> tuple[RecordEntry, ...]:
+    """Candidates that a stage fitted, with how their fits ended."""
+    return tuple(_entry(stage, c, Decision.MADE, c.fit.status.message) for c in candidates)
+
+
+def kept(stage: str, candidates: Iterable[Candidate], reason: str) -> tuple[RecordEntry, ...]:
+    """Candidates that a stage keeps."""
+    return tuple(_entry(stage, c, Decision.KEPT, reason) for c in candidates)
+
+
+def dropped(stage: str, candidates: Iterable[Candidate], reason: str) -> tuple[RecordEntry, ...]:
+    """Candidates that a stage drops."""
+    return tuple(_entry(stage, c, Decision.DROPPED, reason) for c in candidates)
+
+
+def not_fitted(stage: str, sets: Iterable[tuple[str, ...]], reason: str) -> tuple[RecordEntry, ...]:
+    """Sets of effects that a stage drops before a fit."""
+    return tuple(
+        RecordEntry(stage=stage, effects=names, decision=Decision.DROPPED, reason=reason)
+        for names in sets
+    )
+
+
+def failed(stage: str, failures: Iterable[Failure]) -> tuple[RecordEntry, ...]:
+    """What a stage could not simulate."""
+    return tuple(
+        RecordEntry(stage=stage, effects=f.effects, decision=Decision.FAILED, reason=f.reason)
+        for f in failures
+    )
+
+
+def _entry(stage: str, one: Candidate, decision: Decision, reason: str) -> RecordEntry:
+    return RecordEntry(
+        stage=stage,
+        effects=one.names,
+        decision=decision,
+        reason=reason,
+        score=one.score,
+        gap=one.floor.gap,
+    )

@@ -1,0 +1,65 @@
+"""Screening: what an effect could explain at best, from one simulation per start and no fit.
+
+On top of a fit with residual r and Jacobian J, an effect at a start changes the residual by d. What
+is left of r once d in any positive amount is taken off, and J in any that keeps parameters within
+bounds, tells which effects are worth a fit. The starts that leave least are where to begin: as
+many as the effect has parameters, since fits of several may end in a local minimum.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.parameterization import parameterization_of, starts
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.fitting.projection import Projection
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Screened:
+    """A set of effects that may be worth a fit.
+
+    Attributes:
+      start: vector to start the fit from.
+      cost: that the fit may come down to.
+      gain: of this, by the last of the effects: what the others come down to without it, minus that.
+    """
+
+    names: tuple[str, ...]
+    start: Array
+    cost: float
+    gain: float
+
+
+def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = None) -> list[Screened]:
+    """What adding an effect to a fit could explain, best start first.
+
+    Args:
+      most_starts: of the effect that are looked at.
+
+    Raises:
+      SimulationFailed: the effect cannot be simulated at its starts.
+    """
+    effect = LIBRARY[name]
+    parameterization = parameterization_of((*base.names, name), problem.nuisance)
+    # What the nuisance has found already costs no more than its prior to name.
+    found = [base.parts[name]] if name in base.parts else []
+    own = [*found, *starts(effect)[:most_starts]]
+    columns = [parameterization.joined(base.parts | {name: s}) for s in own]
+    runs = problem.residuals([parameterization.rig(x) for x in columns])
+    projection = Projection(base, name)
+    without = projection.reachable_cost()
+    # What the nuisance took over from a missing effect is no good start with it.
+    known = {n: base.parts[n] for n in base.names}
+    screened = []
+    for i, start in enumerate(own):
+        cost = projection.reachable_cost([run[i] for run in runs])
+        begin = parameterization.joined(known | {name: start})
+        screened.append(Screened(names=(*base.names, name), start=begin, cost=cost, gain=without - cost))
+    best = sorted(screened, key=lambda s: s.cost)
+    return best[: len(effect.parameters)]

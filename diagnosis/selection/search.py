@@ -1,0 +1,205 @@
+"""Which effect, or which pair of them, explains a log: the stages of the search, in order.
+
+Every effect of the vocabulary is screened, and the most promising are fitted, on the decimated
+log; the best of these are then fitted on the log itself. If none of them brings the residual to the
+noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
+does, but a second effect promises to take more off than noise could, that pair is fitted as well.
+What the scatter of the rig's own constants explains is `none`.
+
+Each stage takes the state of the search and returns the next; its record says what it made, kept and
+dropped.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+from diagnosis.criteria import (
+    MOST_PAIRS,
+    NOMINAL_LEAD,
+    PAIR_BASES,
+    SCATTER,
+    SECOND_LEAVES,
+    WORTH_FITTING,
+)
+from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.parameterization import parameterization_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.fitting import Made, fit_all, fit_each_alone, fit_finalists, fit_screened
+from diagnosis.selection.mesh_refinement import refined_mesh
+from diagnosis.selection.record import RecordEntry, dropped, failed, kept, not_fitted
+from diagnosis.selection.renoised import any_explains
+from diagnosis.selection.screening import Screened, screen
+from diagnosis.workers import Failure, Task, Workers, attempt
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SearchState:
+    """What a search has come to.
+
+    Attributes:
+      problem: the log itself, replayed as finely as it asks.
+      coarse: the decimated log.
+      effects: that may be tried.
+      nominal: the nominal rig, exactly as rig.yaml says.
+      candidates: fitted on the log itself.
+      singles: single effects, fitted on the decimated log, best first.
+      record: of every stage so far.
+    """
+
+    problem: FitProblem
+    coarse: FitProblem
+    effects: tuple[str, ...]
+    nominal: Fit
+    candidates: tuple[Candidate, ...] = ()
+    singles: tuple[Candidate, ...] = ()
+    record: tuple[RecordEntry, ...] = ()
+
+    @property
+    def best(self) -> Candidate:
+        """Of least score."""
+        return min(self.candidates, key=lambda c: c.score)
+
+    def adding(self, made: Made) -> "SearchState":
+        """The state with more candidates."""
+        found, record = made
+        return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
+
+    def noting(self, *entries: RecordEntry) -> "SearchState":
+        """The state with a longer record."""
+        return replace(self, record=(*self.record, *entries))
+
+
+def search(state: SearchState, workers: Workers) -> SearchState:
+    """The state after all stages; its candidates are best first."""
+    for stage in STAGES:
+        state = stage(state, workers)
+    return state
+
+
+def nominal_rig(state: SearchState, workers: Workers) -> SearchState:
+    """The nominal rig, and the nominal rig with its scatter if that is needed."""
+    stage = "nominal rig"
+    exact = candidate(state.nominal)
+    state = state.adding(([exact], kept(stage, [exact], "as rig.yaml says")))
+    scattered, record = fit_all(stage, [(state.problem, ())], workers)
+    enough = exact.floor.reached and all(exact.score <= s.score + NOMINAL_LEAD for s in scattered)
+    if enough:
+        return state.noting(*record, *dropped(stage, scattered, "the exact nominal rig is as good"))
+    return state.adding((scattered, record))
+
+
+def stiffness_or_damping_alone(state: SearchState, workers: Workers) -> SearchState:
+    """Where only the ratio of both shows, each alone."""
+    for one in [c for c in state.candidates if c.unidentifiable]:
+        made = fit_each_alone("stiffness or damping alone", state.problem, one, SCATTER, workers)
+        state = state.adding(made)
+    return state
+
+
+def single_effects(state: SearchState, workers: Workers) -> SearchState:
+    """Every effect screened, the promising fitted on the decimated log, the best on the log itself."""
+    stage = "single effects"
+    start = attempt(fit_effects, Task(effects=(), arguments=(state.coarse, ())))
+    if isinstance(start, Failure):
+        return state.noting(*failed(stage, [start]))
+    screened, record = _screened(
+        stage, [(state.coarse, start, effect) for effect in state.effects], workers
+    )
+    state = state.noting(*record)
+    # Where something is missing, scatter has taken over a part of it, and screening may be blind.
+    missing = not candidate(start).floor.small
+    worth = [s for s in screened if missing or s.gain >= WORTH_FITTING]
+    state = state.noting(*_not_worth(stage, screened, worth))
+    singles, record = fit_screened(stage, state.coarse, worth, len(worth), workers)
+    state = replace(state.noting(*record), singles=tuple(singles))
+    return state.adding(fit_finalists("finalists", state.problem, singles, workers))
+
+
+def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
+    """A replay as fine as the log asks, and candidates fitted to it."""
+    problem, found, record = refined_mesh(state.problem, state.candidates, workers)
+    return replace(state, problem=problem, candidates=tuple(found)).noting(*record)
+
+
+def pairs(state: SearchState, workers: Workers) -> SearchState:
+    """Pairs, where no effect alone explains the log, or where a second promises enough."""
+    stage = "pairs"
+    alone = any_explains(state.problem, state.candidates)
+    bases = product(state.singles[: 1 if alone else PAIR_BASES], state.effects)
+    calls = [(state.coarse, base.fit, effect) for base, effect in bases if effect not in base.names]
+    screened, record = _screened(stage, calls, workers)
+    state = state.noting(*record)
+    worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]
+    fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
+    state = state.noting(*_not_worth(stage, screened, worth), *record)
+    found, record = fit_finalists("finalists, pairs", state.problem, fitted, workers)
+    enough = _takes_off_enough(found, state) if alone and state.singles else found
+    out = [c for c in found if c not in enough]
+    reason = f"its second effect leaves more than {SECOND_LEAVES:g} of the cost of one alone"
+    return state.adding((enough, (*record, *dropped("finalists, pairs", out, reason))))
+
+
+def effects_of_the_best_alone(state: SearchState, workers: Workers) -> SearchState:
+    """Each effect of a leading pair alone: the other may have been a crutch."""
+    best = state.best
+    if len(best.names) < 2:
+        return state
+    return state.adding(
+        fit_each_alone("effects of the best alone", state.problem, best, best.names, workers)
+    )
+
+
+def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """What the best names of stiffness and damping, without the prior of scatter that pulls it."""
+    best = state.best
+    if best.named == best.names:
+        return state
+    start = parameterization_of(best.named, state.problem.nuisance).joined(best.fit.parts)
+    return state.adding(fit_all("scatter of the best", [(state.problem, best.named, start)], workers))
+
+
+STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
+    nominal_rig,
+    stiffness_or_damping_alone,
+    single_effects,
+    finer_mesh,
+    pairs,
+    effects_of_the_best_alone,
+    scatter_of_the_best,
+    finer_mesh,
+)
+
+
+def _screened(
+    stage: str, calls: Sequence[tuple[FitProblem, Fit, str]], workers: Workers
+) -> tuple[list[Screened], tuple[RecordEntry, ...]]:
+    tasks = [
+        Task(effects=(*base.names, name), arguments=(problem, base, name))
+        for problem, base, name in calls
+    ]
+    results = workers.each(f"screening {stage}", screen, tasks)
+    found = [s for own in results if not isinstance(own, Failure) for s in own]
+    return found, failed(stage, [r for r in results if isinstance(r, Failure)])
+
+
+def _not_worth(
+    stage: str, screened: Sequence[Screened], worth: Sequence[Screened]
+) -> tuple[RecordEntry, ...]:
+    fitted = {s.names for s in worth}
+    out = dict.fromkeys(s.names for s in screened if s.names not in fitted)
+    return not_fitted(stage, out, "screening promises too little")
+
+
+def _worth_a_second(one: Screened, state: SearchState, *, alone: bool) -> bool:
+    if not alone:
+        return one.gain >= WORTH_FITTING
+    return one.cost < SECOND_LEAVES * state.singles[0].fit.cost
+
+
+def _takes_off_enough(found: Sequence[Candidate], state: SearchState) -> list[Candidate]:
+    """Pairs that take off the log itself what a second effect has to promise on the decimated one."""
+    asked = (1 - SECOND_LEAVES) * state.singles[0].fit.cost
+    most = min(c.fit.cost for c in state.candidates) - asked
+    return [c for c in found if c.fit.cost <= most]

@@ -1,0 +1,143 @@
+"""From ranked candidates to a verdict that says no more than the data do.
+
+none        the nominal rig is at the noise floor, or what is left of it is the rig's
+            own scatter in stiffness and damping
+explained   the best candidate is at the noise floor and nothing else comes near it
+undecided   another candidate, not a richer relative of the best, fits alike
+unknown     nothing that was tried brings the residual to the noise floor
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
+from diagnosis.effects import LIBRARY
+from diagnosis.selection.candidate import Candidate
+
+
+class VerdictKind(StrEnum):
+    """The four verdicts."""
+
+    NONE = "none"
+    EXPLAINED = "explained"
+    UNKNOWN = "unknown"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """What was concluded.
+
+    Attributes:
+      effects: accepted, strongest first.
+      confusable: sets of effects that fit alike.
+      best: the candidate that predictions and parameters are of.
+      rivals: candidates that explain the log as well as the best.
+      ranking: single effects, none and unknown with probabilities that add up to 1.
+    """
+
+    kind: VerdictKind
+    effects: tuple[str, ...]
+    confusable: tuple[tuple[str, ...], ...]
+    best: Candidate
+    rivals: tuple[Candidate, ...] = ()
+    ranking: tuple[tuple[str, float], ...]
+
+    @property
+    def settled(self) -> bool:
+        """Whether the log is explained, be it by nothing."""
+        return self.kind in (VerdictKind.NONE, VerdictKind.EXPLAINED)
+
+
+def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
+    """The verdict on candidates, best first."""
+    at_floor = _explaining(candidates)
+    if not at_floor:
+        return Verdict(
+            kind=VerdictKind.UNKNOWN,
+            effects=(),
+            confusable=(),
+            best=candidates[0],
+            ranking=_ranking(candidates, known=False),
+        )
+    best = _simplest(at_floor)
+    rivals = [c for c in at_floor if c is not best and _alike(best, c)]
+    kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
+    if rivals and kind is VerdictKind.EXPLAINED:
+        kind = VerdictKind.UNDECIDED
+    return Verdict(
+        kind=kind,
+        effects=best.named,
+        confusable=tuple(tuple(c.named) for c in (best, *rivals)) if rivals else (),
+        best=best,
+        rivals=tuple(rivals),
+        ranking=_ranking(candidates, known=True),
+    )
+
+
+def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates at the floor, but for effects that add nothing to a rig that is off itself."""
+    unidentifiable = min(
+        (c.score for c in candidates if c.unidentifiable and c.floor.reached), default=math.inf
+    )
+    return [
+        c
+        for c in candidates
+        if c.explains and (c.score < unidentifiable or c.only_scatter or not c.jointly_significant)
+    ]
+
+
+def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
+    """The simplest of those that score within reach of the best."""
+    best = at_floor[0]
+    near = [c for c in at_floor if c.score - best.score <= SIMPLE_LEAD]
+    simplest = min(near, key=lambda c: (len(c.named), c.fit.size, c.score))
+    leads = simplest.score - best.score
+    return best if _nested(best, simplest) and leads > NESTED_LEAD else simplest
+
+
+def _alike(best: Candidate, other: Candidate) -> bool:
+    """Whether another explanation fits as well, and is not the best with more beside it."""
+    if not best.named or not other.named or abs(other.score - best.score) > SIMPLE_LEAD:
+        return False
+    if _nested(best, other):
+        return best.fit.size < other.fit.size  # the other way round, NESTED_LEAD is enough
+    return not _covers(other, best)
+
+
+def _nested(one: Candidate, other: Candidate) -> bool:
+    """Whether they differ in one effect, which is a special case of the other's."""
+    mine, theirs = set(one.named) - set(other.named), set(other.named) - set(one.named)
+    if len(mine) != 1 or len(theirs) != 1:
+        return False
+    a, b = mine.pop(), theirs.pop()
+    return a in LIBRARY[b].contains or b in LIBRARY[a].contains
+
+
+def _covers(other: Candidate, best: Candidate) -> bool:
+    """Whether each effect of the best is there, or contained in one that is."""
+    within = {name for o in other.named for name in (o, *LIBRARY[o].contains)}
+    return set(best.named) <= within
+
+
+def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:
+    """Probabilities of single effects, none and unknown: exp(-score / 2), normalised."""
+    weights = dict.fromkeys((*LIBRARY, "none", "unknown"), 0.0)
+    if not known:
+        weights["unknown"] = 1.0
+    else:
+        least = min(c.score for c in candidates)
+        for c in candidates:
+            weight = math.exp(-0.5 * min(c.score - least, 1400.0))
+            for name in c.named or ("none",):
+                weights[name] += weight / max(len(c.named), 1)
+    total = sum(weights.values())
+    ranked = sorted(weights.items(), key=lambda item: -item[1])
+    return tuple((name, weight / total) for name, weight in ranked)
+
+
+def places(effects: Sequence[str]) -> str:
+    """Where the first of the accepted effects lives."""
+    return LIBRARY[effects[0]].place.value if effects else ""
