@@ -178,8 +178,8 @@ MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 FINALISTS = 4
 CONTENDING = 60.0
 """Candidates that are fitted on the log itself, and the score behind the best beyond which they are out
-of the question: six times the largest lead that any decision asks for, since the decimated log weighs costs
-to 5 % only."""
+of the question: six times the largest lead that any decision asks for, since the decimated log weighs
+costs to 5 % only."""
 NOMINAL_LEAD = 10.0
 """Score by which the scatter of stiffness and damping has to improve on the exact nominal rig before it
 is kept beside it."""
@@ -204,6 +204,9 @@ MOST_RUNS = 100
 """Repetitions of a proposed experiment beyond which it is not proposed."""
 SAME_DEPTH_MM = 1.0
 """Depths of trials that differ by less tell nothing of what varies with depth."""
+ALMOST_NOTHING_SIGMA = 0.01
+"""Reduction of the gap by another effect that the report calls almost nothing: a third of what GAP_LIMIT
+leaves above the noise."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
 TURNING_DEG_S = 1.0

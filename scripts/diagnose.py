@@ -48,6 +48,7 @@ def _summary(found: Diagnosis, console: Console) -> None:
     for warning in found.warnings:
         console.print(f"warning: {escape(warning)}", highlight=False)
     console.print(_breakdown_table(found))
+    console.print(escape(largest_residual(found)), highlight=False)
     if found.verdict.effects:
         console.print(_parameter_table(found))
     console.print(_ranking_table(found))
@@ -68,7 +69,6 @@ def _breakdown_table(found: Diagnosis) -> Table:
         table.add_row(f"{low:g} to {high:g} Hz", f"{value:.2f}")
     for depth, value in parts.depth_mm:
         table.add_row(f"{depth:g} mm deep", f"{value:.2f}")
-    table.caption = escape(largest_residual(found))
     return table
 
 

@@ -19,6 +19,8 @@ from sim.files import refuse_existing, writing
 from sim.recording import record
 from sim.rerun_log import log_recording
 
+Pair = tuple[PreparedTrial, Prediction]
+
 _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
 
 
@@ -54,24 +56,38 @@ def output_paths(log: RigLog, folder: Path) -> list[Path]:
     return [folder / "replay.png", folder / "replay.rrd", *predictions]
 
 
-def gap(nominal: NominalReplay, trial: PreparedTrial, prediction: Prediction, sensor: str) -> float:
-    """Root mean square of the residual / sigma, as in a diagnosis; NaN if not measured."""
-    if not trial.has(sensor):
+def gap(nominal: NominalReplay, sensor: str, trial: int | None = None) -> float:
+    """Root mean square of the residual / sigma, as in a diagnosis; NaN if not measured.
+
+    Args:
+      trial: index; None: of all trials together.
+    """
+    each = list(zip(nominal.problem.log.trials, nominal.predictions, strict=True))
+    left = [t.readings[sensor] - p[sensor] for t, p in _chosen(each, trial) if t.has(sensor)]
+    if not left:
         return float("nan")
-    left = (trial.readings[sensor] - prediction[sensor]) / nominal.problem.noise[sensor]
-    return float(np.sqrt(np.nanmean(left**2)))
+    return float(np.sqrt(np.nanmean(np.concatenate(left) ** 2))) / nominal.problem.noise[sensor]
 
 
 def table(nominal: NominalReplay) -> Table:
     """The gap of each trial, in units of the noise that the readings show."""
-    shown = Table("trial", "samples", "tip", "base torque", title="Residual of the nominal model / σ")
-    for trial, prediction in zip(nominal.problem.log.trials, nominal.predictions, strict=True):
-        gaps = [gap(nominal, trial, prediction, s) for s in ("tip_angle_deg", "base_torque_n_mm")]
-        cells = ["not measured" if np.isnan(g) else f"{g:.2f}" for g in gaps]
-        shown.add_row(trial.name, str(int(trial.logged.sum())), *cells)
     noise = nominal.problem.noise
-    shown.caption = ", ".join(f"{s}: σ = {noise[s]:.3g}" for s in SENSORS)
+    heads = [f"{label} (σ {noise[s]:.3g})" for s, label in _LABELS.items()]
+    shown = Table("trial", "samples", *heads, title="Residual of the nominal model / σ")
+    for i, trial in enumerate(nominal.problem.log.trials):
+        shown.add_row(trial.name, str(int(trial.logged.sum())), *_cells(nominal, i))
+    samples = sum(int(trial.logged.sum()) for trial in nominal.problem.log.trials)
+    shown.add_row("all", str(samples), *_cells(nominal, None), end_section=True)
     return shown
+
+
+def _cells(nominal: NominalReplay, trial: int | None) -> list[str]:
+    gaps = [gap(nominal, sensor, trial) for sensor in _LABELS]
+    return ["not measured" if np.isnan(g) else f"{g:.2f}" for g in gaps]
+
+
+def _chosen(each: list[Pair], trial: int | None) -> list[Pair]:
+    return each if trial is None else [each[trial]]
 
 
 def write(log: RigLog, nominal: NominalReplay, folder: Path, *, force: bool) -> None:
@@ -88,10 +104,9 @@ def write(log: RigLog, nominal: NominalReplay, folder: Path, *, force: bool) -> 
         with writing(path, force=force) as part:
             pd.DataFrame(columns).to_csv(part, index=False, float_format="%.6g")
     _draw(replayed, picture, force=force)
-    first, prediction = nominal.problem.log.trials[0], nominal.predictions[0]
+    first = nominal.problem.log.trials[0]
     shape = shape_of(log.rig, first, NOMINAL)
-    gaps = {s: gap(nominal, first, prediction, s) for s in SENSORS}
-    verdicts = [f"residual, {s}: {value:.2f} σ" for s, value in gaps.items()]
+    verdicts = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
     parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
     log_recording(record(shape, parameters), rrd, verdicts=verdicts, force=force)
 

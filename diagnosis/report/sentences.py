@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from diagnosis.criteria import ALMOST_NOTHING_SIGMA
 from diagnosis.effects import LIBRARY
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
@@ -50,7 +51,7 @@ def with_one_more(found: Diagnosis) -> str:
         return ""
     here = found.verdict.best.fit.gap
     named = ", ".join(f"{name} to {gap:.3f} σ" for name, gap in first)
-    change = "changes almost nothing" if here - first[0][1] < _ALMOST_NOTHING_SIGMA else "would change"
+    change = "changes almost nothing" if here - first[0][1] < ALMOST_NOTHING_SIGMA else "would change"
     return f"Adding another effect {change}: from {here:.3f} σ on the trials of the fit, {named}."
 
 
@@ -68,9 +69,6 @@ def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
     return f"Largest residual: {value:.2f} σ, {stretch}"
-
-
-_ALMOST_NOTHING_SIGMA = 0.01
 
 
 def _capital(text: str) -> str:

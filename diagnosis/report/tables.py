@@ -8,6 +8,8 @@ from diagnosis.effects.effect import Parameter
 from diagnosis.report.html_parts import table
 from diagnosis.selection.record import RecordEntry
 
+_FOUR_DECIMALS = (0.1, 10.0)  # factors near 1 are told by four decimals, else three digits
+
 
 def parameter_table(parameters: Mapping[str, Any]) -> str:
     """Parameters of what explains the log, with their intervals."""
@@ -58,4 +60,5 @@ def _bounded(parameter: Parameter, value: float) -> str:
 
 
 def _rounded(value: float) -> str:
-    return f"{value:.4f}" if 0.1 < abs(value) < 10 else f"{value:.3g}"
+    low, high = _FOUR_DECIMALS
+    return f"{value:.4f}" if low < abs(value) < high else f"{value:.3g}"
