@@ -9,15 +9,21 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from diagnosis.paper.experiments import ELEMENTS, STEP_S, schedule
-from diagnosis.paper.figures import Experiment
-from diagnosis.paper.fit import Fit, rms
-from diagnosis.paper.rig import STATED
-from diagnosis.paper.rows import candidate_rows, compensator_rows, figure_rows, prospect_rows, word_rows
-from diagnosis.paper.study import Case, Study
-from diagnosis.paper.words import limits, next_experiment, sentence, title
 from models import published
 from sim.simulation import simulate
+from studies.published.experiments.figures import Experiment
+from studies.published.experiments.rig import STATED
+from studies.published.experiments.schedules import ELEMENTS, STEP_S, schedule
+from studies.published.fitting.fit import Fit, rms
+from studies.published.report.sentences import limits, next_experiment, sentence, title
+from studies.published.report.tables import (
+    candidate_rows,
+    compensator_rows,
+    figure_rows,
+    prospect_rows,
+    word_rows,
+)
+from studies.published.study import Case, Study
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;
 color:#222}h1{font-size:1.4em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%}

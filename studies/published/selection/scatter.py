@@ -18,12 +18,12 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import chi2
 
-from diagnosis.paper.figures import FRACTION, Figure, Measure, plastisol
-from diagnosis.paper.fit import Fit
-from diagnosis.paper.judge import LEAST_CHANCE, Verdict, contradiction
-from diagnosis.paper.rig import STATED, TURN_DEG
 from models.lag import steady_lag_deg
 from models.needle import Needle
+from studies.published.experiments.figures import FRACTION, Figure, Measure, plastisol
+from studies.published.experiments.rig import STATED, TURN_DEG
+from studies.published.fitting.fit import Fit
+from studies.published.selection.verdict import LEAST_CHANCE, Verdict, contradiction
 
 _FRACTIONS = (0.03, FRACTION, 0.1, 0.2)
 _LARGEST_FRACTION = 2.0

@@ -6,10 +6,10 @@ they stand beside what this project's compensators do on the stated one.
 
 from dataclasses import dataclass
 
-from diagnosis.paper.tried import READINGS, stated
 from models import published
 from models.materials import MATERIALS
 from sim.control.tables import judge, turn
+from studies.published.selection.hypothesis_set import READINGS, stated
 
 _COLUMNS = {"feedforward": 1, "feedback": 2}  # of the published tables
 

@@ -5,15 +5,15 @@ import math
 from pathlib import Path
 from typing import Any
 
-from diagnosis.paper.figures import FRACTION
-from diagnosis.paper.fit import Fit, rms
-from diagnosis.paper.judge import contradiction, meets, still_open
-from diagnosis.paper.outlook import Prospect
-from diagnosis.paper.page import page
-from diagnosis.paper.study import Case, Study
-from diagnosis.paper.support import damping_share, sets_that_pass
-from diagnosis.paper.words import limits, next_experiment, parameters, sentence
 from sim.files import refuse_existing, write_text
+from studies.published.experiments.figures import FRACTION
+from studies.published.fitting.fit import Fit, rms
+from studies.published.report.page import page
+from studies.published.report.sentences import limits, next_experiment, parameters, sentence
+from studies.published.selection.discrimination import Prospect
+from studies.published.selection.scatter import damping_share, sets_that_pass
+from studies.published.selection.verdict import contradiction, meets, still_open
+from studies.published.study import Case, Study
 
 FORMAT = "paper-gap/1"
 

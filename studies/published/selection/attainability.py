@@ -6,10 +6,10 @@ strong and whatever it does to the others, as long as Table II stands. The searc
 local: of candidates with several parameters it could miss a far corner.
 """
 
-from diagnosis.paper.figures import Figure, Measure
-from diagnosis.paper.fit import Fit, Fitter
-from diagnosis.paper.judge import CLOSED, still_open
-from diagnosis.paper.replay import Replay
+from studies.published.experiments.figures import Figure, Measure
+from studies.published.experiments.replay import Replay
+from studies.published.fitting.fit import Fit, Fitter
+from studies.published.selection.verdict import CLOSED, still_open
 
 _ITERATIONS = 4
 

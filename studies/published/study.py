@@ -3,17 +3,17 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from diagnosis.paper import tried
-from diagnosis.paper.candidates import OF_GELATIN
-from diagnosis.paper.compensator import Compensated, compensated
-from diagnosis.paper.figures import Figure, gelatin, plastisol
-from diagnosis.paper.fit import Fit, Fitter
-from diagnosis.paper.hypothesis import Hypothesis
-from diagnosis.paper.judge import Verdict, judge
-from diagnosis.paper.outlook import IN_WORDS, IN_WORDS_OF_GELATIN, Prospect, prospects
-from diagnosis.paper.reach import out_of_reach
-from diagnosis.paper.replay import Replay
-from diagnosis.paper.rig import PaperRig
+from studies.published.compensator import Compensated, compensated
+from studies.published.experiments.figures import Figure, gelatin, plastisol
+from studies.published.experiments.replay import Replay
+from studies.published.experiments.rig import PaperRig
+from studies.published.fitting.fit import Fit, Fitter
+from studies.published.fitting.hypothesis import Hypothesis
+from studies.published.fitting.mechanisms import OF_GELATIN
+from studies.published.selection import hypothesis_set as tried
+from studies.published.selection.attainability import out_of_reach
+from studies.published.selection.discrimination import IN_WORDS, IN_WORDS_OF_GELATIN, Prospect, prospects
+from studies.published.selection.verdict import Verdict, judge
 
 Progress = Callable[[str, float], None]
 

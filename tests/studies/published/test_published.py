@@ -9,32 +9,32 @@ from rich.console import Console
 from scipy.stats import chi2, t
 
 from diagnosis.effects.effect import Parameter
-from diagnosis.paper import study as study_module
-from diagnosis.paper import tried
-from diagnosis.paper.candidates import CANDIDATES, DAMPING, Candidate
-from diagnosis.paper.experiments import settling_s
-from diagnosis.paper.figures import Experiment, Figure, Measure, gelatin, plastisol
-from diagnosis.paper.fit import Fit, Fitter
-from diagnosis.paper.hypothesis import Hypothesis
-from diagnosis.paper.judge import Outcome, contradiction, judge, meets
-from diagnosis.paper.outlook import prospects
-from diagnosis.paper.reach import out_of_reach
-from diagnosis.paper.replay import Replay
-from diagnosis.paper.rig import STATED, BaseMotion, PaperRig, Shape
-from diagnosis.paper.support import (
+from diagnosis.rig_model import RigModel
+from models import published
+from models.errors import OutputExists
+from models.modes import InsertedNeedle, ramp
+from models.needle import NITINOL
+from scripts import published_figures
+from sim.crosscheck.paper import integral_deg_s
+from studies.published import study as study_module
+from studies.published.experiments.figures import Experiment, Figure, Measure, gelatin, plastisol
+from studies.published.experiments.replay import Replay
+from studies.published.experiments.rig import STATED, BaseMotion, PaperRig, Shape
+from studies.published.experiments.schedules import settling_s
+from studies.published.fitting.fit import Fit, Fitter
+from studies.published.fitting.hypothesis import Hypothesis
+from studies.published.fitting.mechanisms import CANDIDATES, DAMPING, Candidate
+from studies.published.selection import hypothesis_set as tried
+from studies.published.selection.attainability import out_of_reach
+from studies.published.selection.discrimination import prospects
+from studies.published.selection.scatter import (
     chi_square_at,
     damping_share,
     mean_delay_s,
     price,
     scatter_needed,
 )
-from diagnosis.rig_model import RigModel
-from models import published
-from models.errors import OutputExists
-from models.modes import InsertedNeedle, ramp
-from models.needle import NITINOL
-from scripts import paper_gap
-from sim.crosscheck.paper import integral_deg_s
+from studies.published.selection.verdict import Outcome, contradiction, judge, meets
 
 BETA = 3.45 / 200
 MODEL_READING = PaperRig(free_mm=0.0)
@@ -331,7 +331,7 @@ def test_the_command_reports_in_json_and_on_a_page_that_needs_no_network(tmp_pat
     monkeypatch.setattr(study_module, "OF_GELATIN", ("coulomb_friction", "torque_bias"))
     monkeypatch.setattr(study_module, "compensated", lambda: ())
     folder = tmp_path / "out"
-    assert paper_gap.run(folder, json_only=True, force=False, console=Console()) == 0
+    assert published_figures.run(folder, json_only=True, force=False, console=Console()) == 0
     printed = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert printed == json.loads((folder / "paper.json").read_text(), parse_constant=pytest.fail)
     plastisol_found, gelatin_found = (printed["materials"][m] for m in ("plastisol", "gelatin"))
@@ -344,4 +344,4 @@ def test_the_command_reports_in_json_and_on_a_page_that_needs_no_network(tmp_pat
     assert "://" not in page
     assert page.count("data:image/png;base64,") == 3
     with pytest.raises(OutputExists):
-        paper_gap.run(folder, json_only=True, force=False, console=Console())
+        published_figures.run(folder, json_only=True, force=False, console=Console())

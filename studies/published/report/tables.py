@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from diagnosis.paper.figures import Figure
-from diagnosis.paper.fit import Fit, rms
-from diagnosis.paper.judge import contradiction, still_open
-from diagnosis.paper.study import Case, Study
-from diagnosis.paper.words import parameters, shown, title
+from studies.published.experiments.figures import Figure
+from studies.published.fitting.fit import Fit, rms
+from studies.published.report.sentences import parameters, shown, title
+from studies.published.selection.verdict import contradiction, still_open
+from studies.published.study import Case, Study
 
 _MOST_PAIRS = 12
 

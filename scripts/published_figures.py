@@ -8,11 +8,17 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
-from diagnosis.paper.report import as_json, output_paths, write_report
-from diagnosis.paper.rows import candidate_rows, compensator_rows, figure_rows, prospect_rows, word_rows
-from diagnosis.paper.study import Case, run_study
-from diagnosis.paper.words import limits, next_experiment, sentence
 from sim.files import refuse_existing
+from studies.published.report.json_report import as_json, output_paths, write_report
+from studies.published.report.sentences import limits, next_experiment, sentence
+from studies.published.report.tables import (
+    candidate_rows,
+    compensator_rows,
+    figure_rows,
+    prospect_rows,
+    word_rows,
+)
+from studies.published.study import Case, run_study
 
 _WITHOUT_VALUES = (0, 1, 3, 4, 5, 6, 8)  # columns: candidate, reading, gap, left out, p, AICc, cannot
 

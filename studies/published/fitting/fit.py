@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 from scipy.stats import chi2, t
 
-from diagnosis.paper.figures import Figure
-from diagnosis.paper.hypothesis import Hypothesis
-from diagnosis.paper.replay import Replay
+from studies.published.experiments.figures import Figure
+from studies.published.experiments.replay import Replay
+from studies.published.fitting.hypothesis import Hypothesis
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Parameter
-from diagnosis.paper.candidates import FREE_LENGTH, Candidate
-from diagnosis.paper.rig import PaperRig
+from studies.published.experiments.rig import PaperRig
+from studies.published.fitting.mechanisms import FREE_LENGTH, Candidate
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,10 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.paper.candidates import (
+from studies.published.experiments.rig import SETUP_FREE_MM, PaperRig
+from studies.published.fitting.fit import Fit
+from studies.published.fitting.hypothesis import Hypothesis
+from studies.published.fitting.mechanisms import (
     BASE_RAMP,
     BASE_SERVO,
     CANDIDATES,
@@ -21,9 +24,6 @@ from diagnosis.paper.candidates import (
     FREE_LENGTH,
     OF_GELATIN,
 )
-from diagnosis.paper.fit import Fit
-from diagnosis.paper.hypothesis import Hypothesis
-from diagnosis.paper.rig import SETUP_FREE_MM, PaperRig
 
 Array = NDArray[np.float64]
 

@@ -17,11 +17,11 @@ from enum import StrEnum
 
 import numpy as np
 
-from diagnosis.paper.candidates import CANDIDATES
-from diagnosis.paper.figures import Figure
-from diagnosis.paper.fit import Fit
-from diagnosis.paper.rig import STATED
 from models import published
+from studies.published.experiments.figures import Figure
+from studies.published.experiments.rig import STATED
+from studies.published.fitting.fit import Fit
+from studies.published.fitting.mechanisms import CANDIDATES
 
 LEAST_CHANCE = 0.05
 ALIKE = 6.0  # of AICc: odds of 20 to 1

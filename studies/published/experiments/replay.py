@@ -11,10 +11,17 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.paper.experiments import ELEMENTS, SLOW_STEP_S, STEP_S, Readings, read_off, schedule
-from diagnosis.paper.figures import Experiment, Figure
-from diagnosis.paper.rig import STATED, PaperRig
 from sim.simulation import simulate
+from studies.published.experiments.figures import Experiment, Figure
+from studies.published.experiments.rig import STATED, PaperRig
+from studies.published.experiments.schedules import (
+    ELEMENTS,
+    SLOW_STEP_S,
+    STEP_S,
+    Readings,
+    read_off,
+    schedule,
+)
 
 Array = NDArray[np.float64]
 

@@ -2,12 +2,18 @@
 
 from typing import Any
 
-from diagnosis.paper.experiments import watched_s
-from diagnosis.paper.figures import FRACTION, Figure, Measure
-from diagnosis.paper.fit import Fit
-from diagnosis.paper.judge import Outcome
-from diagnosis.paper.study import Case, InWords, Study
-from diagnosis.paper.support import damping_share, odds, price, scatter_needed, sets_that_pass
+from studies.published.experiments.figures import FRACTION, Figure, Measure
+from studies.published.experiments.schedules import watched_s
+from studies.published.fitting.fit import Fit
+from studies.published.selection.scatter import (
+    damping_share,
+    odds,
+    price,
+    scatter_needed,
+    sets_that_pass,
+)
+from studies.published.selection.verdict import Outcome
+from studies.published.study import Case, InWords, Study
 
 
 def title(names: tuple[str, ...]) -> str:

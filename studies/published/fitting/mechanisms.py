@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter
-from diagnosis.paper.rig import BaseMotion, PaperRig, Shape
+from studies.published.experiments.rig import BaseMotion, PaperRig, Shape
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,9 +12,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.paper.figures import Experiment, Figure, Measure
-from diagnosis.paper.fit import Fit
-from diagnosis.paper.replay import Replay
+from studies.published.experiments.figures import Experiment, Figure, Measure
+from studies.published.experiments.replay import Replay
+from studies.published.fitting.fit import Fit
 
 _APART = 3.0  # spreads
 _WORDS = "as the words say"
