@@ -1,7 +1,6 @@
-"""What candidates for the published rig give for published figures.
+"""The published experiments, run on the MuJoCo needle by possible forms of the published rig.
 
-Each experiment is run on the MuJoCo needle and read off as the paper reads it. Needles
-of one schedule and layout run side by side, and no needle is run twice.
+Needles of one schedule and memory layout are simulated side by side, and none twice.
 """
 
 from collections import Counter
@@ -12,59 +11,54 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.simulation import simulate
-from studies.published.experiments.figures import Experiment, Figure
-from studies.published.experiments.rig import STATED, PaperRig
-from studies.published.experiments.schedules import (
-    ELEMENTS,
-    SLOW_STEP_S,
-    STEP_S,
-    Readings,
-    read_off,
-    schedule,
-)
+from studies.published.criteria import ELEMENTS
+from studies.published.experiments.measurement import Measurement, TurnExperiment
+from studies.published.experiments.read_off import Quantities, read_off
+from studies.published.experiments.rig import STATED, WITH_FREE_LENGTH, PublishedRig
+from studies.published.experiments.schedules import schedule, step_s
 
 Array = NDArray[np.float64]
 
 
-class Replay:
-    """Predictions of figures, which remembers every needle that it has run.
+class FigureReplay:
+    """Predictions of measurements; every simulated needle is remembered.
 
     Args:
       elements: along the inserted shaft.
-      refined: by how much every step is finer than usual.
+      refinement: by which every time step is divided.
     """
 
-    def __init__(self, *, elements: int = ELEMENTS, refined: float = 1.0) -> None:
-        self._unconverged: Counter[PaperRig] = Counter()
-        self._elements, self._refined = elements, refined
-        self._known: dict[tuple[Experiment, float, PaperRig], Readings] = {}
+    def __init__(self, *, elements: int = ELEMENTS, refinement: float = 1.0) -> None:
+        self._unconverged: Counter[PublishedRig] = Counter()
+        self._elements, self._refinement = elements, refinement
+        self._known: dict[tuple[TurnExperiment, float, PublishedRig], Quantities] = {}
 
-    def __call__(self, figures: Sequence[Figure], rigs: Sequence[PaperRig]) -> Array:
-        """Every figure by every rig, in the figure's unit, (figures, rigs).
+    def __call__(self, measurements: Sequence[Measurement], rigs: Sequence[PublishedRig]) -> Array:
+        """Every measurement by every rig, in the measurement's unit, (measurements, rigs).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.
         """
-        rows: dict[tuple[Experiment, float], list[Readings]] = {}
-        for experiment, depth in dict.fromkeys((f.experiment, f.depth_mm) for f in figures):
-            shown = [_shown(experiment, rig) for rig in rigs]
-            self._run(experiment, depth, shown)
-            rows[experiment, depth] = [self._known[experiment, depth, rig] for rig in shown]
+        rows: dict[tuple[TurnExperiment, float], list[Quantities]] = {}
+        for experiment, depth in dict.fromkeys((m.experiment, m.depth_mm) for m in measurements):
+            seen = [_as_seen_by(experiment, rig) for rig in rigs]
+            self._run(experiment, depth, seen)
+            rows[experiment, depth] = [self._known[experiment, depth, rig] for rig in seen]
         return np.array(
-            [[reading[f.measure] for reading in rows[f.experiment, f.depth_mm]] for f in figures]
+            [[values[m.quantity] for values in rows[m.experiment, m.depth_mm]] for m in measurements]
         )
 
-    def unconverged(self, rig: PaperRig) -> int:
-        """Stages of a rig's runs whose iteration did not converge."""
-        return sum(self._unconverged[shown] for shown in {_shown(e, rig) for e in Experiment})
+    def unconverged(self, rig: PublishedRig) -> int:
+        """Stages of a rig's simulations whose iteration did not converge."""
+        return sum(self._unconverged[seen] for seen in {_as_seen_by(e, rig) for e in TurnExperiment})
 
-    def _run(self, experiment: Experiment, depth_mm: float, rigs: Sequence[PaperRig]) -> None:
-        together: dict[object, list[PaperRig]] = {}
+    def _run(self, experiment: TurnExperiment, depth_mm: float, rigs: Sequence[PublishedRig]) -> None:
+        together: dict[object, list[PublishedRig]] = {}
         for rig in dict.fromkeys(rigs):
             if (experiment, depth_mm, rig) not in self._known:
-                # A sheath that rubs needs a mesh of its own.
-                together.setdefault((rig.free_mm, rig.motion, rig.model.sheath > 0), []).append(rig)
-        step = STEP_S.get(experiment, SLOW_STEP_S) / self._refined
+                # Friction in the sheath needs a mesh of its own.
+                together.setdefault((rig.free_mm, rig.turn, rig.model.sheath > 0), []).append(rig)
+        step = step_s(experiment) / self._refinement
         for group in together.values():
             inputs = schedule(experiment, depth_mm, group[0])
             setups = [
@@ -75,8 +69,8 @@ class Replay:
                 self._unconverged[rig] += run.unconverged
 
 
-def _shown(experiment: Experiment, rig: PaperRig) -> PaperRig:
+def _as_seen_by(experiment: TurnExperiment, rig: PublishedRig) -> PublishedRig:
     """The rig, without what an experiment cannot show."""
-    if experiment is Experiment.QUICK_TURN:
+    if experiment is TurnExperiment.QUICK_TURN:
         return rig
-    return replace(rig, free_mm=PaperRig().free_mm, motion=PaperRig().motion)
+    return replace(rig, free_mm=WITH_FREE_LENGTH.free_mm, turn=WITH_FREE_LENGTH.turn)

@@ -1,31 +1,19 @@
-"""The published rig: what the paper states of it, and what a candidate changes.
+"""The published rig: what the paper states of it, and what a hypothesis may change.
 
 Stated are the needle, the viscous law with b = 3.45 N mm s at 200 mm, and a base that
-starts 5 cm from the tissue. Not stated is how the base turns: "quickly", "tuned to
-provide the fastest response without oscillating". Two motions stand for that:
-
-    ramp     90 deg at a constant rate in some time; 0.3 s wherever this project has to choose
-    servo    a critically damped servo of second order, 1 - (1 + t / T) exp(-t / T)
-
-"Stated" has two readings of the free length: the set-up's 50 mm, and none, which is
-the model of Sections III and V.
+starts 5 cm from the tissue. The free length of the quick turn can be understood in two
+ways: the set-up's 50 mm, and none, which is the model of Sections III and V.
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from diagnosis.rig_log import Rig
 from diagnosis.rig_model import RigModel
 from models import published
+from studies.published.experiments.base_turn import BaseTurn
 
-Array = NDArray[np.float64]
-
-TURN_DEG = 90.0
-SETUP_FREE_MM = 50.0
+_SETUP_FREE_MM = 50.0
 
 _STATED: dict[str, Any] = {
     "format": "rig-log/1",
@@ -45,38 +33,22 @@ _STATED: dict[str, Any] = {
 STATED = Rig(**_STATED)
 
 
-class Shape(StrEnum):
-    """How the base comes to 90 deg."""
-
-    RAMP = "ramp"
-    SERVO = "servo"
-
-
 @dataclass(frozen=True, kw_only=True)
-class BaseMotion:
-    """The base's own motion: shape, and its time (a ramp's duration, a servo's T), s."""
-
-    shape: Shape = Shape.RAMP
-    time_s: float = 0.3
-
-    def angle_deg(self, time_s: Array) -> Array:
-        """Base angle at times from the start of the turn, deg, (N,)."""
-        share = time_s / self.time_s
-        if self.shape is Shape.RAMP:
-            return np.asarray(TURN_DEG * np.clip(share, 0.0, 1.0), np.float64)
-        return np.asarray(TURN_DEG * (1 - (1 + share) * np.exp(-share)), np.float64)
-
-
-@dataclass(frozen=True, kw_only=True)
-class PaperRig:
-    """A candidate for the published rig; as constructed it is the stated one.
+class PublishedRig:
+    """One possible form of the published rig; as constructed it is the stated one.
 
     Attributes:
       model: needle, tissue, drive and sensors, as the diagnosis of rig logs has them.
       free_mm: between base and tissue as the quick turn begins; 0: none at any time.
-      motion: of the base in the quick turn.
+      turn: of the base in the quick turn.
     """
 
     model: RigModel = RigModel()  # noqa: RUF009 - frozen
-    free_mm: float = SETUP_FREE_MM
-    motion: BaseMotion = BaseMotion()
+    free_mm: float = _SETUP_FREE_MM
+    turn: BaseTurn = BaseTurn()  # noqa: RUF009 - frozen
+
+
+WITH_FREE_LENGTH = PublishedRig()
+WITHOUT_FREE_LENGTH = PublishedRig(free_mm=0.0)
+STATED_RIGS = (WITH_FREE_LENGTH, WITHOUT_FREE_LENGTH)
+"""The stated rig with each free length that the paper can be understood to have."""

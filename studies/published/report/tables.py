@@ -1,112 +1,172 @@
-"""The findings as tables: rows of text, the head first."""
+"""The findings as tables of text."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from studies.published.experiments.figures import Figure
-from studies.published.fitting.fit import Fit, rms
-from studies.published.report.sentences import parameters, shown, title
-from studies.published.selection.verdict import contradiction, still_open
-from studies.published.study import Case, Study
+from studies.published.experiments.measurement import PublishedFigure
+from studies.published.fitting.fit import FigureFit
+from studies.published.material_study import MaterialStudy
+from studies.published.report.values import fitted_values, names_in_words, percent, value_text
+from studies.published.selection.twist_test import contradiction
+from studies.published.selection.verdict import unresolved
+from studies.published.study import PublishedStudy
 
 _MOST_PAIRS = 12
 
 
-def figure_rows(case: Case) -> list[list[str]]:
-    """Published, ours and ratio of every figure, in every reading."""
-    head = ["figure", "published", "spread"]
-    for fit in case.stated:
-        head += [f"ours{_reading(fit, case, before=', ')}", "ratio", "spreads"]
-    rows = [head]
-    for i, figure in enumerate(case.figures):
-        row = [figure.name, f"{figure.value:g} {figure.unit}", f"{figure.spread:.2g}"]
-        for fit in case.stated:
-            ours = float(fit.predicted[i])
-            row += [shown(figure, ours), f"{ours / figure.value:.2f}", f"{fit.missed[i]:+.1f}"]
-        rows.append(row)
-    return rows
+@dataclass(frozen=True, kw_only=True)
+class TextTable:
+    """A table of text: names of the columns, and rows of as many cells."""
+
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
 
 
-def _reading(fit: Fit, case: Case, *, before: str = "") -> str:
-    """The reading of a fit, where there is more than one."""
-    return before + fit.hypothesis.reading if len(case.stated) > 1 else ""
+def figure_table(study: MaterialStudy) -> TextTable:
+    """Published, simulated, ratio and residual of every figure, with each free length."""
+    head = ["figure", "published", "sigma"]
+    for fit in study.stated:
+        head += [f"simulated{_free_length(fit, study, before=', ')}", "ratio", "residual / σ"]
+    return TextTable(
+        head=tuple(head),
+        rows=tuple(_figure_row(i, figure, study) for i, figure in enumerate(study.figures)),
+    )
 
 
-def candidate_rows(case: Case) -> list[list[str]]:
-    """Every single candidate and the best pairs, in the order of AICc."""
-    head = [
-        "candidate",
-        "reading",
+def _figure_row(i: int, figure: PublishedFigure, study: MaterialStudy) -> tuple[str, ...]:
+    row = [figure.name, f"{figure.value:g} {figure.unit}", f"{figure.sigma:.2g}"]
+    for fit in study.stated:
+        simulated = float(fit.predicted[i])
+        row += [
+            value_text(figure, simulated),
+            f"{simulated / figure.value:.2f}",
+            f"{fit.residual[i]:+.1f}",
+        ]
+    return tuple(row)
+
+
+def _free_length(fit: FigureFit, study: MaterialStudy, *, before: str = "") -> str:
+    """The free length of a fit, where there is more than one."""
+    return before + fit.hypothesis.free_length if len(study.stated) > 1 else ""
+
+
+def mechanism_table(study: MaterialStudy, *, with_values: bool = True) -> TextTable:
+    """Every single mechanism and the best pairs, in the order of AICc; accepted ones have a star.
+
+    Args:
+      with_values: whether the fitted values have a column.
+    """
+    columns = (
+        "mechanism",
+        "free length",
         "values (95 %)",
-        "gap",
+        "rms residual / σ",
         "left out",
         "p",
         "AICc",
-        "still open",
-        "cannot",
-    ]
-    alone = [f for f in case.fits if len(f.hypothesis.names) == 1]
-    both = [f for f in case.fits if len(f.hypothesis.names) > 1][:_MOST_PAIRS]
-    return [head, *(_candidate_row(fit, case) for fit in (*alone, *both))]
+        "unresolved",
+        "unattainable",
+    )
+    kept = [name != "values (95 %)" or with_values for name in columns]
+    rows = (_mechanism_row(fit, study) for fit in (*study.singles(), *study.pairs()[:_MOST_PAIRS]))
+    return TextTable(head=_kept(columns, kept), rows=tuple(_kept(row, kept) for row in rows))
 
 
-def _candidate_row(fit: Fit, case: Case) -> list[str]:
-    values = [
-        f"{candidate} {name} {p['value']:.3g} ({p['low']:.3g} to {p['high']:.3g}) {p['unit']}"
-        for candidate, of in parameters(fit).items()
-        for name, p in of.items()
-    ]
-    before = next(s.gap for s in case.stated if s.hypothesis.base == fit.hypothesis.base)
-    mark = " *" if fit in case.verdict.accepted else ""
-    return [
-        title(fit.hypothesis.names) + mark,
-        _reading(fit, case),
-        "; ".join(value.removesuffix(" -") for value in values),
-        f"{before:.1f} to {fit.gap:.2f}",
-        f"{rms(fit.left_out):.2f}",
+def _kept(cells: Sequence[str], kept: Sequence[bool]) -> tuple[str, ...]:
+    return tuple(cell for cell, keep in zip(cells, kept, strict=True) if keep)
+
+
+def _mechanism_row(fit: FigureFit, study: MaterialStudy) -> tuple[str, ...]:
+    return (
+        _starred(fit, study),
+        _free_length(fit, study),
+        _values(fit),
+        f"{study.stated_as(fit).rms_residual:.1f} → {fit.rms_residual:.2f}",
+        f"{fit.rms_left_out:.2f}",
         f"{fit.p_value:.2g}",
         f"{fit.aicc:.1f}",
-        _short(still_open(fit)),
-        contradiction(fit) or _short(case.beyond.get(fit.hypothesis, ())),
+        _short(unresolved(fit)),
+        contradiction(fit) or _short(study.unattainable.get(fit.hypothesis, ())),
+    )
+
+
+def _starred(fit: FigureFit, study: MaterialStudy) -> str:
+    return names_in_words(fit.hypothesis.names) + (" *" if fit in study.verdict.accepted else "")
+
+
+def _values(fit: FigureFit) -> str:
+    values = [
+        f"{mechanism} {name} {p['value']:.3g} ({p['low']:.3g} to {p['high']:.3g}) {p['unit']}"
+        for mechanism, of in fitted_values(fit).items()
+        for name, p in of.items()
     ]
+    return "; ".join(value.removesuffix(" -") for value in values)
 
 
-def _short(figures: Sequence[Figure]) -> str:
+def _short(figures: Sequence[PublishedFigure]) -> str:
     """Figures by table and depth."""
     return ", ".join(f"{f.source.removeprefix('Table ')} {f.depth_mm / 10:g} cm" for f in figures)
 
 
-def word_rows(case: Case) -> list[list[str]]:
-    """What the text says, beside the stated rig and the accepted explanations."""
-    fits = case.verdict.accepted or (case.verdict.best,)
-    names = [title(f.hypothesis.names) + _reading(f, case, before=", ") for f in fits]
-    rows = [["in words", "published", "stated", *names]]
-    for said in case.in_words:
-        values = [shown(said.figure, v) for v in (said.stated, *said.predicted)]
-        rows.append([said.figure.name, f"about {said.figure.value:g} {said.figure.unit}", *values])
-    return rows
+def accepted_table(study: MaterialStudy) -> TextTable:
+    """Fitted values of the accepted explanations."""
+    return TextTable(
+        head=("explanation", "free length", "values (95 %)"),
+        rows=tuple(
+            (names_in_words(f.hypothesis.names), _free_length(f, study), _values(f))
+            for f in study.verdict.accepted
+            if f.hypothesis.names
+        ),
+    )
 
 
-def prospect_rows(study: Study) -> list[list[str]]:
-    """Further experiments under each accepted explanation."""
+def text_table(study: MaterialStudy) -> TextTable:
+    """What the text says, beside the stated rig and the leading explanations."""
+    fits = study.verdict.leading
+    names = [names_in_words(f.hypothesis.names) + _free_length(f, study, before=", ") for f in fits]
+    return TextTable(
+        head=("figure", "in the text", "stated", *names),
+        rows=tuple(
+            (
+                comparison.figure.name,
+                f"about {comparison.figure.value:g} {comparison.figure.unit}",
+                *(value_text(comparison.figure, v) for v in (comparison.stated, *comparison.predicted)),
+            )
+            for comparison in study.text
+        ),
+    )
+
+
+def proposed_table(study: PublishedStudy) -> TextTable:
+    """Proposed experiments under each accepted explanation."""
     fits = study.plastisol.verdict.accepted
-    names = [f"{title(f.hypothesis.names)}, {f.hypothesis.reading}" for f in fits]
-    rows = [["experiment", "measured", "tells apart", *names]]
-    for p in study.prospects:
-        rows.append(
-            [
-                f"{p.figure.experiment.value}, {p.figure.depth_mm / 10:g} cm",
-                f"{p.figure.measure.value}, {p.figure.unit}",
-                f"{100 * p.apart:.0f} % of pairs",
-                *(shown(p.figure, v) for v in p.predicted),
-            ]
-        )
-    return rows
+    names = [f"{names_in_words(f.hypothesis.names)}, {f.hypothesis.free_length}" for f in fits]
+    return TextTable(
+        head=("experiment", "measured", "separates", *names),
+        rows=tuple(
+            (
+                f"{p.measurement.experiment.value}, {p.measurement.depth_mm / 10:g} cm",
+                f"{p.measurement.quantity.value}, {p.measurement.unit}",
+                f"{percent(p.separated)} of pairs",
+                *(value_text(p.measurement, v) for v in p.predicted),
+            )
+            for p in study.proposed
+        ),
+    )
 
 
-def compensator_rows(study: Study) -> list[list[str]]:
+def compensator_table(study: PublishedStudy) -> TextTable:
     """The compensator's columns beside ours."""
-    rows = [["figure", "reading", "published", "ours", "ratio"]]
-    for c in study.compensated:
-        printed = f"{c.published:g} {c.unit}"
-        rows.append([c.name, c.reading, printed, f"{c.ours:.3g}", f"{c.ours / c.published:.2f}"])
-    return rows
+    return TextTable(
+        head=("figure", "free length", "published", "simulated", "ratio"),
+        rows=tuple(
+            (
+                c.name,
+                c.free_length,
+                f"{c.published:g} {c.unit}",
+                f"{c.simulated:.3g}",
+                f"{c.simulated / c.published:.2f}",
+            )
+            for c in study.compensator
+        ),
+    )

@@ -1,34 +1,28 @@
-"""Which hypotheses are held to the published figures.
+"""Which hypotheses are fitted to the published figures.
 
-The stated rig in both readings of its free length. Every candidate alone in the reading of
-the set-up, and those that the paper's text gives reason to suspect in that of the model.
-Pairs of suspects; in the model's reading, whose needle is too quick at 5 cm as it is,
-those with the base's motion in them. And the leading single candidate with every other
-that does anything alone. In gelatin, of which four figures are printed, single effects.
+Every mechanism alone with the set-up's free length, and those that the paper's text gives
+reason to suspect without free length too. Pairs of suspects; without free length, where the
+needle is too quick at 5 cm as it is, those with the base's own motion among them. And the
+leading single mechanism with every other that improves AICc at all. In gelatin, of which
+four figures are printed, single effects.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 
-import numpy as np
-from numpy.typing import NDArray
-
-from studies.published.experiments.rig import SETUP_FREE_MM, PaperRig
-from studies.published.fitting.fit import Fit
-from studies.published.fitting.hypothesis import Hypothesis
+from studies.published.experiments.rig import WITH_FREE_LENGTH, WITHOUT_FREE_LENGTH, PublishedRig
+from studies.published.fitting.fit import FigureFit
+from studies.published.fitting.hypothesis import Hypothesis, of_gelatin, of_plastisol
 from studies.published.fitting.mechanisms import (
     BASE_RAMP,
     BASE_SERVO,
-    CANDIDATES,
     DAMPING,
     FREE_LENGTH,
     OF_GELATIN,
+    OF_PLASTISOL,
 )
 
-Array = NDArray[np.float64]
-
-READINGS = (PaperRig(free_mm=SETUP_FREE_MM), PaperRig(free_mm=0.0))
-# What the paper's own text gives reason to suspect.
 _MOTIONS = {BASE_RAMP.name, BASE_SERVO.name}
 SUSPECTS = (
     FREE_LENGTH.name,
@@ -39,42 +33,25 @@ SUSPECTS = (
     "shear_thinning",
     "tissue_viscoelasticity",
 )
-
-
-def stated(base: PaperRig) -> Hypothesis:
-    """What the paper states, nothing fitted."""
-    return Hypothesis(names=(), base=base, candidates=())
-
-
-def of_plastisol(base: PaperRig, *names: str) -> Hypothesis:
-    """Candidates by name in one reading; the damping goes with them."""
-    candidates = (DAMPING, *(CANDIDATES[n] for n in names if n != DAMPING.name))
-    return Hypothesis(names=names, base=base, candidates=candidates)
-
-
-def of_gelatin(name: str) -> Hypothesis:
-    """One effect in gelatin, of which the paper states no damping: the plastisol's stands."""
-    return Hypothesis(names=(name,), base=PaperRig(), candidates=(OF_GELATIN[name],))
+"""What the paper's own text gives reason to suspect."""
 
 
 def singles() -> list[Hypothesis]:
-    """The damping and every candidate alone; in the model's reading, the suspects alone."""
-    setup, model = READINGS
-    alone = [(setup, n) for n in (DAMPING.name, *CANDIDATES)]
-    alone += [(model, n) for n in (DAMPING.name, *SUSPECTS)]
+    """The damping and every mechanism alone; without free length, the suspects alone."""
+    alone = [(WITH_FREE_LENGTH, n) for n in (DAMPING.name, *OF_PLASTISOL)]
+    alone += [(WITHOUT_FREE_LENGTH, n) for n in (DAMPING.name, *SUSPECTS)]
     return [of_plastisol(base, name) for base, name in alone if _possible(base, (name,))]
 
 
-def pairs(alone: Sequence[Fit]) -> list[Hypothesis]:
+def pairs(alone: Sequence[FigureFit]) -> list[Hypothesis]:
     """Pairs worth fitting.
 
     Args:
-      alone: fits of `singles`.
+      alone: fits of single mechanisms, that of the damping among them.
     """
-    setup, model = READINGS
     suspects = list(combinations(SUSPECTS, 2))
-    wanted: list[tuple[PaperRig, tuple[str, ...]]] = [(setup, pair) for pair in suspects]
-    wanted += [(model, pair) for pair in suspects if _MOTIONS & set(pair)]
+    wanted: list[tuple[PublishedRig, tuple[str, ...]]] = [(WITH_FREE_LENGTH, p) for p in suspects]
+    wanted += [(WITHOUT_FREE_LENGTH, p) for p in suspects if _MOTIONS & set(p)]
     leading = min(alone, key=lambda f: f.aicc).hypothesis
     damping = next(f for f in alone if f.hypothesis.names == (DAMPING.name,))
     wanted += [
@@ -85,29 +62,26 @@ def pairs(alone: Sequence[Fit]) -> list[Hypothesis]:
     return [of_plastisol(base, *pair) for base, pair in wanted if _possible(base, pair)]
 
 
-def _possible(base: PaperRig, names: tuple[str, ...]) -> bool:
-    """A rig has one motion of its base; and no free length is none to fit."""
+def _possible(base: PublishedRig, names: tuple[str, ...]) -> bool:
+    """A rig has one motion of its base; and without free length there is none to fit."""
     return not set(names) >= _MOTIONS and (base.free_mm > 0 or FREE_LENGTH.name not in names)
 
 
-def starts_alone(one: Hypothesis, damping: Fit) -> list[Array]:
-    """Where the fit of one candidate starts: at the damping fitted alone, too."""
-    own = one.starts()
-    return [*own, *(np.concatenate([damping.x, x[1:]]) for x in own)]
+@dataclass(frozen=True, kw_only=True)
+class HypothesisSet:
+    """The hypotheses of a study.
 
-
-def starts_of_pair(pair: Hypothesis, alone: dict[str, Fit]) -> list[Array]:
-    """Where the fit of a pair starts: the better single fit, joined to the other's fit and starts.
-
-    Args:
-      alone: fits of single candidates in the reading of the pair, by name, as far as known;
-        of the pair at least one.
+    Attributes:
+      plastisol: single mechanisms, the damping first.
+      pairs: of plastisol, given the fits of the single ones.
+      gelatin: single effects.
     """
-    leader = min((n for n in pair.names if n in alone), key=lambda n: alone[n].chi_square)
-    other = next(n for n in pair.names if n != leader)
-    joins = [alone[other].x] if other in alone else []
-    joins += of_plastisol(pair.base, other).starts()
-    mine = alone[leader].x
-    if leader == pair.names[0]:
-        return [np.concatenate([mine, x[1:]]) for x in joins]
-    return [np.concatenate([mine[:1], x[1:], mine[1:]]) for x in joins]
+
+    plastisol: tuple[Hypothesis, ...]
+    pairs: Callable[[Sequence[FigureFit]], list[Hypothesis]]
+    gelatin: tuple[Hypothesis, ...]
+
+
+ALL_HYPOTHESES = HypothesisSet(
+    plastisol=tuple(singles()), pairs=pairs, gelatin=tuple(map(of_gelatin, OF_GELATIN))
+)
