@@ -1,4 +1,4 @@
-"""`needle diagnose --paper`: what explains the difference between the published figures and the model."""
+"""`needle diagnose --paper`: what explains the published figures where the stated model fails."""
 
 import json
 from pathlib import Path

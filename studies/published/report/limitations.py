@@ -56,8 +56,9 @@ def _penalty(figures: int) -> str:
     penalty = parameter_penalty(figures)
     return (
         f"The AICc penalty with {figures} figures is {penalty[2]:.1f} for two parameters, "
-        f"{penalty[3]:.0f} for three, {penalty[4]:.0f} for four. A pair of mechanisms has three with the damping, which "
-        "leaves two of the four figures of the quick turn to test it: more parameters are not supported."
+        f"{penalty[3]:.0f} for three, {penalty[4]:.0f} for four. A pair of mechanisms "
+        "has three with the damping, which leaves two of the four figures of the quick turn to test it: "
+        "more parameters are not supported."
     )
 
 
@@ -86,6 +87,7 @@ def _text_comparison(comparison: TextComparison, study: MaterialStudy) -> str:
     nearest = min(range(len(fits)), key=lambda i: abs(comparison.predicted[i] - figure.value))
     return (
         f"Not used in any fit: {figure.name} is about {figure.value:g} {figure.unit} in the paper's "
-        f"text; the stated model gives {value_text(figure, comparison.stated)}, the nearest explanation, "
-        f"{with_free_length(fits[nearest])}, {value_text(figure, comparison.predicted[nearest])}."
+        f"text; the stated model gives {value_text(figure, comparison.stated)}, the nearest "
+        f"explanation, {with_free_length(fits[nearest])}, "
+        f"{value_text(figure, comparison.predicted[nearest])}."
     )

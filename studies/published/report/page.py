@@ -16,21 +16,21 @@ from studies.published.report.tables import (
 from studies.published.study import PublishedStudy
 
 _SIGMA = (
-    "σ is the standard deviation of a figure; the paper prints none, so the scatter of Table II is taken \
-for its columns, and rounding and 5 % for Tables IV and V."
+    "σ is the standard deviation of a figure. The paper prints none: the scatter of Table II is taken "
+    "for its columns, rounding and 5 % for Tables IV and V."
 )
 _COMPENSATOR = "The paper states neither the compensator's gains nor its motor; those here are our own."
 _RESIDUALS_ALT = (
-    "Bars: simulated minus published over σ for the {count} figures of {material}, by the stated \
-model and the leading explanations. The stated model is up to {largest:.0f} σ off; 2 σ are shaded."
+    "Bars: simulated minus published over σ for the {count} figures of {material}, by the stated model "
+    "and the leading explanations. The stated model is up to {largest:.0f} σ off; 2 σ are shaded."
 )
 _TURNS_ALT = (
-    "Tip and base angle over time in the quick turn at 5 cm and 10 cm, by the stated model and the \
-leading explanations, with the published settling times."
+    "Tip and base angle over time in the quick turn at 5 cm and 10 cm, by the stated model and the "
+    "leading explanations, with the published settling times."
 )
 _FITS_ALT = (
-    "Bars: rms residual over σ of the hypotheses with the least AICc, the accepted ones in red; dots: \
-rms residual of each figure left out in turn. The best is at {best:.2f} σ."
+    "Bars: rms residual over σ of the hypotheses with the least AICc, the accepted ones in red; dots: "
+    "the rms residual of each figure left out in turn. The best is at {best:.2f} σ."
 )
 
 
