@@ -31,6 +31,7 @@ def imported(path):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
             yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
 # The one command that scores the product from outside.
@@ -57,6 +58,25 @@ def test_controllers_and_models_know_no_simulator():
     for package in ("models", "controllers"):
         for path in sources(package):
             assert "mujoco" not in {name.split(".")[0] for name in imported(path)}, path
+
+
+def test_the_diagnosis_reaches_no_controller():
+    """Not through another package either: what it imports, and what that imports."""
+    reached, todo = set(), sources("diagnosis")
+    while todo:
+        path = todo.pop()
+        if path not in reached:
+            reached.add(path)
+            todo += [file for name in imported(path) for file in modules(name)]
+    assert ROOT / "sim/simulation.py" in reached
+    assert not reached & set(sources("controllers"))
+
+
+def modules(name):
+    """Files of an imported name, the packages that it is in among them; none of other projects."""
+    parts = name.split(".")
+    inside = [ROOT.joinpath(*parts[:i], "__init__.py") for i in range(1, len(parts) + 1)]
+    return [file for file in (ROOT.joinpath(*parts).with_suffix(".py"), *inside) if file.exists()]
 
 
 def test_physics_never_imports_rerun():

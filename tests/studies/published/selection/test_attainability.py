@@ -40,6 +40,9 @@ def test_what_a_special_case_explains_the_richer_mechanism_explains_too():
 
 def test_no_delay_of_the_sensor_explains_how_soon_the_published_needle_is_there(recovery):
     # The stated damping with 50 mm free is slower than the rig, and a delay makes it no quicker.
-    assert {f.name for f in unattainable(recovery.wrong, recovery.replay)} >= {
-        "Table V, integral, 10 cm"
-    }
+    wrong, kept = recovery.wrong, [0, 1, 2, 3, 7]
+    figures = tuple(wrong.figures[i] for i in kept)
+    (found,) = unattainable(
+        replace(wrong, figures=figures, residual=wrong.residual[kept]), recovery.replay
+    )
+    assert found.name == "Table V, integral, 10 cm"
