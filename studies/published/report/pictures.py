@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from models import published
 from sim.simulation import Run, simulate
-from studies.published.criteria import ELEMENTS
+from studies.published.criteria import ELEMENTS, RESOLVED_SIGMA
 from studies.published.experiments.measurement import TurnExperiment
 from studies.published.experiments.rig import STATED
 from studies.published.experiments.schedules import schedule, step_s
@@ -34,7 +34,7 @@ def draw_residuals(study: MaterialStudy) -> Figure:
     """Residual of every figure under the stated rig and the leading explanations."""
     figure, axis = plt.subplots(figsize=(11, 3.6), layout="constrained")
     place = np.arange(len(study.figures))
-    axis.axhspan(-2, 2, color="0.92")
+    axis.axhspan(-RESOLVED_SIGMA, RESOLVED_SIGMA, color="0.92")
     axis.axhline(0, color="k", lw=1)
     fits = _leading(study)
     for i, (fit, colour) in enumerate(zip(fits, _COLOURS, strict=False)):

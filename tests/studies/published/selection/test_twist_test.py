@@ -8,8 +8,8 @@ from studies.published.selection.twist_test import contradiction, twist_test_tor
 
 
 def test_the_stated_shaft_gives_the_measured_torque():
-    # From G = 3 / 2 significant digits of the stated shear modulus: within 1 %.
-    assert twist_test_torque_n_mm(fit_with(("a",), 0.0)) == pytest.approx(1.24, rel=0.01)
+    # The printed G, 27.2 GPa, and torque, 1.24 N mm, are rounded by up to 0.2 % and 0.4 %.
+    assert twist_test_torque_n_mm(fit_with(("a",), 0.0)) == pytest.approx(1.24, rel=6e-3)
 
 
 def test_the_twist_test_rules_out_another_stiffness_and_a_soft_chuck():
