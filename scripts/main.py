@@ -110,7 +110,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(args: argparse.Namespace, console: Console) -> int:
     # Imported here: `needle --help` need not wait for MuJoCo.
-    from scripts import blind, control, demo, diagnose, insert, inspect, paper_gap, replay, validate
+    from scripts import (
+        blind,
+        control,
+        demo,
+        diagnose,
+        insert,
+        inspect,
+        published_figures,
+        replay,
+        validate,
+    )
 
     match args.command:
         case "demo":
@@ -133,7 +143,9 @@ def _run(args: argparse.Namespace, console: Console) -> int:
         case "diagnose" if bool(args.log) == args.paper:
             raise InvalidValue("LOG", args.log, "either a rig-log/1 folder or --paper")
         case "diagnose" if args.paper:
-            return paper_gap.run(args.out, json_only=args.json, force=args.force, console=console)
+            return published_figures.run(
+                args.out, json_only=args.json, force=args.force, console=console
+            )
         case "diagnose":
             return diagnose.run(
                 args.log, args.out, json_only=args.json, force=args.force, console=console

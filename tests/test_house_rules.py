@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
-PACKAGES = ("models", "sim", "controllers", "diagnosis", "scripts", "benchmarks", "tests")
+PACKAGES = ("models", "sim", "controllers", "diagnosis", "studies", "scripts", "benchmarks", "tests")
 MAY_IMPORT = {
     "models": {"models"},
     "controllers": {"controllers", "models"},
     "sim": {"sim", "controllers", "models"},
     "diagnosis": {"diagnosis", "sim", "models"},
-    "scripts": {"scripts", "diagnosis", "controllers", "sim", "models"},
+    "studies": {"studies", "diagnosis", "controllers", "sim", "models"},
+    "scripts": {"scripts", "studies", "diagnosis", "controllers", "sim", "models"},
 }
 SIDE_STREAMS = {"sim/rerun_log.py", "sim/rerun_table.py"}
 
@@ -30,6 +31,7 @@ def imported(path):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
             yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
 # The one command that scores the product from outside.
@@ -58,6 +60,25 @@ def test_controllers_and_models_know_no_simulator():
             assert "mujoco" not in {name.split(".")[0] for name in imported(path)}, path
 
 
+def test_the_diagnosis_reaches_no_controller():
+    """Not through another package either: what it imports, and what that imports."""
+    reached, todo = set(), sources("diagnosis")
+    while todo:
+        path = todo.pop()
+        if path not in reached:
+            reached.add(path)
+            todo += [file for name in imported(path) for file in modules(name)]
+    assert ROOT / "sim/simulation.py" in reached
+    assert not reached & set(sources("controllers"))
+
+
+def modules(name):
+    """Files of an imported name, the packages that it is in among them; none of other projects."""
+    parts = name.split(".")
+    inside = [ROOT.joinpath(*parts[:i], "__init__.py") for i in range(1, len(parts) + 1)]
+    return [file for file in (ROOT.joinpath(*parts).with_suffix(".py"), *inside) if file.exists()]
+
+
 def test_physics_never_imports_rerun():
     for package in ("models", "sim", "controllers"):
         for path in sources(package):
@@ -68,7 +89,7 @@ def test_physics_never_imports_rerun():
 
 
 def test_print_and_pickle_stay_out_of_the_library():
-    for package in ("models", "sim", "controllers", "diagnosis"):
+    for package in ("models", "sim", "controllers", "diagnosis", "studies"):
         for path in sources(package):
             text = path.read_text()
             assert not re.search(r"(?<![\w.])print\(", text), path

@@ -1,1 +1,0 @@
-"""The gap of the published rig: Tables II, IV and V as measurements (`needle diagnose --paper`)."""

@@ -1,0 +1,88 @@
+"""`needle diagnose --paper`: what explains the published figures where the stated model fails."""
+
+import json
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn
+from rich.table import Table
+
+from sim.files import refuse_existing
+from studies.published.material_study import MaterialStudy
+from studies.published.report.contents import as_json
+from studies.published.report.files import output_paths, write_report
+from studies.published.report.limitations import limitations
+from studies.published.report.sentences import next_experiment, verdict_sentence
+from studies.published.report.tables import (
+    TextTable,
+    accepted_table,
+    compensator_table,
+    figure_table,
+    mechanism_table,
+    proposed_table,
+    text_table,
+)
+from studies.published.study import PublishedStudy, run_published_study
+
+
+def run(folder: Path | None, *, json_only: bool, force: bool, console: Console) -> int:
+    """Diagnose Tables II, IV and V; prints a summary, or `paper.json`.
+
+    Args:
+      folder: where `paper.json` and `paper.html` go; None: nowhere.
+
+    Raises:
+      OutputExists: a result exists and `force` is not given; before any work.
+    """
+    if folder:
+        refuse_existing(output_paths(folder), force=force)
+    study = _run_with_progress()
+    paths = write_report(study, folder, force=force) if folder else []
+    if json_only:
+        console.print_json(json.dumps(as_json(study), allow_nan=False))
+        return 0
+    _show(study, console)
+    for path in paths:
+        console.print(f"wrote      {path}", highlight=False)
+    return 0
+
+
+def _run_with_progress() -> PublishedStudy:
+    shown = Console(stderr=True)
+    with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
+        task = bar.add_task("the published figures", total=1.0)
+        return run_published_study(
+            lambda what, share: bar.update(task, description=what, completed=share)
+        )
+
+
+def _show(study: PublishedStudy, console: Console) -> None:
+    for material in (study.plastisol, study.gelatin):
+        _show_material(material, console)
+    console.print(_table(proposed_table(study), "Experiments that would separate the explanations"))
+    title = "Turns with the torsion compensator (simulated: gains and motor are our own)"
+    console.print(_table(compensator_table(study), title))
+    for line in (*limitations(study), *filter(None, [next_experiment(study)])):
+        console.print(f"- {line}", highlight=False)
+    for warning in study.warnings:
+        console.print(f"warning: {warning}", highlight=False)
+
+
+def _show_material(study: MaterialStudy, console: Console) -> None:
+    console.print(f"\n[bold]{verdict_sentence(study)}[/]", highlight=False)
+    console.print(_table(figure_table(study), "Stated model and published figures"))
+    mechanisms = mechanism_table(study, with_values=False)
+    console.print(_table(mechanisms, "Mechanisms that may explain the residual (*: accepted)"))
+    accepted = accepted_table(study)
+    if accepted.rows:
+        console.print(_table(accepted, "Fitted values"))
+    console.print(_table(text_table(study), "Figures in the paper's text"))
+
+
+def _table(content: TextTable, title: str) -> Table:
+    table = Table(title=title)
+    for name in content.head:
+        table.add_column(name, overflow="fold")
+    for row in content.rows:
+        table.add_row(*row)
+    return table

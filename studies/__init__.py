@@ -1,0 +1,1 @@
+"""Studies: the simulation beside published figures, closed forms and controllers."""

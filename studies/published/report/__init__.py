@@ -1,0 +1,1 @@
+"""The study for people and for programs: `paper.html`, `paper.json`."""

@@ -1,0 +1,87 @@
+"""`paper.html`: the study for people, in one file that opens without a network."""
+
+from diagnosis.report.html_parts import bullets, document, heading, paragraph, picture, table, warnings
+from studies.published.material_study import MaterialStudy
+from studies.published.report.limitations import limitations
+from studies.published.report.pictures import draw_fits, draw_quick_turns, draw_residuals
+from studies.published.report.sentences import next_experiment, verdict_sentence
+from studies.published.report.tables import (
+    TextTable,
+    compensator_table,
+    figure_table,
+    mechanism_table,
+    proposed_table,
+    text_table,
+)
+from studies.published.study import PublishedStudy
+
+_SIGMA = (
+    "σ is the standard deviation of a figure. The paper prints none: the scatter of Table II is taken "
+    "for its columns, rounding and 5 % for Tables IV and V."
+)
+_COMPENSATOR = "The paper states neither the compensator's gains nor its motor; those here are our own."
+_RESIDUALS_ALT = (
+    "Bars: simulated minus published over σ for the {count} figures of {material}, by the stated model "
+    "and the leading explanations. The stated model is up to {largest:.0f} σ off; 2 σ are shaded."
+)
+_TURNS_ALT = (
+    "Tip and base angle over time in the quick turn at 5 cm and 10 cm, by the stated model and the "
+    "leading explanations, with the published settling times."
+)
+_FITS_ALT = (
+    "Bars: rms residual over σ of the hypotheses with the least AICc, the accepted ones in red; dots: "
+    "the rms residual of each figure left out in turn. The best is at {best:.2f} σ."
+)
+
+
+def page(study: PublishedStudy) -> str:
+    """The whole page, HTML."""
+    plastisol, gelatin = study.plastisol, study.gelatin
+    return document(
+        "The published figures as a rig",
+        [
+            heading(verdict_sentence(plastisol), level=1),
+            paragraph(_SIGMA),
+            *warnings(study.warnings),
+            heading("What the figures support"),
+            bullets(limitations(study)),
+            *_stated_model(plastisol),
+            *_mechanisms(plastisol),
+            heading("Figures in the paper's text"),
+            _table(text_table(plastisol)),
+            heading("Experiments that would separate the explanations"),
+            paragraph(next_experiment(study)),
+            _table(proposed_table(study)),
+            heading("Gelatin"),
+            paragraph(verdict_sentence(gelatin)),
+            *(_table(t(gelatin)) for t in (figure_table, mechanism_table, text_table)),
+            heading("Turns with the torsion compensator"),
+            paragraph(_COMPENSATOR),
+            _table(compensator_table(study)),
+        ],
+    )
+
+
+def _stated_model(study: MaterialStudy) -> list[str]:
+    largest = max(float(abs(fit.residual).max()) for fit in study.stated)
+    alt = _RESIDUALS_ALT.format(count=len(study.figures), material=study.material, largest=largest)
+    return [
+        heading("Stated model and published figures"),
+        _table(figure_table(study)),
+        picture(draw_residuals(study), alt),
+        heading("The quick turn"),
+        picture(draw_quick_turns(study), _TURNS_ALT),
+    ]
+
+
+def _mechanisms(study: MaterialStudy) -> list[str]:
+    best = min(study.fits, key=lambda f: f.aicc).rms_residual
+    return [
+        heading("Mechanisms that may explain the residual"),
+        picture(draw_fits(study), _FITS_ALT.format(best=best)),
+        _table(mechanism_table(study)),
+    ]
+
+
+def _table(content: TextTable) -> str:
+    return table(content.head, content.rows)

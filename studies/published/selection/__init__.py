@@ -1,0 +1,1 @@
+"""Which hypotheses are fitted, and what their fits allow to be concluded."""

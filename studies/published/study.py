@@ -1,0 +1,77 @@
+"""`needle diagnose --paper`: everything that is simulated and fitted, stage by stage."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from studies.published.compensator import CompensatorFigure, compensator_figures
+from studies.published.experiments.replay import FigureReplay
+from studies.published.fitting.fit import FigureFit
+from studies.published.gelatin_study import study_gelatin
+from studies.published.material_study import MaterialStudy
+from studies.published.plastisol_study import Progress, study_plastisol
+from studies.published.selection.discrimination import ProposedExperiment, proposed_experiments
+from studies.published.selection.hypothesis_set import ALL_HYPOTHESES, HypothesisSet
+
+_PLASTISOL_BEGINS, _PLASTISOL_ENDS = 0.05, 0.93  # shares of the time
+
+
+@dataclass(frozen=True, kw_only=True)
+class PublishedStudy:
+    """Everything that was found.
+
+    Attributes:
+      compensator: the figures that judge nothing, beside ours.
+      proposed: experiments with plastisol, by how many hypotheses they separate.
+      warnings: of fits whose simulation did not converge.
+    """
+
+    plastisol: MaterialStudy
+    gelatin: MaterialStudy
+    compensator: tuple[CompensatorFigure, ...]
+    proposed: tuple[ProposedExperiment, ...]
+    warnings: tuple[str, ...]
+
+
+def run_published_study(
+    progress: Progress = lambda what, share: None,
+    *,
+    hypotheses: HypothesisSet = ALL_HYPOTHESES,
+    compensator: Callable[[], tuple[CompensatorFigure, ...]] = compensator_figures,
+) -> PublishedStudy:
+    """Run everything; about a minute on one core.
+
+    Args:
+      progress: called with what begins and the share that is done.
+      hypotheses: to be fitted.
+      compensator: gives the figures of the compensator.
+
+    Raises:
+      SimulationFailed: a rig cannot be simulated.
+    """
+    replay = FigureReplay()
+    progress("gelatin", 0.0)
+    gelatin = study_gelatin(hypotheses, replay)
+    plastisol = study_plastisol(
+        hypotheses,
+        replay,
+        lambda what, share: progress(
+            what, _PLASTISOL_BEGINS + (_PLASTISOL_ENDS - _PLASTISOL_BEGINS) * share
+        ),
+    )
+    progress("the compensator's columns", _PLASTISOL_ENDS)
+    return PublishedStudy(
+        plastisol=plastisol,
+        gelatin=gelatin,
+        compensator=compensator(),
+        proposed=tuple(proposed_experiments(plastisol.verdict.accepted, replay)),
+        warnings=_not_converged((*gelatin.fits, *plastisol.fits), replay),
+    )
+
+
+def _not_converged(fits: Sequence[FigureFit], replay: FigureReplay) -> tuple[str, ...]:
+    stages = [(f.hypothesis, replay.unconverged(f.hypothesis.rig(f.x))) for f in fits]
+    return tuple(
+        f"{' and '.join(hypothesis.names)}: {count} stages of the simulation did not converge"
+        for hypothesis, count in stages
+        if count
+    )

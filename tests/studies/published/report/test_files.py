@@ -1,0 +1,22 @@
+"""The files that the study writes."""
+
+import json
+
+import pytest
+
+from models.errors import OutputExists
+from studies.published.report import files
+from studies.published.report.contents import as_json
+from studies.published.report.files import output_paths, write_report
+
+
+def test_page_and_json_are_written_and_not_overwritten_unless_asked(study, tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "page", lambda study: "<html>σ</html>")
+    paths = write_report(study, tmp_path)
+    assert [p.name for p in paths] == ["paper.html", "paper.json"]
+    assert paths == output_paths(tmp_path)
+    assert paths[0].read_text(encoding="utf-8") == "<html>σ</html>"
+    assert json.loads(paths[1].read_text(), parse_constant=pytest.fail) == as_json(study)
+    with pytest.raises(OutputExists):
+        write_report(study, tmp_path)
+    assert write_report(study, tmp_path, force=True) == paths
