@@ -1,0 +1,73 @@
+"""Every link, module path and criterion that the documentation names exists."""
+
+import re
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from diagnosis import criteria
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PACKAGES = "models|sim|controllers|diagnosis|studies|validation|scripts|benchmarks"
+NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
+
+
+def links(text):
+    """Targets of relative links and pictures."""
+    return [to for to in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in to]
+
+
+def anchor_of(heading):
+    """As GitHub makes it: lower case, no punctuation, hyphens for blanks."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def anchors(page):
+    text = re.sub(r"```.*?```", "", page.read_text(), flags=re.DOTALL)
+    return {anchor_of(heading) for heading in re.findall(r"^#+ (.+)$", text, flags=re.MULTILINE)}
+
+
+def marked(text):
+    """Everything in code marks, outside of code blocks."""
+    return re.findall(r"`([^`\n]+)`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_every_relative_link_leads_to_a_file_and_to_a_heading_in_it(page):
+    for link in links(page.read_text()):
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        assert target.exists(), link
+        assert not anchor or anchor in anchors(target), link
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_every_path_that_a_page_names_exists(page):
+    paths = [m for m in marked(page.read_text()) if re.match(rf"({PACKAGES}|tests|docs|examples)/", m)]
+    assert [path for path in paths if not (ROOT / path).exists()] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_every_module_that_a_page_names_exists(page):
+    text, dotted = page.read_text(), rf"(?:{PACKAGES})(?:\.[a-z_]+)+"
+    names = [m for m in marked(text) if re.fullmatch(dotted, m)]
+    names += re.findall(rf"python -m ({dotted})", text) + re.findall(rf"from ({dotted}) import", text)
+    assert [name for name in names if find_spec(name) is None] == []
+
+
+def test_every_criterion_that_the_method_and_its_decisions_name_exists():
+    for name in ("diagnosis", "decisions", "rig-log", "accuracy", "gap-report", "effects"):
+        capitals = [
+            m
+            for m in marked((ROOT / "docs" / f"{name}.md").read_text())
+            if re.fullmatch(r"[A-Z]{2,}(_[A-Z]+)*", m)
+        ]
+        assert [c for c in capitals if not hasattr(criteria, c)] == [], name
+
+
+def test_every_page_is_reached_from_the_readme():
+    text = (ROOT / "README.md").read_text()
+    missing = [page.name for page in PAGES[1:] if f"(docs/{page.name})" not in text]
+    assert missing == []
