@@ -1,6 +1,6 @@
 """Where the time of `needle diagnose` goes, how it grows with the log, and the memory that it takes.
 
-Logs come from the independent rig of `benchmarks.blind`: five trials of 120 s in all at
+Logs come from the independent rig of `validation.rig`: five trials of 120 s in all at
 100 Hz, with one effect and with a pair of them; and a shorter log once, twice and four
 times over, with new noise each time. Reading and report count, the start of Python does not.
 
@@ -25,11 +25,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from benchmarks import report
-from benchmarks.blind.bench import Bench
-from benchmarks.blind.case import draw_rig
-from benchmarks.blind.motions import Plan, draw_motions
-from benchmarks.blind.rig import observe
-from benchmarks.blind.sensors import BASE, TIP, TORQUE, Sensors, as_csv, measure, rig_yaml
+from validation.logs.comparison import Bench
+from validation.logs.case import draw_rig
+from validation.logs.motions import Plan, draw_motions
+from validation.rig.rig import observe
+from validation.logs.sensors import BASE, TIP, TORQUE, Sensors, as_csv, measure, rig_yaml
 from diagnosis.diagnose import diagnose
 from diagnosis.predict import predict
 from diagnosis.report import write_report

@@ -1,6 +1,6 @@
 """The rig of `benchmarks.sysid`: its logs, and the model of it that plain MuJoCo has.
 
-Logs come from the independent rig of `benchmarks.blind` (finite volumes, no MuJoCo), with
+Logs come from the independent rig of `validation.rig` (finite volumes, no MuJoCo), with
 the noise of the format document. Lengths hardly change, so that a model whose lengths are
 fixed can replay them; one trial slides just fast enough to tell laws of dry friction apart.
 
@@ -21,8 +21,8 @@ import pandas as pd
 import yaml
 from numpy.typing import NDArray
 
-from benchmarks.blind import rig as independent
-from benchmarks.blind.rig import Effects
+from validation.rig import rig as independent
+from validation.rig.rig import Effects
 from diagnosis.rig_log import Rig, Trial
 from models import units
 from models.needle import Needle

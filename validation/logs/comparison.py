@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.blind.outside import Trace
-from benchmarks.blind.rig import COARSE, FINE, Fineness, Motion, Rig, observe
-from benchmarks.blind.sensors import TIP, TORQUE, Sensors
+from validation.rig.unmodelled import Trace
+from validation.rig.rig import COARSE, FINE, Fineness, Motion, Rig, observe
+from validation.logs.sensors import TIP, TORQUE, Sensors
 
 Array = NDArray[np.float64]
 COARSE_STEP_S = 0.01

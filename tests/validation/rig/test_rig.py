@@ -12,14 +12,14 @@ import pytest
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate
 
-from benchmarks.blind.bench import Bench
-from benchmarks.blind.case import NEEDS_LOAD, NEEDS_SLIDING, draw_rig
-from benchmarks.blind.make import make_logs
-from benchmarks.blind.motions import draw_motions, draw_plan
-from benchmarks.blind.rig import VOCABULARY, Fineness, Motion, Rig, observe, turn
-from benchmarks.blind.schedule import KINDS, effects_of, kind_of
-from benchmarks.blind.sensors import draw_sensors
-from benchmarks.blind.strengths import FAMILIES, OUTSIDE_FAMILIES, without
+from validation.logs.comparison import Bench
+from validation.logs.case import NEEDS_LOAD, NEEDS_SLIDING, draw_rig
+from validation.logs.make import make_logs
+from validation.logs.motions import draw_motions, draw_plan
+from validation.rig.rig import VOCABULARY, Fineness, Motion, Rig, observe, turn
+from validation.logs.schedule import KINDS, effects_of, kind_of
+from validation.logs.sensors import draw_sensors
+from validation.logs.strengths import FAMILIES, OUTSIDE_FAMILIES, without
 from models.modes import InsertedNeedle
 from models.needle import NITINOL
 

@@ -10,14 +10,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from benchmarks.blind.detection import limits
-from benchmarks.blind.honesty import coverage, hidden_below, summary
-from benchmarks.blind.make import make_logs
-from benchmarks.blind.picture import draw
-from benchmarks.blind.rig import Motion, observe
-from benchmarks.blind.rig import Rig as BlindRig
-from benchmarks.blind.run import diagnose_all
-from benchmarks.blind.score import read_scores
+from validation.score.detection import limits
+from validation.score.calibration import coverage, hidden_below, summary
+from validation.logs.make import make_logs
+from validation.score.picture import draw
+from validation.rig.rig import Motion, observe
+from validation.rig.rig import Rig as BlindRig
+from validation.score.run import diagnose_all
+from validation.score.scores import read_scores
 from diagnosis.predict import predict
 from diagnosis.rig import NominalNeedle, NominalTissue, Rig, SensorNoise, TrialEntry
 from diagnosis.rig_log import Trial

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from benchmarks.blind.profiles import log_uniform
-from benchmarks.blind.rig import Rig
+from validation.logs.profiles import log_uniform
+from validation.rig.rig import Rig
 
 TWO_SIDED = {
     "layered_tissue",

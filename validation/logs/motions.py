@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.blind.profiles import PROFILES, held, log_uniform
-from benchmarks.blind.rig import Motion
+from validation.logs.profiles import PROFILES, held, log_uniform
+from validation.rig.rig import Motion
 
 Array = NDArray[np.float64]
 

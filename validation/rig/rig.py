@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.blind.laws import Law
-from benchmarks.blind.march import march
-from benchmarks.blind.mesh import Mesh
-from benchmarks.blind.outside import IN_LAW, IN_SENSORS, OUTSIDE, Trace
+from validation.rig.laws import Law
+from validation.rig.march import march
+from validation.rig.mesh import Mesh
+from validation.rig.unmodelled import IN_LAW, IN_SENSORS, OUTSIDE, Trace
 
 Array = NDArray[np.float64]
 Effects = Mapping[str, Mapping[str, float]]

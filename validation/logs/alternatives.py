@@ -13,9 +13,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.blind.bench import Bench, rms
-from benchmarks.blind.rig import Rig
-from benchmarks.blind.strengths import FAMILIES, TWO_SIDED, ByStrength, with_effect, without
+from validation.logs.comparison import Bench, rms
+from validation.rig.rig import Rig
+from validation.logs.strengths import FAMILIES, TWO_SIDED, ByStrength, with_effect, without
 
 Array = NDArray[np.float64]
 PASSES, CLOSE = 3, 0.03

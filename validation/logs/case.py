@@ -13,15 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from benchmarks.blind.bench import Bench
-from benchmarks.blind.motions import Plan, draw_motions, draw_plan
-from benchmarks.blind.outside import Trace
-from benchmarks.blind.profiles import log_uniform
-from benchmarks.blind.rig import Motion, Rig
-from benchmarks.blind.rivals import Rivals, find_rivals
-from benchmarks.blind.schedule import PARAMETER_ERRORS
-from benchmarks.blind.sensors import Sensors, draw_sensors
-from benchmarks.blind.strengths import FAMILIES, OUTSIDE_FAMILIES, with_effect, without
+from validation.logs.comparison import Bench
+from validation.logs.motions import Plan, draw_motions, draw_plan
+from validation.rig.unmodelled import Trace
+from validation.logs.profiles import log_uniform
+from validation.rig.rig import Motion, Rig
+from validation.logs.alternatives import Rivals, find_rivals
+from validation.logs.schedule import PARAMETER_ERRORS
+from validation.logs.sensors import Sensors, draw_sensors
+from validation.logs.strengths import FAMILIES, OUTSIDE_FAMILIES, with_effect, without
 
 NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk"}
 NEEDS_LOAD = {"load_dependent_friction"}

@@ -1,6 +1,6 @@
 """Make rig logs whose answers are kept apart.
 
-    python -m benchmarks.blind.make --out DIR --seed N --count N [--short] [--kinds a b] ...
+    python -m validation.logs.make --out DIR --seed N --count N [--short] [--kinds a b] ...
 
 writes DIR/logs/case_001/{rig.yaml, trial_01.csv, ...} and DIR/answers/answers.json. The same seed
 gives the same bytes, and a case depends on nothing but the seed and its number.
@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 from rich.progress import track
 
-from benchmarks.blind.case import Case, draw_case
-from benchmarks.blind.outside import OUTSIDE
-from benchmarks.blind.rig import VOCABULARY, Motion
-from benchmarks.blind.schedule import KINDS, effects_of, kind_of
-from benchmarks.blind.sensors import as_csv, measure, rig_yaml
+from validation.logs.case import Case, draw_case
+from validation.rig.unmodelled import OUTSIDE
+from validation.rig.rig import VOCABULARY, Motion
+from validation.logs.schedule import KINDS, effects_of, kind_of
+from validation.logs.sensors import as_csv, measure, rig_yaml
 
 Answer = dict[str, Any]
 VERDICTS = {"none": "none", "outside": "unknown"}

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from benchmarks.blind.laws import Law
+from validation.rig.laws import Law
 
 Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.blind.outside import Trace
-from benchmarks.blind.profiles import log_uniform
-from benchmarks.blind.rig import Motion, Rig
+from validation.rig.unmodelled import Trace
+from validation.logs.profiles import log_uniform
+from validation.rig.rig import Motion, Rig
 
 Array = NDArray[np.float64]
 TIP, TORQUE, BASE = "tip_angle_deg", "base_torque_n_mm", "base_angle_deg"

@@ -11,10 +11,10 @@ import math
 
 from numba import njit
 
-from benchmarks.blind.balance import linearise, slip_rate
-from benchmarks.blind.laws import Law
-from benchmarks.blind.mesh import Layout
-from benchmarks.blind.state import Push, State, Work
+from validation.rig.balance import linearise, slip_rate
+from validation.rig.laws import Law
+from validation.rig.mesh import Layout
+from validation.rig.state import Push, State, Work
 
 TOLERANCE = 1e-7
 """It rests when no angle moves by more, rad."""

@@ -8,10 +8,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from benchmarks.blind.balance import chuck, passed
-from benchmarks.blind.laws import Law, preslide, preslide_shared
-from benchmarks.blind.mesh import Layout, Mesh
-from benchmarks.blind.state import CHUCK, ENTRY, TIP, Push, State, Work
+from validation.rig.balance import chuck, passed
+from validation.rig.laws import Law, preslide, preslide_shared
+from validation.rig.mesh import Layout, Mesh
+from validation.rig.state import CHUCK, ENTRY, TIP, Push, State, Work
 
 Array = NDArray[np.float64]
 

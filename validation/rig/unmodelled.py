@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.blind.laws import Law
+from validation.rig.laws import Law
 
 Array = NDArray[np.float64]
 Parameters = Mapping[str, float]

@@ -8,12 +8,12 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from benchmarks.blind.balance import chuck
-from benchmarks.blind.laws import Law
-from benchmarks.blind.memory import commit, places_of, seen_by_nodes
-from benchmarks.blind.mesh import Layout, Mesh, empty_layout, lay_out
-from benchmarks.blind.newton import solve
-from benchmarks.blind.state import Push, State, Work, at_rest, space
+from validation.rig.balance import chuck
+from validation.rig.laws import Law
+from validation.rig.memory import commit, places_of, seen_by_nodes
+from validation.rig.mesh import Layout, Mesh, empty_layout, lay_out
+from validation.rig.newton import solve
+from validation.rig.state import Push, State, Work, at_rest, space
 
 Array = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from benchmarks.blind.detection import limits, of_one_effect
-from benchmarks.blind.honesty import GAP_GOAL, calibration_error, coverage, gap_left, reliability
+from validation.score.detection import limits, of_one_effect
+from validation.score.calibration import GAP_GOAL, calibration_error, coverage, gap_left, reliability
 
 
 def draw(scores: pd.DataFrame, path: Path) -> None:

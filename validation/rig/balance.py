@@ -9,9 +9,9 @@ import math
 
 from numba import njit
 
-from benchmarks.blind.laws import Law, interface, preslide
-from benchmarks.blind.mesh import Layout
-from benchmarks.blind.state import CHUCK, ENTRY, TIP, Push, State, Work
+from validation.rig.laws import Law, interface, preslide
+from validation.rig.mesh import Layout
+from validation.rig.state import CHUCK, ENTRY, TIP, Push, State, Work
 
 
 @njit(cache=True)

@@ -4,7 +4,7 @@ Dry friction is elastic-plastic: a presliding angle z follows the slip up to +-l
 level z / limit. If the level is shared with the axial motion, z is a vector (turning angle, axial
 travel / radius), returned radially to a disc. Viscous torque is beta w |w|^(exponent - 1).
 
-Some parameters belong to effects outside the vocabulary; see `benchmarks.blind.outside`.
+Some parameters belong to effects outside the vocabulary; see `validation.rig.unmodelled`.
 Units: N, mm, s, rad. Every law returns its torque and the slopes that Newton's method needs.
 """
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from benchmarks.blind.outside import OUTSIDE
-from benchmarks.blind.rig import VOCABULARY
+from validation.rig.unmodelled import OUTSIDE
+from validation.rig.rig import VOCABULARY
 
 BLOCK = 33
 SHARES = {"none": 0.12, "single": 0.45, "pair": 0.18, "off_nominal": 0.13, "outside": 0.12}
