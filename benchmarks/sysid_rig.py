@@ -21,11 +21,13 @@ import pandas as pd
 import yaml
 from numpy.typing import NDArray
 
-from validation.rig import rig as independent
-from validation.rig.rig import Effects
 from diagnosis.rig_log import Rig, Trial
 from models import units
 from models.needle import Needle
+from validation.rig.modelled import Effects
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.simulation import ideal_signals
 
 Array = NDArray[np.float64]
 
@@ -54,7 +56,7 @@ def write_log(folder: Path, effects: Effects) -> Path:
     """Write the log of a rig with these effects (names and units of the vocabulary)."""
     folder.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(0)
-    rig = independent.Rig(
+    rig = IndependentRig(
         damping_n_mm_s_per_mm=DAMPING_N_MM_S_PER_MM,
         diameter_mm=NEEDLE["diameter_mm"],
         shear_modulus_gpa=NEEDLE["shear_modulus_gpa"],
@@ -77,9 +79,9 @@ def write_log(folder: Path, effects: Effects) -> Path:
 
 def _motion(
     corners: Sequence[float], angles: Sequence[float], inserted: float, free: float, speed: float
-) -> independent.Motion:
+) -> TrialMotion:
     time = np.arange(0, corners[-1], _FINE_S)
-    return independent.Motion(
+    return TrialMotion(
         dt_s=_FINE_S,
         per_sample=_PER_SAMPLE,
         base_deg=np.interp(time, corners, angles),
@@ -89,11 +91,9 @@ def _motion(
     )
 
 
-def _measured(
-    rig: independent.Rig, motion: independent.Motion, rng: np.random.Generator
-) -> pd.DataFrame:
+def _measured(rig: IndependentRig, motion: TrialMotion, rng: np.random.Generator) -> pd.DataFrame:
     """Samples of what ideal sensors show, with noise."""
-    seen, every = independent.observe(rig, motion), slice(None, None, _PER_SAMPLE)
+    seen, every = ideal_signals(rig, motion), slice(None, None, _PER_SAMPLE)
     ideal = {"base_angle": seen.base_deg, "base_torque": seen.torque_n_mm, "tip_angle": seen.tip_deg}
     sigma = {name: NOISE[f"{name}_noise_{_UNITS[name]}"] for name in ideal}
     return pd.DataFrame(

@@ -8,10 +8,12 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from models.errors import InvalidValue
+from models.errors import InvalidValue, NeedleError
 from sim.files import refuse_existing, write_text, writing
+from validation.logs.case import ImpossibleDraw
 from validation.logs.make import make_logs
 from validation.score import calibration, picture
+from validation.score.answers import read_answers
 from validation.score.detection import detection_limits
 from validation.score.run import diagnose_all
 from validation.score.scores import read_scores, reports_in
@@ -31,12 +33,10 @@ def make(
     """Write logs of an independent rig, and their ground truth separately.
 
     Raises:
-      InvalidValue: the folder exists, or an argument is not what `make_logs` takes.
+      NeedleError: the folder exists, or an argument is not what `make_logs` takes.
     """
     if folder.exists():
         raise InvalidValue("out", folder, "a folder that does not exist yet", "choose another one")
-    if count < 1:
-        raise InvalidValue("count", count, "at least 1 log", "ask for as many logs as you want")
     try:
         make_logs(
             folder,
@@ -47,8 +47,8 @@ def make(
             signature=signature,
             short=short,
         )
-    except ValueError as error:
-        raise InvalidValue("arguments", str(error), "names that the maker knows") from error
+    except (ValueError, ImpossibleDraw) as error:
+        raise NeedleError(str(error)) from error
     console.print(f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers")
     return 0
 
@@ -59,7 +59,7 @@ def run_score(
     """Diagnose the logs that have no report yet, then compare the reports with the ground truth.
 
     Raises:
-      InvalidValue: `trials` is not a count, or the folder is none of `needle blind make`.
+      InvalidValue: `trials` is below 1, or the folder has no logs or no usable ground truth.
     """
     if trials is not None and trials < 1:
         raise InvalidValue("trials", trials, "at least 1", "leave it out for all trials")
@@ -69,6 +69,7 @@ def run_score(
         )
     paths = [out / name for name in ("scores.csv", "score.png")] if out else []
     refuse_existing(paths, force=force)
+    read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
     diagnose_all(
         folder / "logs",
         reports_in(folder, trials),
@@ -118,7 +119,9 @@ def _limits(limits: pd.DataFrame) -> Table:
 def _calibration(scores: pd.DataFrame) -> Table:
     table = Table("all logs", "measured", title="Calibration")
     share, count = calibration.coverage(scores)
-    table.add_row("calibration error of the probabilities", f"{calibration.calibration_error(scores):.3f}")
+    table.add_row(
+        "calibration error of the probabilities", f"{calibration.calibration_error(scores):.3f}"
+    )
     table.add_row(f"95 % intervals that contain the true value (of {count})", f"{100 * share:.1f} %")
     table.add_row(
         f"exact diagnoses with a residual of at most {calibration.GAP_GOAL} σ",

@@ -1,8 +1,8 @@
-"""What else could explain a gap: the best that wrong effects of the vocabulary can do.
+"""Alternative explanations of a gap: how well wrong modelled effects can explain it.
 
 Every effect is fitted by its strength to what the true ones change; other parameters take typical
-values. A residual well below the noise (1) means that the case can hardly be told from that rival. It
-is an upper bound, as rivals are not fitted in full. Pairs add up two fitted effects in proportion.
+values. A residual well below sigma (1) means that the log can hardly tell the alternative from the
+truth. It is an upper bound, as alternatives are not fitted in full. Pairs scale two fitted effects.
 """
 
 import math
@@ -13,41 +13,45 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.logs.comparison import Bench, rms
-from validation.rig.rig import Rig
+from validation.logs.comparison import RigComparison, rms
 from validation.logs.strengths import FAMILIES, TWO_SIDED, ByStrength, with_effect, without
+from validation.rig.rig import IndependentRig
 
 Array = NDArray[np.float64]
 PASSES, CLOSE = 3, 0.03
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rivals:
-    """Residual, over the noise, of each effect alone, best first, and of the best pair of them."""
+class Alternatives:
+    """Rms residual / sigma of each effect alone, best first, and of the best pair of them."""
 
     alone: dict[str, float]
     pair: tuple[str, ...] = ()
     pair_residual: float = math.inf
 
 
-def find_rivals(bench: Bench, rig: Rig, names: Sequence[str], among: Sequence[str] = ()) -> Rivals:
+def find_alternatives(
+    comparison: RigComparison, rig: IndependentRig, names: Sequence[str], among: Sequence[str] = ()
+) -> Alternatives:
     """Fit effects (`among`; all by default) to what the named ones change.
 
-    A single effect is not its own rival; of a pair, each one is.
+    A single true effect is not its own alternative; each one of a pair is.
     """
-    plain = rig
+    without_them = rig
     for name in names:
-        plain = without(plain, name)
-    wanted = bench.difference(rig, plain)
+        without_them = without(without_them, name)
+    target = comparison.difference(rig, without_them)
     fits: dict[str, Array] = {}
     for name in among or FAMILIES:
         if [name] != list(names):
-            tried = [_fitted(bench, rig, plain, name, by, wanted) for by in _typical(name)]
-            fits[name] = min(tried, key=lambda fit: rms(wanted - fit))
-    alone = sorted((rms(wanted - fit), name) for name, fit in fits.items())
-    pairs = [(_together(wanted, fits[a], fits[b]), (a, b)) for a, b in combinations(fits, 2)]
-    residual, pair = min(pairs, default=(math.inf, ()))
-    return Rivals(alone={name: left for left, name in alone}, pair=pair, pair_residual=residual)
+            tried = [_fitted(comparison, rig, without_them, name, by, target) for by in _typical(name)]
+            fits[name] = min(tried, key=lambda fit: rms(target - fit))
+    alone = sorted((rms(target - fit), name) for name, fit in fits.items())
+    pairs = [(_together(target, fits[a], fits[b]), (a, b)) for a, b in combinations(fits, 2)]
+    pair_residual, pair = min(pairs, default=(math.inf, ()))
+    return Alternatives(
+        alone={name: residual for residual, name in alone}, pair=pair, pair_residual=pair_residual
+    )
 
 
 def _typical(name: str) -> list[ByStrength]:
@@ -57,15 +61,22 @@ def _typical(name: str) -> list[ByStrength]:
     return [FAMILIES[name].draw(rng) for _ in range(variants.get(name, 1))]
 
 
-def _fitted(bench: Bench, rig: Rig, plain: Rig, name: str, by: ByStrength, wanted: Array) -> Array:
-    """The best of some strengths, each in proportion to how much of the last one was wanted."""
+def _fitted(
+    comparison: RigComparison,
+    rig: IndependentRig,
+    without_them: IndependentRig,
+    name: str,
+    by: ByStrength,
+    target: Array,
+) -> Array:
+    """The best fit of a few strengths, each the last one times its least-squares factor."""
     family = FAMILIES[name]
     strength = float(np.sqrt(family.low * family.high))
-    best = np.zeros_like(wanted)
+    best = np.zeros_like(target)
     for _ in range(PASSES):
-        got = wanted - bench.difference(rig, with_effect(plain, name, by(strength)))
-        best = got if rms(wanted - got) < rms(wanted - best) else best
-        factor = float(np.vdot(got, wanted)) / max(float(np.vdot(got, got)), 1e-12)
+        fitted = target - comparison.difference(rig, with_effect(without_them, name, by(strength)))
+        best = fitted if rms(target - fitted) < rms(target - best) else best
+        factor = float(np.vdot(fitted, target)) / max(float(np.vdot(fitted, fitted)), 1e-12)
         if abs(factor - 1) < CLOSE or (factor <= 0 and name not in TWO_SIDED):
             break
         strength *= np.sign(factor) * min(max(abs(factor), 0.02), 50.0)
@@ -73,8 +84,8 @@ def _fitted(bench: Bench, rig: Rig, plain: Rig, name: str, by: ByStrength, wante
     return best
 
 
-def _together(wanted: Array, one: Array, other: Array) -> float:
+def _together(target: Array, one: Array, other: Array) -> float:
     columns = np.stack((one, other))
     gram = columns @ columns.T + 1e-9 * np.eye(2)
-    shares = np.clip(np.linalg.solve(gram, columns @ wanted), -2.0, 2.0)
-    return rms(wanted - shares @ columns)
+    shares = np.clip(np.linalg.solve(gram, columns @ target), -2.0, 2.0)
+    return rms(target - shares @ columns)

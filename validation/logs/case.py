@@ -1,11 +1,11 @@
-"""One case: a rig, its trials and sensors, and effects just as strong as they should be.
+"""One validation case: a rig, its trials and sensors, and effects of a drawn signature.
 
-The signature of an effect is the root mean square, over all samples and the signals that the log has,
-of what the effect changes over the noise. For each effect one is drawn, and the strength that
-gives it is sought. The gap is sqrt(1 + the same of everything that is not nominal, squared).
+The signature of an effect is the root mean square of what it changes / sigma, over all samples and
+signals that the log has. For each effect one is drawn, and the strength that gives it is searched for.
+The gap is sqrt(1 + signature^2) of everything that is not nominal.
 
-What an effect of the vocabulary, or a pair, would explain as well is no case of "unknown", and stiction
-that Coulomb friction would explain is none of stiction: such draws are thrown away.
+An unmodelled effect that a modelled one, or a pair, would explain as well is no case of "unknown", and
+stiction that Coulomb friction would explain is none of stiction: such draws are rejected.
 """
 
 from collections.abc import Sequence
@@ -13,15 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from validation.logs.comparison import Bench
-from validation.logs.motions import Plan, draw_motions, draw_plan
-from validation.rig.unmodelled import Trace
-from validation.logs.profiles import log_uniform
-from validation.rig.rig import Motion, Rig
-from validation.logs.alternatives import Rivals, find_rivals
-from validation.logs.schedule import PARAMETER_ERRORS
-from validation.logs.sensors import Sensors, draw_sensors
-from validation.logs.strengths import FAMILIES, OUTSIDE_FAMILIES, with_effect, without
+from validation.logs.alternatives import Alternatives, find_alternatives
+from validation.logs.comparison import RigComparison
+from validation.logs.motions import LogPlan, draw_motions, draw_plan
+from validation.logs.rig_draw import draw_rig
+from validation.logs.sensors import LogSensors, draw_sensors
+from validation.logs.strengths import without
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.unmodelled import IdealSignals
 
 NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk"}
 NEEDS_LOAD = {"load_dependent_friction"}
@@ -32,27 +32,30 @@ NEAREST = {
     "one_way_friction": ("stiction", "coulomb_friction"),
     "stiction": ("coulomb_friction",),
 }
-"""Effects of the vocabulary that may pass for these."""
-LEAST_OUTSIDE, MOST_OUTSIDE = 2.0, 8.0
-"""Bounds of the signature's range for what is outside."""
-LEAST_LEFT_OUTSIDE, LEAST_LEFT = 0.7, 0.3
-"""Residual of the best rival, over the noise, that a case must leave."""
-OFF_NOMINAL = 0.02
-DRAWS, TRIES, CLOSENESS = 100, 7, 1.25
+"""Modelled effects that look most like these."""
+LEAST_UNMODELLED, MOST_UNMODELLED = 2.0, 8.0
+"""The range of signatures of unmodelled effects begins and ends no lower."""
+LEAST_RESIDUAL_UNMODELLED, LEAST_RESIDUAL = 0.7, 0.3
+"""Rms residual / sigma that the best alternative must leave in a case."""
+DRAWS = 100
+
+
+class ImpossibleDraw(Exception):
+    """No draw has given the effects signatures in the range that was asked for."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case:
-    """A rig that is true, its trials, and the signatures that they give its effects."""
+class ValidationCase:
+    """The true rig, its trials, and the signatures that its effects have in them."""
 
-    rig: Rig
-    plan: Plan
-    motions: list[Motion]
-    sensors: Sensors
+    rig: IndependentRig
+    plan: LogPlan
+    motions: list[TrialMotion]
+    sensors: LogSensors
     signatures: dict[str, float]
     gap: float
-    traces: list[Trace]
-    rivals: Rivals
+    signals: list[IdealSignals]
+    alternatives: Alternatives
 
 
 def draw_case(
@@ -62,21 +65,24 @@ def draw_case(
     *,
     short: bool,
     signature: tuple[float, float],
-    rivals: bool = False,
-) -> Case:
+    alternatives: bool = False,
+) -> ValidationCase:
     """Draw until every effect's signature is in its range.
 
     Args:
-      rivals: look for all rivals of explained cases, too (slow).
+      alternatives: look for all alternatives of explained cases, too (slow).
 
     Raises:
-      RuntimeError: no draw has given these effects such signatures.
+      ImpossibleDraw: no draw has given these effects such signatures.
     """
     for _ in range(DRAWS):
-        case = _attempt(rng, kind, names, short, signature, rivals)
+        case = _attempt(rng, kind, names, short, signature, alternatives)
         if case is not None:
             return case
-    raise RuntimeError(f"signature: no log of {kind} {names} within {signature} after {DRAWS} draws")
+    raise ImpossibleDraw(
+        f"signature: expected a range that logs of kind {kind} with {', '.join(names)} can reach, "
+        f"got {signature}, which none of {DRAWS} draws did; widen it"
+    )
 
 
 def _attempt(
@@ -85,85 +91,51 @@ def _attempt(
     names: Sequence[str],
     short: bool,
     ends: tuple[float, float],
-    rivals: bool,
-) -> Case | None:
+    alternatives: bool,
+) -> ValidationCase | None:
     slides, loads = bool(NEEDS_SLIDING & {*names}), bool(NEEDS_LOAD & {*names})
     plan = draw_plan(rng, short=short, slides=slides, loads=loads)
     motions, sensors = draw_motions(rng, plan), draw_sensors(rng)
     if kind == "outside":
-        ends = (max(ends[0], LEAST_OUTSIDE), max(ends[1], MOST_OUTSIDE))
-    coarse = Bench(motions, sensors, coarse=True)
+        ends = (max(ends[0], LEAST_UNMODELLED), max(ends[1], MOST_UNMODELLED))
+    coarse = RigComparison(motions, sensors, coarse=True)
     rig = draw_rig(rng, coarse, kind, names, ends)
-    found = _distinct(coarse, rig, kind, names, min(LEAST_LEFT, ends[0] / 3), rivals) if rig else None
-    if rig is None or found is None:
+    if rig is None:
         return None
-    bench = Bench(motions, sensors)
-    case = Case(
+    least = min(LEAST_RESIDUAL, ends[0] / 3)
+    found = _alternatives(coarse, rig, kind, names, least, alternatives)
+    if found is None:
+        return None
+    comparison = RigComparison(motions, sensors)
+    case = ValidationCase(
         rig=rig,
         plan=plan,
         motions=motions,
         sensors=sensors,
-        traces=bench.show(rig),
-        signatures={name: bench.signature(rig, without(rig, name)) for name in names},
-        gap=float(np.hypot(1.0, bench.signature(rig, replace(rig, effects={}, outside={})))),
-        rivals=found,
+        signals=comparison.signals(rig),
+        signatures={name: comparison.signature(rig, without(rig, name)) for name in names},
+        gap=float(np.hypot(1.0, comparison.signature(rig, replace(rig, effects={}, outside={})))),
+        alternatives=found,
     )
     return case if all(ends[0] <= value <= ends[1] for value in case.signatures.values()) else None
 
 
-def _distinct(
-    bench: Bench, rig: Rig, kind: str, names: Sequence[str], least: float, rivals: bool
-) -> Rivals | None:
-    """The rivals, as far as they were looked for; none if one of them does as well."""
+def _alternatives(
+    comparison: RigComparison,
+    rig: IndependentRig,
+    kind: str,
+    names: Sequence[str],
+    least: float,
+    all_of_them: bool,
+) -> Alternatives | None:
+    """The alternatives, as far as they were looked for; None if one explains the case as well."""
     for name in names:
         if name in NEAREST:
-            near = find_rivals(bench, rig, (name,), NEAREST[name])
-            wanted = LEAST_LEFT_OUTSIDE if kind == "outside" else least
-            if min(near.pair_residual, *near.alone.values()) < wanted:
+            near = find_alternatives(comparison, rig, (name,), NEAREST[name])
+            needed = LEAST_RESIDUAL_UNMODELLED if kind == "outside" else least
+            if min(near.pair_residual, *near.alone.values()) < needed:
                 return None
-    if not names or (kind != "outside" and not rivals):
-        return Rivals(alone={})
-    found = find_rivals(bench, rig, names)
-    return None if kind == "outside" and found.pair_residual < LEAST_LEFT_OUTSIDE else found
-
-
-def draw_rig(
-    rng: np.random.Generator, bench: Bench, kind: str, names: Sequence[str], ends: tuple[float, float]
-) -> Rig | None:
-    """A rig whose effects, each for itself, have drawn signatures; None if these trials forbid it."""
-    rig = Rig(damping_n_mm_s_per_mm=round(rng.uniform(0.015, 0.025), 6))
-    if kind == "off_nominal":
-        scales = {
-            name: {"scale": 1 + rng.uniform(-OFF_NOMINAL, OFF_NOMINAL)} for name in PARAMETER_ERRORS
-        }
-        rig = replace(rig, effects=scales)
-    found = {name: _strengthened(rng, bench, rig, name, ends) for name in names}
-    for name, parameters in found.items():
-        if parameters is None:
-            return None
-        rig = with_effect(rig, name, parameters)
-    return rig
-
-
-def _strengthened(
-    rng: np.random.Generator, bench: Bench, rig: Rig, name: str, ends: tuple[float, float]
-) -> dict[str, float] | None:
-    """Parameters that give the effect alone a drawn signature, near enough."""
-    family = (FAMILIES | OUTSIDE_FAMILIES)[name]
-    by, wanted = family.draw(rng), log_uniform(rng, *ends)
-    strength = log_uniform(rng, family.low, family.high)
-    for _ in range(TRIES):
-        parameters = _rounded(by(strength))
-        got = bench.signature(with_effect(rig, name, parameters), rig)
-        if wanted / CLOSENESS < got < wanted * CLOSENESS:
-            return parameters
-        better = strength * min(max(wanted / max(got, 1e-9), 0.05), 20.0)
-        better = min(max(better, family.low), family.high)
-        if better == strength:
-            return None
-        strength = better
-    return None
-
-
-def _rounded(parameters: dict[str, float]) -> dict[str, float]:
-    return {name: float(f"{value:.5g}") for name, value in parameters.items()}
+    if not names or (kind != "outside" and not all_of_them):
+        return Alternatives(alone={})
+    found = find_alternatives(comparison, rig, names)
+    return None if kind == "outside" and found.pair_residual < LEAST_RESIDUAL_UNMODELLED else found

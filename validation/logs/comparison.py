@@ -1,4 +1,4 @@
-"""Compares rigs on the trials of one log, in units of the noise of its sensors."""
+"""Comparison of rigs on the trials of one log, in units of the noise of its sensors."""
 
 import json
 from dataclasses import replace
@@ -6,56 +6,60 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.rig.unmodelled import Trace
-from validation.rig.rig import COARSE, FINE, Fineness, Motion, Rig, observe
-from validation.logs.sensors import TIP, TORQUE, Sensors
+from validation.logs.sensors import TIP, TORQUE, LogSensors
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.simulation import COARSE, FINE, CellCounts, ideal_signals
+from validation.rig.unmodelled import IdealSignals
 
 Array = NDArray[np.float64]
 COARSE_STEP_S = 0.01
 
 
-class Bench:
-    """Trials on which rigs are run and remembered.
+class RigComparison:
+    """Signals of rigs on the same trials; every rig is simulated once.
 
-    A coarse bench, with long steps and few cells, is ten times faster, and good to a few hundredths
-    of an effect. It is for searches; what matters is measured on a fine one.
+    A coarse comparison, with long steps and few cells, is ten times faster, and good to a few
+    hundredths of an effect. It is for searches; the final values come from a fine one.
     """
 
-    def __init__(self, motions: list[Motion], sensors: Sensors, *, coarse: bool = False) -> None:
-        self.motions = [_thinned(motion) for motion in motions] if coarse else motions
+    def __init__(self, motions: list[TrialMotion], sensors: LogSensors, *, coarse: bool = False) -> None:
+        self.motions = [_decimated(motion) for motion in motions] if coarse else motions
         self.sensors = sensors
-        self._fineness: Fineness = COARSE if coarse else FINE
-        self._known: dict[str, list[Trace]] = {}
+        self._cells: CellCounts = COARSE if coarse else FINE
+        self._known: dict[str, list[IdealSignals]] = {}
 
-    def show(self, rig: Rig, shown: list[Trace] | None = None) -> list[Trace]:
-        """What sensors show, or would, had the drive turned as `shown`. Remembered per rig."""
+    def signals(
+        self, rig: IndependentRig, driven_as: list[IdealSignals] | None = None
+    ) -> list[IdealSignals]:
+        """Ideal signals of every trial; `driven_as`: with the base angles of these signals instead."""
         key = json.dumps([rig.effects, rig.outside], sort_keys=True)
-        if shown is not None:
-            turns = [trace.base_deg for trace in shown]
-            if any(np.any(t != m.base_deg) for t, m in zip(turns, self.motions, strict=True)):
-                motions = [replace(m, base_deg=t) for m, t in zip(self.motions, turns, strict=True)]
-                return [observe(rig, motion, self._fineness) for motion in motions]
+        if driven_as is not None:
+            base = [signals.base_deg for signals in driven_as]
+            if any(np.any(b != m.base_deg) for b, m in zip(base, self.motions, strict=True)):
+                motions = [replace(m, base_deg=b) for m, b in zip(self.motions, base, strict=True)]
+                return [ideal_signals(rig, motion, self._cells) for motion in motions]
         if key not in self._known:
-            self._known[key] = [observe(rig, motion, self._fineness) for motion in self.motions]
+            self._known[key] = [ideal_signals(rig, motion, self._cells) for motion in self.motions]
         return self._known[key]
 
-    def difference(self, rig: Rig, other: Rig) -> Array:
-        """What `rig` shows less a replay of the other by the base angle that `rig` shows.
+    def difference(self, rig: IndependentRig, other: IndependentRig) -> Array:
+        """Signals of `rig` minus those of `other` driven by the base angle that `rig` shows.
 
         Returns:
-          Over the noise; all samples of all trials and signals that the log has, in a row.
+          In units of sigma, the noise of each sensor; all samples of all trials and signals, (N,).
         """
-        true = self.show(rig)
-        return self._in_a_row(true) - self._in_a_row(self.show(other, true))
+        own = self.signals(rig)
+        return self._normalised(own) - self._normalised(self.signals(other, own))
 
-    def signature(self, rig: Rig, other: Rig) -> float:
-        """Root mean square of the difference."""
+    def signature(self, rig: IndependentRig, other: IndependentRig) -> float:
+        """Root mean square of the difference / sigma."""
         return rms(self.difference(rig, other))
 
-    def _in_a_row(self, traces: list[Trace]) -> Array:
+    def _normalised(self, all_signals: list[IdealSignals]) -> Array:
         parts = []
-        for motion, trace in zip(self.motions, traces, strict=True):
-            values = {TIP: trace.tip_deg, TORQUE: trace.torque_n_mm}
+        for motion, signals in zip(self.motions, all_signals, strict=True):
+            values = {TIP: signals.tip_deg, TORQUE: signals.torque_n_mm}
             for signal in self.sensors.shown:
                 parts.append(values[signal][:: motion.per_sample] / self.sensors.noise[signal])
         return np.concatenate(parts)
@@ -66,11 +70,11 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _thinned(motion: Motion) -> Motion:
+def _decimated(motion: TrialMotion) -> TrialMotion:
     """The same motion on a coarse time grid, all of whose points count as samples."""
     every = max(round(COARSE_STEP_S / motion.dt_s), 1)
     tip_torque = motion.tip_torque_n_mm
-    return Motion(
+    return TrialMotion(
         dt_s=motion.dt_s * every,
         per_sample=1,
         base_deg=motion.base_deg[::every],

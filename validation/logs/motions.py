@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.logs.profiles import PROFILES, held, log_uniform
-from validation.rig.rig import Motion
+from validation.rig.motion import TrialMotion
 
 Array = NDArray[np.float64]
 
@@ -16,7 +16,7 @@ LEAST_FREE_MM, MOST_FREE_MM = 20.0, 200.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plan:
+class LogPlan:
     """What a log's trials have in common.
 
     Attributes:
@@ -32,13 +32,13 @@ class Plan:
     loaded: float
 
 
-def draw_plan(rng: np.random.Generator, *, short: bool, slides: bool, loads: bool) -> Plan:
+def draw_plan(rng: np.random.Generator, *, short: bool, slides: bool, loads: bool) -> LogPlan:
     """A plan; `slides` and `loads`: what the effect needs in order to show."""
     rates, weights = ((50, 100), (0.4, 0.6)) if short else ((50, 100, 200), (0.12, 0.78, 0.1))
     sliding = rng.choice([0.0, 0.4, 0.8], p=[0.35, 0.35, 0.3])
     growing = 0.4 if rng.random() < 0.15 else 0.0
     loaded = 0.4 if rng.random() < 0.06 else 0.0
-    return Plan(
+    return LogPlan(
         trials=3 if short else int(rng.integers(3, 7)),
         total_s=rng.uniform(36, 44) if short else rng.uniform(60, 180),
         rate_hz=int(rng.choice(rates, p=weights)),
@@ -48,7 +48,7 @@ def draw_plan(rng: np.random.Generator, *, short: bool, slides: bool, loads: boo
     )
 
 
-def draw_motions(rng: np.random.Generator, plan: Plan) -> list[Motion]:
+def draw_motions(rng: np.random.Generator, plan: LogPlan) -> list[TrialMotion]:
     """The trials of a log."""
     shares = rng.uniform(0.5, 1.5, plan.trials)
     durations = np.clip(plan.total_s * shares / shares.sum(), 10.0, 60.0)
@@ -72,7 +72,7 @@ def _some(rng: np.random.Generator, count: int, share: float) -> Array:
 
 def _draw_motion(
     rng: np.random.Generator, rate_hz: int, duration_s: float, depth: float, kind: tuple[bool, ...]
-) -> Motion:
+) -> TrialMotion:
     sliding, growing, loaded = kind
     per_sample = max(math.ceil(1 / rate_hz / FINEST_STEP_S - 1e-9), 1)
     dt = 1 / rate_hz / per_sample
@@ -83,7 +83,7 @@ def _draw_motion(
     largest_rate = log_uniform(rng, 60, 280)
     profile = held if loaded and rng.random() < 0.5 else PROFILES[name][0]
     speed, inserted, free = _slide(rng, time_s, depth, sliding, growing)
-    return Motion(
+    return TrialMotion(
         dt_s=dt,
         per_sample=per_sample,
         base_deg=profile(rng, time_s, largest_rate),

@@ -1,21 +1,21 @@
-"""Which kind of case comes when: fixed shares in blocks, shuffled by the seed.
+"""The kind and the effects of every log: fixed shares in blocks, shuffled by the seed.
 
-What case i is depends on the seed and i alone, not on how many cases are made.
+What log i is depends on the seed and i alone, not on how many logs are made.
 """
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from validation.rig.unmodelled import OUTSIDE
-from validation.rig.rig import VOCABULARY
+from validation.rig.modelled import MODELLED
+from validation.rig.unmodelled import UNMODELLED
 
 BLOCK = 33
 SHARES = {"none": 0.12, "single": 0.45, "pair": 0.18, "off_nominal": 0.13, "outside": 0.12}
 KINDS = tuple(SHARES)
 PARAMETER_ERRORS = ("stiffness_error", "damping_error")
 
-PLACES = {
+LOCATIONS = {
     "coulomb_friction": "interface",
     "stiction": "interface",
     "speed_dependent_friction": "interface",
@@ -36,13 +36,13 @@ PLACES = {
     "tip_sensor_delay": "sensor",
     "torque_bias": "sensor",
 }
-SHARED_NAMES = ({"coulomb_friction", "stiction", "speed_dependent_friction"},)
-"""Effects of which one would take the blame for another of the same set."""
-SAME_PLACE = 0.15
+MUTUALLY_EXCLUSIVE = ({"coulomb_friction", "stiction", "speed_dependent_friction"},)
+"""Effects that explain the same data: two of a set never make a pair."""
+SAME_LOCATION = 0.15
 
 
 def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, int]:
-    """The kind of a case (counted from 0), and how many of that kind came before it."""
+    """The kind of a log (counted from 0), and how many of that kind come before it."""
     before = [_block(seed, block, kinds) for block in range(case // BLOCK)]
     this = _block(seed, case // BLOCK, kinds)
     kind = this[case % BLOCK]
@@ -51,7 +51,7 @@ def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, in
 
 
 def _block(seed: int, block: int, kinds: Sequence[str]) -> list[str]:
-    """Shares by largest remainder, shuffled."""
+    """Kinds of one block: shares by largest remainder, shuffled."""
     total = sum(SHARES[kind] for kind in kinds)
     ideal = {kind: BLOCK * SHARES[kind] / total for kind in kinds}
     counts = {kind: int(value) for kind, value in ideal.items()}
@@ -62,34 +62,34 @@ def _block(seed: int, block: int, kinds: Sequence[str]) -> list[str]:
     return [ordered[i] for i in shuffled]
 
 
-def turn_of(seed: int, earlier: int, names: Sequence[str]) -> str:
+def name_in_turn(seed: int, earlier: int, names: Sequence[str]) -> str:
     """Each name in turn, in an order that the seed shuffles anew each round."""
     order = np.random.default_rng([seed, earlier // len(names), 2]).permutation(len(names))
     return str(names[order[earlier % len(names)]])
 
 
 def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None) -> tuple[str, ...]:
-    """Names of the effects of a case, or of what is outside."""
+    """Names of the effects of a log; of kind `outside`, of an unmodelled one."""
     if kind == "none":
         return ()
-    known = OUTSIDE if kind == "outside" else VOCABULARY
+    known = UNMODELLED if kind == "outside" else MODELLED
     names = [name for name in known if allowed is None or name in allowed] or list(known)
     if kind == "off_nominal":
         names = [n for n in names if n not in PARAMETER_ERRORS] or ["coulomb_friction"]
-    first = turn_of(seed, earlier, names)
+    first = name_in_turn(seed, earlier, names)
     return (first, _partner(seed, earlier, first)) if kind == "pair" else (first,)
 
 
 def _partner(seed: int, earlier: int, first: str) -> str:
-    """Mostly from another place in the machine."""
+    """The second effect of a pair, mostly at another location in the machine."""
     rng = np.random.default_rng([seed, earlier, 3])
-    elsewhere = rng.random() >= SAME_PLACE
+    elsewhere = rng.random() >= SAME_LOCATION
     fit = [
         name
-        for name in VOCABULARY
+        for name in MODELLED
         if name != first
-        and (PLACES[name] != PLACES[first]) == elsewhere
-        and not any({first, name} <= names for names in SHARED_NAMES)
+        and (LOCATIONS[name] != LOCATIONS[first]) == elsewhere
+        and not any({first, name} <= names for names in MUTUALLY_EXCLUSIVE)
     ]
-    fit = fit or [name for name in VOCABULARY if PLACES[name] != PLACES[first]]
+    fit = fit or [name for name in MODELLED if LOCATIONS[name] != LOCATIONS[first]]
     return fit[int(rng.integers(len(fit)))]

@@ -1,4 +1,4 @@
-"""From ideal signals to the rows of a log: noise, steps of encoder and converter, lost samples."""
+"""From ideal signals to the rows of a log: noise, quantisation, lost samples."""
 
 import re
 from dataclasses import asdict, dataclass
@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.rig.unmodelled import Trace
 from validation.logs.profiles import log_uniform
-from validation.rig.rig import Motion, Rig
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.unmodelled import IdealSignals
 
 Array = NDArray[np.float64]
 TIP, TORQUE, BASE = "tip_angle_deg", "base_torque_n_mm", "base_angle_deg"
@@ -19,12 +20,13 @@ FORMATS = {TORQUE: "%.4f", "tip_torque_n_mm": "%.4f"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sensors:
-    """One log's sensors; noises are 1 sigma, per signal.
+class LogSensors:
+    """The sensors of one log.
 
     Attributes:
-      claims: what rig.yaml says of a noise, over the truth.
-      steps: of quantised signals, over their noise.
+      noise: standard deviation (sigma) per signal, in the unit of its column.
+      claims: noise that rig.yaml states / true noise.
+      steps: quantisation step / noise, of quantised signals.
       dropped: share of rows that are lost at random; `gaps`: also some tenths of a second at once.
       missing: a column that is not there; `blank`: one with a stretch of empty cells.
     """
@@ -43,38 +45,38 @@ class Sensors:
         return tuple(signal for signal in MEASURED if signal != self.missing)
 
     def details(self) -> dict[str, Any]:
-        """For the answers: everything of note."""
+        """For the ground truth: every attribute that is not neutral."""
         return {name: value for name, value in asdict(self).items() if value}
 
 
-def draw_sensors(rng: np.random.Generator) -> Sensors:
-    """Most logs are plain; each oddity is rare, and several may meet."""
+def draw_sensors(rng: np.random.Generator) -> LogSensors:
+    """Most logs are plain; each defect is rare, and several may coincide."""
     noise = {TIP: log_uniform(rng, 0.2, 0.6), TORQUE: log_uniform(rng, 0.01, 0.02), BASE: 0.02}
     claims = {signal: rng.uniform(0.87, 1.15) for signal in noise}
-    odd = rng.random(5) < (0.06, 0.15, 0.15, 0.05, 0.04)
-    if odd[0]:
+    defect = rng.random(5) < (0.06, 0.15, 0.15, 0.05, 0.04)
+    if defect[0]:
         claims[str(rng.choice(MEASURED))] *= rng.choice([1 / 3, 3.0])
     steps = {signal: rng.uniform(0.5, 1.0) for signal in rng.choice(MEASURED, rng.integers(1, 3), False)}
     column = str(rng.choice(MEASURED))
-    return Sensors(
+    return LogSensors(
         noise=noise,
         claims=claims,
-        steps={str(signal): float(step) for signal, step in steps.items()} if odd[1] else {},
-        dropped=rng.uniform(0.005, 0.05) if odd[2] else 0.0,
-        gaps=bool(odd[2] and rng.random() < 0.5),
-        missing=column if odd[3] else "",
-        blank=column if odd[4] and not odd[3] else "",
+        steps={str(signal): float(step) for signal, step in steps.items()} if defect[1] else {},
+        dropped=rng.uniform(0.005, 0.05) if defect[2] else 0.0,
+        gaps=bool(defect[2] and rng.random() < 0.5),
+        missing=column if defect[3] else "",
+        blank=column if defect[4] and not defect[3] else "",
     )
 
 
 def measure(
-    rng: np.random.Generator, sensors: Sensors, motion: Motion, trace: Trace
+    rng: np.random.Generator, sensors: LogSensors, motion: TrialMotion, ideal: IdealSignals
 ) -> dict[str, Array]:
     """The columns of a trial's CSV, in their order."""
     every = slice(None, None, motion.per_sample)
-    ideal = {BASE: trace.base_deg, TORQUE: trace.torque_n_mm, TIP: trace.tip_deg}
+    shown = {BASE: ideal.base_deg, TORQUE: ideal.torque_n_mm, TIP: ideal.tip_deg}
     columns = {"time_s": motion.time_s[every]}
-    for signal, values in ideal.items():
+    for signal, values in shown.items():
         noisy = values[every] + rng.normal(0, sensors.noise[signal], values[every].size)
         step = sensors.steps.get(signal, 0.0) * sensors.noise[signal]
         columns[signal] = np.round(noisy / step) * step if step else noisy
@@ -83,11 +85,13 @@ def measure(
     columns["speed_mm_s"] = motion.speed_mm_s[every]
     if motion.tip_torque_n_mm is not None:
         columns["tip_torque_n_mm"] = motion.tip_torque_n_mm[every]
-    return _lose(rng, sensors, columns)
+    return _drop_samples(rng, sensors, columns)
 
 
-def _lose(rng: np.random.Generator, sensors: Sensors, columns: dict[str, Array]) -> dict[str, Array]:
-    """Without lost rows, blank cells and missing columns. The first row is always kept."""
+def _drop_samples(
+    rng: np.random.Generator, sensors: LogSensors, columns: dict[str, Array]
+) -> dict[str, Array]:
+    """Remove lost rows, blank cells and missing columns. The first row is always kept."""
     time_s = columns["time_s"]
     kept = rng.random(time_s.size) >= sensors.dropped
     if sensors.gaps:
@@ -111,8 +115,8 @@ def as_csv(columns: dict[str, Array]) -> str:
     return re.sub(r"-(0\.0+)(?=[,\n])", r"\1", "\n".join(lines) + "\n")
 
 
-def rig_yaml(sensors: Sensors, rig: Rig, trials: int) -> str:
-    """What the experimenter believes about the rig."""
+def rig_yaml(sensors: LogSensors, rig: IndependentRig, trials: int) -> str:
+    """The nominal rig, as the experimenter states it."""
     claimed = {name: f"{noise * sensors.claims[name]:.3g}" for name, noise in sensors.noise.items()}
     lines = [
         "format: rig-log/1",

@@ -4,7 +4,7 @@ Dry friction is elastic-plastic: a presliding angle z follows the slip up to +-l
 level z / limit. If the level is shared with the axial motion, z is a vector (turning angle, axial
 travel / radius), returned radially to a disc. Viscous torque is beta w |w|^(exponent - 1).
 
-Some parameters belong to effects outside the vocabulary; see `validation.rig.unmodelled`.
+Some parameters belong to effects that the diagnosis does not model: `validation.rig.unmodelled`.
 Units: N, mm, s, rad. Every law returns its torque and the slopes that Newton's method needs.
 """
 
@@ -17,7 +17,7 @@ SMALLEST_RATE = 1e-6
 """The power law is linear below this slip rate, rad/s."""
 
 
-class Law(NamedTuple):
+class LawParameters(NamedTuple):
     """All parameters of a rig, with the values that switch each effect off."""
 
     rigidity: float
@@ -43,13 +43,13 @@ class Law(NamedTuple):
     ageing_angle: float = 1.0
     """Dry level grows by ageing log(1 + age / ageing_time); slip by ageing_angle renews contact."""
     shared: float = 0.0
-    softness: float = 0.0
+    compliance: float = 0.0
     retardation: float = 0.0
     entry: float = 0.0
     sheath: float = 0.0
     load: float = 0.0
     half_gap: float = 0.0
-    base_softness: float = 0.0
+    base_compliance: float = 0.0
     hardening: float = 0.0
     """Shaft torque is rigidity strain (1 + hardening strain^2), strain in rad/mm."""
     grip: float = math.inf
@@ -90,7 +90,7 @@ def preslide_shared(limit: float, turning: float, axial: float) -> tuple[float, 
 
 
 @njit(cache=True)
-def dry_level(law: Law, age: float, rate: float) -> tuple[float, float]:
+def dry_level(law: LawParameters, age: float, rate: float) -> tuple[float, float]:
     """Level of the dry friction that turning alone feels, and its slope with the slip rate."""
     level = law.coulomb + law.kinetic
     if law.ageing > 0.0:
@@ -103,7 +103,9 @@ def dry_level(law: Law, age: float, rate: float) -> tuple[float, float]:
 
 
 @njit(cache=True)
-def dry(law: Law, age: float, before: float, rate: float, travel: float) -> tuple[float, float, float]:
+def dry(
+    law: LawParameters, age: float, before: float, rate: float, travel: float
+) -> tuple[float, float, float]:
     """Dry torque per mm with the level at that rate, its slopes with rate and with travel."""
     level, fall = dry_level(law, age, rate)
     if level == 0.0:
@@ -118,7 +120,7 @@ def dry(law: Law, age: float, before: float, rate: float, travel: float) -> tupl
 
 @njit(cache=True)
 def interface(
-    law: Law,
+    law: LawParameters,
     damping: float,
     before: tuple[float, float, float, float],
     slip: tuple[float, float, float],

@@ -1,9 +1,9 @@
-"""The chain of finite volumes at one moment: where nodes are and what touches them.
+"""The chain of finite volumes at one moment: where its nodes are and what acts on them.
 
-At constant inserted length the mesh is fixed in the tissue: free cells (if a sheath rubs), the entry,
-inserted cells, the tip. If the inserted length changes, the mesh is fixed to the needle: cells from
-chuck to tip, each in the tissue with the share of it that lies beyond the entry, and the tip.
-Cells carry friction and sit in their middles; entry and tip are nodes without length.
+At constant inserted length the mesh is Eulerian, fixed in the tissue: free cells (if a sheath rubs), the
+entry, inserted cells, the tip. If the inserted length changes, the mesh is Lagrangian, fixed to the
+needle: cells from chuck to tip, each in the tissue with the share of it that lies beyond the entry, and
+the tip. Cells carry friction and have their node in the middle; entry and tip are nodes without length.
 """
 
 from typing import NamedTuple
@@ -12,21 +12,36 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from validation.rig.laws import Law
+from validation.rig.laws import LawParameters
 
 Array = NDArray[np.float64]
 
 
-class Mesh(NamedTuple):
-    """How many nodes of which kind; `growing`: fixed to the needle."""
+class MeshSize(NamedTuple):
+    """Number of nodes.
+
+    Attributes:
+      free_cells: cells of the free shaft in an Eulerian mesh; 0 without a sheath.
+      lagrangian: fixed to the needle instead of the tissue.
+    """
 
     nodes: int
     free_cells: int
-    growing: bool
+    lagrangian: bool
 
 
-class Layout(NamedTuple):
-    """Per node, in place: link i (length, stiffness) lies before node i; the last one is missing."""
+class CellChain(NamedTuple):
+    """Geometry and coefficients per node, (nodes,); link i joins node i to the one before it.
+
+    Attributes:
+      link_mm, link: length and torsional stiffness (N mm/rad) of the links; `link` has one more entry,
+        0, for what lies behind the tip.
+      depth: of the part that is in the tissue, mm.
+      tissue, sheath: length in the tissue and in the sheath, mm.
+      damping: viscous torque per rad/s and mm of tissue.
+      entry: shares of the nodes in the entry friction at the end of the step.
+      passing: weights of the nodes in the turn of what passes the entry, in the middle of the step.
+    """
 
     link_mm: Array
     link: Array
@@ -39,9 +54,9 @@ class Layout(NamedTuple):
 
 
 @njit(cache=True)
-def empty_layout(nodes: int) -> Layout:
-    """Space for that many nodes."""
-    return Layout(
+def empty_chain(nodes: int) -> CellChain:
+    """Zeros for that many nodes."""
+    return CellChain(
         np.zeros(nodes),
         np.zeros(nodes + 1),
         np.zeros(nodes),
@@ -54,54 +69,63 @@ def empty_layout(nodes: int) -> Layout:
 
 
 @njit(cache=True)
-def lay_out(lay: Layout, law: Law, mesh: Mesh, free: float, free_middle: float, inserted: float) -> None:
-    """Fill the layout for these lengths; `free_middle` is the free length in the middle of the step."""
-    if mesh.growing:
-        _along_needle(lay, mesh, free, free_middle, inserted)
+def assemble(
+    chain: CellChain,
+    law: LawParameters,
+    mesh: MeshSize,
+    free: float,
+    free_middle: float,
+    inserted: float,
+) -> None:
+    """Fill the chain for these lengths, mm; `free_middle`: free length in the middle of the step."""
+    if mesh.lagrangian:
+        _lagrangian(chain, mesh, free, free_middle, inserted)
     else:
-        _in_tissue(lay, mesh, free, inserted)
+        _eulerian(chain, mesh, free, inserted)
     for i in range(mesh.nodes):
-        lay.link[i] = law.rigidity / lay.link_mm[i]
-        lay.damping[i] = _damping(law, lay.depth[i], lay.tissue[i], inserted)
+        chain.link[i] = law.rigidity / chain.link_mm[i]
+        chain.damping[i] = _damping(law, chain.depth[i], chain.tissue[i], inserted)
 
 
 @njit(cache=True)
-def _in_tissue(lay: Layout, mesh: Mesh, free: float, inserted: float) -> None:
+def _eulerian(chain: CellChain, mesh: MeshSize, free: float, inserted: float) -> None:
     cells = mesh.nodes - mesh.free_cells - 2
     cell = inserted / cells
     for i in range(mesh.free_cells):
-        lay.link_mm[i] = lay.sheath[i] = free / mesh.free_cells
-    at = mesh.free_cells
-    lay.link_mm[0] = free if at == 0 else 0.5 * free / at
-    if at > 0:
-        lay.link_mm[at] = 0.5 * free / at
-    lay.entry[at] = lay.passing[at] = 1.0
+        chain.link_mm[i] = chain.sheath[i] = free / mesh.free_cells
+    entry = mesh.free_cells
+    chain.link_mm[0] = free if entry == 0 else 0.5 * free / entry
+    if entry > 0:
+        chain.link_mm[entry] = 0.5 * free / entry
+    chain.entry[entry] = chain.passing[entry] = 1.0
     for i in range(cells):
-        lay.link_mm[at + 1 + i] = lay.tissue[at + 1 + i] = cell
-        lay.depth[at + 1 + i] = (i + 0.5) * cell
-    lay.link_mm[at + 1] = lay.link_mm[mesh.nodes - 1] = 0.5 * cell
-    lay.depth[mesh.nodes - 1] = inserted
+        chain.link_mm[entry + 1 + i] = chain.tissue[entry + 1 + i] = cell
+        chain.depth[entry + 1 + i] = (i + 0.5) * cell
+    chain.link_mm[entry + 1] = chain.link_mm[mesh.nodes - 1] = 0.5 * cell
+    chain.depth[mesh.nodes - 1] = inserted
 
 
 @njit(cache=True)
-def _along_needle(lay: Layout, mesh: Mesh, free: float, free_middle: float, inserted: float) -> None:
+def _lagrangian(
+    chain: CellChain, mesh: MeshSize, free: float, free_middle: float, inserted: float
+) -> None:
     cells = mesh.nodes - 1
     cell = (free + inserted) / cells
     for i in range(cells):
-        lay.link_mm[i] = cell
+        chain.link_mm[i] = cell
         covered = min(max((i + 1) * cell - free, 0.0), cell)
-        lay.tissue[i], lay.sheath[i] = covered, cell - covered
-        lay.depth[i] = (i + 1) * cell - free - 0.5 * covered
-    lay.link_mm[0] = lay.link_mm[cells] = 0.5 * cell
-    lay.depth[cells] = inserted
-    for shares, length in ((lay.entry, free), (lay.passing, free_middle)):
-        place = min(max(length / cell - 0.5, 0.0), cells - 1.0)
+        chain.tissue[i], chain.sheath[i] = covered, cell - covered
+        chain.depth[i] = (i + 1) * cell - free - 0.5 * covered
+    chain.link_mm[0] = chain.link_mm[cells] = 0.5 * cell
+    chain.depth[cells] = inserted
+    for shares, length in ((chain.entry, free), (chain.passing, free_middle)):
+        position = min(max(length / cell - 0.5, 0.0), cells - 1.0)
         for i in range(cells):
-            shares[i] = max(1.0 - abs(i - place), 0.0)
+            shares[i] = max(1.0 - abs(i - position), 0.0)
 
 
 @njit(cache=True)
-def _damping(law: Law, depth: float, tissue: float, inserted: float) -> float:
+def _damping(law: LawParameters, depth: float, tissue: float, inserted: float) -> float:
     """Viscous torque per rad/s and per mm; its mean over the inserted length is the rig's."""
     if tissue == 0.0:
         return 0.0

@@ -1,10 +1,10 @@
 """Newton's method for the balance of torques.
 
 It is semismooth: kinks of dry friction and backlash give one of their slopes. If full steps do not
-settle, steps are halved until the mismatch falls. Friction that falls with the slip rate faster than
-viscous torque rises may have several balances, or jump between them: then the level is taken at
-frozen slip rates, and these follow the solution until Newton's method settles from there. If it never
-does, the level lags a little behind the rate for that step.
+settle, a line search halves them until the residual falls. Friction that falls with the slip rate faster
+than viscous torque rises may have several balances, or jump between them: then the level is taken at
+lagged slip rates, which follow the solution (a fixed-point iteration) until Newton's method settles from
+there. If it never does, the level lags a little behind the rate for that step.
 """
 
 import math
@@ -12,35 +12,39 @@ import math
 from numba import njit
 
 from validation.rig.balance import linearise, slip_rate
-from validation.rig.laws import Law
-from validation.rig.mesh import Layout
-from validation.rig.state import Push, State, Work
+from validation.rig.laws import LawParameters
+from validation.rig.mesh import CellChain
+from validation.rig.state import RigState, StepInput, Workspace
 
 TOLERANCE = 1e-7
-"""It rests when no angle moves by more, rad."""
-THAWS = 12
+"""Converged when no angle moves by more, rad."""
+LAGGED_ATTEMPTS = 12
 
 
 @njit(cache=True)
-def solve(law: Law, lay: Layout, state: State, push: Push, work: Work) -> bool:
-    """Find angles and twists from the guess in `work`; whether they were found."""
+def solve(
+    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: Workspace
+) -> bool:
+    """Find angles and twists from the guess in `work`; returns whether they were found."""
     angle, twist = work.angle.copy(), work.twist.copy()
     for halvings, iterations in ((0, 12), (8, 60)):
-        if _iterate(law, lay, state, push, work, (halvings, iterations), False):
+        if _iterate(law, chain, state, inputs, work, (halvings, iterations), False):
             return True
         work.angle[:], work.twist[:] = angle, twist
-    return law.static > law.kinetic and _thaw(law, lay, state, push, work)
+    return law.static > law.kinetic and _solve_with_lagged_rates(law, chain, state, inputs, work)
 
 
 @njit(cache=True)
-def _thaw(law: Law, lay: Layout, state: State, push: Push, work: Work) -> bool:
-    for attempt in range(THAWS):
+def _solve_with_lagged_rates(
+    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: Workspace
+) -> bool:
+    for attempt in range(LAGGED_ATTEMPTS):
         for i in range(work.angle.size):
-            work.frozen[i] = slip_rate(push, work, i)
-        if not _iterate(law, lay, state, push, work, (8 if attempt % 2 else 0, 60), True):
+            work.lagged_rate[i] = slip_rate(inputs, work, i)
+        if not _iterate(law, chain, state, inputs, work, (8 if attempt % 2 else 0, 60), True):
             return False
         angle, twist = work.angle.copy(), work.twist.copy()
-        if _iterate(law, lay, state, push, work, (0, 10), False):
+        if _iterate(law, chain, state, inputs, work, (0, 10), False):
             return True
         work.angle[:], work.twist[:] = angle, twist
     return True
@@ -48,67 +52,78 @@ def _thaw(law: Law, lay: Layout, state: State, push: Push, work: Work) -> bool:
 
 @njit(cache=True)
 def _iterate(
-    law: Law, lay: Layout, state: State, push: Push, work: Work, most: tuple[int, int], frozen: bool
+    law: LawParameters,
+    chain: CellChain,
+    state: RigState,
+    inputs: StepInput,
+    work: Workspace,
+    most: tuple[int, int],
+    lagged: bool,
 ) -> bool:
-    """Newton steps; `most`: halvings of each, and how many."""
+    """Newton's iteration, whether it converged.
+
+    Args:
+      most: halvings of each step, and how many steps.
+      lagged: take the dry level at `work.lagged_rate`.
+    """
     for _ in range(most[1]):
-        mismatch = linearise(law, lay, state, push, work, frozen)
-        largest = _step(work)
-        _move(work, 1.0)
+        residual_norm = linearise(law, chain, state, inputs, work, lagged)
+        largest = _solve_tridiagonal(work)
+        _update(work, 1.0)
         if largest < TOLERANCE:
             return True
         if not math.isfinite(largest):
             return False
         if most[0] > 0:
-            _shorten(law, lay, state, push, work, mismatch, most[0], frozen)
+            _backtrack(law, chain, state, inputs, work, residual_norm, most[0], lagged)
     return False
 
 
 @njit(cache=True)
-def _step(work: Work) -> float:
-    """Solve the rows for the turn of nodes (Thomas' algorithm); returns the largest move."""
+def _solve_tridiagonal(work: Workspace) -> float:
+    """Solve the rows for the increments (Thomas' algorithm); returns the largest, rad."""
     nodes = work.angle.size
-    turn, own, force = work.turn, work.own, work.force
+    increment, diagonal, residual = work.increment, work.diagonal, work.residual
     for i in range(1, nodes):
-        factor = work.lower[i] / own[i - 1]
-        own[i] -= factor * work.upper[i - 1]
-        force[i] -= factor * force[i - 1]
-    turn[nodes - 1] = force[nodes - 1] / own[nodes - 1]
+        factor = work.lower[i] / diagonal[i - 1]
+        diagonal[i] -= factor * work.upper[i - 1]
+        residual[i] -= factor * residual[i - 1]
+    increment[nodes - 1] = residual[nodes - 1] / diagonal[nodes - 1]
     for i in range(nodes - 2, -1, -1):
-        turn[i] = (force[i] - work.upper[i] * turn[i + 1]) / own[i]
+        increment[i] = (residual[i] - work.upper[i] * increment[i + 1]) / diagonal[i]
     largest = 0.0
     for i in range(nodes):
-        work.twist_force[i] += work.twist_gain[i] * turn[i]
-        largest = max(largest, abs(turn[i]), abs(work.twist_force[i]))
-        if not math.isfinite(turn[i]):
+        work.twist_increment[i] += work.twist_gain[i] * increment[i]
+        largest = max(largest, abs(increment[i]), abs(work.twist_increment[i]))
+        if not math.isfinite(increment[i]):
             return math.inf
     return largest
 
 
 @njit(cache=True)
-def _move(work: Work, part: float) -> None:
+def _update(work: Workspace, part: float) -> None:
     for i in range(work.angle.size):
-        work.angle[i] += part * work.turn[i]
-        work.twist[i] += part * work.twist_force[i]
+        work.angle[i] += part * work.increment[i]
+        work.twist[i] += part * work.twist_increment[i]
 
 
 @njit(cache=True)
-def _shorten(
-    law: Law,
-    lay: Layout,
-    state: State,
-    push: Push,
-    work: Work,
-    mismatch: float,
+def _backtrack(
+    law: LawParameters,
+    chain: CellChain,
+    state: RigState,
+    inputs: StepInput,
+    work: Workspace,
+    residual_norm: float,
     halvings: int,
-    frozen: bool,
+    lagged: bool,
 ) -> None:
-    """Take back half of the move again and again until the mismatch is smaller than before it."""
-    turn, twist_turn = work.turn.copy(), work.twist_force.copy()
+    """Line search: take back half of the step again and again until the residual has fallen."""
+    increment, twist_increment = work.increment.copy(), work.twist_increment.copy()
     part = 1.0
     for _ in range(halvings):
-        if linearise(law, lay, state, push, work, frozen) < mismatch:
+        if linearise(law, chain, state, inputs, work, lagged) < residual_norm:
             return
         part /= 2.0
-        work.angle[:] -= part * turn
-        work.twist[:] -= part * twist_turn
+        work.angle[:] -= part * increment
+        work.twist[:] -= part * twist_increment

@@ -1,4 +1,4 @@
-"""What a trial remembers from step to step, and the space that a step works in."""
+"""The state of a trial, the inputs of a step, and the workspace of Newton's method."""
 
 from typing import NamedTuple
 
@@ -12,8 +12,17 @@ ENTRY, TIP, CHUCK = 0, 1, 2
 """Where `lumped` keeps the presliding of entry and tip, and how far the chuck has slipped."""
 
 
-class State(NamedTuple):
-    """Angles and memories of nodes, now and before; twist of places in the tissue; lumped elements."""
+class RigState(NamedTuple):
+    """What is remembered from step to step; lengths (nodes,), (points,) and (3,).
+
+    Attributes:
+      angle, angle_before: rad, after this step and after the one before it.
+      presliding, turning, axial, sheath: presliding of dry friction, of shared friction (two
+        components), and of the sheath, rad.
+      age: of the contact, s; worn: travelled slip, rad.
+      tissue_twist, tissue_twist_before: at points of the tissue, rad.
+      lumped: see `ENTRY`, `TIP`, `CHUCK`.
+    """
 
     angle: Array
     angle_before: Array
@@ -23,13 +32,23 @@ class State(NamedTuple):
     sheath: Array
     age: Array
     worn: Array
-    places: Array
-    places_before: Array
+    tissue_twist: Array
+    tissue_twist_before: Array
     lumped: Array
 
 
-class Work(NamedTuple):
-    """Per node: the angles and twists sought, what they remember, a Newton step, frozen slip rates."""
+class Workspace(NamedTuple):
+    """Of one step, per node, (nodes,).
+
+    Attributes:
+      angle, twist: sought, of shaft and tissue, rad.
+      angle_past, twist_past: past part of their rates, rad/s; twist_now: twist at the start, rad.
+      torque: of the interface, N mm / mm.
+      lower, diagonal, upper, residual: rows of the tridiagonal system.
+      twist_increment, twist_gain: Newton step of the twist, and its slope with that of the angle.
+      increment: Newton step of the angle, rad.
+      lagged_rate: slip rate at which the dry level may be taken, rad/s.
+    """
 
     angle: Array
     twist: Array
@@ -38,17 +57,23 @@ class Work(NamedTuple):
     twist_now: Array
     torque: Array
     lower: Array
-    own: Array
+    diagonal: Array
     upper: Array
-    force: Array
-    twist_force: Array
+    residual: Array
+    twist_increment: Array
     twist_gain: Array
-    turn: Array
-    frozen: Array
+    increment: Array
+    lagged_rate: Array
 
 
-class Push(NamedTuple):
-    """What acts from outside at the end of a step; rates are lead * value + past."""
+class StepInput(NamedTuple):
+    """What acts on the needle at the end of a step; rates are lead * value + past.
+
+    Attributes:
+      base, tip_torque: rad, N mm.
+      lead: coefficient of the new value in a rate, 1/s.
+      axial_travel: within the step, over the radius.
+    """
 
     base: float
     tip_torque: float
@@ -57,15 +82,17 @@ class Push(NamedTuple):
 
 
 @njit(cache=True)
-def at_rest(nodes: int, places: int, angle: float) -> State:
-    """Untwisted, at that angle, in the middle of the chuck's play."""
+def initial_state(nodes: int, places: int, angle: float) -> RigState:
+    """Untwisted and at rest at that angle, rad, in the middle of the chuck's play."""
     n, p = np.zeros((8, nodes)), np.zeros((2, places))
     n[:2] = angle
-    return State(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], p[0], p[1], np.zeros(3))
+    return RigState(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], p[0], p[1], np.zeros(3))
 
 
 @njit(cache=True)
-def space(nodes: int) -> Work:
-    """For the steps of a mesh with that many nodes."""
+def workspace(nodes: int) -> Workspace:
+    """Zeros for that many nodes."""
     n = np.zeros((14, nodes))
-    return Work(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13])
+    return Workspace(
+        n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13]
+    )

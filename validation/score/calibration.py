@@ -1,13 +1,14 @@
-"""What the scores of many logs add up to: how often right, how sure, how honest."""
+"""Accuracy and calibration over many logs: how often exact, and whether stated probabilities hold."""
 
 import numpy as np
 import pandas as pd
 
 GAP_GOAL = 1.03
+"""Residual / sigma that an exact diagnosis should leave at most."""
 
 
 def summary(scores: pd.DataFrame) -> pd.DataFrame:
-    """By kind: logs, exact, undecided, median seconds."""
+    """By kind: number of logs, shares that are exact, undecided and unknown, median seconds."""
     grouped = scores.groupby("kind")
     return pd.DataFrame(
         {
@@ -21,39 +22,46 @@ def summary(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def coverage(scores: pd.DataFrame) -> tuple[float, int]:
-    """Share of the 95 % intervals that cover, and how many there are."""
+    """Share of the 95 % intervals that contain the true value, and their number."""
     count = int(scores["intervals"].sum())
     return (float(scores["inside"].sum() / count) if count else float("nan")), count
 
 
-def hidden_below(scores: pd.DataFrame) -> tuple[float, int]:
-    """Of the effects that went unseen: share no stronger than the report said, and how many."""
-    unseen = scores.loc[scores["verdict"] == "none", "over_hidden"].dropna()
-    return (float((unseen <= 1.0).mean()) if len(unseen) else float("nan")), len(unseen)
+def undetected_within_limit(scores: pd.DataFrame) -> tuple[float, int]:
+    """Share of the undetected effects at or below the reported detection limit, and their number."""
+    ratio = scores.loc[scores["verdict"] == "none", "over_hidden"].dropna()
+    return (float((ratio <= 1.0).mean()) if len(ratio) else float("nan")), len(ratio)
 
 
 def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
-    """Probability of the first in the ranking against how often it was right.
+    """By bin of probability: mean predicted and observed share of right first ranks, and logs.
 
-    Where two effects are true, the probability of both together is that of the pair.
+    Where two effects are true, the predicted share is the probability of both together.
     """
     scores = scores[scores["probability"].notna()]
     share = np.where(scores["top_right"], scores["probability_right"], scores["probability"])
     edges = np.clip((share * bins).astype(int), 0, bins - 1)
-    table = pd.DataFrame({"bin": edges, "said": share, "was": scores["top_right"].astype(float)})
+    table = pd.DataFrame(
+        {"bin": edges, "predicted": share, "observed": scores["top_right"].astype(float)}
+    )
     grouped = table.groupby("bin")
     return pd.DataFrame(
-        {"said": grouped["said"].mean(), "was": grouped["was"].mean(), "logs": grouped.size()}
+        {
+            "predicted": grouped["predicted"].mean(),
+            "observed": grouped["observed"].mean(),
+            "logs": grouped.size(),
+        }
     )
 
 
 def calibration_error(scores: pd.DataFrame) -> float:
-    """Expected calibration error: mean distance of said and was, weighted by logs."""
+    """Expected calibration error: mean |predicted - observed|, weighted by logs."""
     table = reliability(scores)
-    return float((table["logs"] * (table["said"] - table["was"]).abs()).sum() / table["logs"].sum())
+    distance = (table["predicted"] - table["observed"]).abs()
+    return float((table["logs"] * distance).sum() / table["logs"].sum())
 
 
 def gap_left(scores: pd.DataFrame) -> float:
-    """Share of the rightly explained logs whose gap is left within 3 % of the noise."""
+    """Share of the exactly explained logs whose residual is at most `GAP_GOAL` sigma."""
     right = scores[(scores["expected"] == "explained") & scores["exact"]]
     return float((right["gap_after"] <= GAP_GOAL).mean()) if len(right) else float("nan")

@@ -1,7 +1,7 @@
-"""How small an effect may be and still be named: its detection limit.
+"""How weak an effect may be and still be named: its detection limit.
 
-Logs of one effect are sorted by signature (its root mean square over noise). The limit
-is where named turns into not named with the fewest logs on the wrong side, half-way
+Logs of one effect are sorted by its signature (root mean square of what it changes / sigma). The limit
+splits them into not named below and named above with the fewest logs on the wrong side; it lies half-way
 between its neighbours on a logarithmic scale.
 """
 
@@ -10,10 +10,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 
-def limits(scores: pd.DataFrame) -> pd.DataFrame:
-    """By effect: logs, the share that was named, and the detection limit over noise.
+def detection_limits(scores: pd.DataFrame) -> pd.DataFrame:
+    """By effect: logs, share of them that was named, smallest signature and detection limit / sigma.
 
-    The limit is NaN where it lies beside the logs: all, or none, were named, or no order is seen.
+    The limit is NaN where the logs do not enclose it: all, or none, were named, or no order is seen.
     """
     grouped = of_one_effect(scores).groupby("truth")
     rows = {
@@ -29,17 +29,17 @@ def limits(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def of_one_effect(scores: pd.DataFrame) -> pd.DataFrame:
-    """The logs in which one effect, and no second, is true and its signature is known."""
+    """The logs in which exactly one effect is true and its signature is known."""
     several = scores["truth"].str.contains(" + ", regex=False)
     return scores[(scores["expected"] == "explained") & ~several & (scores["signature"] > 0)]
 
 
 def _limit(signature: NDArray[np.float64], named: NDArray[np.bool_]) -> float:
     order = np.argsort(signature)
-    sorted_, found = signature[order], named[order]
-    named_below = np.concatenate(([0], np.cumsum(found)))
-    missed_above = np.concatenate((np.cumsum(~found[::-1])[::-1], [0]))
-    best = int(np.argmin(named_below + missed_above))
-    if best in (0, len(found)):
+    signature, named = signature[order], named[order]
+    named_below = np.concatenate(([0], np.cumsum(named)))
+    unnamed_above = np.concatenate((np.cumsum(~named[::-1])[::-1], [0]))
+    best = int(np.argmin(named_below + unnamed_above))
+    if best in (0, len(named)):
         return float("nan")
-    return float(np.sqrt(sorted_[best - 1] * sorted_[best]))
+    return float(np.sqrt(signature[best - 1] * signature[best]))

@@ -1,6 +1,6 @@
-"""The diagnosis on every log of a folder, two at a time; answers are never looked at.
+"""Diagnoses every log of a folder, two at a time, without reading the ground truth.
 
-Reports that are there already are kept: a run that was stopped goes on where it was.
+Reports that exist are kept: a run that was stopped continues where it was.
 """
 
 import json
@@ -29,8 +29,8 @@ def diagnose_all(
     """Write `reports/<case>.json` for every folder in `logs`.
 
     Args:
-      trials: that are looked at of every log, the first; None: all.
-      watched: goes through the tasks, and may show how far it is.
+      trials: number of trials to use of every log, the first ones; None: all.
+      watched: iterates over the tasks, and may show progress.
     """
     missing = [case for case in sorted(logs.iterdir()) if not (reports / f"{case.name}.json").exists()]
     with ProcessPoolExecutor(workers) as pool:
@@ -39,12 +39,12 @@ def diagnose_all(
             task.result()
 
 
-def _one(case: Path, report: Path, trials: int | None) -> None:
+def _one(case: Path, path: Path, trials: int | None) -> None:
     start = time.perf_counter()
     try:
         log = read_rig_log(case)
-        found = as_json(diagnose(replace(log, trials=log.trials[:trials]), workers=1))
+        report = as_json(diagnose(replace(log, trials=log.trials[:trials]), workers=1))
     except NeedleError as error:
-        found = {"verdict": "refused", "effects": [], "why": str(error)}
-    found["seconds"] = time.perf_counter() - start
-    write_text(report, json.dumps(found, indent=1), force=True)
+        report = {"verdict": "refused", "effects": [], "why": str(error)}
+    report["seconds"] = time.perf_counter() - start
+    write_text(path, json.dumps(report, indent=1), force=True)

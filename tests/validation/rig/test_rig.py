@@ -12,16 +12,17 @@ import pytest
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate
 
+from models.modes import InsertedNeedle
+from models.needle import NITINOL
+from validation.logs.case import NEEDS_LOAD, NEEDS_SLIDING
 from validation.logs.comparison import Bench
-from validation.logs.case import NEEDS_LOAD, NEEDS_SLIDING, draw_rig
 from validation.logs.make import make_logs
 from validation.logs.motions import draw_motions, draw_plan
-from validation.rig.rig import VOCABULARY, Fineness, Motion, Rig, observe, turn
+from validation.logs.rig_draw import draw_rig
 from validation.logs.schedule import KINDS, effects_of, kind_of
 from validation.logs.sensors import draw_sensors
 from validation.logs.strengths import FAMILIES, OUTSIDE_FAMILIES, without
-from models.modes import InsertedNeedle
-from models.needle import NITINOL
+from validation.rig.rig import VOCABULARY, Fineness, Motion, Rig, observe, turn
 
 BETA, DEPTH, FREE = 0.018, 100.0, 80.0
 KAPPA = NITINOL.rigidity_n_mm2

@@ -10,19 +10,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from validation.score.detection import limits
-from validation.score.calibration import coverage, hidden_below, summary
-from validation.logs.make import make_logs
-from validation.score.picture import draw
-from validation.rig.rig import Motion, observe
-from validation.rig.rig import Rig as BlindRig
-from validation.score.run import diagnose_all
-from validation.score.scores import read_scores
 from diagnosis.predict import predict
 from diagnosis.rig import NominalNeedle, NominalTissue, Rig, SensorNoise, TrialEntry
 from diagnosis.rig_log import Trial
 from diagnosis.rig_model import RigModel
 from scripts.main import main
+from validation.logs.make import make_logs
+from validation.rig.rig import Motion, observe
+from validation.rig.rig import Rig as BlindRig
+from validation.score.calibration import coverage, hidden_below, summary
+from validation.score.detection import limits
+from validation.score.picture import draw
+from validation.score.run import diagnose_all
+from validation.score.scores import read_scores
 
 LOGS = 32
 NOMINAL = Rig(
