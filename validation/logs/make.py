@@ -21,6 +21,7 @@ from validation.logs.ground_truth import Answer, ground_truth
 from validation.logs.schedule import KINDS, effects_of, kind_of
 from validation.logs.sensors import as_csv, measure, rig_yaml
 from validation.rig.modelled import MODELLED
+from validation.rig.simulation import compile_kernels
 from validation.rig.unmodelled import UNMODELLED
 
 
@@ -76,6 +77,7 @@ def _made(jobs: list[tuple[Any, ...]], workers: int) -> Iterator[tuple[str, Answ
     if workers == 1:
         yield from map(_make_one, jobs)
         return
+    compile_kernels()
     with ProcessPoolExecutor(workers) as pool:
         yield from pool.map(_make_one, jobs)
 

@@ -53,7 +53,7 @@ def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = 
     tip, torque = simulate_twist(rig.law(), motion, cells)
     delay_s = rig.sensor("tip_sensor_delay", "delay")
     tip = np.interp(motion.time_s - delay_s, motion.time_s, np.degrees(tip))
-    trace = IdealSignals(
+    signals = IdealSignals(
         time_s=motion.time_s,
         base_deg=motion.base_deg,
         torque_n_mm=torque + rig.sensor("torque_bias", "bias"),
@@ -61,5 +61,20 @@ def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = 
         speed_mm_s=motion.speed_mm_s,
     )
     for effect, parameters in rig.outside.items():
-        trace = SENSOR_EFFECTS[effect](trace, parameters) if effect in SENSOR_EFFECTS else trace
-    return trace
+        if effect in SENSOR_EFFECTS:
+            signals = SENSOR_EFFECTS[effect](signals, parameters)
+    return signals
+
+
+def compile_kernels() -> None:
+    """Compile the integrator, or load it from numba's cache; processes forked later inherit it."""
+    still = np.zeros(2)
+    motion = TrialMotion(
+        dt_s=0.01,
+        per_sample=1,
+        base_deg=still,
+        inserted_mm=still + 50.0,
+        free_mm=still + 50.0,
+        speed_mm_s=still,
+    )
+    simulate_twist(IndependentRig(damping_n_mm_s_per_mm=0.02).law(), motion, CellCounts(2, 2, 2))
