@@ -16,6 +16,9 @@ from matplotlib.axes import Axes
 from validation.score.calibration import GAP_GOAL, calibration_error, coverage, gap_left, reliability
 from validation.score.detection import detection_limits, of_one_effect
 
+DARK = 0.45
+"""Cells darker than this, 0 (black) to 1 (white), have white numbers."""
+
 
 def draw(scores: pd.DataFrame, path: Path) -> None:
     """Write the figure as a PNG; `scores` as `read_scores` returns them."""
@@ -38,11 +41,11 @@ def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
     table = pd.crosstab(one["truth"], said.rename("said"))
     names = [*table.index, *(c for c in table.columns if c not in table.index)]
     counts = table.reindex(columns=names, fill_value=0).to_numpy()
-    shade = np.log1p(counts)
-    axis.imshow(shade, cmap="Blues", aspect="auto")
+    image = axis.imshow(np.log1p(counts), cmap="Blues", aspect="auto")
     for (i, j), count in np.ndenumerate(counts):
         if count:
-            colour = "white" if shade[i, j] > 0.6 * shade.max() else "black"
+            cell = image.cmap(image.norm(np.log1p(count)))
+            colour = "white" if np.mean(cell[:3]) < DARK else "black"
             axis.text(j, i, str(count), ha="center", va="center", fontsize=9, color=colour)
     axis.set_yticks(range(len(table.index)), list(table.index), fontsize=9)
     axis.set_xticks(range(len(names)), names, fontsize=9, rotation=60, ha="right")

@@ -6,7 +6,7 @@ from validation.rig.modelled import LAW_FIELDS, MODELLED, SENSOR_FIELDS
 
 
 def test_the_rig_has_the_effects_and_parameters_of_the_library():
-    """Of a power law the diagnosis also fits the rate below which it is viscous; that of the rig is fixed."""
+    """But for the rate below which a power law is viscous: the diagnosis fits it, the rig fixes it."""
     fields = {name: {*own} for name, own in (LAW_FIELDS | SENSOR_FIELDS).items()}
     library = {name: {p.name for p in effect.parameters} for name, effect in LIBRARY.items()}
     assert fields["shear_thinning"] == library.pop("shear_thinning") - {"plateau"}
