@@ -15,7 +15,7 @@ from numba import njit
 
 from validation.rig.laws import LawParameters, interface, preslide
 from validation.rig.mesh import CellChain
-from validation.rig.state import CHUCK, ENTRY, TIP, RigState, StepInput, Workspace
+from validation.rig.state import CHUCK, ENTRY, TIP, NewtonWorkspace, RigState, StepInput
 
 
 @njit(cache=True)
@@ -50,7 +50,7 @@ def linearise(
     chain: CellChain,
     state: RigState,
     inputs: StepInput,
-    work: Workspace,
+    work: NewtonWorkspace,
     lagged: bool,
 ) -> float:
     """Fill the rows of a Newton step at the sought angles and twists; returns the norm of the residual.
@@ -71,7 +71,7 @@ def linearise(
 
 @njit(cache=True)
 def _add_shaft(
-    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: Workspace
+    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: NewtonWorkspace
 ) -> None:
     nodes = work.angle.size
     torque, slope, _ = chuck_torque(law, chain, state, inputs.base, work.angle[0])
@@ -86,7 +86,7 @@ def _add_shaft(
 
 
 @njit(cache=True)
-def slip_rate(inputs: StepInput, work: Workspace, i: int) -> float:
+def slip_rate(inputs: StepInput, work: NewtonWorkspace, i: int) -> float:
     """Slip rate of the shaft against the tissue at a node, rad/s."""
     return float(inputs.lead * (work.angle[i] - work.twist[i]) + work.angle_past[i] - work.twist_past[i])
 
@@ -97,7 +97,7 @@ def _add_interface(
     chain: CellChain,
     state: RigState,
     inputs: StepInput,
-    work: Workspace,
+    work: NewtonWorkspace,
     lagged: bool,
 ) -> None:
     retarded = 1.0 + law.retardation * inputs.lead
@@ -128,7 +128,7 @@ def _add_interface(
 
 @njit(cache=True)
 def _add_sheath_and_curvature(
-    law: LawParameters, chain: CellChain, state: RigState, work: Workspace
+    law: LawParameters, chain: CellChain, state: RigState, work: NewtonWorkspace
 ) -> None:
     if law.sheath == 0.0 and law.curvature == 0.0:
         return
@@ -141,7 +141,7 @@ def _add_sheath_and_curvature(
 
 
 @njit(cache=True)
-def entry_turn(chain: CellChain, state: RigState, work: Workspace) -> float:
+def entry_turn(chain: CellChain, state: RigState, work: NewtonWorkspace) -> float:
     """How far the shaft turns within the step where it enters, rad."""
     travel = 0.0
     for i in range(work.angle.size):
@@ -151,7 +151,7 @@ def entry_turn(chain: CellChain, state: RigState, work: Workspace) -> float:
 
 
 @njit(cache=True)
-def _add_entry(law: LawParameters, chain: CellChain, state: RigState, work: Workspace) -> None:
+def _add_entry(law: LawParameters, chain: CellChain, state: RigState, work: NewtonWorkspace) -> None:
     if law.entry == 0.0:
         return
     z, gain = preslide(law.limit, state.lumped[ENTRY], entry_turn(chain, state, work))
@@ -167,7 +167,7 @@ def _add_entry(law: LawParameters, chain: CellChain, state: RigState, work: Work
 
 
 @njit(cache=True)
-def _add_tip(law: LawParameters, state: RigState, inputs: StepInput, work: Workspace) -> None:
+def _add_tip(law: LawParameters, state: RigState, inputs: StepInput, work: NewtonWorkspace) -> None:
     last = work.angle.size - 1
     level = law.load * abs(inputs.tip_torque) / law.limit
     z, gain = preslide(law.limit, state.lumped[TIP], work.angle[last] - state.angle[last])

@@ -14,7 +14,7 @@ from validation.rig.laws import LawParameters
 from validation.rig.memory import commit, interpolate_to_nodes, tissue_point_count
 from validation.rig.mesh import CellChain, MeshSize, assemble, empty_chain
 from validation.rig.newton import solve
-from validation.rig.state import RigState, StepInput, Workspace, initial_state, workspace
+from validation.rig.state import NewtonWorkspace, RigState, StepInput, initial_state, workspace
 
 Array = NDArray[np.float64]
 
@@ -67,7 +67,7 @@ def _advance(
     mesh: MeshSize,
     chain: CellChain,
     state: RigState,
-    work: Workspace,
+    work: NewtonWorkspace,
     start: Array,
     end: Array,
     steps: tuple[float, float],

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from validation.rig.balance import chuck_torque, entry_turn
 from validation.rig.laws import LawParameters, preslide, preslide_shared
 from validation.rig.mesh import CellChain, MeshSize
-from validation.rig.state import CHUCK, ENTRY, TIP, RigState, StepInput, Workspace
+from validation.rig.state import CHUCK, ENTRY, TIP, NewtonWorkspace, RigState, StepInput
 
 Array = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ def commit(
     mesh: MeshSize,
     chain: CellChain,
     state: RigState,
-    work: Workspace,
+    work: NewtonWorkspace,
     inputs: StepInput,
     tissue_past: Array,
     step_and_depth: tuple[float, float],
@@ -73,7 +73,7 @@ def _remember(
     law: LawParameters,
     chain: CellChain,
     state: RigState,
-    work: Workspace,
+    work: NewtonWorkspace,
     inputs: StepInput,
     i: int,
     step: float,
@@ -98,7 +98,7 @@ def _twist_tissue(
     mesh: MeshSize,
     chain: CellChain,
     state: RigState,
-    work: Workspace,
+    work: NewtonWorkspace,
     inputs: StepInput,
     tissue_past: Array,
     inserted: float,

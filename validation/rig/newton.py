@@ -14,7 +14,7 @@ from numba import njit
 from validation.rig.balance import linearise, slip_rate
 from validation.rig.laws import LawParameters
 from validation.rig.mesh import CellChain
-from validation.rig.state import RigState, StepInput, Workspace
+from validation.rig.state import NewtonWorkspace, RigState, StepInput
 
 TOLERANCE = 1e-7
 """Converged when no angle moves by more, rad."""
@@ -23,7 +23,7 @@ LAGGED_ATTEMPTS = 12
 
 @njit(cache=True)
 def solve(
-    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: Workspace
+    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: NewtonWorkspace
 ) -> bool:
     """Find angles and twists from the guess in `work`; returns whether they were found."""
     angle, twist = work.angle.copy(), work.twist.copy()
@@ -36,7 +36,7 @@ def solve(
 
 @njit(cache=True)
 def _solve_with_lagged_rates(
-    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: Workspace
+    law: LawParameters, chain: CellChain, state: RigState, inputs: StepInput, work: NewtonWorkspace
 ) -> bool:
     for attempt in range(LAGGED_ATTEMPTS):
         for i in range(work.angle.size):
@@ -56,7 +56,7 @@ def _iterate(
     chain: CellChain,
     state: RigState,
     inputs: StepInput,
-    work: Workspace,
+    work: NewtonWorkspace,
     most: tuple[int, int],
     lagged: bool,
 ) -> bool:
@@ -80,7 +80,7 @@ def _iterate(
 
 
 @njit(cache=True)
-def _solve_tridiagonal(work: Workspace) -> float:
+def _solve_tridiagonal(work: NewtonWorkspace) -> float:
     """Solve the rows for the increments (Thomas' algorithm); returns the largest, rad."""
     nodes = work.angle.size
     increment, diagonal, residual = work.increment, work.diagonal, work.residual
@@ -101,7 +101,7 @@ def _solve_tridiagonal(work: Workspace) -> float:
 
 
 @njit(cache=True)
-def _update(work: Workspace, part: float) -> None:
+def _update(work: NewtonWorkspace, part: float) -> None:
     for i in range(work.angle.size):
         work.angle[i] += part * work.increment[i]
         work.twist[i] += part * work.twist_increment[i]
@@ -113,7 +113,7 @@ def _backtrack(
     chain: CellChain,
     state: RigState,
     inputs: StepInput,
-    work: Workspace,
+    work: NewtonWorkspace,
     residual_norm: float,
     halvings: int,
     lagged: bool,

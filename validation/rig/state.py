@@ -37,7 +37,7 @@ class RigState(NamedTuple):
     lumped: Array
 
 
-class Workspace(NamedTuple):
+class NewtonWorkspace(NamedTuple):
     """Of one step, per node, (nodes,).
 
     Attributes:
@@ -90,9 +90,9 @@ def initial_state(nodes: int, places: int, angle: float) -> RigState:
 
 
 @njit(cache=True)
-def workspace(nodes: int) -> Workspace:
+def workspace(nodes: int) -> NewtonWorkspace:
     """Zeros for that many nodes."""
     n = np.zeros((14, nodes))
-    return Workspace(
+    return NewtonWorkspace(
         n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13]
     )
