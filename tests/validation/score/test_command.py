@@ -21,7 +21,8 @@ def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
 
 
 def test_fewer_trials_are_scored_beside_the_reports_on_whole_logs(folder):
-    case = sorted((folder / "logs").iterdir())[0].name
+    answers = json.loads((folder / "answers" / "answers.json").read_text())
+    case = next(case for case, answer in answers.items() if answer["kind"] == "none")  # the cheapest
     single = folder.parent / "single"
     (single / "logs").mkdir(parents=True)
     (single / "logs" / case).symlink_to(folder / "logs" / case)
