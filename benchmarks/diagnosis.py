@@ -1,6 +1,6 @@
 """Where the time of `needle diagnose` goes, how it grows with the log, and the memory that it takes.
 
-Logs come from the independent rig of `benchmarks.blind`: five trials of 120 s in all at
+Logs come from the independent rig of `validation.rig`: five trials of 120 s in all at
 100 Hz, with one effect and with a pair of them; and a shorter log once, twice and four
 times over, with new noise each time. Reading and report count, the start of Python does not.
 
@@ -25,29 +25,29 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from benchmarks import report
-from benchmarks.blind.bench import Bench
-from benchmarks.blind.case import draw_rig
-from benchmarks.blind.motions import Plan, draw_motions
-from benchmarks.blind.rig import observe
-from benchmarks.blind.sensors import BASE, TIP, TORQUE, Sensors, as_csv, measure, rig_yaml
-from diagnosis.diagnose import diagnose
-from diagnosis.predict import predict
-from diagnosis.report import write_report
-from diagnosis.rig_log import read_rig_log
-from diagnosis.rig_model import RigModel
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.pipeline import diagnose
+from diagnosis.prepare.prepare import prepare
+from diagnosis.replay.replay import replay
+from diagnosis.report.write import write_report
 from sim.kernel.callback import install
+from validation.logs.comparison import RigComparison
+from validation.logs.motions import LogPlan, draw_motions
+from validation.logs.rig_draw import draw_rig
+from validation.logs.sensors import BASE, TIP, TORQUE, LogSensors, as_csv, measure, rig_yaml
+from validation.rig.simulation import ideal_signals
 
 WORKERS = 2
-PLAN = Plan(trials=5, total_s=120.0, rate_hz=100, sliding=0.4, growing=0.0, loaded=0.0)
+PLAN = LogPlan(trials=5, total_s=120.0, rate_hz=100, sliding=0.4, growing=0.0, loaded=0.0)
 SHORT = replace(PLAN, trials=2, total_s=24.0)
 SINGLE, PAIR = ("coulomb_friction",), ("coulomb_friction", "chuck_backlash")
 TIMES_OVER = (1, 2, 4)
 SINGLE_BOUND_S, PAIR_BOUND_S, MEMORY_BOUND_GIB, GROWTH_BOUND = 60.0, 180.0, 1.0, 1.3
 
 _SEED = 6
-_SIGNATURE = (4.0, 6.0)  # of each effect, over the noise
+_SIGNATURE = (4.0, 6.0)  # of each effect: rms of what it changes / sigma
 _NOISE = {TIP: 0.4, TORQUE: 0.015, BASE: 0.02}
-_SENSORS = Sensors(noise=_NOISE, claims=dict.fromkeys(_NOISE, 1.0), steps={})
+_SENSORS = LogSensors(noise=_NOISE, claims=dict.fromkeys(_NOISE, 1.0), steps={})
 _ONE, _TWO = "one effect", "a pair"
 _LOADING, _READING, _REPORT = "loading the callback", "reading", "report"
 _BEFORE, _AFTER = "before the search", "after the search"
@@ -97,7 +97,7 @@ class Stages:
         self.mark(what if _BEFORE in self.seconds else _BEFORE)
 
 
-def write_log(folder: Path, plan: Plan, effects: tuple[str, ...], times_over: int = 1) -> Path:
+def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over: int = 1) -> Path:
     """Write a log of a rig with these effects; its trials come again with new noise.
 
     Raises:
@@ -105,15 +105,15 @@ def write_log(folder: Path, plan: Plan, effects: tuple[str, ...], times_over: in
     """
     rng = np.random.default_rng(_SEED)
     motions = draw_motions(rng, plan)
-    bench = Bench(motions, _SENSORS, coarse=True)
-    rig = draw_rig(rng, bench, "pair" if len(effects) > 1 else "single", effects, _SIGNATURE)
+    comparison = RigComparison(motions, _SENSORS, coarse=True)
+    rig = draw_rig(rng, comparison, "pair" if len(effects) > 1 else "single", effects, _SIGNATURE)
     if rig is None:
         raise ValueError(f"effects: {effects}; expected some that {plan} can show; try another seed")
     folder.mkdir(parents=True, exist_ok=True)
-    shown = [(motion, observe(rig, motion)) for motion in motions] * times_over
+    shown = [(motion, ideal_signals(rig, motion)) for motion in motions] * times_over
     (folder / "rig.yaml").write_text(rig_yaml(_SENSORS, rig, len(shown)))
-    for i, (motion, trace) in enumerate(shown):
-        table = as_csv(measure(rng, _SENSORS, motion, trace))
+    for i, (motion, signals) in enumerate(shown):
+        table = as_csv(measure(rng, _SENSORS, motion, signals))
         (folder / f"trial_{i + 1:02d}.csv").write_text(table)
     return folder
 
@@ -138,17 +138,15 @@ def _cost(folder: Path, usual: str) -> Cost:
     stages.mark(_REPORT)
     cpu_s, peak_gib = _cpu_s() - start_s, _peak_gib()
 
-    def replay() -> None:
-        for trial in log.trials:
-            predict(log.rig, trial, [RigModel()])
+    prepared, _ = prepare(log)
 
     return Cost(
         trials=len(log.trials),
-        says=" + ".join(found.verdict.effects) or found.verdict.outcome.value,
+        says=" + ".join(found.verdict.effects) or found.verdict.kind.value,
         stages_s=stages.seconds,
         cpu_s=cpu_s,
         peak_gib=peak_gib,
-        replay_s=report.least_times_s({"replay": replay}, turns=5)["replay"],
+        replay_s=report.least_times_s({"replay": lambda: replay(prepared)}, turns=5)["replay"],
     )
 
 

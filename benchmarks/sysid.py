@@ -22,9 +22,9 @@ from rich.markup import escape
 
 from benchmarks import report, sysid_fit, sysid_rig
 from benchmarks.sysid_fit import LEVEL, SCALE, STIFFNESS, UNIT, UNTOLD, Finding
-from diagnosis.diagnose import diagnose
-from diagnosis.report import as_json
-from diagnosis.rig_log import RigLog, read_rig_log
+from diagnosis.log.rig_log import RigLog, read_rig_log
+from diagnosis.pipeline import diagnose
+from diagnosis.report.json_report import as_json
 from models.errors import InvalidValue
 
 DRY, CONTROL = "dry friction", "damping alone"

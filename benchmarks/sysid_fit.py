@@ -16,7 +16,9 @@ import numpy as np
 
 from benchmarks import sysid_rig
 from benchmarks.sysid_rig import TIP, TORQUE
-from diagnosis.rig_log import Rig, RigLog, Trial
+from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import Trial
 from models import units
 from models.needle import Needle
 
@@ -65,7 +67,7 @@ def told(name: str, log: RigLog) -> Finding:
     return _fit(name, log.rig, log.trials, told=True)
 
 
-def _fit(name: str, rig: Rig, trials: Sequence[Trial], *, told: bool) -> Finding:
+def _fit(name: str, rig: NominalRig, trials: Sequence[Trial], *, told: bool) -> Finding:
     start = _parameters(rig, told=told)
     residual_of = sysid.build_residual_fn(
         models_sequences=[_sequence(rig, trial) for trial in trials],
@@ -87,7 +89,7 @@ def _fit(name: str, rig: Rig, trials: Sequence[Trial], *, told: bool) -> Finding
     )
 
 
-def _parameters(rig: Rig, *, told: bool) -> Any:
+def _parameters(rig: NominalRig, *, told: bool) -> Any:
     """Of the nominal rig; none starts at a bound, where the optimiser may stall."""
     rigidity = Needle(**dict(rig.needle), length_mm=1.0).rigidity_n_mm2 * units.N_MM2
     damping = rig.tissue.damping_n_mm_s_per_mm
@@ -102,7 +104,7 @@ def _parameters(rig: Rig, *, told: bool) -> Any:
     return found
 
 
-def _sequence(rig: Rig, trial: Trial) -> Any:
+def _sequence(rig: NominalRig, trial: Trial) -> Any:
     """A trial as `mujoco.sysid` takes it: model, input, and what the sensors read."""
     spec = sysid_rig.plain_spec(rig, trial)
     model = spec.compile()
@@ -119,7 +121,7 @@ def _sequence(rig: Rig, trial: Trial) -> Any:
     )
 
 
-def _over_noise(rig: Rig) -> Any:
+def _over_noise(rig: NominalRig) -> Any:
     """Residuals over the claimed noise; by default they are over the signals' size."""
     transform = sysid.SignalTransform(normalize=False)
     tip = rig.sensors.tip_angle_noise_deg * units.DEG

@@ -1,6 +1,6 @@
 """The rig of `benchmarks.sysid`: its logs, and the model of it that plain MuJoCo has.
 
-Logs come from the independent rig of `benchmarks.blind` (finite volumes, no MuJoCo), with
+Logs come from the independent rig of `validation.rig` (finite volumes, no MuJoCo), with
 the noise of the format document. Lengths hardly change, so that a model whose lengths are
 fixed can replay them; one trial slides just fast enough to tell laws of dry friction apart.
 
@@ -21,11 +21,14 @@ import pandas as pd
 import yaml
 from numpy.typing import NDArray
 
-from benchmarks.blind import rig as independent
-from benchmarks.blind.rig import Effects
-from diagnosis.rig_log import Rig, Trial
+from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.trial import Trial
 from models import units
 from models.needle import Needle
+from validation.rig.modelled import Effects
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.simulation import ideal_signals
 
 Array = NDArray[np.float64]
 
@@ -54,7 +57,7 @@ def write_log(folder: Path, effects: Effects) -> Path:
     """Write the log of a rig with these effects (names and units of the vocabulary)."""
     folder.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(0)
-    rig = independent.Rig(
+    rig = IndependentRig(
         damping_n_mm_s_per_mm=DAMPING_N_MM_S_PER_MM,
         diameter_mm=NEEDLE["diameter_mm"],
         shear_modulus_gpa=NEEDLE["shear_modulus_gpa"],
@@ -77,9 +80,9 @@ def write_log(folder: Path, effects: Effects) -> Path:
 
 def _motion(
     corners: Sequence[float], angles: Sequence[float], inserted: float, free: float, speed: float
-) -> independent.Motion:
+) -> TrialMotion:
     time = np.arange(0, corners[-1], _FINE_S)
-    return independent.Motion(
+    return TrialMotion(
         dt_s=_FINE_S,
         per_sample=_PER_SAMPLE,
         base_deg=np.interp(time, corners, angles),
@@ -89,11 +92,9 @@ def _motion(
     )
 
 
-def _measured(
-    rig: independent.Rig, motion: independent.Motion, rng: np.random.Generator
-) -> pd.DataFrame:
+def _measured(rig: IndependentRig, motion: TrialMotion, rng: np.random.Generator) -> pd.DataFrame:
     """Samples of what ideal sensors show, with noise."""
-    seen, every = independent.observe(rig, motion), slice(None, None, _PER_SAMPLE)
+    seen, every = ideal_signals(rig, motion), slice(None, None, _PER_SAMPLE)
     ideal = {"base_angle": seen.base_deg, "base_torque": seen.torque_n_mm, "tip_angle": seen.tip_deg}
     sigma = {name: NOISE[f"{name}_noise_{_UNITS[name]}"] for name in ideal}
     return pd.DataFrame(
@@ -122,7 +123,7 @@ def unfit(trial: Trial) -> str:
     return "" if trial.has(TIP) and trial.has(TORQUE) else "tip angle or base torque is missing"
 
 
-def plain_spec(rig: Rig, trial: Trial) -> mujoco.MjSpec:
+def plain_spec(rig: NominalRig, trial: Trial) -> mujoco.MjSpec:
     """The nominal needle of a trial; input: base angle, rad; sensors: `TIP`, rad, `TORQUE`, N m."""
     free, inserted = (trial[name].mean() * units.MM for name in ("free_mm", "inserted_mm"))
     needle = Needle(**dict(rig.needle), length_mm=(free + inserted) / units.MM)

@@ -8,12 +8,15 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from benchmarks.blind import honesty, picture, score
-from benchmarks.blind.detection import limits
-from benchmarks.blind.make import make_logs
-from benchmarks.blind.run import diagnose_all
-from models.errors import InvalidValue
+from models.errors import InvalidValue, NeedleError
 from sim.files import refuse_existing, write_text, writing
+from validation.logs.case import ImpossibleDraw
+from validation.logs.make import make_logs
+from validation.score import calibration, picture
+from validation.score.answers import read_answers
+from validation.score.detection import detection_limits
+from validation.score.run import diagnose_all
+from validation.score.scores import read_scores, reports_in
 
 
 def make(
@@ -27,7 +30,11 @@ def make(
     short: bool,
     console: Console,
 ) -> int:
-    """Write logs of an independent rig, and apart from them the answers."""
+    """Write logs of an independent rig, and their ground truth separately.
+
+    Raises:
+      NeedleError: the folder exists, or an argument is not what `make_logs` takes.
+    """
     if folder.exists():
         raise InvalidValue("out", folder, "a folder that does not exist yet", "choose another one")
     try:
@@ -40,8 +47,8 @@ def make(
             signature=signature,
             short=short,
         )
-    except ValueError as error:
-        raise InvalidValue("arguments", str(error), "names that the maker knows") from error
+    except (ValueError, ImpossibleDraw) as error:
+        raise NeedleError(str(error)) from error
     console.print(f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers")
     return 0
 
@@ -49,25 +56,28 @@ def make(
 def run_score(
     folder: Path, out: Path | None, *, trials: int | None, force: bool, console: Console
 ) -> int:
-    """Diagnose what has no report yet, then hold the reports to the answers."""
+    """Diagnose the logs that have no report yet, then compare the reports with the ground truth.
+
+    Raises:
+      InvalidValue: `trials` is below 1, or the folder has no logs or no usable ground truth.
+    """
     if trials is not None and trials < 1:
-        raise InvalidValue("trials", trials, "at least one", "leave it out for all")
+        raise InvalidValue("trials", trials, "at least 1", "leave it out for all trials")
     if not (folder / "logs").is_dir() or not (folder / "answers" / "answers.json").is_file():
         raise InvalidValue(
             "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
         )
     paths = [out / name for name in ("scores.csv", "score.png")] if out else []
     refuse_existing(paths, force=force)
-    reports = score.reports_in(folder, trials)
-    diagnose_all(folder / "logs", reports, trials=trials, watched=lambda s: track(s, description="logs"))
-    scores = score.read_scores(folder, trials)
-    console.print(_table(honesty.summary(scores)))
-    weak = limits(scores).dropna()
-    if len(weak):
-        console.print(_limits(weak))
-    console.print(_goals(scores))
-    for case, row in scores[~scores["exact"]].iterrows():
-        console.print(f"{case}: {row['truth']}, said {row['said']} ({row['verdict']})", highlight=False)
+    read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
+    diagnose_all(
+        folder / "logs",
+        reports_in(folder, trials),
+        trials=trials,
+        watched=lambda tasks: track(tasks, description="logs"),
+    )
+    scores = read_scores(folder, trials)
+    _print(scores, console)
     if paths:
         write_text(paths[0], scores.to_csv(index_label="case", float_format="%.4g"), force=force)
         with writing(paths[1], force=force) as part:
@@ -77,7 +87,18 @@ def run_score(
     return 0
 
 
-def _table(summary: pd.DataFrame) -> Table:
+def _print(scores: pd.DataFrame, console: Console) -> None:
+    console.print(_by_kind(calibration.summary(scores)))
+    limits = detection_limits(scores).dropna()
+    if len(limits):
+        console.print(_limits(limits))
+    console.print(_calibration(scores))
+    for case, row in scores[~scores["exact"]].iterrows():
+        line = f"{case}: true {row['truth']}, diagnosed {row['said']} ({row['verdict']})"
+        console.print(line, highlight=False)
+
+
+def _by_kind(summary: pd.DataFrame) -> Table:
     table = Table("kind", "logs", "exact", "undecided", "unknown", "seconds", title="By kind of log")
     for kind, row in summary.iterrows():
         shares = [f"{100 * row[c]:.1f} %" for c in ("exact", "undecided", "unknown")]
@@ -85,23 +106,29 @@ def _table(summary: pd.DataFrame) -> Table:
     return table
 
 
-def _limits(found: pd.DataFrame) -> Table:
-    table = Table("effect", "logs", "named", "from", title="Detection limit, over noise")
-    for effect, row in found.iterrows():
+def _limits(limits: pd.DataFrame) -> Table:
+    title = "Detection limits: signature (rms of the effect / σ) from which it is named"
+    table = Table("effect", "logs", "named", "limit", title=title)
+    for effect, row in limits.iterrows():
         table.add_row(
             str(effect), f"{row['logs']:.0f}", f"{100 * row['named']:.0f} %", f"{row['limit']:.2f}"
         )
     return table
 
 
-def _goals(scores: pd.DataFrame) -> Table:
-    table = Table("of all logs", "measured", title="Honesty")
-    share, count = honesty.coverage(scores)
-    table.add_row("probabilities are off by", f"{honesty.calibration_error(scores):.3f}")
-    table.add_row(f"95 % intervals that cover (of {count})", f"{100 * share:.1f} %")
-    table.add_row("gap left within 1.03 noise", f"{100 * honesty.gap_left(scores):.1f} %")
-    below, unseen = honesty.hidden_below(scores)
+def _calibration(scores: pd.DataFrame) -> Table:
+    table = Table("all logs", "measured", title="Calibration")
+    share, count = calibration.coverage(scores)
+    table.add_row(
+        "calibration error of the probabilities", f"{calibration.calibration_error(scores):.3f}"
+    )
+    table.add_row(f"95 % intervals that contain the true value (of {count})", f"{100 * share:.1f} %")
+    table.add_row(
+        f"exact diagnoses with a residual of at most {calibration.GAP_GOAL} σ",
+        f"{100 * calibration.gap_left(scores):.1f} %",
+    )
+    below, unseen = calibration.undetected_within_limit(scores)
     if unseen:
-        told = f"effects that went unseen, as weak as the reports say may hide (of {unseen})"
-        table.add_row(told, f"{100 * below:.0f} %")
+        row = f"undetected effects that are below the reported detection limit (of {unseen})"
+        table.add_row(row, f"{100 * below:.0f} %")
     return table

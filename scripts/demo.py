@@ -7,12 +7,12 @@ rig's log that ships with the project, and what another rig has that its model l
 import time
 from pathlib import Path
 
-from diagnosis.rig_log import read_rig_log
 from rich.console import Console
 from rich.table import Table
 
-from diagnosis import report
-from diagnosis.replay import replay
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.pipeline import replay_nominal
+from diagnosis.report.write import output_paths as report_paths
 from scripts import diagnose as diagnosing
 from scripts import insert
 from scripts import replay as replaying
@@ -34,7 +34,7 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     paths = insert.output_paths(folder, protocol)
     paths += [folder / "validate" / name for name in FILES]
     paths += replaying.output_paths(log, folder / "replay")
-    paths += report.output_paths(read_rig_log(DRY), folder / "gap")
+    paths += report_paths(read_rig_log(DRY), folder / "gap")
     refuse_existing(paths, force=force)
     began = time.monotonic()
 
@@ -52,9 +52,9 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     console.print(validating.checks_table(findings))
 
     _announce(console, 4, f"replay of {len(log.trials)} trials of a rig")
-    replays = replay(log)
-    replaying.write(log, replays, folder / "replay", force=force)
-    console.print(replaying.table(log, replays))
+    nominal = replay_nominal(log)
+    replaying.write(log, nominal, folder / "replay", force=force)
+    console.print(replaying.table(nominal))
 
     _announce(console, 5, "what a rig has that its model lacks")
     diagnosing.run(DRY, folder / "gap", json_only=False, force=force, console=console)

@@ -56,7 +56,7 @@ def parser() -> argparse.ArgumentParser:
     diagnose.add_argument("--json", action="store_true", help="print report.json instead")
     _add_output(diagnose, default=None)
 
-    _add_blind(commands.add_parser("blind", help="score the diagnosis on rigs that it has not met"))
+    _add_blind(commands.add_parser("blind", help="validate the diagnosis on rigs that it has not met"))
 
     inspect = commands.add_parser("inspect", help="open a recording, or list what is inside")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
@@ -66,24 +66,28 @@ def parser() -> argparse.ArgumentParser:
 
 def _add_blind(blind: argparse.ArgumentParser) -> None:
     actions = blind.add_subparsers(dest="action", required=True, metavar="make|score")
-    make = actions.add_parser("make", help="write logs of an independent rig, answers apart")
+    make = actions.add_parser("make", help="write logs of an independent rig, ground truth separately")
     make.add_argument("--out", type=Path, required=True, metavar="DIR", help="a new folder")
-    make.add_argument("--seed", type=int, default=1)
-    make.add_argument("--count", type=int, default=40, help="of logs (default: 40)")
-    make.add_argument("--kinds", nargs="+", metavar="KIND", help="none single pair off_nominal outside")
-    make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these")
+    make.add_argument("--seed", type=int, default=1, help="the same seed gives the same bytes")
+    make.add_argument("--count", type=int, default=40, help="number of logs (default: 40)")
+    make.add_argument(
+        "--kinds", nargs="+", metavar="KIND", help="some of: none single pair off_nominal outside"
+    )
+    make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these effects")
     make.add_argument(
         "--signature",
         nargs=2,
         type=float,
         default=(1.0, 20.0),
         metavar=("LOW", "HIGH"),
-        help="over noise",
+        help="range of the rms of what each effect changes, in σ (default: 1 20)",
     )
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
-    score = actions.add_parser("score", help="diagnose the logs, then compare with the answers")
+    score = actions.add_parser("score", help="diagnose the logs, then compare with the ground truth")
     score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
-    score.add_argument("--trials", type=int, metavar="N", help="look at the first N of every log only")
+    score.add_argument(
+        "--trials", type=int, metavar="N", help="use the first N trials of every log only"
+    )
     _add_output(score, default=None)
 
 

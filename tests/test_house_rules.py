@@ -8,15 +8,22 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
-PACKAGES = ("models", "sim", "controllers", "diagnosis", "studies", "scripts", "benchmarks", "tests")
+PACKAGES = (
+    *("models", "sim", "controllers", "diagnosis", "studies", "validation", "scripts"),
+    *("benchmarks", "tests"),
+)
 MAY_IMPORT = {
     "models": {"models"},
     "controllers": {"controllers", "models"},
     "sim": {"sim", "controllers", "models"},
     "diagnosis": {"diagnosis", "sim", "models"},
     "studies": {"studies", "diagnosis", "controllers", "sim", "models"},
+    "validation/rig": {"validation"},
+    "validation/logs": {"validation"},
+    "validation/score": {"validation", "diagnosis", "sim", "models"},
     "scripts": {"scripts", "studies", "diagnosis", "controllers", "sim", "models"},
 }
+ROOMS_OF_VALIDATION = ("rig", "logs", "score")
 SIDE_STREAMS = {"sim/rerun_log.py", "sim/rerun_table.py"}
 
 
@@ -34,24 +41,32 @@ def imported(path):
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
-# The one command that scores the product from outside.
-SCORER = "scripts/blind.py"
+# The one command that validates the product from outside.
+VALIDATES = "scripts/blind.py"
 
 
 @pytest.mark.parametrize("package", MAY_IMPORT)
 def test_imports_run_one_way(package):
     for path in sources(package):
         ours = {name.split(".")[0] for name in imported(path)} & set(PACKAGES)
-        scorer = {"benchmarks"} if path.relative_to(ROOT).as_posix() == SCORER else set()
-        assert ours <= MAY_IMPORT[package] | scorer, path
+        validates = {"validation"} if path.relative_to(ROOT).as_posix() == VALIDATES else set()
+        assert ours <= MAY_IMPORT[package] | validates, path
 
 
-def test_the_blind_rig_shares_no_code_with_the_product():
-    for path in sources("benchmarks/blind"):
-        if path.name in ("run.py", "score.py"):
-            continue  # these run the product and read its reports
-        ours = {name.split(".")[0] for name in imported(path)} & set(PACKAGES)
-        assert ours <= {"benchmarks"}, path
+@pytest.mark.parametrize("room", ROOMS_OF_VALIDATION)
+def test_in_validation_imports_run_from_rig_to_logs_to_score(room):
+    allowed = ROOMS_OF_VALIDATION[: ROOMS_OF_VALIDATION.index(room) + 1]
+    paths = sources(f"validation/{room}")
+    assert 0 < sum(path.name != "__init__.py" for path in paths) <= 12
+    for path in paths:
+        ours = {name.split(".")[1] for name in imported(path) if name.startswith("validation.")}
+        assert ours <= set(allowed), path
+
+
+def test_the_score_knows_of_sim_and_models_only_files_and_errors():
+    for path in sources("validation/score"):
+        theirs = {name for name in imported(path) if name.split(".")[0] in ("sim", "models")}
+        assert theirs <= {"sim.files", "models.errors"}, path
 
 
 def test_controllers_and_models_know_no_simulator():
@@ -131,7 +146,7 @@ def test_every_package_is_listed_for_installation():
     listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
     found = {
         ".".join(path.parent.relative_to(ROOT).parts)
-        for package in (*MAY_IMPORT, "benchmarks")
+        for package in (*(name for name in MAY_IMPORT if "/" not in name), "validation", "benchmarks")
         for path in sources(package)
     }
     assert set(listed) == found

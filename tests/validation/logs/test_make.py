@@ -1,0 +1,60 @@
+"""Sets of logs: reproducible, without hints at their ground truth, never overwritten."""
+
+import json
+
+import pytest
+
+from validation.logs.make import make_logs
+from validation.logs.schedule import KINDS
+from validation.logs.strengths import UNMODELLED_FAMILIES
+from validation.rig.modelled import MODELLED
+
+
+def contents(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob("*.*"))}
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_log_depends_on_seed_and_number_alone(made, answers, tmp_path, workers):
+    again, kinds = tmp_path / "again", ["none", "single", "off_nominal"]
+    make_logs(again, seed=3, count=2, short=True, kinds=kinds, workers=workers)
+    assert contents(again / "logs").items() < contents(made / "logs").items()
+    fewer = json.loads((again / "answers" / "answers.json").read_text())
+    assert fewer.items() < answers.items()
+
+
+def test_logs_do_not_tell_their_ground_truth(made, answers):
+    cases = sorted(path.name for path in (made / "logs").iterdir())
+    assert cases == sorted(answers)
+    for path, text in contents(made / "logs").items():
+        assert path.name == "rig.yaml" or path.suffix == ".csv"
+        assert not any(name in text.decode() for name in (*MODELLED, *UNMODELLED_FAMILIES, *KINDS))
+
+
+def test_the_ground_truth_is_of_the_kinds_and_signatures_asked_for(answers):
+    assert {answer["kind"] for answer in answers.values()} <= {"none", "single", "off_nominal"}
+    for answer in answers.values():
+        errors = {"stiffness_error", "damping_error"} if answer["kind"] == "off_nominal" else set()
+        assert set(answer["parameters"]) - errors == set(answer["effects"])
+        assert answer["verdict"] == ("none" if answer["kind"] == "none" else "explained")
+        assert all(1 <= value <= 20 for value in answer["signature"].values())
+
+
+@pytest.mark.parametrize(
+    ("how", "message"),
+    [
+        ({"count": 1, "kinds": ["double"]}, "kinds: expected some of none, .*got 'double'"),
+        ({"count": 1, "effects": ["magnetism"]}, "effects: expected some of .*got 'magnetism'"),
+        ({"count": -3}, "count: expected at least 1 log, got -3"),
+        ({"count": 1, "signature": (2.0, 1.0)}, "signature: expected 0 < LOW < HIGH, got"),
+    ],
+)
+def test_what_cannot_be_made_is_named_before_anything_is_written(tmp_path, how, message):
+    with pytest.raises(ValueError, match=message):
+        make_logs(tmp_path / "new", seed=3, **how)
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_folder_is_never_overwritten(made):
+    with pytest.raises(FileExistsError):
+        make_logs(made, seed=3, count=1)

@@ -1,0 +1,60 @@
+"""Which log has which kind and effects: fixed shares, every effect in turn, fixed by the seed."""
+
+import pytest
+
+from validation.logs.schedule import (
+    KINDS,
+    LOCATIONS,
+    MUTUALLY_EXCLUSIVE,
+    PARAMETER_ERRORS,
+    effects_of,
+    kind_of,
+    name_in_turn,
+)
+from validation.rig.modelled import MODELLED
+from validation.rig.unmodelled import UNMODELLED
+
+
+def test_shares_of_kinds_are_kept():
+    kinds = [kind_of(9, i)[0] for i in range(330)]
+    counts = {kind: kinds.count(kind) for kind in KINDS}
+    assert counts == {"none": 40, "single": 150, "pair": 60, "off_nominal": 40, "outside": 40}
+
+
+def test_logs_of_a_kind_are_counted_in_their_order():
+    seen = [kind_of(9, i) for i in range(80)]
+    for kind in KINDS:
+        earlier = [before for k, before in seen if k == kind]
+        assert earlier == list(range(len(earlier)))
+
+
+def test_only_kinds_that_were_asked_for_are_drawn():
+    assert all(kind_of(9, i, ["single", "none"])[0] in ("single", "none") for i in range(40))
+
+
+def test_effects_take_turns():
+    singles = [effects_of(9, "single", earlier, None)[0] for earlier in range(38)]
+    assert sorted(singles) == sorted(2 * MODELLED)
+    assert sorted(name_in_turn(9, i, "abc") for i in range(3)) == ["a", "b", "c"]
+
+
+@pytest.mark.parametrize("earlier", range(40))
+def test_a_pair_is_of_two_effects_that_can_be_told_apart(earlier):
+    first, second = effects_of(5, "pair", earlier, None)
+    assert first != second
+    assert not any({first, second} <= names for names in MUTUALLY_EXCLUSIVE)
+
+
+def test_most_pairs_are_of_two_locations():
+    """15 % are asked to share one: of 200, 48 or more would have a probability below 0.1 %."""
+    pairs = [effects_of(5, "pair", earlier, None) for earlier in range(200)]
+    together = sum(LOCATIONS[a] == LOCATIONS[b] for a, b in pairs)
+    assert 0 < together < 48
+
+
+def test_kinds_have_the_effects_that_they_stand_for():
+    assert effects_of(5, "none", 3, None) == ()
+    assert {effects_of(5, "outside", i, None)[0] for i in range(13)} == {*UNMODELLED}
+    off_nominal = {effects_of(5, "off_nominal", i, None)[0] for i in range(34)}
+    assert off_nominal == {*MODELLED} - {*PARAMETER_ERRORS}
+    assert effects_of(5, "single", 3, ["tip_drag"]) == ("tip_drag",)

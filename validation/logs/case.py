@@ -1,0 +1,141 @@
+"""One validation case: a rig, its trials and sensors, and effects of a drawn signature.
+
+The signature of an effect is the root mean square of what it changes / sigma, over all samples and
+signals that the log has. For each effect one is drawn, and the strength that gives it is searched for.
+The gap is sqrt(1 + signature^2) of everything that is not nominal.
+
+An unmodelled effect that a modelled one, or a pair, would explain as well is no case of "unknown", and
+stiction that Coulomb friction would explain is none of stiction: such draws are rejected.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from validation.logs.alternatives import Alternatives, find_alternatives
+from validation.logs.comparison import RigComparison
+from validation.logs.motions import LogPlan, draw_motions, draw_plan
+from validation.logs.rig_draw import draw_rig
+from validation.logs.sensors import LogSensors, draw_sensors
+from validation.logs.strengths import without
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.unmodelled import IdealSignals
+
+NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk"}
+NEEDS_LOAD = {"load_dependent_friction"}
+NEAREST = {
+    "tip_sensor_lag": ("tip_sensor_delay",),
+    "damping_gradient": ("layered_tissue", "base_compliance"),
+    "friction_ageing": ("stiction", "coulomb_friction"),
+    "one_way_friction": ("stiction", "coulomb_friction"),
+    "stiction": ("coulomb_friction",),
+}
+"""Modelled effects that look most like these."""
+LEAST_UNMODELLED, MOST_UNMODELLED = 2.0, 8.0
+"""The range of signatures of unmodelled effects begins and ends no lower."""
+LEAST_RESIDUAL_UNMODELLED, LEAST_RESIDUAL = 0.7, 0.3
+"""Rms residual / sigma that the best alternative must leave in a case."""
+DRAWS = 100
+
+
+class ImpossibleDraw(Exception):
+    """No draw has given the effects signatures in the range that was asked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValidationCase:
+    """The true rig, its trials, and the signatures that its effects have in them."""
+
+    rig: IndependentRig
+    plan: LogPlan
+    motions: list[TrialMotion]
+    sensors: LogSensors
+    signatures: dict[str, float]
+    gap: float
+    signals: list[IdealSignals]
+    alternatives: Alternatives
+
+
+def draw_case(
+    rng: np.random.Generator,
+    kind: str,
+    names: Sequence[str],
+    *,
+    short: bool,
+    signature: tuple[float, float],
+    alternatives: bool = False,
+) -> ValidationCase:
+    """Draw until every effect's signature is in its range.
+
+    Args:
+      alternatives: look for all alternatives of explained cases, too (slow).
+
+    Raises:
+      ImpossibleDraw: no draw has given these effects such signatures.
+    """
+    for _ in range(DRAWS):
+        case = _attempt(rng, kind, names, short, signature, alternatives)
+        if case is not None:
+            return case
+    raise ImpossibleDraw(
+        f"signature: expected a range that logs of kind {kind} with {', '.join(names)} can reach, "
+        f"got {signature}, which none of {DRAWS} draws did; widen it"
+    )
+
+
+def _attempt(
+    rng: np.random.Generator,
+    kind: str,
+    names: Sequence[str],
+    short: bool,
+    ends: tuple[float, float],
+    alternatives: bool,
+) -> ValidationCase | None:
+    slides, loads = bool(NEEDS_SLIDING & {*names}), bool(NEEDS_LOAD & {*names})
+    plan = draw_plan(rng, short=short, slides=slides, loads=loads)
+    motions, sensors = draw_motions(rng, plan), draw_sensors(rng)
+    if kind == "outside":
+        ends = (max(ends[0], LEAST_UNMODELLED), max(ends[1], MOST_UNMODELLED))
+    coarse = RigComparison(motions, sensors, coarse=True)
+    rig = draw_rig(rng, coarse, kind, names, ends)
+    if rig is None:
+        return None
+    least = min(LEAST_RESIDUAL, ends[0] / 3)
+    found = _alternatives(coarse, rig, kind, names, least, alternatives)
+    if found is None:
+        return None
+    comparison = RigComparison(motions, sensors)
+    case = ValidationCase(
+        rig=rig,
+        plan=plan,
+        motions=motions,
+        sensors=sensors,
+        signals=comparison.signals(rig),
+        signatures={name: comparison.signature(rig, without(rig, name)) for name in names},
+        gap=float(np.hypot(1.0, comparison.signature(rig, replace(rig, effects={}, outside={})))),
+        alternatives=found,
+    )
+    return case if all(ends[0] <= value <= ends[1] for value in case.signatures.values()) else None
+
+
+def _alternatives(
+    comparison: RigComparison,
+    rig: IndependentRig,
+    kind: str,
+    names: Sequence[str],
+    least: float,
+    all_of_them: bool,
+) -> Alternatives | None:
+    """The alternatives, as far as they were looked for; None if one explains the case as well."""
+    for name in names:
+        if name in NEAREST:
+            near = find_alternatives(comparison, rig, (name,), NEAREST[name])
+            needed = LEAST_RESIDUAL_UNMODELLED if kind == "outside" else least
+            if min(near.pair_residual, *near.alone.values()) < needed:
+                return None
+    if not names or (kind != "outside" and not all_of_them):
+        return Alternatives(alone={})
+    found = find_alternatives(comparison, rig, names)
+    return None if kind == "outside" and found.pair_residual < LEAST_RESIDUAL_UNMODELLED else found

@@ -1,0 +1,124 @@
+"""Write rig logs, and their ground truth separately.
+
+    python -m validation.logs.make --out DIR --seed N --count N [--short] [--kinds a b] ...
+
+writes DIR/logs/case_001/{rig.yaml, trial_01.csv, ...} and DIR/answers/answers.json. The same seed
+gives the same bytes, and a log depends on nothing but the seed and its number.
+"""
+
+import argparse
+import json
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.progress import track
+
+from validation.logs.case import ValidationCase, draw_case
+from validation.logs.ground_truth import Answer, ground_truth
+from validation.logs.schedule import KINDS, effects_of, kind_of
+from validation.logs.sensors import as_csv, measure, rig_yaml
+from validation.rig.modelled import MODELLED
+from validation.rig.simulation import compile_kernels
+from validation.rig.unmodelled import UNMODELLED
+
+
+def make_logs(
+    folder: Path,
+    *,
+    seed: int,
+    count: int,
+    kinds: Sequence[str] | None = None,
+    short: bool = False,
+    signature: tuple[float, float] = (1.0, 20.0),
+    effects: Sequence[str] | None = None,
+    alternatives: bool = False,
+    workers: int = 2,
+) -> None:
+    """Write logs and ground truth into a new folder.
+
+    Args:
+      kinds: some of `schedule.KINDS`; all by default, in their shares.
+      short: three trials of about 40 s in all, at 50 or 100 Hz.
+      signature: least and greatest signature of every effect: rms of what it changes / sigma.
+      effects: only these, modelled or unmodelled.
+      alternatives: add to all answers which wrong effects would nearly explain the gap (slow);
+        answers of unmodelled effects always have it.
+      workers: processes.
+
+    Raises:
+      FileExistsError: the folder exists.
+      ValueError: a kind or effect is unknown, `count` is below 1, or the signatures are not in order.
+    """
+    _check(kinds or KINDS, KINDS, "kinds")
+    _check(effects or (), (*MODELLED, *UNMODELLED), "effects")
+    if count < 1:
+        raise ValueError(f"count: expected at least 1 log, got {count}")
+    if not 0 < signature[0] < signature[1]:
+        raise ValueError(f"signature: expected 0 < LOW < HIGH, got {signature}")
+    (folder / "logs").mkdir(parents=True, exist_ok=False)
+    how = {"short": short, "signature": signature, "alternatives": alternatives}
+    jobs = [(folder, seed, i, tuple(kinds or KINDS), effects, how) for i in range(count)]
+    answers = dict(track(_made(jobs, workers), description="logs", total=count))
+    (folder / "answers").mkdir()
+    text = json.dumps(answers, indent=1, sort_keys=False)
+    (folder / "answers" / "answers.json").write_text(text + "\n")
+
+
+def _check(given: Sequence[str], known: Sequence[str], field: str) -> None:
+    for name in given:
+        if name not in known:
+            raise ValueError(f"{field}: expected some of {', '.join(known)}, got {name!r}")
+
+
+def _made(jobs: list[tuple[Any, ...]], workers: int) -> Iterator[tuple[str, Answer]]:
+    if workers == 1:
+        yield from map(_make_one, jobs)
+        return
+    compile_kernels()
+    with ProcessPoolExecutor(workers) as pool:
+        yield from pool.map(_make_one, jobs)
+
+
+def _make_one(job: tuple[Any, ...]) -> tuple[str, Answer]:
+    folder, seed, number, kinds, effects, how = job
+    kind, earlier = kind_of(seed, number, kinds)
+    names = effects_of(seed, kind, earlier, effects)
+    rng = np.random.default_rng([seed, number])
+    case = draw_case(rng, kind, names, **how)
+    name = f"case_{number + 1:03d}"
+    _write(rng, folder / "logs" / name, case)
+    return name, ground_truth(kind, case)
+
+
+def _write(rng: np.random.Generator, folder: Path, case: ValidationCase) -> None:
+    folder.mkdir()
+    text = rig_yaml(case.sensors, case.rig, len(case.motions))
+    (folder / "rig.yaml").write_text(text)
+    for i, (motion, signals) in enumerate(zip(case.motions, case.signals, strict=True)):
+        columns = measure(rng, case.sensors, motion, signals)
+        (folder / f"trial_{i + 1:02d}.csv").write_text(as_csv(columns))
+
+
+def main() -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description="write rig logs, and their ground truth separately")
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--seed", type=int, required=True)
+    parser.add_argument("--count", type=int, required=True)
+    parser.add_argument("--short", action="store_true")
+    parser.add_argument("--kinds", nargs="+", choices=KINDS)
+    parser.add_argument("--effects", nargs="+")
+    parser.add_argument("--signature", nargs=2, type=float, default=(1.0, 20.0), metavar=("LOW", "HIGH"))
+    parser.add_argument(
+        "--rivals", action="store_true", dest="alternatives", help="add alternative explanations"
+    )
+    parser.add_argument("--workers", type=int, default=2)
+    given = vars(parser.parse_args())
+    make_logs(given.pop("out"), **{**given, "signature": tuple(given["signature"])})
+
+
+if __name__ == "__main__":
+    main()

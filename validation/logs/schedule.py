@@ -1,0 +1,95 @@
+"""The kind and the effects of every log: fixed shares in blocks, shuffled by the seed.
+
+What log i is depends on the seed and i alone, not on how many logs are made.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from validation.rig.modelled import MODELLED
+from validation.rig.unmodelled import UNMODELLED
+
+BLOCK = 33
+SHARES = {"none": 0.12, "single": 0.45, "pair": 0.18, "off_nominal": 0.13, "outside": 0.12}
+KINDS = tuple(SHARES)
+PARAMETER_ERRORS = ("stiffness_error", "damping_error")
+
+LOCATIONS = {
+    "coulomb_friction": "interface",
+    "stiction": "interface",
+    "speed_dependent_friction": "interface",
+    "shear_thinning": "interface",
+    "tissue_viscoelasticity": "tissue",
+    "layered_tissue": "tissue",
+    "entry_friction": "interface",
+    "sheath_friction": "drive",
+    "load_dependent_friction": "needle",
+    "chuck_backlash": "drive",
+    "base_compliance": "drive",
+    "tip_drag": "needle",
+    "needle_curvature": "needle",
+    "stiffness_error": "parameters",
+    "damping_error": "parameters",
+    "tip_angle_bias": "sensor",
+    "tip_angle_scale": "sensor",
+    "tip_sensor_delay": "sensor",
+    "torque_bias": "sensor",
+}
+MUTUALLY_EXCLUSIVE = ({"coulomb_friction", "stiction", "speed_dependent_friction"},)
+"""Effects that explain the same data: two of a set never make a pair."""
+SAME_LOCATION = 0.15
+
+
+def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, int]:
+    """The kind of a log (counted from 0), and how many of that kind come before it."""
+    before = [_block(seed, block, kinds) for block in range(case // BLOCK)]
+    this = _block(seed, case // BLOCK, kinds)
+    kind = this[case % BLOCK]
+    earlier = sum(block.count(kind) for block in before) + this[: case % BLOCK].count(kind)
+    return kind, earlier
+
+
+def _block(seed: int, block: int, kinds: Sequence[str]) -> list[str]:
+    """Kinds of one block: shares by largest remainder, shuffled."""
+    total = sum(SHARES[kind] for kind in kinds)
+    ideal = {kind: BLOCK * SHARES[kind] / total for kind in kinds}
+    counts = {kind: int(value) for kind, value in ideal.items()}
+    for kind in sorted(kinds, key=lambda k: counts[k] - ideal[k])[: BLOCK - sum(counts.values())]:
+        counts[kind] += 1
+    ordered = [kind for kind in kinds for _ in range(counts[kind])]
+    shuffled = np.random.default_rng([seed, block, 1]).permutation(len(ordered))
+    return [ordered[i] for i in shuffled]
+
+
+def name_in_turn(seed: int, earlier: int, names: Sequence[str]) -> str:
+    """Each name in turn, in an order that the seed shuffles anew each round."""
+    order = np.random.default_rng([seed, earlier // len(names), 2]).permutation(len(names))
+    return str(names[order[earlier % len(names)]])
+
+
+def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None) -> tuple[str, ...]:
+    """Names of the effects of a log; of kind `outside`, of an unmodelled one."""
+    if kind == "none":
+        return ()
+    known = UNMODELLED if kind == "outside" else MODELLED
+    names = [name for name in known if allowed is None or name in allowed] or list(known)
+    if kind == "off_nominal":
+        names = [n for n in names if n not in PARAMETER_ERRORS] or ["coulomb_friction"]
+    first = name_in_turn(seed, earlier, names)
+    return (first, _partner(seed, earlier, first)) if kind == "pair" else (first,)
+
+
+def _partner(seed: int, earlier: int, first: str) -> str:
+    """The second effect of a pair, mostly at another location in the machine."""
+    rng = np.random.default_rng([seed, earlier, 3])
+    elsewhere = rng.random() >= SAME_LOCATION
+    fit = [
+        name
+        for name in MODELLED
+        if name != first
+        and (LOCATIONS[name] != LOCATIONS[first]) == elsewhere
+        and not any({first, name} <= names for names in MUTUALLY_EXCLUSIVE)
+    ]
+    fit = fit or [name for name in MODELLED if LOCATIONS[name] != LOCATIONS[first]]
+    return fit[int(rng.integers(len(fit)))]

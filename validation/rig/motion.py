@@ -1,0 +1,38 @@
+"""How a trial is driven: base angle, lengths, axial speed and torque at the tip."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+CONSTANT_LENGTH_MM = 1e-6
+"""A length that changes by less is constant."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrialMotion:
+    """The inputs of a trial, (N,) each, on a time grid that is `per_sample` times finer than the log.
+
+    Attributes:
+      tip_torque_n_mm: known torque at the tip that resists the turn; None: none acts.
+    """
+
+    dt_s: float
+    per_sample: int
+    base_deg: Array
+    inserted_mm: Array
+    free_mm: Array
+    speed_mm_s: Array
+    tip_torque_n_mm: Array | None = None
+
+    @property
+    def time_s(self) -> Array:
+        """Times of the fine grid, s, (N,)."""
+        return np.asarray(np.arange(self.base_deg.size) * self.dt_s)
+
+    @property
+    def growing(self) -> bool:
+        """Whether the inserted length changes."""
+        return bool(np.ptp(self.inserted_mm) > CONSTANT_LENGTH_MM)

@@ -1,0 +1,66 @@
+"""The rig: a needle in tissue, and its effects."""
+
+import math
+from dataclasses import dataclass, field
+
+from validation.rig.laws import LawParameters
+from validation.rig.modelled import LAW_FIELDS, MODELLED, SENSOR_FIELDS, Effects
+from validation.rig.unmodelled import LAW_EFFECTS, UNMODELLED
+
+
+@dataclass(frozen=True, kw_only=True)
+class IndependentRig:
+    """A needle in tissue.
+
+    Attributes:
+      effects: modelled effects, as in `modelled`.
+      outside: effects outside the diagnosis' models, parameters as in `unmodelled`.
+
+    Raises:
+      ValueError: an effect is unknown, or its parameters are not those of `modelled`.
+    """
+
+    damping_n_mm_s_per_mm: float
+    diameter_mm: float = 0.59
+    shear_modulus_gpa: float = 27.2
+    effects: Effects = field(default_factory=dict)
+    outside: Effects = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        known = {name: sorted(fields) for name, fields in (LAW_FIELDS | SENSOR_FIELDS).items()}
+        for effect, parameters in self.effects.items():
+            if effect not in known:
+                raise ValueError(f"effects: expected some of {', '.join(MODELLED)}, got {effect!r}")
+            if sorted(parameters) != known[effect]:
+                raise ValueError(
+                    f"effects: expected {effect} with {known[effect]}, got {sorted(parameters)}"
+                )
+        for effect in self.outside:
+            if effect not in UNMODELLED:
+                raise ValueError(f"outside: expected some of {', '.join(UNMODELLED)}, got {effect!r}")
+
+    def law(self) -> LawParameters:
+        """Parameters of the laws, in the units of `laws`."""
+        rigidity = math.pi * self.diameter_mm**4 / 32 * self.shear_modulus_gpa * 1e3
+        law = LawParameters(rigidity, self.damping_n_mm_s_per_mm, self.diameter_mm / 2)
+        for effect, parameters in self.effects.items():
+            for name, target in LAW_FIELDS.get(effect, {}).items():
+                law = law._replace(**{target: _in_law(target, law, parameters[name])})
+        for effect, parameters in self.outside.items():
+            law = LAW_EFFECTS[effect](law, parameters) if effect in LAW_EFFECTS else law
+        return law
+
+    def sensor(self, effect: str, parameter: str) -> float:
+        """A parameter of a sensor effect, or its neutral value."""
+        return float(self.effects.get(effect, SENSOR_FIELDS[effect])[parameter])
+
+
+def _in_law(name: str, law: LawParameters, value: float) -> float:
+    """A parameter's value in the units of the law."""
+    if name in ("rigidity", "damping"):
+        return float(getattr(law, name) * value)
+    if name in ("compliance", "base_compliance"):
+        return 1.0 / value
+    if name in ("half_gap", "phase"):
+        return math.radians(value) / (2 if name == "half_gap" else 1)
+    return float(value)

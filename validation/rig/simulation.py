@@ -1,0 +1,80 @@
+"""A trial of the rig: the motion of the needle, and what ideal sensors read of it."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.rig.integrator import integrate
+from validation.rig.laws import LawParameters
+from validation.rig.mesh import MeshSize
+from validation.rig.motion import TrialMotion
+from validation.rig.rig import IndependentRig
+from validation.rig.unmodelled import SENSOR_EFFECTS, IdealSignals
+
+Array = NDArray[np.float64]
+
+
+class CellCounts(NamedTuple):
+    """Cells: of the inserted shaft, of the free one under a sheath; of all if its depth changes."""
+
+    inserted: int
+    sheath: int
+    needle: int
+
+
+FINE, COARSE = CellCounts(72, 60, 150), CellCounts(24, 20, 60)
+
+
+def simulate_twist(
+    law: LawParameters, motion: TrialMotion, cells: CellCounts = FINE
+) -> tuple[Array, Array]:
+    """Tip angle, rad, and drive torque, N mm, on the fine grid, (N,) each.
+
+    Raises:
+      RuntimeError: no balance of torques was found at a time, which it names.
+    """
+    sheath = cells.sheath if law.sheath > 0 else 0
+    mesh = MeshSize(sheath + cells.inserted + 2, sheath, False)
+    if motion.growing:
+        mesh = MeshSize(cells.needle + 1, 0, True)
+    tip_torque = 0.0 if motion.tip_torque_n_mm is None else motion.tip_torque_n_mm
+    drive = np.empty((5, motion.base_deg.size))
+    drive[0], drive[1], drive[2] = np.radians(motion.base_deg), motion.inserted_mm, motion.free_mm
+    drive[3], drive[4] = motion.speed_mm_s, tip_torque
+    tip, torque, lost = integrate(law, mesh, motion.dt_s, drive)
+    if lost >= 0:
+        raise RuntimeError(f"no balance of torques was found at {lost * motion.dt_s} s with {law}")
+    return np.asarray(tip), np.asarray(torque)
+
+
+def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = FINE) -> IdealSignals:
+    """Readings of noise-free sensors in the trial, on the fine grid."""
+    tip, torque = simulate_twist(rig.law(), motion, cells)
+    delay_s = rig.sensor("tip_sensor_delay", "delay")
+    tip = np.interp(motion.time_s - delay_s, motion.time_s, np.degrees(tip))
+    signals = IdealSignals(
+        time_s=motion.time_s,
+        base_deg=motion.base_deg,
+        torque_n_mm=torque + rig.sensor("torque_bias", "bias"),
+        tip_deg=rig.sensor("tip_angle_scale", "scale") * tip + rig.sensor("tip_angle_bias", "bias"),
+        speed_mm_s=motion.speed_mm_s,
+    )
+    for effect, parameters in rig.outside.items():
+        if effect in SENSOR_EFFECTS:
+            signals = SENSOR_EFFECTS[effect](signals, parameters)
+    return signals
+
+
+def compile_kernels() -> None:
+    """Compile the integrator, or load it from numba's cache; processes forked later inherit it."""
+    still = np.zeros(2)
+    motion = TrialMotion(
+        dt_s=0.01,
+        per_sample=1,
+        base_deg=still,
+        inserted_mm=still + 50.0,
+        free_mm=still + 50.0,
+        speed_mm_s=still,
+    )
+    simulate_twist(IndependentRig(damping_n_mm_s_per_mm=0.02).law(), motion, CellCounts(2, 2, 2))

@@ -1,0 +1,1 @@
+"""The score of the diagnosis on logs whose ground truth is known: accuracy and calibration."""

@@ -1,0 +1,67 @@
+"""Accuracy and calibration over many logs: how often exact, and whether stated probabilities hold."""
+
+import numpy as np
+import pandas as pd
+
+GAP_GOAL = 1.03
+"""Residual / sigma that an exact diagnosis should leave at most."""
+
+
+def summary(scores: pd.DataFrame) -> pd.DataFrame:
+    """By kind: number of logs, shares that are exact, undecided and unknown, median seconds."""
+    grouped = scores.groupby("kind")
+    return pd.DataFrame(
+        {
+            "logs": grouped.size(),
+            "exact": grouped["exact"].mean(),
+            "undecided": grouped["verdict"].apply(lambda v: float((v == "undecided").mean())),
+            "unknown": grouped["verdict"].apply(lambda v: float((v == "unknown").mean())),
+            "seconds": grouped["seconds"].median(),
+        }
+    )
+
+
+def coverage(scores: pd.DataFrame) -> tuple[float, int]:
+    """Share of the 95 % intervals that contain the true value, and their number."""
+    count = int(scores["intervals"].sum())
+    return (float(scores["inside"].sum() / count) if count else float("nan")), count
+
+
+def undetected_within_limit(scores: pd.DataFrame) -> tuple[float, int]:
+    """Share of the undetected effects at or below the reported detection limit, and their number."""
+    ratio = scores.loc[scores["verdict"] == "none", "over_hidden"].dropna()
+    return (float((ratio <= 1.0).mean()) if len(ratio) else float("nan")), len(ratio)
+
+
+def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
+    """By bin of probability: mean predicted and observed share of right first ranks, and logs.
+
+    Where two effects are true, the predicted share is the probability of both together.
+    """
+    scores = scores[scores["probability"].notna()]
+    share = np.where(scores["top_right"], scores["probability_right"], scores["probability"])
+    edges = np.clip((share * bins).astype(int), 0, bins - 1)
+    table = pd.DataFrame(
+        {"bin": edges, "predicted": share, "observed": scores["top_right"].astype(float)}
+    )
+    grouped = table.groupby("bin")
+    return pd.DataFrame(
+        {
+            "predicted": grouped["predicted"].mean(),
+            "observed": grouped["observed"].mean(),
+            "logs": grouped.size(),
+        }
+    )
+
+
+def calibration_error(scores: pd.DataFrame) -> float:
+    """Expected calibration error: mean |predicted - observed|, weighted by logs."""
+    table = reliability(scores)
+    distance = (table["predicted"] - table["observed"]).abs()
+    return float((table["logs"] * distance).sum() / table["logs"].sum())
+
+
+def gap_left(scores: pd.DataFrame) -> float:
+    """Share of the exactly explained logs whose residual is at most `GAP_GOAL` sigma."""
+    right = scores[(scores["expected"] == "explained") & scores["exact"]]
+    return float((right["gap_after"] <= GAP_GOAL).mean()) if len(right) else float("nan")

@@ -1,0 +1,138 @@
+"""Compares the reports of the diagnosis with the ground truth: a table with one row per log.
+
+A report is exact if its verdict and its set of effects are those of the ground truth. Where stiffness or
+damping are off by up to 3 % beside an effect, they may be named or not. Where the laws themselves make
+two effects indistinguishable in the log, so that no method could decide, exact is `undecided` with the
+truth among the confusable sets.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from diagnosis.effects import LIBRARY
+from models.errors import InvalidValue
+from validation.score.answers import FILE, read_answers
+
+SAME_AT_REST = {"coulomb_friction", "speed_dependent_friction"}
+"""The same law where the needle never slides."""
+PARAMETER_ERRORS = {"stiffness_error", "damping_error"}
+"""Without the base torque only their ratio is identifiable."""
+TOLERATED = 0.03
+"""Error of a nominal constant that may be named or not: no rig knows its constants better."""
+
+
+def read_scores(folder: Path, trials: int | None = None) -> pd.DataFrame:
+    """One row per log that has a report; index: the case, the name of the log's folder.
+
+    Args:
+      trials: number of trials that the reports are based on; None: all.
+
+    Raises:
+      InvalidValue: the ground truth is unusable, or is of none of the logs.
+    """
+    answers, reports = read_answers(folder), reports_in(folder, trials)
+    rows = {
+        case: _row(answer, json.loads((reports / f"{case}.json").read_text()), trials)
+        for case, answer in answers.items()
+        if (reports / f"{case}.json").exists()
+    }
+    if not rows:
+        expected = f"entries named like the logs, which have reports in {reports}"
+        raise InvalidValue(str(folder / FILE), [*answers], expected)
+    return pd.DataFrame.from_dict(rows, orient="index")
+
+
+def reports_in(folder: Path, trials: int | None = None) -> Path:
+    """Folder of the reports on all trials, or on the first few, of every log."""
+    return folder / ("reports" if trials is None else f"reports_of_{trials}")
+
+
+def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> dict[str, Any]:
+    true, diagnosed = set(answer["effects"]), set(report["effects"])
+    optional = _optional(answer, true)
+    confused = report["verdict"] == "undecided" and any(
+        set(names) - optional == true - optional for names in report.get("confusable", [])
+    )
+    undecidable = _is_undecidable(answer, trials)
+    ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
+    top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
+    right = true or ({"none"} if answer["verdict"] == "none" else {"unknown"})
+    inside = [_inside(answer, report, effect, name) for effect, name in _parameters(answer)]
+    known = [x for x in inside if x is not None]
+    return {
+        "kind": answer.get("kind", _kind(answer)),
+        "truth": " + ".join(sorted(true)) or answer["verdict"],
+        "said": " + ".join(sorted(diagnosed)) or report["verdict"],
+        "verdict": report["verdict"],
+        "expected": answer["verdict"],
+        "exact": confused
+        if undecidable
+        else (report["verdict"] == answer["verdict"] and diagnosed - optional == true - optional),
+        "confused": confused,
+        "open": undecidable,
+        "signature": min(answer.get("signature", {}).values(), default=np.nan),
+        "over_hidden": _over_limit(answer, report),
+        "top": top,
+        "probability": ranking.get(top, np.nan),
+        "top_right": top in right,
+        "probability_right": sum(ranking.get(name, 0.0) for name in right),
+        "inside": sum(known),
+        "intervals": len(known),
+        "gap_before": report.get("gap", {}).get("before", np.nan),
+        "gap_after": report.get("gap", {}).get("after", np.nan),
+        "seconds": report.get("seconds", np.nan),
+    }
+
+
+def _optional(answer: dict[str, Any], true: set[str]) -> set[str]:
+    """What may be named or not: small errors of stiffness and damping beside an effect."""
+    scales = {n: p["scale"] for n, p in answer["parameters"].items() if n in PARAMETER_ERRORS}
+    return {
+        name
+        for name, scale in scales.items()
+        if name not in true or (len(true) > 1 and abs(scale - 1.0) <= TOLERATED)
+    }
+
+
+def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
+    """Strength of the one true effect / the reported detection limit; NaN: none is reported."""
+    if len(answer["effects"]) != 1:
+        return float("nan")
+    effect = answer["effects"][0]
+    first = LIBRARY[effect].parameters[0]
+    limit = report.get("hidden", {}).get(effect, {}).get(first.name)
+    if limit is None:
+        return float("nan")
+    return first.strength(answer["parameters"][effect][first.name]) / first.strength(limit)
+
+
+def _is_undecidable(answer: dict[str, Any], trials: int | None) -> bool:
+    """Whether no trial can distinguish the true effect from another one."""
+    details, true = answer.get("details", {}), set(answer["effects"])
+    used = details.get("trials", [{"sliding": True}])[:trials]
+    at_rest = not any(trial["sliding"] for trial in used)
+    without_torque = details.get("missing") == "base_torque_n_mm"
+    return (bool(SAME_AT_REST & true) and at_rest) or (bool(PARAMETER_ERRORS & true) and without_torque)
+
+
+def _kind(answer: dict[str, Any]) -> str:
+    verdict = str(answer["verdict"])
+    if verdict != "explained":
+        return {"none": "none", "unknown": "outside"}.get(verdict, verdict)
+    return "single" if len(answer["effects"]) == 1 else "pair"
+
+
+def _parameters(answer: dict[str, Any]) -> list[tuple[str, str]]:
+    return [(e, name) for e, own in answer["parameters"].items() if e in LIBRARY for name in own]
+
+
+def _inside(answer: dict[str, Any], report: dict[str, Any], effect: str, name: str) -> bool | None:
+    """Whether an interval contains the true value; None without one, or if other effects are named."""
+    interval = report.get("parameters", {}).get(effect, {}).get(name)
+    if interval is None or not set(answer["effects"]) <= set(report["effects"]):
+        return None
+    return bool(interval["low"] <= answer["parameters"][effect][name] <= interval["high"])
