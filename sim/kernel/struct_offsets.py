@@ -37,7 +37,7 @@ _DATA_FIELDS = ("qpos", "qvel", "ctrl", "userdata", "qfrc_passive", "sensordata"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Layout:
+class StructOffsets:
     """Byte offsets of struct fields, by name.
 
     Attributes:
@@ -49,7 +49,7 @@ class Layout:
     data: dict[str, int]
 
 
-def read_layout() -> Layout:
+def read_struct_offsets() -> StructOffsets:
     """Offsets for the installed MuJoCo, checked against the bindings.
 
     Raises:
@@ -59,9 +59,9 @@ def read_layout() -> Layout:
     model = {name: _offset(model_type, name) for name in (*_MODEL_FIELDS, "nnumeric", "nv")}
     model["timestep"] = _offset(model_type, "opt") + _offset(_struct("mjOption"), "timestep")
     data = {name: _offset(data_type, name) for name in (*_DATA_FIELDS, "time")}
-    layout = Layout(model=model, data=data)
-    _check(layout)
-    return layout
+    offsets = StructOffsets(model=model, data=data)
+    _check(offsets)
+    return offsets
 
 
 def _struct(name: str) -> type[ctypes.Structure]:
@@ -95,7 +95,7 @@ def _ctype(node: Any) -> Any:
     return ctypes.c_int  # every remaining named type is a C enum
 
 
-def _check(layout: Layout) -> None:
+def _check(computed: StructOffsets) -> None:
     """Compare computed pointers with the ones that Python sees."""
     spec = mujoco.MjSpec()
     spec.option.timestep = 0.0123
@@ -109,16 +109,16 @@ def _check(layout: Layout) -> None:
     data = mujoco.MjData(model)
     data.time = 4.5
     for owner, offsets, names in (
-        (model, layout.model, _MODEL_FIELDS),
-        (data, layout.data, _DATA_FIELDS),
+        (model, computed.model, _MODEL_FIELDS),
+        (data, computed.data, _DATA_FIELDS),
     ):
         for name in names:
             found = ctypes.c_size_t.from_address(owner._address + offsets[name]).value
             _expect(name, found, getattr(owner, name).ctypes.data)
-    time = ctypes.c_double.from_address(data._address + layout.data["time"]).value
-    step = ctypes.c_double.from_address(model._address + layout.model["timestep"]).value
-    count = ctypes.c_int64.from_address(model._address + layout.model["nnumeric"]).value
-    dofs = ctypes.c_int64.from_address(model._address + layout.model["nv"]).value
+    time = ctypes.c_double.from_address(data._address + computed.data["time"]).value
+    step = ctypes.c_double.from_address(model._address + computed.model["timestep"]).value
+    count = ctypes.c_int64.from_address(model._address + computed.model["nnumeric"]).value
+    dofs = ctypes.c_int64.from_address(model._address + computed.model["nv"]).value
     scalars: tuple[tuple[str, float, float], ...] = (
         ("time", time, 4.5),
         ("timestep", step, 0.0123),

@@ -20,7 +20,7 @@ MAGIC = 590_272.0  # marks a model as ours: other models pass the callback untou
     H_BACKLASH,  # half of the play between drive shaft and needle, rad
     H_PRESLIDING,  # angle at which a dry element slips, rad
     H_RADIUS,  # m
-    H_CONVECTION,  # c in: slip rate = omega + c v dtheta/dx
+    H_ADVECTION,  # c in: slip rate = omega + c v dtheta/dx
     H_STRETCHING,  # elements that share the free length (0: all are fixed to the needle)
     H_FREE_REF,  # free length at carriage position 0, m
     H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
@@ -91,7 +91,7 @@ def block(elements: int, rows: int) -> int:
 
 
 def scratch(elements: int, rows: int) -> int:
-    """Values of working memory that one step needs: see `sim.kernel.work`."""
+    """Values of working memory that one step needs: see `sim.kernel.workspace`."""
     return 16 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 

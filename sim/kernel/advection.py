@@ -1,4 +1,4 @@
-"""Tissue stays where it is while the shaft slides through it.
+"""Advection of the tissue's twist: tissue stays where it is while the shaft slides through.
 
 Tissue twist is remembered at contact sites, which travel with the needle. After
 a step in which the needle moved by d into the tissue, the twist of a site is that
@@ -9,7 +9,7 @@ tip enters is untwisted; at the entry the twist goes on as it runs.
 
 import numpy as np
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 
@@ -31,7 +31,7 @@ def forget_uncovered(loads: Array, state: Array) -> None:
     """A site that no tissue touches remembers nothing."""
     for site in range(2 * loads.shape[0]):
         if not _covered(loads, site):
-            for j in range(wire.SITE):
+            for j in range(memory_map.SITE):
                 state[site // 2, site % 2, j] = 0.0
 
 
@@ -54,14 +54,14 @@ def _interpolate(places: Array, twist: Array, count: int, middle: int, target: f
 
 
 @compiled
-def slide_tissue(d: float, x: Array, loads: Array, state: Array) -> None:
+def advect_tissue(d: float, x: Array, loads: Array, state: Array) -> None:
     """Shift the twist of the tissue by d, m (positive: needle into the tissue)."""
     n = loads.shape[0]
     places, twist = np.empty(2 * n + 1), np.empty(2 * n + 1)
     count, first, last = 0, -1, -1
     for site in range(2 * n):
         if _covered(loads, site):
-            places[count], twist[count] = _place(x, site), state[site // 2, site % 2, wire.PHI]
+            places[count], twist[count] = _place(x, site), state[site // 2, site % 2, memory_map.PHI]
             first = site if count == 0 else first
             last = site
             count += 1
@@ -76,4 +76,4 @@ def slide_tissue(d: float, x: Array, loads: Array, state: Array) -> None:
         target = _place(x, site) + d
         while middle + 1 < count and places[middle + 1] - target < target - places[middle]:
             middle += 1
-        state[site // 2, site % 2, wire.PHI] = _interpolate(places, twist, count, middle, target)
+        state[site // 2, site % 2, memory_map.PHI] = _interpolate(places, twist, count, middle, target)

@@ -20,7 +20,7 @@ from models import units
 from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
 from sim.files import writing
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.simulation import Run
 
 Array = NDArray[np.float64]
@@ -108,7 +108,7 @@ def read(path: Path) -> Recording:
     """Read a recording that `Recording.write` wrote.
 
     Raises:
-      UnreadableRecording: says what is wrong with the file.
+      UnreadableRecording: the file cannot be read, or has another format.
     """
     try:
         if path.suffix == ".parquet":
@@ -122,7 +122,7 @@ def read(path: Path) -> Recording:
     except (OSError, ValueError, pa.ArrowException) as error:
         raise UnreadableRecording(f"{path}: {error}") from error
     if not isinstance(header, dict) or header.get("format") != FORMAT:
-        raise UnreadableRecording(f"{path}: expected the header of a {FORMAT} file")
+        raise UnreadableRecording(f"{path}: expected the header of a {FORMAT} file, found another")
     return Recording(table=table, parameters=header["parameters"])
 
 
@@ -140,11 +140,11 @@ def record(run: Run, parameters: dict[str, Any] | None = None) -> Recording:
         "speed_mm_s": inputs.speed_mm_s,
         "tip_torque_n_mm": inputs.tip_torque_n_mm,
         "needle_base_deg": run.base_deg,
-        "friction_n_mm": outputs[:, wire.O_FRICTION] / units.N_MM,
-        "drive_work_mj": outputs[:, wire.O_WORK] * 1e3,
-        "dissipated_mj": outputs[:, wire.O_DISSIPATED] * 1e3,
-        "tissue_energy_mj": outputs[:, wire.O_TISSUE_ENERGY] * 1e3,
-        "unconverged_count": outputs[:, wire.O_FAILED],
+        "friction_n_mm": outputs[:, memory_map.O_FRICTION] / units.N_MM,
+        "drive_work_mj": outputs[:, memory_map.O_WORK] * 1e3,
+        "dissipated_mj": outputs[:, memory_map.O_DISSIPATED] * 1e3,
+        "tissue_energy_mj": outputs[:, memory_map.O_TISSUE_ENERGY] * 1e3,
+        "unconverged_count": outputs[:, memory_map.O_FAILED],
     }
     if run.angles_rad is not None:
         degrees = run.angles_rad / units.DEG

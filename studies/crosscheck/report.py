@@ -9,16 +9,16 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from sim.crosscheck import motion, paper, poles
-from sim.crosscheck.findings import Findings
 from sim.files import refuse_existing, write_text, writing
 from sim.simulation import simulate
+from studies.crosscheck import motion, paper, poles
+from studies.crosscheck.findings import Findings
 
 FILES = ("validate.json", "poles.csv", "checks.csv", "published.csv", "validate.png")
 
 
 def cross_check() -> Findings:
-    """Run everything; about ten seconds."""
+    """Run every check; about ten seconds."""
     measured = poles.compare_poles()
     return Findings(
         poles=measured,

@@ -1,4 +1,4 @@
-"""What a cross-check finds: bounds that hold or fail, and figures set side by side."""
+"""Results of the cross-check: bounds that hold or fail, and published figures beside ours."""
 
 import math
 from dataclasses import asdict, dataclass, field
@@ -12,7 +12,7 @@ def _or_none(value: Any) -> Any:
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """A measured value and its bounds; `why` says where the bounds come from."""
+    """A measured value and its bounds; `why` states where the bounds come from."""
 
     name: str
     value: float
@@ -28,7 +28,7 @@ class Check:
 
     @property
     def bounds(self) -> str:
-        """The bounds as a person reads them."""
+        """The bounds as text, for example `<= 0.02`."""
         if self.low == float("-inf"):
             return f"<= {self.high:g}"
         return f">= {self.low:g}" if self.high == float("inf") else f"{self.low:g} .. {self.high:g}"
@@ -70,7 +70,7 @@ class Pole:
 
 @dataclass(frozen=True, kw_only=True)
 class Findings:
-    """Everything that `needle validate` finds."""
+    """All results of `needle validate`."""
 
     poles: list[Pole] = field(default_factory=list)
     checks: list[Check] = field(default_factory=list)

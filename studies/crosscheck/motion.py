@@ -1,4 +1,4 @@
-"""Runs held to closed forms and to conservation."""
+"""Runs checked against closed-form solutions, and balances of torque and energy."""
 
 import math
 
@@ -15,13 +15,13 @@ from models.materials import (
 from models.modes import InsertedNeedle
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.crosscheck.findings import Check
 from sim.discretisation import Arrangement, Discretisation, Mesh
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
 from sim.simulation import Run, simulate
 from sim.spec import Setup
+from studies.crosscheck.findings import Check
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ def viscous_setup(*, free_mm: float = 0.0, **discretisation: object) -> Setup:
         needle=NITINOL,
         tissue=Tissue.uniform(viscous_n_mm_s_per_mm=_DAMPING),
         discretisation=Discretisation(**discretisation),
-        mesh=Mesh.TISSUE,
+        mesh=Mesh.EULERIAN,
         free_mm=free_mm,
         inserted_mm=_LENGTH_MM,
     )
@@ -62,14 +62,14 @@ def fast_turn(*, free_mm: float = 0.0) -> Schedule:
 
 def exact_tip_deg(run: Run) -> Array:
     """The closed form of a viscous, base-driven run, deg."""
-    held = InsertedNeedle(
+    closed_form = InsertedNeedle(
         needle=NITINOL,
         damping_n_mm_s_per_mm=_DAMPING,
         inserted_mm=_LENGTH_MM,
         free_mm=run.setup.free_mm,
         drive=DriveKind.ANGLE,
     )
-    response = held.respond(run.time_s, np.radians(run.inputs.drive), count=200)
+    response = closed_form.respond(run.time_s, np.radians(run.inputs.drive), count=200)
     return np.degrees(response.tip_rad)
 
 
@@ -179,12 +179,14 @@ def check_balances() -> list[Check]:
     """Torque and energy in dry, yielding tissue: the run of Fig. 4 at 10 cm."""
     run = _reversal(elastic_gelatin())
     out = run.outputs
-    peak = np.abs(out[:, wire.O_BASE_TORQUE]).max()
-    imbalance = np.abs(out[:, wire.O_BASE_TORQUE] - out[:, wire.O_FRICTION]).max() / peak
-    dissipated = out[:, wire.O_DISSIPATED]
+    peak = np.abs(out[:, memory_map.O_BASE_TORQUE]).max()
+    imbalance = np.abs(out[:, memory_map.O_BASE_TORQUE] - out[:, memory_map.O_FRICTION]).max() / peak
+    dissipated = out[:, memory_map.O_DISSIPATED]
     created = -min(0.0, float(np.diff(dissipated).min())) / dissipated[-1]
-    stored = out[:, wire.O_TISSUE_ENERGY] + _strain_energy_j(run)
-    closed = np.abs(out[:, wire.O_WORK] - dissipated - stored).max() / out[:, wire.O_WORK].max()
+    stored = out[:, memory_map.O_TISSUE_ENERGY] + _strain_energy_j(run)
+    closed = (
+        np.abs(out[:, memory_map.O_WORK] - dissipated - stored).max() / out[:, memory_map.O_WORK].max()
+    )
     return [
         Check(
             name="base torque against the sum of friction (Fig. 4, 10 cm)",

@@ -1,4 +1,4 @@
-"""A run as a picture: angles, torque, lengths, and the lag along the shaft."""
+"""A recording as a picture: angles, torque, lengths, and the lag along the shaft."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.files import writing
-from sim.recording import Recording
+from sim.recording.recording import Recording
 
 mpl.use("Agg")
 

@@ -13,10 +13,10 @@ from models.materials import slope_per_mm, tissue_named, tissue_stiffness_n_mm_p
 from models.modes import InsertedNeedle, ramp
 from models.needle import NEEDLES, NITINOL
 from models.statespace import full_modal_system, hankel_ratios, modal_system
-from sim.crosscheck.findings import Comparison
-from sim.crosscheck.motion import elastic_gelatin, reversal_lead_deg
 from sim.paper_protocols import protocol_named
 from sim.simulation import simulate
+from studies.crosscheck.findings import Comparison
+from studies.crosscheck.motion import elastic_gelatin, reversal_lead_deg
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ _TURN_DEG, _TURN_S = 90.0, 0.3
 
 
 def compare_all() -> list[Comparison]:
-    """Every published figure that the models here can be asked for."""
+    """Every published figure that the models here can compute."""
     return [
         *needle_constants(),
         *lags(),
@@ -39,7 +39,7 @@ def compare_all() -> list[Comparison]:
     ]
 
 
-def _compare(item: str, figure: published.Figure, ours: float, note: str = "") -> Comparison:
+def _compare(item: str, figure: published.PublishedFigure, ours: float, note: str = "") -> Comparison:
     return Comparison(
         item=item,
         published=figure.value,
@@ -82,7 +82,7 @@ def lags() -> list[Comparison]:
 
 
 def table_ii() -> list[Comparison]:
-    """Lines through the origin of Table II, and what they say at 20 cm."""
+    """Lines through the origin of Table II, and their damping at 20 cm."""
     damping = slope_per_mm(dict(published.DAMPING_PLASTISOL_N_MM_S))
     gelatin = dict(published.STATIC_TORQUE_GELATIN_N_MM)
     plastisol = dict(published.DAMPING_PLASTISOL_N_MM_S)

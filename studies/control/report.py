@@ -1,4 +1,4 @@
-"""What `needle control` writes: control.json, tables, pictures and recordings."""
+"""The files of `needle control`: control.json, tables and pictures."""
 
 import json
 import math
@@ -15,11 +15,11 @@ from matplotlib.figure import Figure
 from models.drive import DriveKind
 from models.materials import tissue_named
 from models.statespace import hankel_ratios
-from sim.control import steering, tables
-from sim.control.steering import PlaneHeld, Steered
-from sim.control.tables import Outcome
-from sim.crosscheck.poles import held_needle
 from sim.files import refuse_existing, write_text, writing
+from studies.control import steering, tables
+from studies.control.steering import PlaneApproach, SteeredInsertion
+from studies.control.tables import StepResponse
+from studies.crosscheck.poles import closed_form_needle
 
 FILES = (
     "control.json",
@@ -34,12 +34,12 @@ _SHOWN = ("base_only", "feedforward", "feedback", "lqr", "least_time")
 
 @dataclass(frozen=True, kw_only=True)
 class ControlStudy:
-    """Everything that `needle control` finds."""
+    """All results of `needle control`."""
 
-    tables: list[Outcome]
-    robustness: list[Outcome]
-    steered: list[Steered]
-    planes: dict[float, list[PlaneHeld]]
+    tables: list[StepResponse]
+    robustness: list[StepResponse]
+    steered: list[SteeredInsertion]
+    planes: dict[float, list[PlaneApproach]]
 
     def as_json(self) -> dict[str, Any]:
         """`table_iv`, `table_v`, `steered_mm` and the rest, in plain values."""
@@ -51,8 +51,8 @@ class ControlStudy:
             "steered_mm": {s.name: s.out_of_plane_mm for s in self.steered},
             "steered_published_mm": steering.PUBLISHED_MM,
             "planar_mm": {
-                f"{speed:g} mm/s": {p.name: _or_none(p.converged_mm()) for p in held}
-                for speed, held in self.planes.items()
+                f"{speed:g} mm/s": {p.name: _or_none(p.converged_mm()) for p in approaches}
+                for speed, approaches in self.planes.items()
             },
             "hankel_ratios": hankel(),
         }
@@ -60,11 +60,11 @@ class ControlStudy:
 
 def hankel(depth_mm: float = 200.0, modes: int = 6) -> list[float]:
     """Hankel values of torque to tip at a depth, over the largest: why order 4 is enough."""
-    needle = held_needle(depth_mm, 0.0, DriveKind.TORQUE)
+    needle = closed_form_needle(depth_mm, 0.0, DriveKind.TORQUE)
     return [float(x) for x in hankel_ratios(needle, modes=modes)]
 
 
-def _iv(o: Outcome) -> dict[str, Any]:
+def _iv(o: StepResponse) -> dict[str, Any]:
     return _plain(
         {
             "depth_cm": o.depth_cm,
@@ -79,7 +79,7 @@ def _iv(o: Outcome) -> dict[str, Any]:
     )
 
 
-def _v(o: Outcome) -> dict[str, Any]:
+def _v(o: StepResponse) -> dict[str, Any]:
     return _plain(
         {
             "depth_cm": o.depth_cm,
@@ -110,8 +110,8 @@ def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> li
     paths = [folder / name for name in FILES]
     refuse_existing(paths, force=force)
     write_text(paths[0], json.dumps(study.as_json(), indent=1, allow_nan=False), force=force)
-    for path, outcomes in ((paths[1], study.tables), (paths[2], study.robustness)):
-        rows = pd.DataFrame([tables.as_row(o) for o in outcomes])
+    for path, responses in ((paths[1], study.tables), (paths[2], study.robustness)):
+        rows = pd.DataFrame([tables.as_row(o) for o in responses])
         write_text(path, rows.to_csv(index=False), force=force)
     for path, draw in zip(paths[3:], (_draw_turns, _draw_steered, _draw_planes), strict=True):
         figure = draw(study)
@@ -156,15 +156,15 @@ def _draw_steered(study: ControlStudy) -> Figure:
 def _draw_planes(study: ControlStudy) -> Figure:
     count = len(study.planes)
     figure, axes = plt.subplots(1, count, figsize=(5 * count, 4.2), layout="constrained", squeeze=False)
-    for axis, (speed, held) in zip(axes[0], study.planes.items(), strict=True):
-        _draw_plane(axis, speed, held)
+    for axis, (speed, approaches) in zip(axes[0], study.planes.items(), strict=True):
+        _draw_plane(axis, speed, approaches)
     return figure
 
 
-def _draw_plane(axis: Axes, speed: float, held: list[PlaneHeld]) -> None:
-    for one in held:
+def _draw_plane(axis: Axes, speed: float, approaches: list[PlaneApproach]) -> None:
+    for one in approaches:
         axis.plot(one.travelled_mm, one.height_mm, label=f"{one.name}: {one.converged_mm():.0f} mm")
-    limit = 1.2 * float(np.abs(held[0].height_mm).max())
+    limit = 1.2 * float(np.abs(approaches[0].height_mm).max())
     axis.axhspan(-0.5, 0.5, color="0.9", zorder=0)
     axis.set(xlabel="travelled, mm", ylabel="height over the plane, mm", ylim=(-limit, limit))
     axis.set_title(f"Planar controller at {speed:g} mm/s")

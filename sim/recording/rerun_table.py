@@ -1,4 +1,4 @@
-"""What is inside a rerun file, as a table: for machines without a screen."""
+"""The content of a rerun file as a table, for machines without a screen."""
 
 from dataclasses import dataclass, replace
 from itertools import groupby
@@ -8,7 +8,7 @@ import pyarrow as pa
 from rerun.chunk import RrdReader
 
 from models.errors import NeedleError
-from sim.rerun_log import TIMELINE
+from sim.recording.rerun_log import TIMELINE
 
 
 class NotARecording(NeedleError):
@@ -40,14 +40,16 @@ def entries(path: Path) -> list[Entry]:
       NotARecording: the file is missing or not a rerun recording.
     """
     if not path.is_file():
-        raise NotARecording(f"{path}: no such file")
+        raise NotARecording(f"{path}: expected a rerun recording, found no such file")
     try:
         batches = [(str(c.entity_path), c.to_record_batch()) for c in RrdReader(str(path)).stream()]
-    except Exception as error:  # rerun raises whatever its decoder met
-        raise NotARecording(f"{path}: not a rerun recording ({error})") from error
+    except Exception as error:  # rerun documents no type
+        raise NotARecording(
+            f"{path}: expected a rerun recording, found another format ({error})"
+        ) from error
     found = [entry for entity, batch in batches for entry in _entries(entity, batch)]
     if not found:
-        raise NotARecording(f"{path}: an empty recording")
+        raise NotARecording(f"{path}: expected a rerun recording with data, found an empty one")
     ordered = sorted(found, key=lambda e: (e.entity, e.component, e.start_s or 0.0))
     return [_joined(list(g)) for _, g in groupby(ordered, key=lambda e: (e.entity, e.component))]
 

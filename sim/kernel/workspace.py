@@ -4,11 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.compiled import Array, inlined
 
 
-class Work(NamedTuple):
+class Workspace(NamedTuple):
     """Arrays of one step: (n + 1) a node, (rows, n, 2, ...) a contact site."""
 
     x: np.ndarray  # node positions, m
@@ -45,7 +45,7 @@ class Frame(NamedTuple):
 
 
 @inlined
-def divide(memory: Array, n: int, rows: int, end: Array) -> Work:
+def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
     """Working memory cut into its arrays; `end` is the caller's site states.
 
     The memory is the model's own (`userdata`), so that no step allocates: numba would
@@ -53,7 +53,7 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Work:
     """
     m, s = n + 1, 2 * n * rows
     sites = 15 * m + 2 * s
-    return Work(
+    return Workspace(
         memory[:m],
         memory[m : 2 * m],
         memory[2 * m : 3 * m],
@@ -71,6 +71,8 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Work:
         memory[14 * m : 15 * m],
         memory[15 * m : sites].reshape(rows, n, 4),
         memory[sites : sites + 2 * rows].reshape(rows, 2),
-        memory[sites + 2 * rows : sites + 2 * rows + wire.SITE * s].reshape(rows, n, 2, wire.SITE),
+        memory[sites + 2 * rows : sites + 2 * rows + memory_map.SITE * s].reshape(
+            rows, n, 2, memory_map.SITE
+        ),
         end,
     )

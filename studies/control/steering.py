@@ -1,12 +1,12 @@
-"""Steered insertions: the tip's path follows from the roll of MuJoCo's tip.
+"""Steered insertions: the path of the tip follows from the roll of MuJoCo's tip.
 
-`insert_straight` repeats Figs. 11 and 12: 7 cm at 5 mm/s, a baseline curving to
+`steered_insertions` repeats Figs. 11 and 12: 7 cm at 5 mm/s, a baseline that curves to
 either side, and four half turns with and without torsion compensation. Published:
 12 mm out of the plane without, 4 mm with.
 
-`hold_plane` puts Kallem and Cowan's planar controller on top, in three worlds: its own
-simulation, in which the tip is where the base is; the twisting needle, with torsion
-left out of the controller; and the twisting needle with compensation.
+`approach_plane` closes Kallem and Cowan's planar controller around it, in three cases: a
+rigid needle, whose tip is where the base is; the twisting needle, with torsion left out
+of the controller; and the twisting needle with torsion compensation.
 """
 
 import math
@@ -20,12 +20,12 @@ from models.bevel import PREBENT_RADIUS_MM, BevelTip, path_mm
 from models.materials import MATERIALS
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.closed_loop import Flight, Reading, fly
-from sim.control.pilots import Pilot, pilot_named
-from sim.control.tables import DESIGN
+from sim.closed_loop import ClosedLoopRun, Measurement, run_closed_loop
 from sim.discretisation import Discretisation, Mesh
 from sim.schedule import Schedule
 from sim.spec import Setup
+from studies.control.tables import DESIGN
+from studies.control.tip_controllers import TipController, tip_controller_named
 
 Array = NDArray[np.float64]
 
@@ -37,17 +37,17 @@ _ELEMENTS = 32
 
 
 @dataclass(frozen=True, kw_only=True)
-class Steered:
-    """An insertion and where its tip went.
+class SteeredInsertion:
+    """An insertion and the path of its tip.
 
     Attributes:
       name: of the controller, or of the baseline.
-      flight: the run; None for a baseline, which does not turn.
+      controlled: the run; None for a baseline, which does not turn.
       path_mm: (N, 3); z is out of the plane of the baseline.
     """
 
     name: str
-    flight: Flight | None
+    controlled: ClosedLoopRun | None
     path_mm: Array
 
     @property
@@ -57,7 +57,7 @@ class Steered:
 
 
 def half_turns() -> Schedule:
-    """7 cm at 5 mm/s; the wish turns by 180 deg after each of the first 4 cm."""
+    """7 cm at 5 mm/s; the reference steps by 180 deg after each of the first 4 cm."""
     corners = [0.0]
     angle = [0.0]
     for turn in range(4):
@@ -82,43 +82,47 @@ def _setup(tissue: Tissue, *, free_mm: float, inserted_mm: float) -> Setup:
         needle=NITINOL,
         tissue=tissue,
         discretisation=Discretisation(step_s=_STEP_S, elements=_ELEMENTS),
-        mesh=Mesh.NEEDLE,
+        mesh=Mesh.LAGRANGIAN,
         free_mm=free_mm,
         inserted_mm=inserted_mm,
     )
 
 
-def insert_straight(tissue: Tissue = MATERIALS["viscous-plastisol"]) -> list[Steered]:
+def steered_insertions(tissue: Tissue = MATERIALS["viscous-plastisol"]) -> list[SteeredInsertion]:
     """Every insertion of Figs. 11 and 12, and one by our fastest controller."""
     inputs = half_turns()
     arc = np.linspace(0.0, _LENGTH_MM, 701)
-    found = [
-        Steered(name="baseline_right", flight=None, path_mm=path_mm(arc, np.zeros(arc.size))),
-        Steered(name="baseline_left", flight=None, path_mm=path_mm(arc, np.full(arc.size, np.pi))),
+    insertions = [
+        SteeredInsertion(
+            name="baseline_right", controlled=None, path_mm=path_mm(arc, np.zeros(arc.size))
+        ),
+        SteeredInsertion(
+            name="baseline_left", controlled=None, path_mm=path_mm(arc, np.full(arc.size, np.pi))
+        ),
     ]
     for name in STEERED[2:]:
-        pilot = pilot_named(name, DESIGN)
+        controller = tip_controller_named(name, DESIGN)
         setup = _setup(tissue, free_mm=_FREE_MM, inserted_mm=0.0)
-        flight = fly(setup, inputs, pilot, keep=pilot.log, keep_shape=True)
-        run = flight.run
+        controlled = run_closed_loop(setup, inputs, controller, log=controller.signals, keep_shape=True)
+        run = controlled.run
         path = path_mm(run.inputs.inserted_mm, np.radians(run.tip_deg))
-        found.append(Steered(name=name, flight=flight, path_mm=path))
-    return found
+        insertions.append(SteeredInsertion(name=name, controlled=controlled, path_mm=path))
+    return insertions
 
 
-class PlanarPilot:
-    """The planar controller on top of a tip controller.
+class CascadedPlanarController:
+    """The planar controller as the outer loop of a tip controller.
 
     Args:
-      pilot: turns the base; None: the tip is where the base is wanted (no torsion).
-      height_mm: where the tip starts over the plane.
+      inner: turns the base; None: a rigid needle, whose tip is where the base should be.
+      height_mm: height of the tip over the plane at the start.
     """
 
-    def __init__(self, pilot: Pilot | None, *, height_mm: float) -> None:
+    def __init__(self, inner: TipController | None, *, height_mm: float) -> None:
         self.tip = BevelTip(PREBENT_RADIUS_MM, (0.0, 0.0, height_mm))
         self.planar = PlanarController(radius_mm=PREBENT_RADIUS_MM)
-        self.pilot = pilot
-        self._wish_rad, self._depth_mm = 0.0, math.nan
+        self.inner = inner
+        self._reference_rad, self._depth_mm = 0.0, math.nan
         self.heights_mm: list[float] = []
 
     @property
@@ -126,28 +130,28 @@ class PlanarPilot:
         """No axial motion beside the schedule's."""
         return 0.0
 
-    def __call__(self, reading: Reading, wanted_deg: float) -> float:
-        """Advance the tip by what the needle went in, and wish for a new roll."""
-        roll = self._wish_rad if self.pilot is None else math.radians(reading.tip_deg)
-        travelled = 0.0 if math.isnan(self._depth_mm) else reading.inserted_mm - self._depth_mm
-        self._depth_mm = reading.inserted_mm
+    def __call__(self, measurement: Measurement, reference_deg: float) -> float:
+        """Advance the tip by what the needle went in, and set a new reference of its roll."""
+        roll = self._reference_rad if self.inner is None else math.radians(measurement.tip_deg)
+        travelled = 0.0 if math.isnan(self._depth_mm) else measurement.inserted_mm - self._depth_mm
+        self._depth_mm = measurement.inserted_mm
         self.tip.advance(travelled, roll)
         self.heights_mm.append(float(self.tip.position_mm[2]))
-        pull, onward = self.tip.pointing(self._believed_rad(reading))
+        pull, onward = self.tip.pointing(self._estimated_rad())
         rate = self.planar.roll_rate(self.tip.position_mm[2], self.tip.tangent, pull, onward)
-        self._wish_rad += rate * travelled
-        wish = math.degrees(self._wish_rad)
-        return wish if self.pilot is None else self.pilot(reading, wish)
+        self._reference_rad += rate * travelled
+        roll_deg = math.degrees(self._reference_rad)
+        return roll_deg if self.inner is None else self.inner(measurement, roll_deg)
 
-    def _believed_rad(self, reading: Reading) -> float:
-        """The roll that the planar controller takes the tip to have."""
-        if self.pilot is None:
-            return self._wish_rad
-        return math.radians(self.pilot.estimated_tip_deg)
+    def _estimated_rad(self) -> float:
+        """The roll of the tip as the planar controller knows it."""
+        if self.inner is None:
+            return self._reference_rad
+        return math.radians(self.inner.estimated_tip_deg)
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaneHeld:
+class PlaneApproach:
     """How the tip came into the plane: depth travelled, mm, and height, mm, (N,) each."""
 
     name: str
@@ -164,7 +168,7 @@ class PlaneHeld:
         return float(self.travelled_mm[outside[-1] + 1])
 
 
-PLANES = {
+PLANAR_CASES = {
     "its own simulation": None,
     "torsion left out": "base_only_at_limit",
     "torsion compensated": "feedforward",
@@ -172,15 +176,15 @@ PLANES = {
 }
 
 
-def hold_plane(
+def approach_plane(
     tissue: Tissue = MATERIALS["viscous-plastisol"],
     *,
     height_mm: float = 3.0,
     start_mm: float = 100.0,
     travel_mm: float = 120.0,
     speed_mm_s: float = 10.0,
-) -> list[PlaneHeld]:
-    """The planar controller in every world of `PLANES`."""
+) -> list[PlaneApproach]:
+    """The planar controller in each of the `PLANAR_CASES`."""
     time = np.array([0.0, travel_mm / speed_mm_s])
     depth = start_mm + speed_mm_s * time
     inputs = Schedule(
@@ -190,12 +194,13 @@ def hold_plane(
         inserted_mm=depth,
         speed_mm_s=np.full(2, speed_mm_s),
     )
-    found = []
-    for name, controller in PLANES.items():
-        inner = pilot_named(controller, DESIGN) if controller else None
-        pilot = PlanarPilot(inner, height_mm=height_mm)
+    approaches = []
+    for name, controller in PLANAR_CASES.items():
+        inner = tip_controller_named(controller, DESIGN) if controller else None
+        planar = CascadedPlanarController(inner, height_mm=height_mm)
         setup = _setup(tissue, free_mm=50.0 + travel_mm, inserted_mm=start_mm)
-        flight = fly(setup, inputs, pilot)
-        travelled = flight.run.inputs.inserted_mm - start_mm
-        found.append(PlaneHeld(name=name, travelled_mm=travelled, height_mm=np.array(pilot.heights_mm)))
-    return found
+        travelled = run_closed_loop(setup, inputs, planar).run.inputs.inserted_mm - start_mm
+        approaches.append(
+            PlaneApproach(name=name, travelled_mm=travelled, height_mm=np.array(planar.heights_mm))
+        )
+    return approaches

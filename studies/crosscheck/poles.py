@@ -1,4 +1,4 @@
-"""Poles measured from MuJoCo itself.
+"""Poles identified from MuJoCo's own steps.
 
 Every node in turn is twisted by a small angle and let go; MuJoCo steps them all.
 The map from one set of angles to the next is X_{k+1} X_k^{-1}; its eigenvalues are
@@ -16,10 +16,10 @@ from models.drive import Drive, DriveKind
 from models.modes import InsertedNeedle
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.crosscheck.findings import Check, Pole
 from sim.discretisation import Discretisation, Mesh
 from sim.simulation import compile_model
 from sim.spec import Setup
+from studies.crosscheck.findings import Check, Pole
 
 Array = NDArray[np.float64]
 
@@ -74,7 +74,7 @@ def _released(model: mujoco.MjModel, setup: Setup) -> Array:
     return np.cumsum(qpos[:, :, 1:], axis=2).transpose(1, 2, 0)
 
 
-def held_needle(length_mm: float, free_mm: float, kind: DriveKind) -> InsertedNeedle:
+def closed_form_needle(length_mm: float, free_mm: float, kind: DriveKind) -> InsertedNeedle:
     """The closed form of one case."""
     return InsertedNeedle(
         needle=NITINOL,
@@ -92,7 +92,7 @@ def chain(length_mm: float, free_mm: float, kind: DriveKind, **discretisation: i
         tissue=Tissue.uniform(viscous_n_mm_s_per_mm=_DAMPING),
         drive=Drive(kind=kind),
         discretisation=Discretisation(**discretisation),
-        mesh=Mesh.TISSUE,
+        mesh=Mesh.EULERIAN,
         free_mm=free_mm,
         inserted_mm=length_mm,
     )
@@ -104,7 +104,7 @@ def compare_poles(lengths_mm: tuple[float, ...] = LENGTHS_MM) -> list[Pole]:
     for length in lengths_mm:
         for free in FREE_MM:
             for kind in DriveKind:
-                expected = held_needle(length, free, kind).poles_with_inertia_rad_s(COUNT + 1)
+                expected = closed_form_needle(length, free, kind).poles_with_inertia_rad_s(COUNT + 1)
                 expected = expected[expected < 0][:COUNT]
                 measured = measure(chain(length, free, kind), COUNT)
                 poles += [
@@ -154,7 +154,7 @@ def order_in_elements() -> list[Check]:
 
 def _order(kind: DriveKind) -> float:
     length = LENGTHS_MM[-1]
-    exact = held_needle(length, 0.0, kind).poles_with_inertia_rad_s(COUNT + 1)
+    exact = closed_form_needle(length, 0.0, kind).poles_with_inertia_rad_s(COUNT + 1)
     expected = exact[exact < 0][COUNT - 1]
     coarse, fine = (
         abs(measure(chain(length, 0.0, kind, elements=n), COUNT)[COUNT - 1] / expected - 1)

@@ -1,9 +1,9 @@
-"""Tables IV and V on the MuJoCo needle, and how they stand up to what is not modelled.
+"""Tables IV and V on the MuJoCo needle, and their robustness to tissue that is not modelled.
 
-The wish steps by 90 deg. Settling is the time after which the tip stays within
-3 deg; the integral is that of (wish - tip) over 2 s, signed. Both readings of the
-free length are run: none, and the 50 mm of the paper's set-up, which grow as the
-needle retracts at 2.5 mm/s.
+The reference steps by 90 deg. Settling is the time after which the tip stays within
+3 deg; the integral is that of (reference - tip) over 2 s, signed. The paper does not say
+which free length it had; two are run: none, and the 50 mm of its set-up, which grow as
+the needle retracts at 2.5 mm/s.
 """
 
 import math
@@ -16,12 +16,13 @@ from models import published
 from models.materials import MATERIALS, slope_per_mm
 from models.needle import NITINOL
 from models.tissue import Interface, Layer, Tissue
-from sim.closed_loop import Flight, SensorNoise, fly
-from sim.control.pilots import Design, pilot_named
-from sim.crosscheck.paper import integral_deg_s, settling_s
+from sim.closed_loop import ClosedLoopRun, MeasurementNoise, run_closed_loop
 from sim.discretisation import Discretisation
 from sim.schedule import Schedule
+from sim.simulation import Run
 from sim.spec import Setup
+from studies.control.tip_controllers import ControllerDesign, tip_controller_named
+from studies.crosscheck.paper import integral_deg_s, settling_s
 
 DEPTHS_CM = (5.0, 10.0, 20.0)
 FREE_MM = (0.0, 50.0)
@@ -35,18 +36,18 @@ CONTROLLERS = (
     "least_time",
 )
 _PUBLISHED = ("base_only", "feedforward", "feedback")
-_WISH_DEG, _START_S, _HOLD_S = 90.0, 0.1, 9.0
+_STEP_DEG, _START_S, _HOLD_S = 90.0, 0.1, 9.0
 _SPEED_MM_S = -2.5
 _STEP_S = 0.002
 DAMPING = slope_per_mm(dict(published.DAMPING_PLASTISOL_N_MM_S))
-DESIGN = Design(needle=NITINOL, damping_n_mm_s_per_mm=DAMPING)
-# What sensors of the paper's rig may add: encoder, six-axis force sensor, Hall sensor.
-NOISE = SensorNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=1)
+DESIGN = ControllerDesign(needle=NITINOL, damping_n_mm_s_per_mm=DAMPING)
+# Plausible for the sensors of the paper's rig: encoder, six-axis force sensor, Hall sensor.
+NOISE = MeasurementNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=1)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Outcome:
-    """One controller on one needle.
+class StepResponse:
+    """Metrics of the step response of one controller on one needle.
 
     Attributes:
       settle_s: NaN where the tip does not settle within 9 s.
@@ -69,7 +70,7 @@ class Outcome:
 
     @property
     def worse_than_none(self) -> bool:
-        """Whether the needle is worse off than with the base alone."""
+        """Whether the response is worse than with the base alone."""
         slower = self.settle_better < 0 or self.integral_better < 0
         return self.controller != "base_only" and (slower or self.overshoot_deg > _WORST_OVERSHOOT_DEG)
 
@@ -77,12 +78,12 @@ class Outcome:
 _WORST_OVERSHOOT_DEG = 10.0
 
 
-def wish(depth_mm: float, free_mm: float, *, speed_mm_s: float) -> Schedule:
-    """A step of the wanted tip angle, at a depth, while the needle slides."""
+def step_reference(depth_mm: float, free_mm: float, *, speed_mm_s: float) -> Schedule:
+    """A step of the reference, at a depth, while the needle slides."""
     time = np.array([0.0, _START_S, _START_S + 1e-6, _START_S + _HOLD_S])
     return Schedule(
         time_s=time,
-        drive=np.array([0.0, 0.0, _WISH_DEG, _WISH_DEG]),
+        drive=np.array([0.0, 0.0, _STEP_DEG, _STEP_DEG]),
         free_mm=free_mm - speed_mm_s * time,
         inserted_mm=np.full(4, depth_mm),
         speed_mm_s=np.full(4, speed_mm_s),
@@ -95,11 +96,11 @@ def turn(
     depth_cm: float,
     free_mm: float,
     tissue: Tissue,
-    design: Design = DESIGN,
-    noise: SensorNoise | None = NOISE,
-) -> Flight:
-    """One turn of the tip by one controller."""
-    pilot = pilot_named(controller, design)
+    design: ControllerDesign = DESIGN,
+    noise: MeasurementNoise | None = NOISE,
+) -> ClosedLoopRun:
+    """One step of the reference, with one controller."""
+    tip_controller = tip_controller_named(controller, design)
     setup = Setup(
         needle=design.needle,
         tissue=tissue,
@@ -108,19 +109,19 @@ def turn(
         inserted_mm=10 * depth_cm,
     )
     speed = _SPEED_MM_S if free_mm > 0 else 0.0
-    inputs = wish(10 * depth_cm, free_mm, speed_mm_s=speed)
-    return fly(setup, inputs, pilot, noise=noise, keep=pilot.log)
+    inputs = step_reference(10 * depth_cm, free_mm, speed_mm_s=speed)
+    return run_closed_loop(setup, inputs, tip_controller, noise=noise, log=tip_controller.signals)
 
 
-def judge(flight: Flight) -> tuple[float, float, float, float]:
+def response_metrics(run: Run) -> tuple[float, float, float, float]:
     """Settling, s; integral, deg s; overshoot of the tip and largest base angle, deg."""
-    after = flight.run.time_s >= _START_S - 1e-9
-    time, error = flight.run.time_s[after], _WISH_DEG - flight.run.tip_deg[after]
+    after = run.time_s >= _START_S - 1e-9
+    time, error = run.time_s[after], _STEP_DEG - run.tip_deg[after]
     return (
         settling_s(time, error),
         integral_deg_s(time, error),
         max(0.0, float(-error.min())),
-        float(flight.run.inputs.drive.max()),
+        float(run.inputs.drive.max()),
     )
 
 
@@ -130,16 +131,16 @@ def compare(
     depth_cm: float,
     free_mm: float,
     controllers: tuple[str, ...] = CONTROLLERS,
-    design: Design = DESIGN,
-) -> list[Outcome]:
-    """Every controller on one needle; the first is what the others are measured by."""
-    found: list[Outcome] = []
+    design: ControllerDesign = DESIGN,
+) -> list[StepResponse]:
+    """Every controller on one needle; improvements are relative to the first."""
+    responses: list[StepResponse] = []
     for name in controllers:
-        flight = turn(name, depth_cm=depth_cm, free_mm=free_mm, tissue=tissue, design=design)
-        settle, integral, overshoot, base = judge(flight)
-        reference = found[0] if found else None
-        found.append(
-            Outcome(
+        run = turn(name, depth_cm=depth_cm, free_mm=free_mm, tissue=tissue, design=design).run
+        settle, integral, overshoot, base = response_metrics(run)
+        baseline = responses[0] if responses else None
+        responses.append(
+            StepResponse(
                 tissue=tissue.name,
                 depth_cm=depth_cm,
                 free_mm=free_mm,
@@ -148,22 +149,22 @@ def compare(
                 integral_deg_s=integral,
                 overshoot_deg=overshoot,
                 largest_base_deg=base,
-                settle_better=_better(settle, reference.settle_s if reference else settle),
-                integral_better=_better(integral, reference.integral_deg_s if reference else integral),
+                settle_better=_better(settle, baseline.settle_s if baseline else settle),
+                integral_better=_better(integral, baseline.integral_deg_s if baseline else integral),
                 published_settle_s=_printed(tissue, published.TABLE_IV_SETTLE_S, depth_cm, name),
                 published_integral_deg_s=_printed(
                     tissue, published.TABLE_V_INTEGRAL_DEG_S, depth_cm, name
                 ),
             )
         )
-    return found
+    return responses
 
 
-def _better(value: float, reference: float) -> float:
-    """Improvement, %: 100 if only the reference never settles, -100 if only this one."""
-    if math.isnan(reference):
+def _better(value: float, baseline: float) -> float:
+    """Improvement, %: 100 if only the baseline never settles, -100 if only this one."""
+    if math.isnan(baseline):
         return 0.0 if math.isnan(value) else 100.0
-    return -100.0 if math.isnan(value) else 100.0 * (1.0 - value / reference)
+    return -100.0 if math.isnan(value) else 100.0 * (1.0 - value / baseline)
 
 
 def _printed(tissue: Tissue, table: Any, depth_cm: float, controller: str) -> float:
@@ -173,19 +174,19 @@ def _printed(tissue: Tissue, table: Any, depth_cm: float, controller: str) -> fl
     return float(table[depth_cm][_PUBLISHED.index(controller)])
 
 
-def tables() -> list[Outcome]:
-    """Tables IV and V: every depth, both readings of the free length."""
+def tables_iv_v() -> list[StepResponse]:
+    """Tables IV and V: every depth, both free lengths."""
     viscous = MATERIALS["viscous-plastisol"]
     return [
-        outcome
+        response
         for depth in DEPTHS_CM
         for free in FREE_MM
-        for outcome in compare(viscous, depth_cm=depth, free_mm=free)
+        for response in compare(viscous, depth_cm=depth, free_mm=free)
     ]
 
 
-def unmodelled() -> dict[str, Tissue]:
-    """Tissues that the estimator takes for the paper's viscous one."""
+def unmodelled_tissues() -> dict[str, Tissue]:
+    """Tissues that differ from the viscous one that the estimator assumes."""
     halves = 2.0 / (1.0 + 4.0)
     return {
         tissue.name: tissue
@@ -218,17 +219,17 @@ ROBUST_CONTROLLERS = (
 )
 
 
-def robustness(depth_cm: float = 10.0, free_mm: float = 50.0) -> list[Outcome]:
-    """The same turn where the tissue is not what the estimator takes it for."""
+def robustness(depth_cm: float = 10.0, free_mm: float = 50.0) -> list[StepResponse]:
+    """The same step in tissue that the estimator does not model."""
     return [
-        outcome
-        for tissue in unmodelled().values()
-        for outcome in compare(
+        response
+        for tissue in unmodelled_tissues().values()
+        for response in compare(
             tissue, depth_cm=depth_cm, free_mm=free_mm, controllers=ROBUST_CONTROLLERS
         )
     ]
 
 
-def as_row(outcome: Outcome) -> dict[str, Any]:
-    """Plain values."""
-    return asdict(outcome) | {"worse_than_none": outcome.worse_than_none}
+def as_row(response: StepResponse) -> dict[str, Any]:
+    """The metrics in plain values, by the names of the CSV's columns."""
+    return asdict(response) | {"worse_than_none": response.worse_than_none}

@@ -1,6 +1,6 @@
 """A recording as a rerun file: the needle in 3-D, its signals, its parameters.
 
-A side stream: nothing that computes imports this module. Times are whole
+Output only: nothing that computes imports this module. Times are whole
 nanoseconds; columns go in at once, so a run of a minute takes milliseconds.
 """
 
@@ -20,7 +20,7 @@ from models.modes import InsertedNeedle
 from models.needle import Needle
 from models.tissue import Tissue
 from sim.files import writing
-from sim.recording import Recording, unit_of
+from sim.recording.recording import Recording, unit_of
 
 Array = NDArray[np.float64]
 
@@ -54,12 +54,12 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
 
 
 def log_recording(
-    recording: Recording, path: Path, *, verdicts: Sequence[str] = (), force: bool = False
+    recording: Recording, path: Path, *, results: Sequence[str] = (), force: bool = False
 ) -> None:
     """Write a recording as `.rrd`, already arranged.
 
     Args:
-      verdicts: lines that the recording shows as its findings.
+      results: lines of text that the recording shows under its title.
 
     Raises:
       OutputExists: the path exists and `force` is not given.
@@ -68,7 +68,7 @@ def log_recording(
     with writing(path, force=force) as part:
         stream = rr.RecordingStream(APPLICATION)
         stream.save(part, default_blueprint=blueprint(recording))
-        _log_text(stream, recording, verdicts)
+        _log_text(stream, recording, results)
         for plot, signals in _PLOTS.items():
             for name, (label, colour) in signals.items():
                 if name in recording.table:
@@ -128,10 +128,10 @@ def log_series(
     stream.send_columns(path, indexes=[time_column(time_s)], columns=rr.Scalars.columns(scalars=values))
 
 
-def _log_text(stream: rr.RecordingStream, recording: Recording, verdicts: Sequence[str]) -> None:
+def _log_text(stream: rr.RecordingStream, recording: Recording, results: Sequence[str]) -> None:
     lines = [f"# {recording.parameters.get('protocol', 'Recording')}", ""]
     lines += [str(recording.parameters.get("description", "")), ""]
-    lines += [f"- {line}" for line in verdicts]
+    lines += [f"- {line}" for line in results]
     lines += ["", "## Signals", ""]
     shown = [c for c in recording.table.columns if not c.startswith(("shaft_", "tissue_"))]
     lines += [f"- `{name}`, {unit_of(name)}" for name in shown]

@@ -1,0 +1,1 @@
+"""What is computed with the simulator, the controllers and the diagnosis together."""
