@@ -11,8 +11,8 @@ from rich.table import Table
 from diagnosis.replay import Replay, replay
 from diagnosis.rig_log import SENSORS, RigLog, read_rig_log
 from sim.files import refuse_existing, writing
-from sim.recording import record
-from sim.rerun_log import log_recording
+from sim.recording.recording import record
+from sim.recording.rerun_log import log_recording
 
 _NOISE = {"tip_angle_deg": "tip_angle_noise_deg", "base_torque_n_mm": "base_torque_noise_n_mm"}
 
@@ -67,9 +67,9 @@ def write(log: RigLog, replays: list[Replay], folder: Path, *, force: bool) -> N
             pd.DataFrame(columns).to_csv(part, index=False, float_format="%.6g")
     _draw(replays, picture, force=force)
     first = replays[0]
-    verdicts = [f"gap, {s}: {gap(log, first, s):.2f} noise" for s in SENSORS]
+    results = [f"gap, {s}: {gap(log, first, s):.2f} noise" for s in SENSORS]
     parameters = {"protocol": first.trial.name, "description": "the nominal needle on a rig's motion"}
-    log_recording(record(first.run, parameters), rrd, verdicts=verdicts, force=force)
+    log_recording(record(first.run, parameters), rrd, results=results, force=force)
 
 
 def _draw(replays: list[Replay], path: Path, *, force: bool) -> None:

@@ -16,10 +16,10 @@ from models.errors import InvalidValue, UnknownName
 from models.materials import tissue_named
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.control import steering, tables
-from sim.control.flown import perform_flown
-from sim.control.pilots import PILOTS, Design, pilot_named
 from sim.paper_protocols import protocol_named
+from studies.control import steering, tables
+from studies.control.closed_loop_run import perform_closed_loop
+from studies.control.tip_controllers import TIP_CONTROLLERS, Design, tip_controller_named
 
 BETA = tables.DAMPING
 LIMITS = MotorLimits()
@@ -150,7 +150,9 @@ def test_at_its_torque_limit_the_base_goes_no_further_but_may_go_back():
 
 def test_a_plan_respects_rate_and_torque():
     limits = MotorLimits(rate_deg_s=400, torque_n_mm=1.5)
-    pilot = pilot_named("least_time", Design(needle=NITINOL, damping_n_mm_s_per_mm=BETA, limits=limits))
+    pilot = tip_controller_named(
+        "least_time", Design(needle=NITINOL, damping_n_mm_s_per_mm=BETA, limits=limits)
+    )
     design = Design(needle=NITINOL, damping_n_mm_s_per_mm=BETA, limits=limits)
     flight = tables.turn(
         "least_time", depth_cm=10, free_mm=50, tissue=VISCOUS, design=design, noise=None
@@ -208,10 +210,10 @@ def test_an_impossible_controller_is_refused_at_construction(make, field):
 
 def test_unknown_controllers_are_answered_with_the_known_ones():
     with pytest.raises(UnknownName, match="least_time"):
-        pilot_named("magic", tables.DESIGN)
+        tip_controller_named("magic", tables.DESIGN)
 
 
-@pytest.mark.parametrize("name", PILOTS)
+@pytest.mark.parametrize("name", TIP_CONTROLLERS)
 def test_every_pilot_flies_an_insertion_from_the_surface(name):
     short = protocol_named("insertion").but(
         segments=[
@@ -221,7 +223,7 @@ def test_every_pilot_flies_an_insertion_from_the_surface(name):
         ],
         tissue="viscous-plastisol",
     )
-    recording = perform_flown(short, name)
+    recording = perform_closed_loop(short, name)
     assert np.isfinite(recording.table.to_numpy()).all()
     assert abs(recording["tip_angle_deg"][-1] - 90) < 3
     assert "path_z_mm" in recording.table

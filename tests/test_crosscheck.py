@@ -9,10 +9,10 @@ from models.drive import DriveKind
 from models.errors import OutputExists
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.crosscheck import motion, paper, poles
-from sim.crosscheck.findings import Check, Comparison, Findings, Pole
-from sim.crosscheck.report import FILES, write_report
 from sim.spec import Setup
+from studies.crosscheck import motion, paper, poles
+from studies.crosscheck.findings import Check, Comparison, Findings, Pole
+from studies.crosscheck.report import FILES, write_report
 
 
 @pytest.fixture(scope="module")

@@ -26,7 +26,7 @@ from diagnosis.rig_model import RigModel
 from diagnosis.verdict import Outcome
 from diagnosis.whiteness import floor_of
 from scripts.main import main
-from sim.rerun_table import entries
+from sim.recording.rerun_table import entries
 
 VOCABULARY = {
     "coulomb_friction": "interface",

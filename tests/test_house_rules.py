@@ -3,20 +3,29 @@
 import ast
 import re
 import tomllib
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parent.parent
-PACKAGES = ("models", "sim", "controllers", "diagnosis", "scripts", "benchmarks", "tests")
+PACKAGES = ("models", "sim", "controllers", "studies", "diagnosis", "scripts", "benchmarks", "tests")
 MAY_IMPORT = {
     "models": {"models"},
     "controllers": {"controllers", "models"},
-    "sim": {"sim", "controllers", "models"},
+    "sim": {"sim", "models"},
     "diagnosis": {"diagnosis", "sim", "models"},
-    "scripts": {"scripts", "diagnosis", "controllers", "sim", "models"},
+    "studies": {"studies", "diagnosis", "sim", "controllers", "models"},
+    "scripts": {"scripts", "studies", "diagnosis", "controllers", "sim", "models"},
 }
-SIDE_STREAMS = {"sim/rerun_log.py", "sim/rerun_table.py"}
+# Inside a package the direction is one too: of its folders, each imports only these.
+MAY_IMPORT_INSIDE = {
+    "sim.kernel": {"sim.kernel"},
+    "sim.recording": {"sim", "sim.kernel", "sim.recording"},
+    "studies.crosscheck": {"studies.crosscheck"},
+    "studies.control": {"studies.control", "studies.crosscheck"},
+}
+SIDE_STREAMS = {"sim/recording/rerun_log.py", "sim/recording/rerun_table.py"}
 
 
 def sources(package):
@@ -41,7 +50,46 @@ def test_imports_run_one_way(package):
     for path in sources(package):
         ours = {name.split(".")[0] for name in imported(path)} & set(PACKAGES)
         scorer = {"benchmarks"} if path.relative_to(ROOT).as_posix() == SCORER else set()
-        assert ours <= MAY_IMPORT[package] | scorer, path
+        paper = {"studies"} if "diagnosis/paper/" in path.as_posix() else set()
+        assert ours <= MAY_IMPORT[package] | scorer | paper, path
+
+
+@pytest.mark.parametrize("folder", MAY_IMPORT_INSIDE)
+def test_imports_run_one_way_inside_a_package_too(folder):
+    package = folder.split(".")[0]
+    for path in sources(folder.replace(".", "/")):
+        inside = {name for name in imported(path) if name.split(".")[0] == package}
+        assert {_folder_of(name) for name in inside} <= MAY_IMPORT_INSIDE[folder], path
+
+
+def _folder_of(name):
+    """The package that holds a module, or a package itself."""
+    parts = name.split(".")
+    return name if (ROOT / Path(*parts)).is_dir() else ".".join(parts[:-1])
+
+
+def _module(path):
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def _imported_modules(path, modules):
+    """Modules that a file imports, whether as a module or as a name from its package."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in modules)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names = {f"{node.module}.{alias.name}" for alias in node.names} & modules
+            yield from names or {node.module} & modules
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    paths = {_module(path): path for package in MAY_IMPORT for path in sources(package)}
+    graph = {name: set(_imported_modules(path, set(paths))) for name, path in paths.items()}
+    TopologicalSorter(graph).prepare()  # raises CycleError, which names the modules
+    looped = graph | {"models.errors": {"models.needle"}}
+    with pytest.raises(CycleError):
+        TopologicalSorter(looped).prepare()
 
 
 def test_the_blind_rig_shares_no_code_with_the_product():
@@ -64,11 +112,13 @@ def test_physics_never_imports_rerun():
             if path.relative_to(ROOT).as_posix() in SIDE_STREAMS:
                 continue
             names = set(imported(path))
-            assert not any(n.split(".")[0] == "rerun" or n.startswith("sim.rerun") for n in names), path
+            assert not any(
+                n.split(".")[0] == "rerun" or n.startswith("sim.recording.rerun") for n in names
+            ), path
 
 
 def test_print_and_pickle_stay_out_of_the_library():
-    for package in ("models", "sim", "controllers", "diagnosis"):
+    for package in ("models", "sim", "controllers", "studies", "diagnosis"):
         for path in sources(package):
             text = path.read_text()
             assert not re.search(r"(?<![\w.])print\(", text), path

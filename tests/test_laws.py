@@ -17,7 +17,7 @@ from models.drive import Drive
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.schedule import Schedule
 from sim.simulation import simulate
 from sim.spec import Setup
@@ -251,7 +251,7 @@ def test_dry_friction_truly_sticks():
 def test_no_law_creates_energy(case):
     _, rig, _ = CASES[case]
     ours = run_ours(rig, inputs_of(case))
-    dissipated = ours.outputs[:, wire.O_DISSIPATED]
+    dissipated = ours.outputs[:, memory_map.O_DISSIPATED]
     # Presliding gives back what it stored, level z_y / 2 per mm, and the loads at the entry
     # are not exactly adjoint to the rates: both below a part in a thousand.
     assert np.diff(dissipated).min() > -1e-3 * dissipated[-1]

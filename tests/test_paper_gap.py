@@ -34,7 +34,7 @@ from models.errors import OutputExists
 from models.modes import InsertedNeedle, ramp
 from models.needle import NITINOL
 from scripts import paper_gap
-from sim.crosscheck.paper import integral_deg_s
+from studies.crosscheck.paper import integral_deg_s
 
 BETA = 3.45 / 200
 MODEL_READING = PaperRig(free_mm=0.0)

@@ -11,9 +11,9 @@ from models.needle import NITINOL
 from sim.experiment import perform
 from sim.files import writing
 from sim.paper_protocols import protocol_named
-from sim.recording import Recording, UnreadableRecording, read, unit_of
-from sim.rerun_log import log_recording, modal_amplitudes_deg
-from sim.rerun_table import NotARecording, entries
+from sim.recording.recording import Recording, UnreadableRecording, read, unit_of
+from sim.recording.rerun_log import log_recording, modal_amplitudes_deg
+from sim.recording.rerun_table import NotARecording, entries
 
 
 @pytest.fixture(scope="module")

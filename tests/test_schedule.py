@@ -59,7 +59,7 @@ def test_steps_reach_the_end_and_keep_the_inputs_straight():
 
 
 def test_constant_depth_stands_in_the_tissue_and_growing_depth_goes_with_the_needle():
-    assert Schedule(**columns()).mesh is Mesh.TISSUE
+    assert Schedule(**columns()).mesh is Mesh.EULERIAN
     growing = Schedule(**columns(inserted_mm=np.array([0.0, 10.0, 20.0, 30.0])))
-    assert growing.mesh is Mesh.NEEDLE
+    assert growing.mesh is Mesh.LAGRANGIAN
     assert growing.longest_mm == 80.0

@@ -12,12 +12,12 @@ from models.modes import InsertedNeedle
 from models.needle import NITINOL
 from models.statespace import modal_system
 from models.tissue import Tissue
-from sim.crosscheck import motion
 from sim.discretisation import Arrangement, Discretisation, Mesh
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.schedule import Schedule
 from sim.simulation import compile_model, controls, initial_data, simulate
 from sim.spec import Setup
+from studies.crosscheck import motion
 
 BETA = 0.01725
 
@@ -34,7 +34,7 @@ def schedule(time, drive, *, inserted=100.0, free=50.0, speed=0.0):
     )
 
 
-def setup(tissue=None, *, free=50.0, inserted=100.0, drive=None, mesh=Mesh.TISSUE, rows=0, **cut):
+def setup(tissue=None, *, free=50.0, inserted=100.0, drive=None, mesh=Mesh.EULERIAN, rows=0, **cut):
     return Setup(
         needle=NITINOL,
         tissue=tissue or Tissue.uniform(viscous_n_mm_s_per_mm=BETA),
@@ -106,7 +106,7 @@ def test_siblings_land_where_the_chain_lands(tissue):
 
 def test_mujoco_lands_where_the_callback_wants_it():
     run = simulate([setup(DRY)], TURN)[0]
-    assert run.outputs[-1, wire.O_LANDING] < 1e-12
+    assert run.outputs[-1, memory_map.O_LANDING] < 1e-12
     assert run.unconverged == 0
 
 
@@ -188,7 +188,7 @@ def test_a_needle_at_a_depth_behaves_alike_on_either_mesh():
     """Nodes fixed to the needle or to the tissue: the same needle, deep and at rest."""
     moves = schedule([0, 0.3, 3], [0, 90, 90], inserted=100, free=60)
     fixed = simulate([setup(free=60, inserted=100, elements=64)], moves)[0]
-    along = simulate([setup(free=60, inserted=100, elements=64, mesh=Mesh.NEEDLE)], moves)[0]
+    along = simulate([setup(free=60, inserted=100, elements=64, mesh=Mesh.LAGRANGIAN)], moves)[0]
     assert np.abs(fixed.tip_deg - along.tip_deg).max() < 5e-3
 
 
@@ -205,7 +205,7 @@ def test_both_meshes_agree_on_a_needle_that_slides_through(slip):
         speed_mm_s=np.full(4, speed),
     )
     tissue = simulate([setup(free=free, inserted=inserted, elements=48, slip=slip)], inputs)[0]
-    along = setup(free=free, inserted=inserted + beyond, elements=96, slip=slip, mesh=Mesh.NEEDLE)
+    along = setup(free=free, inserted=inserted + beyond, elements=96, slip=slip, mesh=Mesh.LAGRANGIAN)
     needle = simulate([along], inputs)[0]
     # The needle's mesh meets the edges of the tissue inside its elements: (180/96)^2 / 12 ~ 0.3
     # of a node's load moves by a fraction of 1.9 mm; of 90 deg over 150 mm that is 0.03 deg.

@@ -11,10 +11,10 @@ from models.errors import InvalidValue
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT, cover, place_nodes
-from sim.layout import read_layout
+from sim.kernel.struct_offsets import read_struct_offsets
 from sim.spec import Setup, needle_spec
 
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.01725)
@@ -41,7 +41,7 @@ def test_joint_springs_in_series_are_the_torsion_of_the_whole_shaft():
 
 
 def test_capsules_follow_one_another_along_the_shaft():
-    model = needle_spec(setup(mesh=Mesh.NEEDLE)).compile()
+    model = needle_spec(setup(mesh=Mesh.LAGRANGIAN)).compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     sizes = np.array([model.geom(f"shaft_{i}").size[1] for i in range(model.nq - 1)])
@@ -55,7 +55,7 @@ def test_the_model_stands_and_turns_in_plain_mujoco(tmp_path):
     path = tmp_path / "needle.xml"
     path.write_text(needle_spec(setup()).to_xml())
     model = mujoco.MjModel.from_xml_path(str(path))
-    model.numeric("needle").data[wire.H_MAGIC] = 0.0  # not ours: the callback passes
+    model.numeric("needle").data[memory_map.H_MAGIC] = 0.0  # not ours: the callback passes
     data = mujoco.MjData(model)
     data.ctrl[:2] = 1.0, 0.01
     mujoco.mj_step(model, data, 100)
@@ -86,7 +86,7 @@ def test_a_mesh_in_layered_tissue_has_nodes_at_the_boundaries():
 def test_elements_too_light_for_mujoco_are_refused_with_the_way_out():
     thin = NITINOL.but(diameter_mm=0.05)
     with pytest.raises(InvalidValue, match="fewer elements"):
-        needle_spec(Setup(needle=thin, tissue=VISCOUS, free_mm=0, inserted_mm=10, mesh=Mesh.TISSUE))
+        needle_spec(Setup(needle=thin, tissue=VISCOUS, free_mm=0, inserted_mm=10, mesh=Mesh.EULERIAN))
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_impossible_lengths_are_refused(free, inserted, field):
 
 
 def test_offsets_of_mujocos_structs_agree_with_the_bindings():
-    layout = read_layout()  # raises where they do not
+    layout = read_struct_offsets()  # raises where they do not
     assert layout.data["qpos"] != layout.data["qvel"]
 
 
@@ -115,8 +115,8 @@ def test_other_models_pass_the_callback_untouched():
 
 
 def _row(top, end):
-    row = np.zeros(wire.COLUMNS)
-    row[wire.L_TOP_CONST], row[wire.L_END_CONST] = top, end
+    row = np.zeros(memory_map.COLUMNS)
+    row[memory_map.L_TOP_CONST], row[memory_map.L_END_CONST] = top, end
     return row
 
 
@@ -145,8 +145,8 @@ def test_inside_a_covered_stretch_damping_is_half_lumped_half_consistent():
 
 
 def test_a_mesh_fixed_to_the_tissue_stretches_only_its_free_part():
-    head = np.zeros(wire.HEADER)
-    head[wire.H_STRETCHING], head[wire.H_FREE_REF] = 2, 1.0
+    head = np.zeros(memory_map.HEADER)
+    head[memory_map.H_STRETCHING], head[memory_map.H_FREE_REF] = 2, 1.0
     mesh, x = np.array([0, 0.5, 1.0, 1.5, 2.0]), np.zeros(5)
     place_nodes(head, mesh, 1.2, x)
     assert x == pytest.approx([0, 0.6, 1.2, 1.7, 2.2])
