@@ -35,7 +35,7 @@ from diagnosis.predict import predict
 from diagnosis.report import write_report
 from diagnosis.rig_log import read_rig_log
 from diagnosis.rig_model import RigModel
-from sim.kernel.callback import install
+from sim.simulation import prepare_processes
 
 WORKERS = 2
 PLAN = Plan(trials=5, total_s=120.0, rate_hz=100, sliding=0.4, growing=0.0, loaded=0.0)
@@ -128,7 +128,7 @@ def cost(folder: Path) -> Cost:
 def _cost(folder: Path, usual: str) -> Cost:
     multiprocessing.set_start_method(usual, force=True)
     stages, start_s = Stages(), _cpu_s()
-    install()
+    prepare_processes()
     stages.mark(_LOADING)
     log = read_rig_log(folder)
     stages.mark(_READING)
@@ -220,7 +220,7 @@ def _goals(costs: dict[str, Cost], grown: list[Cost]) -> list[report.Goal]:
 
 def run(folder: Path) -> list[report.Goal]:
     """Measure, print, write."""
-    install()  # compiled here, if at all: processes of their own load it
+    prepare_processes()  # compiled here, if at all: processes of their own load it
     logs = folder / "diagnosis-logs"
     whole = {
         _ONE: cost(write_log(logs / "one", PLAN, SINGLE)),

@@ -18,7 +18,7 @@ from diagnosis.noise import Noise
 from diagnosis.predict import Prediction
 from diagnosis.rig_log import SENSORS, Trial
 from sim.files import writing
-from sim.rerun_log import APPLICATION, log_series
+from sim.recording.rerun_log import APPLICATION, log_series
 
 Array = NDArray[np.float64]
 

@@ -40,7 +40,7 @@ SLIP_GROWING = Effect(name="slip_growing", place=Place.INTERFACE, parameters=(_S
 def nuisance_of(log: RigLog) -> tuple[Effect, ...]:
     """What every fit of a log leaves open."""
     sliding = [t for t in log.trials if (abs(t["speed_mm_s"]) > _SLIDING_MM_S).any()]
-    growing = [t.schedule().mesh is Mesh.NEEDLE for t in sliding]
+    growing = [t.schedule().mesh is Mesh.LAGRANGIAN for t in sliding]
     slips = [SLIP_STANDING] if not all(growing) else []
     slips += [SLIP_GROWING] if any(growing) else []
     return (*(LIBRARY[name] for name in SCATTER), *slips)

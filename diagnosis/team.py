@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from models.errors import NeedleError
-from sim.kernel.callback import install
+from sim.simulation import prepare_processes
 
 Progress = Callable[[str, float], None]
 T = TypeVar("T")
@@ -43,7 +43,7 @@ class Team:
 @contextmanager
 def team(workers: int, progress: Progress = silent) -> Iterator[Team]:
     """A team of processes, which inherit the compiled callback; 1 works in this one."""
-    install()
+    prepare_processes()
     if workers <= 1:
         yield Team(progress=progress)
         return

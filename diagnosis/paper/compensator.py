@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from diagnosis.paper.tried import READINGS, stated
 from models import published
 from models.materials import MATERIALS
-from sim.control.tables import judge, turn
+from studies.control.tables import response_metrics, turn
 
 _COLUMNS = {"feedforward": 1, "feedback": 2}  # of the published tables
 
@@ -35,8 +35,8 @@ def compensated() -> tuple[Compensated, ...]:
     for controller, column in _COLUMNS.items():
         for depth in published.TABLE_IV_SETTLE_S:
             for base in READINGS:
-                flight = turn(controller, depth_cm=depth, free_mm=base.free_mm, tissue=tissue)
-                ours = judge(flight)
+                run = turn(controller, depth_cm=depth, free_mm=base.free_mm, tissue=tissue).run
+                ours = response_metrics(run)
                 found += [
                     Compensated(
                         name=f"{table}, {controller}, {depth:g} cm",

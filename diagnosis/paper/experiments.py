@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from diagnosis.paper.figures import Experiment, Measure
 from diagnosis.paper.rig import TURN_DEG, PaperRig
-from sim.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 from sim.schedule import Schedule
 from sim.simulation import Run
+from studies.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 
 Array = NDArray[np.float64]
 Readings = dict[Measure, float]
