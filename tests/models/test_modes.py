@@ -1,16 +1,14 @@
-"""Closed forms against independent ones: matrices, transforms and quadrature."""
+"""Modes and responses of the continuous needle against integration and a matrix exponential."""
 
 import control
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from models import lumped
 from models.drive import DriveKind
 from models.errors import InvalidValue
 from models.modes import InsertedNeedle, ramp
 from models.needle import NITINOL
-from models.statespace import full_modal_system, hankel_ratios, modal_system
 
 BETA = 0.01725
 
@@ -26,21 +24,6 @@ def test_poles_of_a_torque_driven_needle_go_as_the_squares():
     assert poles[1:] / poles[1] == pytest.approx([1, 4, 9, 16])
     # paper-stated constants: -pi^2 kappa / (l b)
     assert poles[1] == pytest.approx(-(np.pi**2) * 323.5764 / (200 * 3.45), rel=1e-6)
-
-
-def test_lumped_poles_are_the_continuous_ones_times_sinc_squared():
-    needle, masses = held(drive=DriveKind.TORQUE), 64
-    x = np.arange(1, 5) * np.pi / (2 * masses)
-    expected = needle.poles_rad_s(5)[1:] * (np.sin(x) / x) ** 2
-    # inertia moves the slow poles by less than 1e-6
-    assert lumped.poles_rad_s(needle, masses=masses, count=5)[1:] == pytest.approx(expected, rel=1e-6)
-
-
-def test_the_lumped_stiffness_is_equation_4():
-    matrix = lumped.stiffness_n_mm(held(), 5)
-    assert matrix.sum(axis=1) == pytest.approx(np.zeros(5))
-    assert matrix[0, 0] == pytest.approx(-matrix[0, 1])
-    assert matrix[2, 2] == pytest.approx(2 * matrix[0, 0])
 
 
 @pytest.mark.parametrize("free", [5.0, 50.0, 300.0])
@@ -70,8 +53,8 @@ def test_poles_with_inertia_are_roots_of_the_wave_equation(drive, free):
             lambda _, y, k=stiff: [y[1], k * y[0]], (0, length), shape, rtol=1e-11, atol=1e-13
         )
         shape = there.y[:, -1]
-    missed = shape[0] if drive is DriveKind.ANGLE else shape[1] * 200
-    assert abs(missed) < 1e-7
+    residual = shape[0] if drive is DriveKind.ANGLE else shape[1] * 200
+    assert abs(residual) < 1e-7
 
 
 def test_inertia_moves_the_slow_poles_by_less_than_the_paper_says():
@@ -113,41 +96,6 @@ def test_the_ramp_response_agrees_with_the_lumped_needle(free):
     if free:  # without a free length the series of the torque converges too slowly to compare
         torque = entry * (base - first)
         assert np.abs(exact.base_torque_n_mm - torque).max() < 5e-3 * torque.max()
-
-
-def test_the_state_space_has_the_poles_and_the_dc_gain_of_the_needle():
-    needle = held(free=50.0)
-    system = modal_system(needle, modes=6)
-    assert np.sort(system.poles().real)[::-1] == pytest.approx(
-        held(drive=DriveKind.TORQUE).poles_rad_s(6), abs=1e-9
-    )
-    # a steady torque turns base and tip at one rate, u / b, with the lag of equation (2)
-    time = np.linspace(0, 40, 4001)
-    base, tip, _ = control.forced_response(
-        modal_system(needle, modes=200), time, np.ones_like(time)
-    ).outputs
-    rate = (tip[-1] - tip[-101]) / (time[-1] - time[-101])
-    assert rate == pytest.approx(1 / needle.damping_n_mm_s, rel=1e-6)
-    lag = (50 + 100) / NITINOL.rigidity_n_mm2
-    assert base[-1] - tip[-1] == pytest.approx(lag, rel=5e-3)  # 200 modes: the tail is 1/200
-
-
-def test_the_full_modal_system_has_slow_and_fast_poles():
-    needle = held(drive=DriveKind.TORQUE)
-    poles = np.sort(full_modal_system(needle, modes=4).poles().real)[::-1]
-    assert poles[1:4] == pytest.approx(needle.poles_with_inertia_rad_s(4)[1:], rel=1e-4)
-    assert poles[4:] == pytest.approx(np.full(4, -BETA / NITINOL.rotary_inertia_kg_m), rel=1e-6)
-
-
-def test_the_papers_reading_of_the_tip_differs_by_half_of_mode_zero():
-    system = modal_system(held(), modes=4)
-    assert (system.C[2] - system.C[1]).tolist() == [0.5, 0, 0, 0]
-
-
-def test_hankel_ratios_fall_and_start_at_one():
-    ratios = hankel_ratios(held(), modes=6)
-    assert ratios[0] == 1.0
-    assert np.all(np.diff(ratios) < 0)
 
 
 @pytest.mark.parametrize(
