@@ -88,7 +88,9 @@ def _setup(tissue: Tissue, *, free_mm: float, inserted_mm: float) -> Setup:
     )
 
 
-def steered_insertions(tissue: Tissue = MATERIALS["viscous-plastisol"]) -> list[SteeredInsertion]:
+def steered_insertions(
+    tissue: Tissue = MATERIALS["viscous-plastisol"], *, controllers: tuple[str, ...] = STEERED[2:]
+) -> list[SteeredInsertion]:
     """Every insertion of Figs. 11 and 12, and one by our fastest controller."""
     inputs = half_turns()
     arc = np.linspace(0.0, _LENGTH_MM, 701)
@@ -100,7 +102,7 @@ def steered_insertions(tissue: Tissue = MATERIALS["viscous-plastisol"]) -> list[
             name="baseline_left", controlled=None, path_mm=path_mm(arc, np.full(arc.size, np.pi))
         ),
     ]
-    for name in STEERED[2:]:
+    for name in controllers:
         controller = tip_controller_named(name, DESIGN)
         setup = _setup(tissue, free_mm=_FREE_MM, inserted_mm=0.0)
         controlled = run_closed_loop(setup, inputs, controller, log=controller.signals, keep_shape=True)
@@ -183,6 +185,7 @@ def approach_plane(
     start_mm: float = 100.0,
     travel_mm: float = 120.0,
     speed_mm_s: float = 10.0,
+    cases: tuple[str, ...] = tuple(PLANAR_CASES),
 ) -> list[PlaneApproach]:
     """The planar controller in each of the `PLANAR_CASES`."""
     time = np.array([0.0, travel_mm / speed_mm_s])
@@ -195,7 +198,8 @@ def approach_plane(
         speed_mm_s=np.full(2, speed_mm_s),
     )
     approaches = []
-    for name, controller in PLANAR_CASES.items():
+    for name in cases:
+        controller = PLANAR_CASES[name]
         inner = tip_controller_named(controller, DESIGN) if controller else None
         planar = CascadedPlanarController(inner, height_mm=height_mm)
         setup = _setup(tissue, free_mm=50.0 + travel_mm, inserted_mm=start_mm)

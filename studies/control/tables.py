@@ -36,7 +36,7 @@ CONTROLLERS = (
     "least_time",
 )
 _PUBLISHED = ("base_only", "feedforward", "feedback")
-_STEP_DEG, _START_S, _HOLD_S = 90.0, 0.1, 9.0
+_STEP_DEG, _START_S, HOLD_S = 90.0, 0.1, 9.0
 _SPEED_MM_S = -2.5
 _STEP_S = 0.002
 DAMPING = slope_per_mm(dict(published.DAMPING_PLASTISOL_N_MM_S))
@@ -78,9 +78,11 @@ class StepResponse:
 _WORST_OVERSHOOT_DEG = 10.0
 
 
-def step_reference(depth_mm: float, free_mm: float, *, speed_mm_s: float) -> Schedule:
+def step_reference(
+    depth_mm: float, free_mm: float, *, speed_mm_s: float, hold_s: float = HOLD_S
+) -> Schedule:
     """A step of the reference, at a depth, while the needle slides."""
-    time = np.array([0.0, _START_S, _START_S + 1e-6, _START_S + _HOLD_S])
+    time = np.array([0.0, _START_S, _START_S + 1e-6, _START_S + hold_s])
     return Schedule(
         time_s=time,
         drive=np.array([0.0, 0.0, _STEP_DEG, _STEP_DEG]),
@@ -98,6 +100,7 @@ def turn(
     tissue: Tissue,
     design: ControllerDesign = DESIGN,
     noise: MeasurementNoise | None = NOISE,
+    hold_s: float = HOLD_S,
 ) -> ClosedLoopRun:
     """One step of the reference, with one controller."""
     tip_controller = tip_controller_named(controller, design)
@@ -109,7 +112,7 @@ def turn(
         inserted_mm=10 * depth_cm,
     )
     speed = _SPEED_MM_S if free_mm > 0 else 0.0
-    inputs = step_reference(10 * depth_cm, free_mm, speed_mm_s=speed)
+    inputs = step_reference(10 * depth_cm, free_mm, speed_mm_s=speed, hold_s=hold_s)
     return run_closed_loop(setup, inputs, tip_controller, noise=noise, log=tip_controller.signals)
 
 
@@ -132,11 +135,18 @@ def compare(
     free_mm: float,
     controllers: tuple[str, ...] = CONTROLLERS,
     design: ControllerDesign = DESIGN,
+    hold_s: float = HOLD_S,
 ) -> list[StepResponse]:
-    """Every controller on one needle; improvements are relative to the first."""
+    """Every controller on one needle; improvements are relative to the first.
+
+    Args:
+      hold_s: how long the reference is held: a tip that has not settled then never does.
+    """
     responses: list[StepResponse] = []
     for name in controllers:
-        run = turn(name, depth_cm=depth_cm, free_mm=free_mm, tissue=tissue, design=design).run
+        run = turn(
+            name, depth_cm=depth_cm, free_mm=free_mm, tissue=tissue, design=design, hold_s=hold_s
+        ).run
         settle, integral, overshoot, base = response_metrics(run)
         baseline = responses[0] if responses else None
         responses.append(

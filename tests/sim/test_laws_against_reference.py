@@ -147,9 +147,9 @@ CASES = {
 
 def motion(speed, tip_torque=0.0):
     """A turn, a hold, a reversal past the start, a slow turn."""
-    time = np.linspace(0, 6, 601)
-    corners = [0, 0.5, 1.5, 2.5, 3.0, 4.0, 6.0]
-    drive = np.interp(time, corners, [0, 0, 90, 90, -30, -30, 10])
+    time = np.linspace(0, 3.7, 371)
+    corners = [0, 0.2, 1.2, 1.7, 2.2, 2.7, 3.7]
+    drive = np.interp(time, corners, [0, 0, 90, 90, -30, -30, -10])
     return Schedule(
         time_s=time,
         drive=drive,

@@ -1,17 +1,11 @@
-"""Protocols: the paper's by name, one's own in YAML, and what is refused."""
-
-from pathlib import Path
+"""Protocols: schedules from segments, YAML files, and what is refused."""
 
 import numpy as np
 import pytest
 
-from models.errors import InvalidValue, UnknownName
-from sim.experiment import perform, step_error_deg
-from sim.paper_protocols import PROTOCOLS, protocol_named
+from models.errors import InvalidValue
+from models.needle import NITINOL
 from sim.protocol import Protocol, read_protocol
-from sim.simulation import simulate
-
-EXAMPLE = Path(__file__).parent.parent / "examples" / "protocol.yaml"
 
 
 def protocol(**changes):
@@ -24,20 +18,6 @@ def protocol(**changes):
         "segments": [{"duration_s": 1, "turn_deg": 90}],
     }
     return Protocol(**(good | changes))
-
-
-@pytest.mark.parametrize("name", PROTOCOLS)
-def test_every_named_protocol_runs_and_converges(name):
-    made = protocol_named(name)
-    assert made.name == name
-    recording = perform(made)
-    assert recording["unconverged_count"][-1] == 0
-    assert recording["time_s"][-1] == pytest.approx(sum(s.duration_s for s in made.segments))
-
-
-def test_an_unknown_protocol_is_answered_with_the_known_ones():
-    with pytest.raises(UnknownName, match="fig4-10cm"):
-        protocol_named("fig99")
 
 
 def test_segments_follow_one_another():
@@ -89,25 +69,6 @@ def test_what_is_wrong_is_named(changes, field):
         protocol(**changes)
 
 
-def test_a_step_too_large_for_the_accuracy_is_an_error_that_says_which_would_do():
-    hasty = protocol(
-        segments=[{"duration_s": 0.3, "turn_deg": 90}, {"duration_s": 2}],
-        accuracy_deg=1e-3,
-        discretisation={"step_s": 0.05},
-    )
-    with pytest.raises(InvalidValue, match=r"step_s.*try") as raised:
-        perform(hasty)
-    suggested = float(raised.value.fix.split()[1])
-    enough = hasty.but(discretisation={"step_s": suggested}, accuracy_deg=None)
-    run = simulate([enough.setup()], enough.schedule())[0]
-    assert step_error_deg(enough, run) < 1.5e-3
-
-
-def test_the_example_protocol_is_read_and_runs():
-    recording = perform(read_protocol(EXAMPLE))
-    assert recording.parameters["tip_error_deg"] < 0.2
-
-
 @pytest.mark.parametrize(
     "text", ["", "just words", "- a\n- list", "name: [unclosed", "name: &a [*a]", "name: x"]
 )
@@ -123,16 +84,20 @@ def test_a_missing_file_is_named(tmp_path):
         read_protocol(tmp_path / "nothing.yaml")
 
 
-def test_dry_friction_holds_the_tip_until_retraction_lets_it_go():
-    """Section II-B3: the lag of (2) stays while nothing slides, and goes when it does."""
-    recording = perform(protocol_named("fig3-simtest"))
-    lag = recording["base_angle_deg"] - recording["tip_angle_deg"]
-    time = recording["time_s"]
-    assert lag[(time > 21) & (time < 29.9)] == pytest.approx(49.58, abs=0.05)
-    assert abs(lag[-1]) < 0.1
+def written(path, modulus):
+    path.write_text(
+        "name: typo\ntissue: viscous-plastisol\nfree_mm: 50\ninserted_mm: 100\nthrough: true\n"
+        "segments: [{duration_s: 1}]\n"
+        f"needle: {{diameter_mm: 0.59, shear_modulus_gpa: {modulus}, density_g_cm3: 6.45}}\n"
+    )
+    return path
 
 
-def test_dither_frees_most_of_the_lag():
-    recording = perform(protocol_named("stiction-dither"))
-    lag = recording["base_angle_deg"] - recording["tip_angle_deg"]
-    assert abs(lag[-1]) < 0.05 * lag[recording["time_s"] < 7].max()
+def test_a_file_with_a_stiffness_in_another_unit_is_refused_with_how_to_fix_it(tmp_path):
+    with pytest.raises(InvalidValue, match=r"shear_modulus_gpa: .*1000 GPa, found 27200.0; .*in GPa"):
+        read_protocol(written(tmp_path / "p.yaml", 27200))
+    assert read_protocol(written(tmp_path / "p.yaml", 1000)).needle.shear_modulus_gpa == 1000
+
+
+def test_a_protocol_made_in_python_may_vary_its_stiffness_beyond_what_a_file_may_hold():
+    assert protocol(needle=NITINOL.but(shear_modulus_gpa=1001)).needle.shear_modulus_gpa == 1001

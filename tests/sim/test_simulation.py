@@ -1,6 +1,8 @@
 """The simulated needle against closed forms; batches, states and convergence order."""
 
 import math
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import mujoco
 import numpy as np
@@ -15,7 +17,7 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
 from sim.schedule import Schedule
-from sim.simulation import compile_model, controls, initial_data, simulate
+from sim.simulation import compile_model, controls, initial_data, prepare_processes, simulate
 from sim.spec import Setup
 from studies.crosscheck import motion
 
@@ -163,7 +165,7 @@ def test_calling_forward_again_changes_nothing():
     assert np.array_equal(run(0), run(3))
 
 
-def test_setups_of_different_layout_are_refused_together():
+def test_setups_of_different_size_are_refused_together():
     with pytest.raises(InvalidValue, match="same number of elements"):
         simulate([setup(), setup(elements=8)], TURN)
 
@@ -212,7 +214,17 @@ def test_both_meshes_agree_on_a_needle_that_slides_through(slip):
     assert np.abs(tissue.tip_deg - needle.tip_deg).max() < 0.03
 
 
-def test_the_two_readings_of_slip_differ_when_a_twisted_needle_slides():
+def test_the_two_slip_rates_differ_when_a_twisted_needle_slides():
     moves = schedule([0, 0.3, 5], [0, 90, 90], speed=-5.0)
     material, place = (simulate([setup(slip=s)], moves)[0].tip_deg for s in ("material", "place"))
     assert 0.01 < np.abs(material - place).max() < 2.0
+
+
+def _callback_is_installed():
+    return mujoco.get_mjcb_passive() is not None
+
+
+def test_a_process_inherits_the_callback_that_was_prepared_before_it_was_forked():
+    prepare_processes()
+    with ProcessPoolExecutor(1, mp_context=get_context("fork")) as pool:
+        assert pool.submit(_callback_is_installed).result()
