@@ -156,6 +156,25 @@ def test_the_constraints_pin_what_the_project_needs_and_name_no_address():
     assert {re.split(r"[><=\[]", n)[0].lower() for n in needed} <= pinned
 
 
+@pytest.mark.parametrize("package", ["models", "sim", "controllers", "studies"])
+def test_every_module_has_a_test_at_the_same_place_that_names_it(package):
+    for path in sources(package):
+        if path.name != "__init__.py":
+            place = path.relative_to(ROOT)
+            test = ROOT / "tests" / place.with_name(f"test_{path.name}")
+            assert test.exists(), test.relative_to(ROOT)
+            assert {_module(path), path.stem} & set(_names_in(test)), f"{place} is not imported there"
+
+
+def _names_in(path):
+    """What a test imports, and what it takes from the kernel in the interpreter."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            yield from (node.module, *(f"{node.module}.{alias.name}" for alias in node.names))
+        elif isinstance(node, ast.Attribute) and getattr(node.value, "id", "") == "interpreted":
+            yield node.attr
+
+
 def test_every_package_is_listed_for_installation():
     listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
     found = {

@@ -1,10 +1,18 @@
 """Records: frozen, and with errors that name the field, the value and the fix."""
 
+import math
+
 import pytest
 
 from models.errors import InvalidValue
 from models.needle import NITINOL, Needle
+from models.record import Record
 from models.tissue import Tissue
+
+
+class Place(Record):
+    x_mm: float
+    name: str = "somewhere"
 
 
 def test_a_misspelt_field_is_answered_with_the_right_one():
@@ -44,3 +52,15 @@ def test_an_error_of_a_nested_record_carries_field_value_and_expectation():
     assert raised.value.field == "layers.0.interface.static_n_mm_per_mm"
     assert raised.value.found == 1e-3
     assert raised.value.expected == "at least the kinetic level 0.002"
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, "far", None])
+def test_a_number_has_to_be_finite(bad):
+    with pytest.raises(InvalidValue, match=r"^Place\.x_mm: expected a .*number"):
+        Place(x_mm=bad)
+
+
+def test_fields_are_given_by_name_and_numbers_may_be_written_as_text():
+    with pytest.raises(TypeError):
+        Place(1.0)
+    assert Place(x_mm="1.5") == Place(x_mm=1.5, name="somewhere")
