@@ -1,1 +1,1 @@
-"""MuJoCo's needle held to closed forms, to conservation, and to the published figures."""
+"""MuJoCo's needle checked against closed forms, conservation, and the published figures."""
