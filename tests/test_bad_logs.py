@@ -249,7 +249,7 @@ def test_what_is_no_text_file_is_refused(log):
 
 
 FIELDS = [
-    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', got 'rig-log/2'"),
+    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', found 'rig-log/2'"),
     (
         lambda c: c["needle"].update(diameter_mm=5000),
         r"needle.diameter_mm: .*0.05 to 10, got 5000",
