@@ -126,7 +126,7 @@ class FrictionAware:
 
     def _rest(self, error_deg: float, sample: Sample, estimate: Estimate) -> Command:
         # Unwound, the torque no longer tells the lag that friction holds: the base waits
-        # for the next reference, whatever the estimate says.
+        # for the next reference and ignores the estimate.
         if self.phase is Phase.UNWINDING:
             return self._base.toward(self._rest_deg, sample, estimate.status)
         if abs(error_deg) > 3 * self.dead_band_deg:

@@ -49,7 +49,7 @@ def _shown(value: Any) -> str:
 
 
 def _restored(kind: type[InvalidValue], *fields: Any) -> InvalidValue:
-    """An error of a kind from its fields, whatever its own constructor takes."""
+    """An error of a kind from its fields, independent of its constructor."""
     error = kind.__new__(kind)
     InvalidValue.__init__(error, *fields)
     return error

@@ -38,7 +38,7 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     refuse_existing(paths, force=force)
     began = time.monotonic()
 
-    _announce(console, 1, "compiling the tissue (once a machine, about 20 s)")
+    _announce(console, 1, "compiling the tissue (once per machine, about 20 s)")
     prepare_processes()
     _announce(console, 2, f"insertion: {protocol.description}")
     recording = perform(protocol)

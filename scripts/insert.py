@@ -73,7 +73,7 @@ def write(recording: Recording, folder: Path, protocol: Protocol, *, force: bool
 
 
 def results(recording: Recording) -> list[str]:
-    """Results of the run, a line each."""
+    """Results of the run, one line each."""
     lag = abs(recording["base_angle_deg"] - recording["tip_angle_deg"])
     at = recording["time_s"][lag.argmax()]
     lines: list[str] = []

@@ -53,7 +53,7 @@ def _number(value: float, shape: str) -> str:
 
 
 def poles_table(findings: Findings) -> Table:
-    """Measured against closed form, one row a case."""
+    """Measured against closed form, one row per case."""
     table = Table(
         "length, mm",
         "free, mm",

@@ -1,8 +1,8 @@
-"""The stage equation of the chain, linearised: one function a kind of term.
+"""The stage equation of the chain, linearised: one function per kind of term.
 
     I/g (w - w*) + K (theta* + g w) + D w + sum over sites of N f(N' w) = drive - tip
 
-What is linear (inertia, torsion, viscous rows) is assembled once a step; the
+What is linear (inertia, torsion, viscous rows) is assembled once per step; the
 sites of every other row add their torque and slope at each iteration.
 """
 

@@ -235,7 +235,7 @@ def _compile() -> tuple[Any, Any]:
 
 @cache
 def install() -> tuple[Any, Any]:
-    """Compile (once a machine) and install both callbacks; safe to call again."""
+    """Compile (once per machine) and install both callbacks; safe to call again."""
     passive, sensor = _compile()
     mujoco.set_mjcb_passive(passive.ctypes)
     mujoco.set_mjcb_sensor(sensor.ctypes)

@@ -1,4 +1,4 @@
-"""How a needle and its tissue travel inside a MuJoCo model and its data.
+"""The memory map: where a needle and its tissue lie in a MuJoCo model and its data.
 
 Everything that a simulation depends on lives in its `mjModel` (three `numeric`
 fields) and everything that it remembers lives in `mjData.userdata`, so that a
@@ -33,7 +33,7 @@ DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
 
-# --- numeric "needle_law": one row a stretch of shaft, or a point of it -----------
+# --- numeric "needle_law": one row per stretch of shaft, or point of it -----------
 # An end is an affine function of the lengths: a + b * free + c * inserted, in m.
 (
     L_TOP_CONST,
@@ -62,7 +62,7 @@ DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
 U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, INPUTS = range(6)
 
 # --- state of one contact site: presliding of the dry element, of the shared one
-# (turning, axial), twist of the tissue. Two sites an element and row. --------------
+# (turning, axial), twist of the tissue. Two sites per element and row. -------------
 Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
 
 # --- running sums and last values that the sensors show ----------------------------

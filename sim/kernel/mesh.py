@@ -1,6 +1,6 @@
 """Where the nodes are, and how the tissue along an element loads its two nodes.
 
-The tissue acts at two contact sites an element, at the fractions
+The tissue acts at two contact sites per element, at the fractions
 (1 -+ sqrt(2/3)) / 2 of its length. Inside a covered stretch a site loads the nodes
 as it lies between them; of all symmetric pairs these sites give the damping
 a/12 [[5, 1], [1, 5]], half way between lumped and consistent, which cancels the

@@ -9,7 +9,7 @@ from sim.kernel.compiled import Array, inlined
 
 
 class Workspace(NamedTuple):
-    """Arrays of one step: (n + 1) a node, (rows, n, 2, ...) a contact site."""
+    """Arrays of one step: (n + 1) per node, (rows, n, 2, ...) per contact site."""
 
     x: np.ndarray  # node positions, m
     inertia: np.ndarray  # of the nodes over the length of a stage, N m s / rad

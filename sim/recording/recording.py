@@ -43,7 +43,7 @@ class UnreadableRecording(NeedleError):
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """Signals as columns, one row a sample.
+    """Signals as columns, one row per sample.
 
     Attributes:
       table: `time_s` first; every name ends in its unit.
