@@ -23,12 +23,12 @@ from numba import njit
 from numpy.typing import NDArray
 
 from benchmarks import report
-from sim.crosscheck.motion import fast_turn, viscous_setup
 from sim.discretisation import Arrangement
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.simulation import compile_model, controls, initial_data
 from sim.spec import Setup
+from studies.crosscheck.motion import fast_turn, viscous_setup
 
 Array = NDArray[np.float64]
 Sweep = Callable[[int, int, Array], None]
@@ -137,7 +137,7 @@ def measure_one(setup: Setup, sweeps: dict[str, Sweep]) -> Cost:
 
     def repeated(sweep: Sweep, *, marked: bool = True) -> Callable[[], None]:
         def run() -> None:
-            header[wire.H_MAGIC] = wire.MAGIC if marked else 0.0
+            header[memory_map.H_MAGIC] = memory_map.MAGIC if marked else 0.0
             for _ in range(_SWEEPS):
                 sweep(model._address, data._address, states)
 

@@ -19,9 +19,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 from benchmarks.tissues import DAMPING, END_S, LENGTH_MM, RIGIDITY, TURN_RAD, TURN_S, Case
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.callback import install
-from sim.layout import read_layout
+from sim.kernel.struct_offsets import read_struct_offsets
 
 Array = NDArray[np.float64]
 Answer = tuple[Array, Array]
@@ -118,7 +118,7 @@ def kernel_loop() -> Callable[[mujoco.MjModel, mujoco.MjData, Array], Array]:
     It takes the model, its data at the start, and the inputs at every step, SI, and
     returns the tip at every step, rad.
     """
-    passive, time_at = install()[0].ctypes, read_layout().data["time"]
+    passive, time_at = install()[0].ctypes, read_struct_offsets().data["time"]
 
     @njit
     def loop(
@@ -148,8 +148,8 @@ def kernel_loop() -> Callable[[mujoco.MjModel, mujoco.MjData, Array], Array]:
         clock = np.ctypeslib.as_array((ctypes.c_double * 1).from_address(data._address + time_at))
         fields = (clock, data.qpos, data.ctrl, data.userdata, data.qfrc_passive)
         head = model.numeric("needle").data
-        size = wire.block(int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS]))
-        at = wire.CLOCK + size + wire.B_ANGLES
+        size = memory_map.block(int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS]))
+        at = memory_map.CLOCK + size + memory_map.B_ANGLES
         h = model.opt.timestep
         tips: Array = loop(model._address, data._address, at, h, *fields, inputs)
         return tips

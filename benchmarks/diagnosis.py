@@ -30,7 +30,7 @@ from diagnosis.pipeline import diagnose
 from diagnosis.prepare.prepare import prepare
 from diagnosis.replay.replay import replay
 from diagnosis.report.write import write_report
-from sim.kernel.callback import install
+from sim.simulation import prepare_processes
 from validation.logs.comparison import RigComparison
 from validation.logs.motions import LogPlan, draw_motions
 from validation.logs.rig_draw import draw_rig
@@ -128,7 +128,7 @@ def cost(folder: Path) -> Cost:
 def _cost(folder: Path, usual: str) -> Cost:
     multiprocessing.set_start_method(usual, force=True)
     stages, start_s = Stages(), _cpu_s()
-    install()
+    prepare_processes()
     stages.mark(_LOADING)
     log = read_rig_log(folder)
     stages.mark(_READING)
@@ -218,7 +218,7 @@ def _goals(costs: dict[str, Cost], grown: list[Cost]) -> list[report.Goal]:
 
 def run(folder: Path) -> list[report.Goal]:
     """Measure, print, write."""
-    install()  # compiled here, if at all: processes of their own load it
+    prepare_processes()  # compiled here, if at all: processes of their own load it
     logs = folder / "diagnosis-logs"
     whole = {
         _ONE: cost(write_log(logs / "one", PLAN, SINGLE)),

@@ -12,11 +12,11 @@ from benchmarks.compiled_loop import BACKWARD_EULER, MIDPOINT, by_theta_method, 
 from benchmarks.rivals import by_modes, by_odeint, by_solve_ivp, equations
 from benchmarks.tissues import LENGTH_MM, SMOOTH, TURN_S, Case
 from models.needle import NITINOL
-from sim.crosscheck.motion import fast_turn
 from sim.discretisation import Arrangement, Discretisation, Mesh
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.simulation import compile_model, controls, initial_data
 from sim.spec import Setup
+from studies.crosscheck.motion import fast_turn
 
 Array = NDArray[np.float64]
 Answer = tuple[Array, Array]
@@ -44,7 +44,7 @@ def setup_of(case: Case, **discretisation: object) -> Setup:
         needle=NITINOL,
         tissue=case.tissue,
         discretisation=Discretisation(**discretisation),
-        mesh=Mesh.TISSUE,
+        mesh=Mesh.EULERIAN,
         free_mm=0.0,
         inserted_mm=LENGTH_MM,
     )
@@ -63,7 +63,7 @@ def rollout_of(setup: Setup) -> Callable[[], Answer]:
     def run() -> Answer:
         batch.state[0] = start
         outputs = batch.rollout(len(ctrl) - 1, ctrl[None, 1:], record=["sensordata"])["sensordata"][0]
-        return stepped.time_s[1:], np.degrees(outputs[:, wire.O_TIP_ANGLE])
+        return stepped.time_s[1:], np.degrees(outputs[:, memory_map.O_TIP_ANGLE])
 
     return run
 

@@ -1,6 +1,6 @@
 """Work against precision on one run, for the simulator and for others.
 
-The run is `sim.crosscheck.motion.fast_turn`: a needle 20 cm deep, its base turned by
+The run is `studies.crosscheck.motion.fast_turn`: a needle 20 cm deep, its base turned by
 90 deg in 0.3 s and held, 8 s in all, in three tissues. Every method runs at several
 steps or tolerances and numbers of elements. Its error is the largest of the tip, deg,
 at the times at which it answers, against the closed form (viscous tissue) or LSODA at

@@ -1,1 +1,1 @@
-"""Knowing and driving the tip from the base. Runs on a rig: no simulator here."""
+"""Estimating and controlling the tip from the base. Runs on a rig: no simulator here."""

@@ -1,4 +1,4 @@
-"""An estimator that learns the damping from base angle and base torque.
+"""An estimator that identifies the damping from base angle and base torque.
 
 With the torque given, how fast the base turns tells the damping: the mean of the
 shaft turns at u / (beta l). An extended Kalman filter on
@@ -28,14 +28,14 @@ _ONE, _NONE = np.ones(1), np.zeros(1)
 
 
 class AdaptiveEstimator(FeedforwardEstimator):
-    """The feedforward estimator with damping learnt online.
+    """The feedforward estimator that identifies the damping online.
 
     Args:
       needle: the shaft.
       damping_n_mm_s_per_mm: first guess of beta.
       order: modes with mode 0.
       base_noise_deg: of the base angle, one standard deviation.
-      torque_noise_n_mm: of the base torque: it shows as base angle through the shaft's give.
+      torque_noise_n_mm: of the base torque: it acts on the base angle through the shaft's compliance.
       guess_spread: relative uncertainty of the first guess (natural log).
       drift_per_s: random walk of log beta, per square root of a second.
       turn_noise_deg: unmodelled motion of the mean angle, deg per square root of a second.
@@ -114,21 +114,21 @@ class AdaptiveEstimator(FeedforwardEstimator):
         """The base angle as a measurement."""
         row = self._row
         mean = self._mean_rad or 0.0
-        missed = now.base_deg * _RAD - mean - self._base_past_mean(now)
+        innovation = now.base_deg * _RAD - mean - self._base_past_mean(now)
         spread = self._covariance @ row
-        gain = spread / (row @ spread + self._base_var + self._torque_var * self._give(now) ** 2)
-        self._mean_rad = mean + gain[0] * missed
-        self._p = self._p + gain[1:-1] * missed
-        self.damping *= math.exp(min(max(gain[-1] * missed, -0.5), 0.5))
+        gain = spread / (row @ spread + self._base_var + self._torque_var * self._compliance(now) ** 2)
+        self._mean_rad = mean + gain[0] * innovation
+        self._p = self._p + gain[1:-1] * innovation
+        self.damping *= math.exp(min(max(gain[-1] * innovation, -0.5), 0.5))
         self._covariance = self._covariance - np.outer(gain, spread)
 
     def _base_past_mean(self, sample: Sample) -> float:
-        """Base angle less the mean angle of the inserted shaft, rad."""
-        immediate = sample.torque_n_mm * self._give(sample)
+        """Base angle minus the mean angle of the inserted shaft, rad."""
+        immediate = sample.torque_n_mm * self._compliance(sample)
         return immediate + float((self.twist.sign * self._p).sum())
 
-    def _give(self, sample: Sample) -> float:
-        """How far the base gives at once to a torque, rad / (N mm): free shaft and tail."""
+    def _compliance(self, sample: Sample) -> float:
+        """Immediate compliance of the base to a torque, rad / (N mm): free shaft and tail."""
         return (sample.free_mm + sample.inserted_mm * self._tail) / self.twist.kappa
 
     def _read(self, sample: Sample) -> Estimate:

@@ -6,8 +6,8 @@ modes so that its poles are `speed` times faster than the needle's:
 
     dx/dt = A x + B u + L (y - y_hat),   poles of A - L C = speed * poles of A
 
-Reading.SERIES takes base and tip as the series (12) says they are. Reading.PAPER is
-the paper's own: mode 0 is the measured base angle and the tip is base + sum p_k.
+OutputEquation.SERIES takes base and tip from the series (12). OutputEquation.PAPER is the
+paper's own: mode 0 is the measured base angle and the tip is base + sum p_k.
 """
 
 import math
@@ -29,8 +29,8 @@ _RAD = math.pi / 180.0
 _LEAST_DEPTH_MM = 1.0  # below this the needle counts as outside
 
 
-class Reading(StrEnum):
-    """What base and tip are in terms of the modes."""
+class OutputEquation(StrEnum):
+    """Base and tip angle in terms of the modes: from the series (12), or as the paper has it."""
 
     SERIES = "series"
     PAPER = "paper"
@@ -43,7 +43,7 @@ class Estimator(Protocol):
         """Take one sample; times must increase."""
 
     def reset(self) -> None:
-        """Forget everything: untwisted, before the first sample."""
+        """Back to the initial state: untwisted, before the first sample."""
 
 
 class FeedforwardEstimator:
@@ -53,7 +53,7 @@ class FeedforwardEstimator:
       needle: the shaft.
       damping_n_mm_s_per_mm: beta.
       order: modes with mode 0.
-      reading: what base and tip are.
+      output: base and tip in terms of the modes.
 
     Raises:
       InvalidValue: damping is not positive, or the order is below 2.
@@ -65,13 +65,13 @@ class FeedforwardEstimator:
         *,
         damping_n_mm_s_per_mm: float,
         order: int = 4,
-        reading: Reading = Reading.SERIES,
+        output: OutputEquation = OutputEquation.SERIES,
     ) -> None:
         if not (math.isfinite(damping_n_mm_s_per_mm) and damping_n_mm_s_per_mm > 0):
             raise InvalidValue("damping_n_mm_s_per_mm", damping_n_mm_s_per_mm, "a finite number above 0")
         self.twist = Twist(needle, order)
         self.damping = damping_n_mm_s_per_mm
-        self.reading = reading
+        self.output = output
         self.reset()
 
     def reset(self) -> None:
@@ -84,8 +84,8 @@ class FeedforwardEstimator:
         """Take one sample; the first starts from an untwisted shaft."""
         refusal = self._refusal(sample)
         if refusal is not None:
-            held = self._estimate
-            return Estimate(held.tip_deg, held.modes_deg, held.damping_n_mm_s_per_mm, refusal)
+            last = self._estimate
+            return Estimate(last.tip_deg, last.modes_deg, last.damping_n_mm_s_per_mm, refusal)
         if sample.inserted_mm < _LEAST_DEPTH_MM:
             self._p[:] = 0.0
             self._estimate = self._outside(sample)
@@ -126,7 +126,7 @@ class FeedforwardEstimator:
         return Estimate(tip, self._p / _RAD, self.damping)
 
     def _tip_past_base_rad(self, sample: Sample) -> float:
-        if self.reading is Reading.PAPER:
+        if self.output is OutputEquation.PAPER:
             return float(self._p.sum())
         free = -sample.torque_n_mm * sample.free_mm / self.twist.kappa
         tail = self.twist.tail_rad(sample.torque_n_mm, sample.inserted_mm)
@@ -158,20 +158,20 @@ class LuenbergerEstimator(FeedforwardEstimator):
         *,
         damping_n_mm_s_per_mm: float,
         order: int = 4,
-        reading: Reading = Reading.SERIES,
+        output: OutputEquation = OutputEquation.SERIES,
         speed: float = 5.0,
     ) -> None:
         if not (math.isfinite(speed) and speed > 1):
             raise InvalidValue("speed", speed, "a finite number above 1")
-        super().__init__(
-            needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order, reading=reading
-        )
+        super().__init__(needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order, output=output)
         # Only odd modes enter the lag, and so can be corrected from it; in the paper's
-        # reading all do. Poles scale with 1 / depth^2, and so does the gain.
-        self._seen = self.twist.odd if reading is Reading.SERIES else np.ones_like(self.twist.odd)
-        weight = 2.0 if reading is Reading.SERIES else 1.0
-        self._row = weight * np.ones((1, int(self._seen.sum())))
-        a = -np.diag(self.twist.squares[self._seen])
+        # output equation all do. Poles scale with 1 / depth^2, and so does the gain.
+        self._observed = (
+            self.twist.odd if output is OutputEquation.SERIES else np.ones_like(self.twist.odd)
+        )
+        weight = 2.0 if output is OutputEquation.SERIES else 1.0
+        self._row = weight * np.ones((1, int(self._observed.sum())))
+        a = -np.diag(self.twist.squares[self._observed])
         self._unit_gain = np.asarray(control.place(a.T, self._row.T, speed * np.diag(a))).T
         self._identity = np.eye(a.shape[0])
 
@@ -180,8 +180,8 @@ class LuenbergerEstimator(FeedforwardEstimator):
         if now.tip_deg is None:
             return
         scale = self.twist.kappa / (self.damping * now.inserted_mm**2) * (now.time_s - last.time_s)
-        missed = now.tip_deg * _RAD - now.base_deg * _RAD - self._tip_past_base_rad(now)
+        innovation = now.tip_deg * _RAD - now.base_deg * _RAD - self._tip_past_base_rad(now)
         gain = scale * self._unit_gain
         # Implicit in the correction: stable however coarse the samples.
-        step = np.linalg.solve(self._identity + gain @ self._row, gain[:, 0] * missed)
-        self._p[self._seen] += step
+        step = np.linalg.solve(self._identity + gain @ self._row, gain[:, 0] * innovation)
+        self._p[self._observed] += step

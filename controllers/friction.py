@@ -1,9 +1,9 @@
-"""A controller for dry friction: overshoot, stop, unwind; retract if that is not enough.
+"""A controller for dry friction: overshoot, hold, unwind; retract if that is not enough.
 
 Dry friction holds a lag that no waiting removes. The base therefore
 
-1. overshoots by the compensator's law, and winds on at a rate proportional to what
-   is missing of the tip, until the estimate is within `dead_band` of the wish;
+1. overshoots by the compensator's law, and winds on at a rate proportional to the
+   tip error, until the estimate is within `dead_band` of the reference;
 2. then unwinds half of the lag that it holds: less than friction lets the tip notice
    (reversal has to unwind the shaft from the base on), so the tip stays and the
    torque that a later slip could release is halved;
@@ -25,7 +25,7 @@ _HELD_LAG_DEG = 2.0  # a lag below this is not worth unwinding
 
 
 class Phase(StrEnum):
-    """What the controller is about."""
+    """Phase of the controller."""
 
     WINDING = "winding"
     RESTING = "resting"
@@ -38,10 +38,10 @@ class FrictionAware:
 
     Args:
       gain: overshoot over the estimated error of the tip.
-      winding_per_s: rate of winding on, over the error that is left.
+      winding_per_s: rate of winding on, over the tip error.
       dead_band_deg: error of the tip that is good enough.
       most_winding_deg: how far beyond the compensator's law the base may wind.
-      rest_s: time for which the tip has to stay home before the base unwinds.
+      rest_s: time for which the tip has to stay within the dead band before the base unwinds.
       retract_mm: length of a retraction; 0: never ask for one.
 
     Raises:
@@ -68,7 +68,11 @@ class FrictionAware:
             ("retract_mm", retract_mm, 0.0),
         ):
             if not (math.isfinite(value) and value >= least):
-                raise InvalidValue(name, value, "a finite number above 0")
+                raise InvalidValue(
+                    name,
+                    value,
+                    "a finite number of at least 0" if least == 0 else "a finite number above 0",
+                )
         self._base, self.gain, self.winding_per_s = LimitedBase(limits), gain, winding_per_s
         self.dead_band_deg, self.most_winding_deg = dead_band_deg, most_winding_deg
         self.rest_s, self.retract_mm = rest_s, retract_mm
@@ -80,54 +84,54 @@ class FrictionAware:
         self.phase = Phase.WINDING
         self._wound_deg = 0.0
         self._rest_deg = 0.0
-        self._wanted_deg = math.nan
+        self._reference_deg = math.nan
         self._time_s = self._since_s = math.nan
 
-    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
+    def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
         """Wind, rest, unwind or ask for a retraction."""
-        if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(wanted_deg):
-            return self._base.toward(wanted_deg, sample, estimate.status)
-        if wanted_deg != self._wanted_deg:
-            self._wanted_deg, self._wound_deg = wanted_deg, 0.0
+        if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(reference_deg):
+            return self._base.toward(reference_deg, sample, estimate.status)
+        if reference_deg != self._reference_deg:
+            self._reference_deg, self._wound_deg = reference_deg, 0.0
             self._enter(Phase.WINDING, sample)
         dt = sample.time_s - self._time_s if math.isfinite(self._time_s) else 0.0
         self._time_s = sample.time_s
-        missing = wanted_deg - estimate.tip_deg
+        error_deg = reference_deg - estimate.tip_deg
         if self.phase is Phase.WINDING:
-            return self._wind(wanted_deg, missing, dt, sample, estimate)
+            return self._wind(reference_deg, error_deg, dt, sample, estimate)
         if self.phase is Phase.RETRACTING:
-            return self._retract(wanted_deg, sample, estimate)
-        return self._rest(missing, sample, estimate)
+            return self._retract(reference_deg, sample, estimate)
+        return self._rest(error_deg, sample, estimate)
 
     def _enter(self, phase: Phase, sample: Sample) -> None:
         self.phase, self._since_s = phase, sample.time_s
 
     def _wind(
-        self, wanted_deg: float, missing: float, dt: float, sample: Sample, estimate: Estimate
+        self, reference_deg: float, error_deg: float, dt: float, sample: Sample, estimate: Estimate
     ) -> Command:
-        if abs(missing) <= self.dead_band_deg:
+        if abs(error_deg) <= self.dead_band_deg:
             self._rest_deg = self._base.base_deg
             self._enter(Phase.RESTING, sample)
             return self._base.toward(self._rest_deg, sample, estimate.status)
-        near = abs(missing) < 10 * self.dead_band_deg
+        near = abs(error_deg) < 10 * self.dead_band_deg
         if near:
-            self._wound_deg += self.winding_per_s * missing * dt
+            self._wound_deg += self.winding_per_s * error_deg * dt
         command = self._base.toward(
-            wanted_deg + self.gain * missing + self._wound_deg, sample, estimate.status
+            reference_deg + self.gain * error_deg + self._wound_deg, sample, estimate.status
         )
         spent = command.torque_limited or abs(self._wound_deg) >= self.most_winding_deg
         if spent and self.retract_mm > 0:
             self._enter(Phase.RETRACTING, sample)
         return command
 
-    def _rest(self, missing: float, sample: Sample, estimate: Estimate) -> Command:
+    def _rest(self, error_deg: float, sample: Sample, estimate: Estimate) -> Command:
         # Unwound, the torque no longer tells the lag that friction holds: the base waits
-        # for the next wish, whatever the estimate says.
+        # for the next reference and ignores the estimate.
         if self.phase is Phase.UNWINDING:
             return self._base.toward(self._rest_deg, sample, estimate.status)
-        if abs(missing) > 3 * self.dead_band_deg:
+        if abs(error_deg) > 3 * self.dead_band_deg:
             # What has been wound so far is kept: the base goes on from where it is.
-            self._wound_deg = self._base.base_deg - self._wanted_deg - self.gain * missing
+            self._wound_deg = self._base.base_deg - self._reference_deg - self.gain * error_deg
             self._enter(Phase.WINDING, sample)
         elif sample.time_s - self._since_s >= self.rest_s:
             held = self._base.base_deg - estimate.tip_deg
@@ -136,11 +140,11 @@ class FrictionAware:
             self._enter(Phase.UNWINDING, sample)
         return self._base.toward(self._rest_deg, sample, estimate.status)
 
-    def _retract(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """Out for a second, in for a second, with the base at the wish."""
+    def _retract(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """Out for a second, in for a second, with the base at the reference."""
         passed = sample.time_s - self._since_s
         if passed >= 2.0:
             self._wound_deg = 0.0
             self._enter(Phase.WINDING, sample)
         advance = -self.retract_mm * min(passed, max(2.0 - passed, 0.0))
-        return self._base.toward(wanted_deg, sample, estimate.status, advance)
+        return self._base.toward(reference_deg, sample, estimate.status, advance)

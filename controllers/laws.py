@@ -1,12 +1,12 @@
-"""Controllers of the tip: from a wanted tip angle and an estimate to a base command.
+"""Controllers of the tip: from a reference of the tip and an estimate to a base command.
 
-    base only      base = wanted
-    compensator    base = wanted + gain (wanted - tip_hat)       the paper's overshoot
-    LQR            d base/dt = -K (base - wanted, c_1, c_2, ...)
+    base only      base = reference
+    compensator    base = reference + gain (reference - tip_hat)       the paper's overshoot
+    LQR            d base/dt = -K (base - reference, c_1, c_2, ...)
 
 where c_k are the modes of the base-driven needle (models.modes), in which the tip is
-base + sum c_k, and K minimises the integral of (tip - wanted)^2 + weight (d base/dt)^2.
-Each law states what it wants; `LimitedBase` holds it to what the motor can do.
+base + sum c_k, and K minimises the integral of (tip - reference)^2 + weight (d base/dt)^2.
+Each law gives a base angle; `LimitedBase` saturates it to the limits of the motor.
 """
 
 import math
@@ -26,13 +26,13 @@ from models.needle import Needle
 Array = NDArray[np.float64]
 
 _RAD = math.pi / 180.0
-_GRID_MM = 2.0  # lengths for which a design is made anew
+_GRID_MM = 2.0  # grid of lengths; one design for each
 
 
 class Controller(Protocol):
-    """Anything that turns a wanted tip angle and an estimate into a base command."""
+    """Anything that turns a reference of the tip, deg, and an estimate into a base command."""
 
-    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
+    def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
         """The command until the next sample."""
 
     def reset(self) -> None:
@@ -40,7 +40,7 @@ class Controller(Protocol):
 
 
 class BaseOnly:
-    """Turns the base to the wanted angle, as if the needle were rigid."""
+    """Turns the base to the reference, as if the needle were rigid."""
 
     def __init__(self, limits: MotorLimits) -> None:
         self._base = LimitedBase(limits)
@@ -49,9 +49,9 @@ class BaseOnly:
         """Forget the last command."""
         self._base.reset()
 
-    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """base = wanted."""
-        return self._base.toward(wanted_deg, sample, estimate.status)
+    def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """base = reference."""
+        return self._base.toward(reference_deg, sample, estimate.status)
 
 
 class Compensator:
@@ -73,14 +73,14 @@ class Compensator:
         """Forget the last command."""
         self._base.reset()
 
-    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """base = wanted + gain (wanted - tip)."""
-        wanted_base = wanted_deg + self.gain * (wanted_deg - estimate.tip_deg)
-        return self._base.toward(wanted_base, sample, estimate.status)
+    def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """base = reference + gain (reference - tip)."""
+        target_deg = reference_deg + self.gain * (reference_deg - estimate.tip_deg)
+        return self._base.toward(target_deg, sample, estimate.status)
 
 
 class BaseModes:
-    """Modes of the base-driven needle from what an estimator knows.
+    """Modes of the base-driven needle, from the modes and tip of an estimate.
 
     The lag theta - base along the shaft is known at the tip and, from the torque, in
     shape; its modes are those of the estimate, projected.
@@ -110,7 +110,7 @@ class Regulator:
     Args:
       needle: the shaft.
       damping_n_mm_s_per_mm: beta of the design; the estimate's, where it has one.
-      weight_s: price of base rate: seconds of tip error that one rad/s is worth.
+      weight_s: weight of base rate: seconds of tip error that one rad/s is worth.
       order: modes of the base-driven needle in the design.
 
     Raises:
@@ -147,17 +147,17 @@ class Regulator:
         self._base.reset()
         self._time_s = math.nan
 
-    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """d base/dt = -K (base - wanted, c)."""
+    def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """d base/dt = -K (base - reference, c)."""
         if estimate.status is Status.OUTSIDE or estimate.modes_deg.size == 0:
             self._time_s = sample.time_s
-            return self._base.toward(wanted_deg, sample, estimate.status)
+            return self._base.toward(reference_deg, sample, estimate.status)
         base = self._base.base_deg if math.isfinite(self._base.base_deg) else sample.base_deg
         dt = sample.time_s - self._time_s if math.isfinite(self._time_s) else 0.0
         self._time_s = sample.time_s
         modes, gain = self.design(sample, estimate.modes_deg.size)
         state = np.concatenate(
-            [[(base - wanted_deg) * _RAD], modes.lag_modes_rad(estimate, sample.base_deg)]
+            [[(base - reference_deg) * _RAD], modes.lag_modes_rad(estimate, sample.base_deg)]
         )
         rate_deg_s = -float(gain @ state) / _RAD
         return self._base.toward(base + rate_deg_s * dt, sample, estimate.status)

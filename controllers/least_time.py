@@ -1,13 +1,13 @@
-"""The controller that brings the tip home in the least time that the motor allows.
+"""The controller that brings the tip to its reference in the least time that the motor allows.
 
-When the wanted angle jumps, a linear program plans the base's rate over the next
-moments: the tip, which is linear in the plan, has to be within `band` of the wanted
-angle from some time on, and never beyond it by more; the base rate and the torque
+When the reference jumps, a linear program plans the base's rate over the next
+moments: the tip, which is linear in the plan, has to be within `band` of the
+reference from some time on, and never beyond it by more; the base rate and the torque
 stay within the motor's limits. The earliest such time is found by bisection, and of
 all plans that reach it the one with the least integral of tip error is taken. The
-plan is followed, corrected by what the estimator finds missing of it; when it has
-run out, a regulator holds the tip. A plan that the tip does not follow rests on a
-wrong model: it is dropped, and the compensator brings the tip home.
+plan is followed, corrected by the deviation of the estimate from it; when it has
+ended, a regulator holds the tip. A plan that the tip does not follow rests on a
+wrong model: it is dropped, and the compensator takes over.
 """
 
 import math
@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 
 _RAD = math.pi / 180.0
 _MODES = 10
-_LEAST_TURN_DEG = 3.0  # smaller wishes are left to the regulator
-_LOST_DEG = 5.0  # a plan that the estimated tip misses by more is dropped
+_LEAST_TURN_DEG = 3.0  # smaller steps are left to the regulator
+_MOST_DEVIATION_DEG = 5.0  # of the estimate from the plan; beyond it the plan is dropped
 _MOVING = 0.7  # share of the plan in which the base may move; the rest shows what follows
 
 
@@ -61,49 +61,49 @@ class LeastTime:
         self.needle, self.limits, self.band_deg, self.steps = needle, limits, band_deg, steps
         self.damping = damping_n_mm_s_per_mm
         self._base = LimitedBase(limits)
-        self._rescue = Compensator(limits, gain=1.5)
-        self._hold = Regulator(needle, limits, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm)
+        self._fallback = Compensator(limits, gain=1.5)
+        self._regulator = Regulator(needle, limits, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm)
         self.reset()
 
     def reset(self) -> None:
         """Forget plan and command."""
         self._base.reset()
-        self._hold.reset()
-        self._rescue.reset()
-        self._lost = False
+        self._regulator.reset()
+        self._fallback.reset()
+        self._plan_dropped = False
         self._plan: Plan | None = None
-        self._wanted_deg = self._planned_deg = math.nan
+        self._reference_deg = self._planned_deg = math.nan
 
-    def command(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """Follow the plan for this wish; make one if the wish is new."""
-        if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(wanted_deg):
-            return self._base.toward(wanted_deg, sample, estimate.status)
+    def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
+        """Follow the plan for this reference; make one if the reference has jumped."""
+        if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(reference_deg):
+            return self._base.toward(reference_deg, sample, estimate.status)
         if estimate.status is Status.OUTSIDE:
-            self._wanted_deg = math.nan
-            return self._base.toward(wanted_deg, sample, estimate.status)
-        # Only a wish that jumps is planned for; one that glides is followed.
-        if not abs(wanted_deg - self._wanted_deg) < _LEAST_TURN_DEG:
-            self._planned_deg = wanted_deg
-            self._plan = self._planned(wanted_deg, sample, estimate)
-            self._lost = False
-            self._hold.reset()
-        elif abs(wanted_deg - self._planned_deg) >= _LEAST_TURN_DEG:
+            self._reference_deg = math.nan
+            return self._base.toward(reference_deg, sample, estimate.status)
+        # Only a reference that jumps is planned for; one that moves slowly is followed.
+        if not abs(reference_deg - self._reference_deg) < _LEAST_TURN_DEG:
+            self._planned_deg = reference_deg
+            self._plan = self._planned(reference_deg, sample, estimate)
+            self._plan_dropped = False
+            self._regulator.reset()
+        elif abs(reference_deg - self._planned_deg) >= _LEAST_TURN_DEG:
             self._plan = None
-        self._wanted_deg = wanted_deg
-        if self._lost:
-            return self._rescue.command(wanted_deg, sample, estimate)
+        self._reference_deg = reference_deg
+        if self._plan_dropped:
+            return self._fallback.command(reference_deg, sample, estimate)
         if self._plan is None or sample.time_s >= self._plan.end_s:
-            return self._hold.command(wanted_deg, sample, estimate)
+            return self._regulator.command(reference_deg, sample, estimate)
         base, tip = self._plan.at(sample.time_s)
-        if abs(tip - estimate.tip_deg) > _LOST_DEG:
-            self._lost = True
-            self._rescue.reset()
-            return self._rescue.command(wanted_deg, sample, estimate)
-        # What the estimate finds missing of the planned tip is added to the base.
+        if abs(tip - estimate.tip_deg) > _MOST_DEVIATION_DEG:
+            self._plan_dropped = True
+            self._fallback.reset()
+            return self._fallback.command(reference_deg, sample, estimate)
+        # The deviation of the estimate from the planned tip is added to the base.
         return self._base.toward(base + (tip - estimate.tip_deg), sample, estimate.status)
 
-    def _planned(self, wanted_deg: float, sample: Sample, estimate: Estimate) -> "Plan | None":
-        if abs(wanted_deg - estimate.tip_deg) < _LEAST_TURN_DEG:
+    def _planned(self, reference_deg: float, sample: Sample, estimate: Estimate) -> "Plan | None":
+        if abs(reference_deg - estimate.tip_deg) < _LEAST_TURN_DEG:
             return None
         learnt = estimate.damping_n_mm_s_per_mm
         held = InsertedNeedle(
@@ -121,7 +121,7 @@ class LeastTime:
             start_s=sample.time_s,
             base_deg=base,
             lag_deg=lag,
-            wanted_deg=wanted_deg,
+            reference_deg=reference_deg,
             limits=self.limits,
             band_deg=self.band_deg,
             steps=self.steps,
@@ -132,12 +132,12 @@ class Plan:
     """A base motion and the tip that it gives, at equal steps."""
 
     def __init__(
-        self, start_s: float, step_s: float, base_deg: Array, tip_deg: Array, home_s: float
+        self, start_s: float, step_s: float, base_deg: Array, tip_deg: Array, settling_s: float
     ) -> None:
         self.times_s = start_s + step_s * np.arange(base_deg.size)
         self.base_deg, self.tip_deg = base_deg, tip_deg
         self.end_s = float(self.times_s[-1])
-        self.home_s = home_s
+        self.settling_s = settling_s
         """Time from the start after which the tip stays within the band."""
 
     def at(self, time_s: float) -> tuple[float, float]:
@@ -154,19 +154,21 @@ def plan(
     start_s: float,
     base_deg: float,
     lag_deg: Array,
-    wanted_deg: float,
+    reference_deg: float,
     limits: MotorLimits,
     band_deg: float,
     steps: int,
 ) -> Plan | None:
-    """The base motion that brings the tip home first; None if none does within reach."""
+    """The base motion that settles the tip first; None if none does within the horizon."""
     horizon = _horizon_s(
-        modes, abs(wanted_deg - base_deg) + float(np.abs(lag_deg).sum()), limits, band_deg
+        modes, abs(reference_deg - base_deg) + float(np.abs(lag_deg).sum()), limits, band_deg
     )
     dt = horizon / steps
     free, response = _tip(modes, base_deg, lag_deg, dt, steps)
     torque_free, torque_response = _torque(modes, lag_deg, dt, steps)
-    problem = _Problem(free, response, torque_free, torque_response, wanted_deg, limits, band_deg, dt)
+    problem = _LinearProgram(
+        free, response, torque_free, torque_response, reference_deg, limits, band_deg, dt
+    )
     first, last = 0, steps - 1
     if problem.rates(last) is None:
         return None
@@ -211,8 +213,8 @@ def _torque(modes: BaseModes, lag_deg: Array, dt: float, steps: int) -> tuple[Ar
     return decay @ (lag_deg * shape), np.tril(kernel[np.abs(np.subtract.outer(j, j))])
 
 
-class _Problem:
-    """min sum |wanted - tip| over base rates, with the tip home from a step on."""
+class _LinearProgram:
+    """min sum |reference - tip| over base rates, with the tip within the band from a step on."""
 
     def __init__(
         self,
@@ -220,20 +222,20 @@ class _Problem:
         response: Array,
         torque_free: Array,
         torque_response: Array,
-        wanted_deg: float,
+        reference_deg: float,
         limits: MotorLimits,
         band_deg: float,
         dt: float,
     ) -> None:
         n = free.size
-        self._side = 1.0 if wanted_deg >= float(free[0]) else -1.0
-        self._error = wanted_deg - free
+        self._side = 1.0 if reference_deg >= float(free[0]) else -1.0
+        self._error = reference_deg - free
         self._band, self._n = band_deg, n
         moving = int(_MOVING * n)
         rate = limits.rate_deg_s
         self._moves = [(-rate, rate)] * moving + [(0.0, 0.0)] * (n - moving)
         one, none = np.eye(n), np.zeros((n, n))
-        # unknowns: rates, then |error|; the tip is never beyond the wish by more than the band
+        # unknowns: rates, then |error|; the tip overshoots by the band at most
         self._matrix = np.block(
             [
                 [response, -one],
@@ -254,10 +256,10 @@ class _Problem:
         )
         self._cost = np.concatenate([np.zeros(n), np.full(n, dt)])
 
-    def rates(self, home: int) -> Array | None:
-        """Base rates, deg/s, that have the tip home from step `home` on; None if none do."""
+    def rates(self, settled: int) -> Array | None:
+        """Base rates, deg/s, with the tip within the band from step `settled` on; None: impossible."""
         error_limit = np.full(self._n, np.inf)
-        error_limit[home:] = self._band
+        error_limit[settled:] = self._band
         solution = linprog(
             self._cost,
             A_ub=self._matrix,

@@ -1,4 +1,4 @@
-"""What a motor can do, and how a wanted base angle is held to it."""
+"""Limits of the motor, and the saturation of base commands to them."""
 
 import math
 
@@ -19,7 +19,7 @@ class MotorLimits(Record):
 
 
 class LimitedBase:
-    """Turns wanted base angles into commands that the motor can follow."""
+    """Saturates base angles to commands that the motor can follow."""
 
     def __init__(self, limits: MotorLimits) -> None:
         self.limits = limits
@@ -36,13 +36,13 @@ class LimitedBase:
         return self._base_deg
 
     def toward(
-        self, wanted_deg: float, sample: Sample, status: Status, advance_mm: float = 0.0
+        self, target_deg: float, sample: Sample, status: Status, advance_mm: float = 0.0
     ) -> Command:
-        """The nearest command to the wanted base angle that the limits allow.
+        """The nearest command to a base angle that the limits allow.
 
-        A sample that could not be used, or a wanted angle that is no number, holds the base.
+        An unusable sample, or an angle that is not finite, holds the base.
         """
-        usable = status in (Status.OK, Status.OUTSIDE) and math.isfinite(wanted_deg)
+        usable = status in (Status.OK, Status.OUTSIDE) and math.isfinite(target_deg)
         if not usable:
             held = self._base_deg if math.isfinite(self._base_deg) else sample.base_deg
             return Command(held, status=status if status is not Status.OK else Status.BAD_SAMPLE)
@@ -50,7 +50,7 @@ class LimitedBase:
             self._base_deg, self._time_s = sample.base_deg, sample.time_s
         reach = self.limits.rate_deg_s * max(sample.time_s - self._time_s, 0.0)
         self._time_s = sample.time_s
-        change = wanted_deg - self._base_deg
+        change = target_deg - self._base_deg
         rate_limited = abs(change) > reach
         change = min(max(change, -reach), reach)
         against = change * sample.torque_n_mm > 0
@@ -60,6 +60,6 @@ class LimitedBase:
         return Command(self._base_deg, rate_limited, torque_limited, advance_mm, status)
 
 
-def blind(sample: Sample) -> Estimate:
-    """The estimate of somebody who takes the tip to be where the base is."""
+def rigid_needle_estimate(sample: Sample) -> Estimate:
+    """The estimate without torsion: the tip is where the base is."""
     return Estimate(sample.base_deg)

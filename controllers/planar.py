@@ -7,7 +7,7 @@ per length travelled (curvature k = 1/R)
 
 so the roll rate  theta' = ((-k0 z - k1 z' - k2 z'') / k + k t_z) / e_z  makes z a
 linear third-order system with all poles at -1 / settling length. The controller
-knows z and t from images, and d only through the roll that it believes in.
+knows z and t from images, and d only through the estimated roll.
 """
 
 import math
@@ -54,7 +54,7 @@ class PlanarController:
 
         Args:
           height_mm: z.
-          tangent, pull, onward: t, d and e as believed, (3,) each.
+          tangent, pull, onward: t, d and e with the estimated roll, (3,) each.
         """
         wanted = -float(self.gains @ [height_mm, tangent[2], self.curvature * pull[2]])
         facing = math.copysign(max(abs(onward[2]), _LEAST_FACING), onward[2] or 1.0)

@@ -1,7 +1,7 @@
-"""What goes into an estimator and a controller at each sample, and what comes out.
+"""Inputs and outputs of estimators and controllers at each sample.
 
-A loop never gets a silent NaN: a sample that cannot be used leaves the last good
-answer standing and says so in a status that the caller can act on.
+A loop never receives a silent NaN: after an unusable sample the last good output is held,
+and a status says so.
 """
 
 import math
@@ -15,22 +15,22 @@ Array = NDArray[np.float64]
 
 
 class Status(StrEnum):
-    """How an answer came about."""
+    """How an output was obtained."""
 
     OK = "ok"
     OUTSIDE = "outside"
     """The needle is not in tissue: the tip is where the base is."""
     BAD_SAMPLE = "bad sample"
-    """A NaN or an impossible length: the last answer stands."""
+    """A NaN or an impossible length: the last output is held."""
     BAD_TIME = "bad time"
-    """Time stood still or went back: the last answer stands."""
+    """Time stood still or went back: the last output is held."""
     DIVERGED = "diverged"
-    """The estimate lost its numbers; reset before going on."""
+    """The estimate is not finite; reset before going on."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """One reading of a rig at its base.
+    """One sample of a rig at its base.
 
     Attributes:
       time_s: increasing from sample to sample.
@@ -57,7 +57,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What the estimator believes.
+    """What the estimator computes from the samples so far.
 
     Attributes:
       tip_deg: angle of the tip.
@@ -74,12 +74,12 @@ class Estimate:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """What the base is to do until the next sample.
+    """The command of the base until the next sample.
 
     Attributes:
       base_deg: commanded angle.
       rate_limited, torque_limited: which limits held it back.
-      advance_mm: wanted axial motion relative to the planned one (retraction, dither).
+      advance_mm: axial motion relative to the planned one (retraction, dither).
       status: that of the estimate it rests on.
     """
 

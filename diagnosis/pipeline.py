@@ -27,7 +27,7 @@ from diagnosis.selection.renoised import renoised
 from diagnosis.selection.search import SearchState, search
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
 from diagnosis.workers import Progress, Workers, process_pool, silent
-from sim.kernel.callback import install
+from sim.simulation import prepare_processes
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
-    install()  # before processes are started, which inherit the compiled callback
+    prepare_processes()
     nominal = replay_nominal(log)
     with process_pool(workers, progress) as pool:
         found = _searched(log, nominal, pool)

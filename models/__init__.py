@@ -1,0 +1,1 @@
+"""Needle, tissue and drive; closed-form solutions; published figures. No simulator here."""

@@ -1,5 +1,6 @@
-"""The exceptions of the library: what was wrong, what came, and the way out."""
+"""The exceptions of the library: what was expected, what was found and how to fix it."""
 
+from pathlib import PurePath
 from typing import Any
 
 
@@ -12,21 +13,26 @@ class InvalidValue(NeedleError, ValueError):
 
     Args:
       field: the field, as the user wrote it.
-      got: the offending value.
+      found: the offending value.
       expected: what would be accepted.
-      fix: the way out; empty when `expected` says it all.
+      fix: how to fix it; empty when `expected` says it all.
     """
 
-    def __init__(self, field: str, got: Any, expected: str, fix: str = "") -> None:
-        self.field, self.got, self.expected, self.fix = field, got, expected, fix
-        super().__init__(f"{field}: expected {expected}, got {got!r}" + (f"; {fix}" if fix else ""))
+    def __init__(self, field: str, found: Any, expected: str, fix: str = "") -> None:
+        self.field, self.found, self.expected, self.fix = field, found, expected, fix
+        message = f"{field}: expected {expected}, found {_shown(found)}"
+        super().__init__(message + (f"; {fix}" if fix else ""))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Exceptions are copied as type(*args), and args is the message alone.
+        return _restored, (type(self), self.field, self.found, self.expected, self.fix)
 
 
 class UnknownName(InvalidValue):
     """A name that is not among the known ones."""
 
-    def __init__(self, field: str, got: Any, known: Any) -> None:
-        super().__init__(field, got, "one of " + ", ".join(sorted(map(str, known))))
+    def __init__(self, field: str, found: Any, known: Any) -> None:
+        super().__init__(field, found, "one of " + ", ".join(sorted(map(str, known))))
 
 
 class OutputExists(NeedleError):
@@ -35,3 +41,15 @@ class OutputExists(NeedleError):
 
 class EnvironmentMismatch(NeedleError):
     """An installed package is not the one that this library was built for."""
+
+
+def _shown(value: Any) -> str:
+    """A value as a person wrote it: paths as plain text, everything else as Python shows it."""
+    return str(value) if isinstance(value, PurePath) else repr(value)
+
+
+def _restored(kind: type[InvalidValue], *fields: Any) -> InvalidValue:
+    """An error of a kind from its fields, independent of its constructor."""
+    error = kind.__new__(kind)
+    InvalidValue.__init__(error, *fields)
+    return error

@@ -18,14 +18,14 @@ NonNegative = Annotated[float, Field(ge=0)]
 
 
 class Needle(Record):
-    """A needle's material and shape, and what it does to itself as it turns.
+    """Material and shape of a needle, and the torques that are its own.
 
     The last four fields are zero for the straight, bare shaft of the paper.
     """
 
     name: str = "custom"
     diameter_mm: Annotated[float, Field(gt=0, le=10)]
-    shear_modulus_gpa: Annotated[float, Field(gt=0, le=1000)]
+    shear_modulus_gpa: Positive
     density_g_cm3: Annotated[float, Field(gt=0, le=30)]
     length_mm: Annotated[float, Field(gt=0, le=5000)] = 410.0
     """From the chuck to the tip."""

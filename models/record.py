@@ -1,4 +1,4 @@
-"""Frozen, keyword-only configuration records that explain what is wrong with them."""
+"""Frozen, keyword-only configuration records whose errors name the field at fault."""
 
 from difflib import get_close_matches
 from typing import Any
@@ -12,7 +12,7 @@ class Record(BaseModel):
     """A validated, immutable set of named values, units in the names.
 
     Raises:
-      InvalidValue: names the field, what was expected, what came and the way out.
+      InvalidValue: names the field, what was expected, what was found and how to fix it.
     """
 
     model_config = ConfigDict(
@@ -31,14 +31,14 @@ class Record(BaseModel):
 
 
 def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
-    """The first of pydantic's findings in the library's own words."""
+    """The first of pydantic's errors as one of the library's own."""
     first = error.errors()[0]
     cause = first.get("ctx", {}).get("error")
     if isinstance(cause, InvalidValue):
         path = ".".join(str(p) for p in first["loc"])
         inner = cause.field.split(".", 1)[-1] if cause.field[0].isupper() else cause.field
         field = f"{path}.{inner}" if path else cause.field
-        return InvalidValue(field, cause.got, cause.expected, cause.fix)
+        return InvalidValue(field, cause.found, cause.expected, cause.fix)
     field = ".".join(str(p) for p in (record.__name__, *first["loc"]))
     if first["type"] == "extra_forbidden":
         known = sorted(record.model_fields)
@@ -48,9 +48,9 @@ def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
     if first["type"] == "missing":
         return InvalidValue(field, "nothing", "a value", "this field has no default")
     message = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
-    return InvalidValue(field, first["input"], message, _others(error))
+    return InvalidValue(field, first["input"], message, _more(error))
 
 
-def _others(error: ValidationError) -> str:
+def _more(error: ValidationError) -> str:
     more = error.error_count() - 1
     return f"and {more} more fields are wrong" if more else ""

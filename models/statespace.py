@@ -22,7 +22,7 @@ def modal_system(needle: InsertedNeedle, *, modes: int) -> control.StateSpace:
     """Inertialess modal model with `modes` states, mode 0 first: (22), (23).
 
     Args:
-      needle: its drive is taken to be a torque, whatever it says.
+      needle: its `drive` is ignored: the input is a torque.
       modes: number of states.
 
     Returns:

@@ -64,7 +64,7 @@ class Layer(Record):
     thickness_mm: Positive | None = None
     """Depth that this layer takes; None: all the rest."""
     fraction: float | None = Field(default=None, gt=0, lt=1)
-    """Or its share of the inserted length, whatever that is."""
+    """Or its share of the inserted length."""
 
     @model_validator(mode="after")
     def _one_measure(self) -> "Layer":

@@ -17,11 +17,11 @@ from scripts import diagnose as diagnosing
 from scripts import insert
 from scripts import replay as replaying
 from scripts import validate as validating
-from sim.crosscheck.report import FILES, cross_check, write_report
 from sim.experiment import perform
 from sim.files import refuse_existing
-from sim.kernel.callback import install
 from sim.paper_protocols import protocol_named
+from sim.simulation import prepare_processes
+from studies.crosscheck.report import FILES, cross_check, write_report
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 EXAMPLE, DRY = EXAMPLES / "rig-log", EXAMPLES / "rig-log-dry"
@@ -38,14 +38,14 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     refuse_existing(paths, force=force)
     began = time.monotonic()
 
-    _announce(console, 1, "compiling the tissue (once a machine, about 20 s)")
-    install()
+    _announce(console, 1, "compiling the tissue (once per machine, about 20 s)")
+    prepare_processes()
     _announce(console, 2, f"insertion: {protocol.description}")
     recording = perform(protocol)
     insert.write(recording, folder, protocol, force=force)
     console.print(insert.summary(protocol, recording))
 
-    _announce(console, 3, "cross-check against the closed-form modes")
+    _announce(console, 3, "cross-check against closed-form solutions")
     findings = cross_check()
     write_report(findings, folder / "validate", force=force)
     console.print(validating.poles_table(findings))

@@ -5,15 +5,15 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from sim.control.flown import perform_flown
 from sim.experiment import perform
 from sim.files import refuse_existing, write_text
 from sim.paper_protocols import PROTOCOLS, protocol_named
-from sim.picture import draw
 from sim.protocol import Protocol, read_protocol
-from sim.recording import Recording
-from sim.rerun_log import log_recording
+from sim.recording.picture import draw
+from sim.recording.recording import Recording
+from sim.recording.rerun_log import log_recording
 from sim.spec import needle_spec
+from studies.control.closed_loop_run import perform_closed_loop
 
 ENDINGS = (".csv", ".parquet", ".png", ".rrd")
 
@@ -35,7 +35,7 @@ def run(
     force: bool,
     console: Console,
 ) -> int:
-    """Simulate the protocol of a name or of a YAML file, flown by a controller if one is named."""
+    """Simulate a protocol by name or YAML file, in closed loop if a controller is named."""
     protocol = find(name)
     paths = output_paths(folder, protocol)
     refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
@@ -44,7 +44,7 @@ def run(
         write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
         console.print(f"model      {mjcf}", highlight=False)
     with console.status(f"simulating {protocol.name}"):
-        recording = perform_flown(protocol, controller) if controller else perform(protocol)
+        recording = perform_closed_loop(protocol, controller) if controller else perform(protocol)
     for path in write(recording, folder, protocol, force=force):
         console.print(f"wrote      {path}", highlight=False)
     console.print(summary(protocol, recording))
@@ -68,20 +68,20 @@ def write(recording: Recording, folder: Path, protocol: Protocol, *, force: bool
     recording.write(csv, force=force)
     recording.write(parquet, force=force)
     draw(recording, picture, force=force)
-    log_recording(recording, rrd, verdicts=findings(recording), force=force)
+    log_recording(recording, rrd, results=results(recording), force=force)
     return [csv, parquet, picture, rrd]
 
 
-def findings(recording: Recording) -> list[str]:
-    """What the run came to, a line each."""
+def results(recording: Recording) -> list[str]:
+    """Results of the run, one line each."""
     lag = abs(recording["base_angle_deg"] - recording["tip_angle_deg"])
     at = recording["time_s"][lag.argmax()]
     lines: list[str] = []
     if "wanted_tip_deg" in recording.table:
-        missed = abs(recording["wanted_tip_deg"] - recording["tip_angle_deg"])[-1]
-        wrong = abs(recording["estimate_tip_deg"] - recording["tip_angle_deg"]).max()
-        lines += [f"tip short of the wish at the end: {missed:.2f} deg"]
-        lines += [f"largest error of the estimate: {wrong:.2f} deg"]
+        error = abs(recording["wanted_tip_deg"] - recording["tip_angle_deg"])[-1]
+        worst = abs(recording["estimate_tip_deg"] - recording["tip_angle_deg"]).max()
+        lines += [f"tip error at the end: {error:.2f} deg"]
+        lines += [f"largest error of the estimate: {worst:.2f} deg"]
     failed = int(recording["unconverged_count"][-1])
     lines += [
         f"largest lag of the tip: {lag.max():.1f} deg, at {at:.2f} s",
@@ -94,17 +94,17 @@ def findings(recording: Recording) -> list[str]:
 
 
 def summary(protocol: Protocol, recording: Recording) -> Table:
-    """The findings as a table on the screen."""
+    """The results as a table."""
     table = Table(title=protocol.description or protocol.name, show_header=False)
-    for line in findings(recording):
+    for line in results(recording):
         name, _, value = line.partition(": ")
         table.add_row(name, value)
     return table
 
 
 def list_protocols(console: Console) -> int:
-    """Print what is known by name."""
-    table = Table("name", "what is done", title="Protocols")
+    """Print the protocols that are known by name."""
+    table = Table("name", "experiment", title="Protocols")
     for name, make in PROTOCOLS.items():
         table.add_row(name, make().description)
     console.print(table)

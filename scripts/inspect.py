@@ -1,4 +1,4 @@
-"""`needle inspect`: open a recording in rerun's viewer, or list what is inside."""
+"""`needle inspect`: open a recording in rerun's viewer, or list its content."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from sim.rerun_table import Entry, entries
+from sim.recording.rerun_table import Entry, entries
 
 
 def run(path: Path, *, table: bool, console: Console) -> int:
@@ -21,7 +21,7 @@ def run(path: Path, *, table: bool, console: Console) -> int:
     viewer = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
     code = subprocess.call(viewer, env=environment)
     if code != 0:
-        console.print("the viewer did not open; without a screen, --table lists what is inside")
+        console.print("the viewer did not open; without a screen, --table lists the content")
     return code
 
 

@@ -31,14 +31,14 @@ def parser() -> argparse.ArgumentParser:
     insert.add_argument(
         "--controller",
         metavar="NAME",
-        help="fly it: the protocol's base angle becomes the wanted tip angle",
+        help="control the tip: the protocol's base angle becomes the reference of the tip angle",
     )
     insert.add_argument("--mjcf", type=Path, metavar="FILE", help="write the model for MuJoCo's viewer")
     _add_output(insert, default=Path("out/insert"))
 
     commands.add_parser("protocols", help="list the protocols that are known by name")
 
-    validate = commands.add_parser("validate", help="hold the simulation to closed forms")
+    validate = commands.add_parser("validate", help="check the simulation against closed-form solutions")
     _add_output(validate, default=None)
 
     control = commands.add_parser("control", help="estimators and controllers: Tables IV and V")
@@ -58,7 +58,7 @@ def parser() -> argparse.ArgumentParser:
 
     _add_blind(commands.add_parser("blind", help="validate the diagnosis on rigs that it has not met"))
 
-    inspect = commands.add_parser("inspect", help="open a recording, or list what is inside")
+    inspect = commands.add_parser("inspect", help="open a recording, or list its content")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
     inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
     return top
@@ -108,7 +108,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Console(stderr=True).print(shown, highlight=False)
         return 2
     except KeyboardInterrupt:
-        Console(stderr=True).print(f"needle {args.command}: interrupted; nothing half-written is left")
+        Console(stderr=True).print(f"needle {args.command}: interrupted; no incomplete file is left")
         return 130
 
 

@@ -16,8 +16,8 @@ from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
 from diagnosis.replay.rig_parameters import NOMINAL
 from sim.files import refuse_existing, writing
-from sim.recording import record
-from sim.rerun_log import log_recording
+from sim.recording.recording import record
+from sim.recording.rerun_log import log_recording
 
 Pair = tuple[PreparedTrial, Prediction]
 
@@ -106,9 +106,9 @@ def write(log: RigLog, nominal: NominalReplay, folder: Path, *, force: bool) -> 
     _draw(replayed, picture, force=force)
     first = nominal.problem.log.trials[0]
     shape = shape_of(log.rig, first, NOMINAL)
-    verdicts = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
+    results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
     parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
-    log_recording(record(shape, parameters), rrd, verdicts=verdicts, force=force)
+    log_recording(record(shape, parameters), rrd, results=results, force=force)
 
 
 def _draw(replayed: list[ReplayedTrial], path: Path, *, force: bool) -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from sim.crosscheck.findings import Findings
-from sim.crosscheck.report import FILES, cross_check, write_report
 from sim.files import refuse_existing
+from studies.crosscheck.findings import Findings
+from studies.crosscheck.report import FILES, cross_check, write_report
 
 _AGREES = 0.02  # figures within 2 % of each other need no explanation
 
@@ -18,7 +18,7 @@ def run(folder: Path | None, *, force: bool, console: Console) -> int:
     """Returns 1 if a bound fails."""
     if folder:
         refuse_existing([folder / name for name in FILES], force=force)
-    with console.status("holding MuJoCo's needle to closed forms and to the published figures"):
+    with console.status("checking MuJoCo's needle against closed-form solutions and published figures"):
         findings = cross_check()
     show(findings, console)
     if folder:
@@ -28,7 +28,7 @@ def run(folder: Path | None, *, force: bool, console: Console) -> int:
 
 
 def show(findings: Findings, console: Console) -> None:
-    """Poles, bounds, published figures."""
+    """Print poles, bounds and published figures."""
     console.print(poles_table(findings))
     console.print(checks_table(findings))
     published = Table(
@@ -38,7 +38,7 @@ def show(findings: Findings, console: Console) -> None:
         numbers = (f"{c.published:.4g}", _number(c.ours, ".4g"), _number(c.ratio, ".3f"))
         published.add_row(c.item, *numbers, c.unit, c.source)
     console.print(published)
-    console.print("Why figures differ, where it is known:")
+    console.print("Reasons for differences, where they are known:")
     differing = [c for c in findings.comparisons if not abs(c.ratio - 1) <= _AGREES]
     for note, items in groupby(differing, key=lambda c: c.note):
         if note:
@@ -53,12 +53,12 @@ def _number(value: float, shape: str) -> str:
 
 
 def poles_table(findings: Findings) -> Table:
-    """Measured against closed form, one row a case."""
+    """Measured against closed form, one row per case."""
     table = Table(
         "length, mm",
         "free, mm",
-        "driven by",
-        "poles measured from MuJoCo, rad/s",
+        "drive",
+        "poles identified from MuJoCo, rad/s",
         "worst error, %",
         title="Slowest four poles",
     )
@@ -75,6 +75,6 @@ def checks_table(findings: Findings) -> Table:
     """Every bound."""
     table = Table("bound", "measured", "must be", "unit", "", title="Bounds")
     for c in findings.checks:
-        verdict = "[green]holds[/]" if c.passed else "[red]fails[/]"
-        table.add_row(c.name, f"{c.value:.4g}", c.bounds, c.unit, verdict)
+        result = "[green]holds[/]" if c.passed else "[red]fails[/]"
+        table.add_row(c.name, f"{c.value:.4g}", c.bounds, c.unit, result)
     return table

@@ -1,0 +1,1 @@
+"""The needle in MuJoCo: protocols, runs with and without a controller, recordings."""

@@ -1,4 +1,4 @@
-"""How finely needle and time are cut, and how the same bodies are arranged."""
+"""Discretisation of needle and time, and the arrangement of the bodies in MuJoCo."""
 
 from enum import StrEnum
 from typing import Annotated
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 class Arrangement(StrEnum):
-    """Whose child an element is. Both land on the same angles."""
+    """Which body an element is attached to. Both arrangements give the same angles."""
 
     CHAIN = "chain"
     """Each element turns on its neighbour: joint springs are the torsion."""
@@ -24,21 +24,27 @@ class Arrangement(StrEnum):
 
 
 class Mesh(StrEnum):
-    """What the nodes are fixed to."""
+    """Frame in which the nodes stand still. The values are those of recordings."""
 
-    NEEDLE = "needle"
-    """The needle: tissue covers ever more of it as it goes in."""
-    TISSUE = "tissue"
-    """The tissue, whose depth is constant: the shaft slides past the nodes."""
+    LAGRANGIAN = "needle"
+    """Nodes are material points of the shaft: they move with the needle, and tissue covers ever
+    more of them as it goes in."""
+    EULERIAN = "tissue"
+    """Nodes are places in the tissue, whose inserted length is constant: the shaft slides past
+    them, and the elements of the free shaft stretch. Where the needle does not slide, the two
+    coincide."""
 
 
-class Slip(StrEnum):
-    """Whose rate the tissue resists while the shaft slides axially, twisted."""
+class SlipRate(StrEnum):
+    """Which rate of the angle theta(x, t) the tissue resists while a twisted shaft slides at v.
 
-    MATERIAL = "material"
-    """Of the material of the shaft: what friction feels."""
-    PLACE = "place"
-    """At a fixed place in the tissue: d theta / dt of equation (9)."""
+    The values are those that a protocol writes: `slip: material` or `slip: place`.
+    """
+
+    MATERIAL_DERIVATIVE = "material"
+    """d theta/dt + v d theta/dx: the rate of a material point of the shaft, which friction feels."""
+    SPATIAL_DERIVATIVE = "place"
+    """d theta/dt at a fixed place in the tissue, as in the paper's equation (9)."""
 
 
 class Discretisation(Record):
@@ -49,14 +55,14 @@ class Discretisation(Record):
     """
 
     elements: Annotated[int, Field(ge=2, le=1000)] = 16
-    """Along the inserted shaft (mesh `tissue`) or the whole needle (mesh `needle`)."""
+    """Along the inserted shaft (Eulerian mesh) or the whole needle (Lagrangian mesh)."""
     free_elements: Annotated[int, Field(ge=1, le=1000)] | None = None
-    """Along the free shaft (mesh `tissue`); None: 1, or 8 where a sheath rubs."""
+    """Along the free shaft (Eulerian mesh); None: 1, or 8 where a sheath rubs."""
     step_s: Annotated[float, Field(gt=0, le=0.1)] = 0.01
     presliding_deg: Annotated[float, Field(gt=0, le=5)] = 0.1
     """Angle at which a dry element slips."""
     arrangement: Arrangement = Arrangement.CHAIN
-    slip: Slip = Slip.MATERIAL
+    slip: SlipRate = SlipRate.MATERIAL_DERIVATIVE
 
 
 def node_positions_mm(
@@ -70,17 +76,19 @@ def node_positions_mm(
 ) -> tuple[Array, int]:
     """Positions of the nodes from the chuck, mm, and how many elements share the free length.
 
-    A mesh that stands in the tissue has nodes at the entry and at every boundary of
-    layers, and is even in between.
+    An Eulerian mesh has nodes at the entry and at every boundary of layers, and is even in
+    between.
 
     Raises:
-      InvalidValue: the mesh is to stand in tissue that the needle has not entered.
+      InvalidValue: the mesh is Eulerian and the needle has not entered the tissue.
     """
     total = free_mm + inserted_mm
-    if mesh is Mesh.NEEDLE:
+    if mesh is Mesh.LAGRANGIAN:
         return np.linspace(0.0, total, discretisation.elements + 1), 0
     if inserted_mm <= 0:
-        raise InvalidValue("inserted_mm", inserted_mm, "a depth above 0 for a mesh fixed to tissue")
+        raise InvalidValue(
+            "inserted_mm", inserted_mm, "a depth above 0 mm, because the mesh is fixed to the tissue"
+        )
     inside = free_mm + _even_between(tissue.boundaries_mm(inserted_mm), discretisation.elements)
     if free_mm == 0:
         return inside, 0

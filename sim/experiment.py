@@ -7,7 +7,7 @@ import numpy as np
 
 from models.errors import InvalidValue
 from sim.protocol import Protocol
-from sim.recording import Recording, record
+from sim.recording.recording import Recording, record
 from sim.simulation import Run, simulate
 
 _SECOND_ORDER = 4.0 / 3.0  # error of a step h from the difference to h / 2

@@ -1,4 +1,4 @@
-"""Writing results: whole or not at all, and never over somebody's data unasked."""
+"""Writing results: complete or not at all, and replacing existing files only if asked to."""
 
 import os
 import tempfile
@@ -13,7 +13,7 @@ def refuse_existing(paths: list[Path], *, force: bool) -> None:
     """Raise before any work is done if a result would overwrite something.
 
     Raises:
-      OutputExists: names the first path, and the way out.
+      OutputExists: names the first path, and how to choose another or replace it.
     """
     for path in paths:
         if path.exists() and not force:

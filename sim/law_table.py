@@ -7,7 +7,7 @@ from models import units
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
-from sim.kernel import wire
+from sim.kernel import memory_map
 
 Array = NDArray[np.float64]
 
@@ -15,11 +15,11 @@ _PER_MM = units.N_MM / units.MM
 
 
 def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) -> Array:
-    """Rows of `sim.kernel.wire`, SI: tissue layers, then sheath, entry and tip.
+    """Rows of `sim.kernel.memory_map`, SI: tissue layers, then sheath, entry and tip.
 
     Args:
       rows: pad with rows that do nothing up to this number, so that models of
-        different rigs share a layout.
+        different rigs have the same number of rows.
     """
     table = _layers(tissue.layers, needle)
     if drive.sheath_friction_n_mm_per_mm > 0:
@@ -29,13 +29,13 @@ def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) ->
     if needle.tip_drag_n_mm_s_per_rad > 0 or needle.load_coefficient > 0:
         table.append(_tip(needle))
     while len(table) < rows:
-        table.append(_nothing())
+        table.append(_inactive_row())
     return np.array(table)
 
 
-def _nothing() -> Array:
-    row = np.zeros(wire.COLUMNS)
-    row[wire.L_EXPONENT] = 1.0
+def _inactive_row() -> Array:
+    row = np.zeros(memory_map.COLUMNS)
+    row[memory_map.L_EXPONENT] = 1.0
     return row
 
 
@@ -44,50 +44,58 @@ def _layers(layers: tuple[Layer, ...], needle: Needle) -> list[Array]:
     rows, depth, share = [], 0.0, 0.0
     for layer in layers:
         row = _interface(layer.interface)
-        row[wire.L_CURVATURE] = needle.curvature_n_mm_per_mm * _PER_MM
-        row[wire.L_PHASE] = needle.curvature_phase_deg * units.DEG
-        row[[wire.L_TOP_CONST, wire.L_TOP_FREE, wire.L_TOP_INSERTED]] = depth, 1.0, share
+        row[memory_map.L_CURVATURE] = needle.curvature_n_mm_per_mm * _PER_MM
+        row[memory_map.L_PHASE] = needle.curvature_phase_deg * units.DEG
+        row[[memory_map.L_TOP_CONST, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = (
+            depth,
+            1.0,
+            share,
+        )
         if layer.thickness_mm is not None:
             depth += layer.thickness_mm * units.MM
         elif layer.fraction is not None:
             share += layer.fraction
         else:
             depth, share = 0.0, 1.0  # the whole inserted length
-        row[[wire.L_END_CONST, wire.L_END_FREE, wire.L_END_INSERTED]] = depth, 1.0, share
+        row[[memory_map.L_END_CONST, memory_map.L_END_FREE, memory_map.L_END_INSERTED]] = (
+            depth,
+            1.0,
+            share,
+        )
         rows.append(row)
     return rows
 
 
 def _interface(law: Interface) -> Array:
-    row = _nothing()
-    row[wire.L_VISCOUS] = law.viscous_n_mm_s_per_mm * _PER_MM
-    row[wire.L_EXPONENT], row[wire.L_PLATEAU] = law.exponent, law.plateau_rad_s
-    row[wire.L_KINETIC] = law.kinetic_n_mm_per_mm * _PER_MM
-    row[wire.L_STATIC] = law.static_level_n_mm_per_mm * _PER_MM
-    row[wire.L_STRIBECK] = law.stribeck_rad_s or 1.0
-    row[wire.L_SHARED] = law.shared_n_mm_per_mm * _PER_MM
-    row[wire.L_STIFFNESS] = (law.stiffness_n_mm_per_rad_per_mm or 0.0) * _PER_MM
-    row[wire.L_TIME] = law.time_constant_s
+    row = _inactive_row()
+    row[memory_map.L_VISCOUS] = law.viscous_n_mm_s_per_mm * _PER_MM
+    row[memory_map.L_EXPONENT], row[memory_map.L_PLATEAU] = law.exponent, law.plateau_rad_s
+    row[memory_map.L_KINETIC] = law.kinetic_n_mm_per_mm * _PER_MM
+    row[memory_map.L_STATIC] = law.static_level_n_mm_per_mm * _PER_MM
+    row[memory_map.L_STRIBECK] = law.stribeck_rad_s or 1.0
+    row[memory_map.L_SHARED] = law.shared_n_mm_per_mm * _PER_MM
+    row[memory_map.L_STIFFNESS] = (law.stiffness_n_mm_per_rad_per_mm or 0.0) * _PER_MM
+    row[memory_map.L_TIME] = law.time_constant_s
     return row
 
 
 def _sheath(level: float) -> Array:
-    row = _nothing()
-    row[wire.L_END_FREE] = 1.0
-    row[[wire.L_KINETIC, wire.L_STATIC]] = level
+    row = _inactive_row()
+    row[memory_map.L_END_FREE] = 1.0
+    row[[memory_map.L_KINETIC, memory_map.L_STATIC]] = level
     return row
 
 
 def _point_dry(level: float) -> Array:
-    row = _nothing()
-    row[[wire.L_POINT, wire.L_TOP_FREE]] = 1.0
-    row[[wire.L_KINETIC, wire.L_STATIC]] = level
+    row = _inactive_row()
+    row[[memory_map.L_POINT, memory_map.L_TOP_FREE]] = 1.0
+    row[[memory_map.L_KINETIC, memory_map.L_STATIC]] = level
     return row
 
 
 def _tip(needle: Needle) -> Array:
-    row = _nothing()
-    row[[wire.L_POINT, wire.L_TOP_FREE, wire.L_TOP_INSERTED]] = 1.0
-    row[wire.L_VISCOUS] = needle.tip_drag_n_mm_s_per_rad * units.N_MM
-    row[wire.L_LOAD] = needle.load_coefficient
+    row = _inactive_row()
+    row[[memory_map.L_POINT, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = 1.0
+    row[memory_map.L_VISCOUS] = needle.tip_drag_n_mm_s_per_rad * units.N_MM
+    row[memory_map.L_LOAD] = needle.load_coefficient
     return row

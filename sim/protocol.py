@@ -1,4 +1,4 @@
-"""Protocols: what is done to which needle in which tissue, in words that can be checked.
+"""Protocols: an experiment on a needle in tissue, as validated records.
 
 A protocol is a sequence of segments. Over `duration_s` of each the base turns by
 `turn_deg` at a constant rate (or holds `torque_n_mm`), while the needle advances by
@@ -24,6 +24,7 @@ from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
 from sim.spec import Setup
 
 _SAMPLES_A_WAVE = 32
+_STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
 
 
 class Segment(Record):
@@ -93,7 +94,7 @@ class Protocol(Record):
                 raise InvalidValue(
                     f"segments.{i}.advance_mm",
                     segment.advance_mm,
-                    "a motion that leaves lengths above 0, "
+                    "a motion that leaves free and inserted length at 0 mm or more, "
                     f"not {free:g} mm free and {inserted:g} mm inserted",
                 )
             self._check_drive(i, segment)
@@ -165,7 +166,8 @@ def read_protocol(path: Path) -> Protocol:
     """Read and check a protocol from YAML.
 
     Raises:
-      InvalidValue: the file is not YAML, or not a protocol; names the field.
+      InvalidValue: the file is not YAML, not a protocol, or holds an implausible value; names
+        the field.
     """
     try:
         content = yaml.safe_load(path.read_text(encoding="utf-8"))
@@ -173,4 +175,12 @@ def read_protocol(path: Path) -> Protocol:
         raise InvalidValue(str(path), str(error).splitlines()[0], "a readable YAML file") from error
     if not isinstance(content, dict):
         raise InvalidValue(str(path), content, "a mapping of the fields of a protocol")
-    return Protocol(**content)
+    protocol = Protocol(**content)
+    if protocol.needle.shear_modulus_gpa > _STIFFEST_GPA:
+        raise InvalidValue(
+            "needle.shear_modulus_gpa",
+            protocol.needle.shear_modulus_gpa,
+            f"at most {_STIFFEST_GPA:g} GPa",
+            "check that the value is in GPa",
+        )
+    return protocol

@@ -1,4 +1,4 @@
-"""What is done to a needle over time: the inputs of a run, sampled.
+"""The inputs of a run over time, sampled.
 
 Between samples everything runs straight. Lengths and speed are those of the shaft
 relative to the tissue; `speed_mm_s` is positive into it.
@@ -79,9 +79,9 @@ class Schedule:
 
     @property
     def mesh(self) -> Mesh:
-        """Nodes stand in tissue of constant depth; else they travel with the needle."""
+        """Eulerian where the needle has a constant inserted length; else Lagrangian."""
         constant = np.ptp(self.inserted_mm) <= LENGTH_TOLERANCE_MM
-        return Mesh.TISSUE if constant and self.inserted_mm[0] > 0 else Mesh.NEEDLE
+        return Mesh.EULERIAN if constant and self.inserted_mm[0] > 0 else Mesh.LAGRANGIAN
 
     def at_steps(self, step_s: float) -> "Schedule":
         """The same inputs at the ends of equal steps, the last at or after the end."""

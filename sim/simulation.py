@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from models import units
 from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.schedule import Schedule
 from sim.spec import Setup, needle_spec, renumbered
@@ -23,7 +23,7 @@ _LANDING_TOLERANCE_RAD = 1e-8
 
 
 class SimulationFailed(NeedleError):
-    """A run did not reach its end with numbers that can be trusted."""
+    """A run did not end, or its results cannot be trusted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +32,7 @@ class Run:
 
     Attributes:
       inputs: the inputs at the ends of the steps.
-      outputs: (N, wire.OUTPUTS), SI, as the sensors show them.
+      outputs: (N, memory_map.OUTPUTS), SI, as the sensors show them.
       angles_rad: (N, n + 1) or None where they were not kept.
       tissue_rad: (N, rows, n, 2) twist of the tissue at its sites, or None.
       unconverged: stages whose iteration did not converge; 0 in a good run.
@@ -52,22 +52,30 @@ class Run:
     @property
     def tip_deg(self) -> Array:
         """Angle of the tip, deg, (N,)."""
-        return self.outputs[:, wire.O_TIP_ANGLE] / units.DEG
+        return self.outputs[:, memory_map.O_TIP_ANGLE] / units.DEG
 
     @property
     def base_deg(self) -> Array:
         """Angle of the needle at the chuck, deg, (N,)."""
-        return self.outputs[:, wire.O_BASE_ANGLE] / units.DEG
+        return self.outputs[:, memory_map.O_BASE_ANGLE] / units.DEG
 
     @property
     def base_torque_n_mm(self) -> Array:
         """Torque that the drive puts in, N mm, (N,)."""
-        return self.outputs[:, wire.O_BASE_TORQUE] / units.N_MM
+        return self.outputs[:, memory_map.O_BASE_TORQUE] / units.N_MM
 
     @property
     def unconverged(self) -> int:
         """Stages whose iteration did not converge."""
-        return int(self.outputs[-1, wire.O_FAILED])
+        return int(self.outputs[-1, memory_map.O_FAILED])
+
+
+def prepare_processes() -> None:
+    """Compile and install the tissue callback, so that processes forked afterwards inherit it.
+
+    The first call on a machine compiles for about 20 s; the machine code is cached on disk.
+    """
+    install()
 
 
 def compile_model(setup: Setup) -> mujoco.MjModel:
@@ -94,13 +102,13 @@ def _model(setup: Setup) -> mujoco.MjModel:
 
 def controls(inputs: Schedule, setup: Setup) -> Array:
     """`ctrl` at every sample, SI, (N, inputs)."""
-    ctrl = np.zeros((inputs.time_s.size, wire.INPUTS))
+    ctrl = np.zeros((inputs.time_s.size, memory_map.INPUTS))
     scale = units.DEG if setup.drive.kind is DriveKind.ANGLE else units.N_MM
-    ctrl[:, wire.U_DRIVE] = inputs.drive * scale
-    ctrl[:, wire.U_CARRIAGE] = (setup.free_mm - inputs.free_mm) * units.MM
-    ctrl[:, wire.U_INSERTED] = inputs.inserted_mm * units.MM
-    ctrl[:, wire.U_SPEED] = inputs.speed_mm_s * units.MM
-    ctrl[:, wire.U_TIP] = inputs.tip_torque_n_mm * units.N_MM
+    ctrl[:, memory_map.U_DRIVE] = inputs.drive * scale
+    ctrl[:, memory_map.U_CARRIAGE] = (setup.free_mm - inputs.free_mm) * units.MM
+    ctrl[:, memory_map.U_INSERTED] = inputs.inserted_mm * units.MM
+    ctrl[:, memory_map.U_SPEED] = inputs.speed_mm_s * units.MM
+    ctrl[:, memory_map.U_TIP] = inputs.tip_torque_n_mm * units.N_MM
     return ctrl
 
 
@@ -112,9 +120,9 @@ def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjD
     """
     data = mujoco.MjData(model)
     if setup.drive.kind is DriveKind.ANGLE:
-        chain = model.numeric("needle").data[wire.H_CHAIN] != 0
-        data.qpos[1 : 2 if chain else None] = ctrl[wire.U_DRIVE]
-    data.qpos[0] = ctrl[wire.U_CARRIAGE]
+        chain = model.numeric("needle").data[memory_map.H_CHAIN] != 0
+        data.qpos[1 : 2 if chain else None] = ctrl[memory_map.U_DRIVE]
+    data.qpos[0] = ctrl[memory_map.U_CARRIAGE]
     data.ctrl[:] = ctrl
     mujoco.mj_forward(model, data)
     return data
@@ -123,7 +131,7 @@ def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjD
 def simulate(
     setups: Sequence[Setup], inputs: Schedule, *, keep_shape: bool = False, threads: int = 1
 ) -> list[Run]:
-    """Run needles of one layout side by side through the same inputs.
+    """Run needles of one model size side by side through the same inputs.
 
     Args:
       setups: differ in anything but number of nodes, rows and step.
@@ -132,14 +140,19 @@ def simulate(
       threads: of MuJoCo's batch; results do not depend on it.
 
     Raises:
-      InvalidValue: the setups do not share a layout.
+      InvalidValue: the setups differ in elements or rows of the law table.
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
     models = [_model(setup) for setup in setups]
     first = models[0]
-    for setup, model in zip(setups, models, strict=True):
+    for model in models:
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):
-            raise InvalidValue("setups", setup, "the same number of elements and rows", "set rows")
+            raise InvalidValue(
+                "setups",
+                (model.nq, model.nuserdata),
+                f"the same number of elements and rows in every set-up, {first.nq, first.nuserdata}",
+                "set `rows` to the largest number of rows",
+            )
     stepped = inputs.at_steps(setups[0].discretisation.step_s)
     ctrl = np.stack([controls(stepped, setup) for setup in setups])
     batch = Batch(first, len(setups), threads)
@@ -164,19 +177,20 @@ def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Ar
     if not np.isfinite(outputs).all():
         bad = inputs.time_s[np.flatnonzero(~np.isfinite(outputs).all(axis=1))[0]]
         raise SimulationFailed(
-            f"the simulation lost its numbers at {bad:.3f} s; take a smaller step than "
-            f"{setup.discretisation.step_s} s, or check the tissue's parameters"
+            f"expected finite outputs, found NaN or infinity at {bad:.3f} s; take a smaller step "
+            f"than {setup.discretisation.step_s} s, or check the tissue's parameters"
         )
-    landing = float(outputs[-1, wire.O_LANDING])
+    landing = float(outputs[-1, memory_map.O_LANDING])
     if landing > _LANDING_TOLERANCE_RAD:
         raise SimulationFailed(
-            f"MuJoCo's step missed the wanted angles by {landing:.1e} rad; "
-            "is another passive callback installed, or the model changed?"
+            f"expected MuJoCo's step to end within {_LANDING_TOLERANCE_RAD:.0e} rad of the angles "
+            f"that the callback computed, found {landing:.1e} rad; remove any other passive "
+            "callback, and do not change the model after it was compiled"
         )
     if "qpos" not in raw:
         return Run(setup=setup, inputs=inputs, outputs=outputs)
     angles = np.vstack([start.qpos[None, 1:], raw["qpos"][:, 1:]])
-    if start.model.numeric("needle").data[wire.H_CHAIN] != 0:
+    if start.model.numeric("needle").data[memory_map.H_CHAIN] != 0:
         angles = np.cumsum(angles, axis=1)
     return Run(
         setup=setup,
@@ -189,19 +203,21 @@ def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Ar
 
 def _at_rest(start: mujoco.MjData, setup: Setup) -> Array:
     """The outputs before anything has moved."""
-    row = np.zeros(wire.OUTPUTS)
-    row[[wire.O_BASE_ANGLE, wire.O_TIP_ANGLE]] = start.qpos[1]
-    row[wire.O_TIP_TORQUE] = start.ctrl[wire.U_TIP]
+    row = np.zeros(memory_map.OUTPUTS)
+    row[[memory_map.O_BASE_ANGLE, memory_map.O_TIP_ANGLE]] = start.qpos[1]
+    row[memory_map.O_TIP_TORQUE] = start.ctrl[memory_map.U_TIP]
     if setup.drive.kind is DriveKind.TORQUE:
-        row[wire.O_BASE_TORQUE] = start.ctrl[wire.U_DRIVE]
+        row[memory_map.O_BASE_TORQUE] = start.ctrl[memory_map.U_DRIVE]
     return row
 
 
 def _tissue(start: mujoco.MjData, userdata: Array) -> Array:
     head = start.model.numeric("needle").data
-    n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
-    size = wire.block(n, rows)
-    at = wire.CLOCK + size + wire.B_ANGLES + 2 * (n + 1)
-    sites = userdata[:, at : at + wire.SITE * 2 * n * rows].reshape(-1, rows, n, 2, wire.SITE)
-    twist: Array = sites[..., wire.PHI]
+    n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    size = memory_map.block(n, rows)
+    at = memory_map.CLOCK + size + memory_map.B_ANGLES + 2 * (n + 1)
+    sites = userdata[:, at : at + memory_map.SITE * 2 * n * rows].reshape(
+        -1, rows, n, 2, memory_map.SITE
+    )
+    twist: Array = sites[..., memory_map.PHI]
     return np.concatenate([np.zeros((1, *twist.shape[1:])), twist])

@@ -22,8 +22,8 @@ from models.drive import Drive, DriveKind
 from models.errors import InvalidValue
 from models.needle import Needle
 from models.tissue import Tissue
-from sim.discretisation import Arrangement, Discretisation, Mesh, Slip, node_positions_mm
-from sim.kernel import wire
+from sim.discretisation import Arrangement, Discretisation, Mesh, SlipRate, node_positions_mm
+from sim.kernel import memory_map
 from sim.law_table import law_table
 
 Array = NDArray[np.float64]
@@ -43,18 +43,18 @@ class Setup:
     Attributes:
       needle, tissue, drive: the rig.
       discretisation: elements and step.
-      mesh: what the nodes are fixed to.
+      mesh: frame in which the nodes stand still.
       free_mm, inserted_mm: lengths at the start; together the shaft that is modelled.
       rows: least number of rows of the law table.
-      slip_share: between the slips at a place (0) and of the material (1), where it is
-        neither; None: as the discretisation says.
+      slip_share: weight of the material (1) against the spatial (0) derivative in the slip
+        rate, where it is a blend of both; None: as the discretisation says.
     """
 
     needle: Needle
     tissue: Tissue
     drive: Drive = Drive()  # noqa: RUF009 - frozen
     discretisation: Discretisation = Discretisation()  # noqa: RUF009 - frozen
-    mesh: Mesh = Mesh.TISSUE
+    mesh: Mesh = Mesh.EULERIAN
     free_mm: float
     inserted_mm: float
     rows: int = 0
@@ -132,7 +132,7 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
     _add_numbers(spec, setup)
     tip = _add_bodies(spec, setup)
     _add_actuators(spec, setup, tip)
-    for name in wire.OUTPUT_SENSORS:
+    for name in memory_map.OUTPUT_SENSORS:
         spec.add_sensor(
             name=name,
             type=mujoco.mjtSensor.mjSENS_USER,
@@ -167,34 +167,34 @@ def _rail_n_per_m(setup: Setup) -> float:
     return (_mass_kg(setup) + _CARRIAGE_MASS) * _RAIL_RATE**2
 
 
-def _convection(setup: Setup) -> float:
+def _advection_coefficient(setup: Setup) -> float:
     """c in: slip rate = omega + c v dtheta/dx."""
     share = setup.slip_share
     if share is None:
-        share = 1.0 if setup.discretisation.slip is Slip.MATERIAL else 0.0
-    return share if setup.mesh is Mesh.TISSUE else share - 1.0
+        share = 1.0 if setup.discretisation.slip is SlipRate.MATERIAL_DERIVATIVE else 0.0
+    return share if setup.mesh is Mesh.EULERIAN else share - 1.0
 
 
 def header(setup: Setup, *, rows: int) -> Array:
-    """The `needle` numeric of `sim.kernel.wire`, SI."""
-    head = np.zeros(wire.HEADER)
-    head[wire.H_MAGIC] = wire.MAGIC
-    head[wire.H_ELEMENTS] = setup.nodes_mm.size - 1
-    head[wire.H_ROWS] = rows
-    head[wire.H_KAPPA] = setup.needle.rigidity_n_mm2 * units.N_MM2
-    head[wire.H_ETA] = setup.needle.rotary_inertia_kg_m
+    """The `needle` numeric of `sim.kernel.memory_map`, SI."""
+    head = np.zeros(memory_map.HEADER)
+    head[memory_map.H_MAGIC] = memory_map.MAGIC
+    head[memory_map.H_ELEMENTS] = setup.nodes_mm.size - 1
+    head[memory_map.H_ROWS] = rows
+    head[memory_map.H_KAPPA] = setup.needle.rigidity_n_mm2 * units.N_MM2
+    head[memory_map.H_ETA] = setup.needle.rotary_inertia_kg_m
     angle_driven = setup.drive.kind is DriveKind.ANGLE
-    head[wire.H_DRIVE] = wire.DRIVE_ANGLE if angle_driven else wire.DRIVE_TORQUE
-    head[wire.H_SERVO] = setup.servo_n_m_per_rad
-    head[wire.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
-    head[wire.H_PRESLIDING] = setup.discretisation.presliding_deg * units.DEG
-    head[wire.H_RADIUS] = setup.needle.radius_mm * units.MM
-    head[wire.H_CONVECTION] = _convection(setup)
-    head[wire.H_STRETCHING] = setup.stretching
-    head[wire.H_FREE_REF] = setup.free_mm * units.MM
-    head[wire.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
-    head[wire.H_MASS] = _mass_kg(setup) + _CARRIAGE_MASS
-    head[wire.H_RAIL] = _rail_n_per_m(setup)
+    head[memory_map.H_DRIVE] = memory_map.DRIVE_ANGLE if angle_driven else memory_map.DRIVE_TORQUE
+    head[memory_map.H_SERVO] = setup.servo_n_m_per_rad
+    head[memory_map.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
+    head[memory_map.H_PRESLIDING] = setup.discretisation.presliding_deg * units.DEG
+    head[memory_map.H_RADIUS] = setup.needle.radius_mm * units.MM
+    head[memory_map.H_ADVECTION] = _advection_coefficient(setup)
+    head[memory_map.H_STRETCHING] = setup.stretching
+    head[memory_map.H_FREE_REF] = setup.free_mm * units.MM
+    head[memory_map.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
+    head[memory_map.H_MASS] = _mass_kg(setup) + _CARRIAGE_MASS
+    head[memory_map.H_RAIL] = _rail_n_per_m(setup)
     return head
 
 
@@ -207,7 +207,7 @@ def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
         ("needle_law", law.ravel()),
     ):
         spec.add_numeric(name=name, data=values, size=values.size)
-    spec.nuserdata = wire.userdata(nodes.size - 1, len(law))
+    spec.nuserdata = memory_map.userdata(nodes.size - 1, len(law))
 
 
 def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:

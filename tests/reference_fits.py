@@ -5,7 +5,7 @@ import numpy as np
 from diagnosis.effects.effect import Parameter
 from diagnosis.replay.rig_parameters import RigParameters
 from studies.published.experiments.figures import plastisol
-from studies.published.experiments.measurement import PublishedFigure, Quantity, TurnExperiment
+from studies.published.experiments.measurement import MeasuredFigure, Quantity, TurnExperiment
 from studies.published.experiments.rig import WITHOUT_FREE_LENGTH, PublishedRig
 from studies.published.fitting.fit import FigureFit
 from studies.published.fitting.fitter import FigureFitter
@@ -23,7 +23,7 @@ class LineReplay:
 
 
 def line_figure(depth_mm, value, sigma, quantity=Quantity.DAMPING):
-    return PublishedFigure(
+    return MeasuredFigure(
         source="line",
         experiment=TurnExperiment.SLOW_TURN,
         quantity=quantity,
@@ -71,6 +71,6 @@ def as_published(rig, replay):
     """The figures that a rig would have had printed, with the standard deviations of the real ones."""
     values = replay(plastisol(), [rig])[:, 0]
     return tuple(
-        PublishedFigure(**{**vars(f), "value": float(v)})
+        MeasuredFigure(**{**vars(f), "value": float(v)})
         for f, v in zip(plastisol(), values, strict=True)
     )

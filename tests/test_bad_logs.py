@@ -12,13 +12,13 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-
 from diagnosis.contradictions import misfit
 from diagnosis.faults import quantum, scatter
 from diagnosis.rig_log import UnusableLog, read_rig_log
 from diagnosis.spelling import look_alike
 from diagnosis.trial import COLUMNS
 from diagnosis.trial_file import MOST_ROWS
+
 from scripts.main import main
 
 TIP, TORQUE, BASE = 0.4, 0.015, 0.02
@@ -249,7 +249,7 @@ def test_what_is_no_text_file_is_refused(log):
 
 
 FIELDS = [
-    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', got 'rig-log/2'"),
+    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', found 'rig-log/2'"),
     (
         lambda c: c["needle"].update(diameter_mm=5000),
         r"needle.diameter_mm: .*0.05 to 10, got 5000",

@@ -65,7 +65,7 @@ def test_validate_writes_the_contract(tmp_path):
 
 def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):
     from scripts import validate
-    from sim.crosscheck.findings import Check, Findings
+    from studies.crosscheck.findings import Check, Findings
 
     failing = Findings(checks=[Check(name="x", value=2, unit="-", high=1)])
     monkeypatch.setattr(validate, "cross_check", lambda: failing)

@@ -8,25 +8,25 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
-from reference_log import BETA, make_log
-
 from diagnosis.base_motion import without_base_noise
 from diagnosis.bridging import bridged
 from diagnosis.coordinates import coordinates_of, starts
 from diagnosis.diagnose import diagnose
-from diagnosis.effects import LIBRARY
-from diagnosis.effects.effect import Place
 from diagnosis.evidence import Evidence
 from diagnosis.fit import fit_effects
 from diagnosis.noise import white_noise
 from diagnosis.nuisance import nuisance_of
-from diagnosis.report import FORMAT, as_json, write_report
 from diagnosis.rig_log import read_rig_log
 from diagnosis.rig_model import RigModel
 from diagnosis.verdict import Outcome
 from diagnosis.whiteness import floor_of
+from reference_log import BETA, make_log
+
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
+from diagnosis.report import FORMAT, as_json, write_report
 from scripts.main import main
-from sim.rerun_table import entries
+from sim.recording.rerun_table import entries
 
 VOCABULARY = {
     "coulomb_friction": "interface",

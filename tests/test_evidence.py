@@ -5,8 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.optimize import lsq_linear
-
 from diagnosis.backdrop import Backdrop
 from diagnosis.base_motion import smoothed
 from diagnosis.bridging import bridged, original
@@ -27,6 +25,7 @@ from diagnosis.rig_log import RigLog, Trial
 from diagnosis.rig_model import RigModel
 from diagnosis.thinning import thinned
 from diagnosis.where import locate
+from scipy.optimize import lsq_linear
 
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02
 RIG = Rig(

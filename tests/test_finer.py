@@ -5,10 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from reference_log import BETA, TIP, TORQUE
-from reference_rig import Rig as ReferenceRig
-from reference_rig import simulate as simulate_reference
-
 from diagnosis.candidate import candidate
 from diagnosis.evidence import FINE, Evidence
 from diagnosis.finer import finely_fitted
@@ -18,6 +14,9 @@ from diagnosis.nuisance import nuisance_of
 from diagnosis.rig import NominalNeedle, NominalTissue, Rig, SensorNoise, TrialEntry
 from diagnosis.rig_log import RigLog, Trial
 from diagnosis.team import team
+from reference_log import BETA, TIP, TORQUE
+from reference_rig import Rig as ReferenceRig
+from reference_rig import simulate as simulate_reference
 
 ELASTIC = {"stiffness": 0.05, "time_constant": 0.4}
 

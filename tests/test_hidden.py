@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from reference_log import TIP, make_log
-
 from diagnosis.diagnose import diagnose
-from diagnosis.effects import LIBRARY
 from diagnosis.page_tables import strength
 from diagnosis.rig_log import read_rig_log
 from diagnosis.verdict import Outcome
+from reference_log import TIP, make_log
+
+from diagnosis.effects import LIBRARY
 
 
 @pytest.fixture(scope="module")

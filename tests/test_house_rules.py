@@ -3,6 +3,7 @@
 import ast
 import re
 import tomllib
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ PACKAGES = (
 MAY_IMPORT = {
     "models": {"models"},
     "controllers": {"controllers", "models"},
-    "sim": {"sim", "controllers", "models"},
+    "sim": {"sim", "models"},
     "diagnosis": {"diagnosis", "sim", "models"},
     "studies": {"studies", "diagnosis", "controllers", "sim", "models"},
     "validation/rig": {"validation"},
@@ -24,7 +25,18 @@ MAY_IMPORT = {
     "scripts": {"scripts", "studies", "diagnosis", "controllers", "sim", "models"},
 }
 ROOMS_OF_VALIDATION = ("rig", "logs", "score")
-SIDE_STREAMS = {"sim/rerun_log.py", "sim/rerun_table.py"}
+# Inside a package the direction is one too: of its folders, each imports only these.
+MAY_IMPORT_INSIDE = {
+    "sim.kernel": {"sim.kernel"},
+    "sim.recording": {"sim", "sim.kernel", "sim.recording"},
+    "studies.crosscheck": {"studies.crosscheck"},
+    "studies.control": {"studies.control", "studies.crosscheck"},
+    "studies.published": {
+        *("studies.published", "studies.control", "studies.crosscheck"),
+        *(f"studies.published.{room}" for room in ("experiments", "fitting", "selection", "report")),
+    },
+}
+SIDE_STREAMS = {"sim/recording/rerun_log.py", "sim/recording/rerun_table.py"}
 
 
 def sources(package):
@@ -53,6 +65,46 @@ def test_imports_run_one_way(package):
         assert ours <= MAY_IMPORT[package] | validates, path
 
 
+@pytest.mark.parametrize("folder", MAY_IMPORT_INSIDE)
+def test_imports_run_one_way_inside_a_package_too(folder):
+    package = folder.split(".")[0]
+    for path in sources(folder.replace(".", "/")):
+        inside = {name for name in imported(path) if name.split(".")[0] == package}
+        assert {_folder_of(name) for name in inside} <= MAY_IMPORT_INSIDE[folder], path
+
+
+def _folder_of(name):
+    """The package that holds a module or a name of one, or a package itself."""
+    parts = name.split(".")
+    while not ROOT.joinpath(*parts).is_dir():
+        parts = parts[:-1]
+    return ".".join(parts)
+
+
+def _module(path):
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def _imported_modules(path, modules):
+    """Modules that a file imports, whether as a module or as a name from its package."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in modules)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names = {f"{node.module}.{alias.name}" for alias in node.names} & modules
+            yield from names or {node.module} & modules
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    paths = {_module(path): path for package in MAY_IMPORT for path in sources(package)}
+    graph = {name: set(_imported_modules(path, set(paths))) for name, path in paths.items()}
+    TopologicalSorter(graph).prepare()  # raises CycleError, which names the modules
+    looped = graph | {"models.errors": {"models.needle"}}
+    with pytest.raises(CycleError):
+        TopologicalSorter(looped).prepare()
+
+
 @pytest.mark.parametrize("room", ROOMS_OF_VALIDATION)
 def test_in_validation_imports_run_from_rig_to_logs_to_score(room):
     allowed = ROOMS_OF_VALIDATION[: ROOMS_OF_VALIDATION.index(room) + 1]
@@ -64,9 +116,10 @@ def test_in_validation_imports_run_from_rig_to_logs_to_score(room):
 
 
 def test_the_score_knows_of_sim_and_models_only_files_and_errors():
+    known = ("sim.files", "models.errors")
     for path in sources("validation/score"):
         theirs = {name for name in imported(path) if name.split(".")[0] in ("sim", "models")}
-        assert theirs <= {"sim.files", "models.errors"}, path
+        assert all(name.startswith(known) for name in theirs), path
 
 
 def test_controllers_and_models_know_no_simulator():
@@ -100,7 +153,9 @@ def test_physics_never_imports_rerun():
             if path.relative_to(ROOT).as_posix() in SIDE_STREAMS:
                 continue
             names = set(imported(path))
-            assert not any(n.split(".")[0] == "rerun" or n.startswith("sim.rerun") for n in names), path
+            assert not any(
+                n.split(".")[0] == "rerun" or n.startswith("sim.recording.rerun") for n in names
+            ), path
 
 
 def test_print_and_pickle_stay_out_of_the_library():
@@ -140,6 +195,25 @@ def test_the_constraints_pin_what_the_project_needs_and_name_no_address():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     needed = project["dependencies"] + project["optional-dependencies"]["dev"]
     assert {re.split(r"[><=\[]", n)[0].lower() for n in needed} <= pinned
+
+
+@pytest.mark.parametrize("package", ["models", "sim", "controllers", "studies"])
+def test_every_module_has_a_test_at_the_same_place_that_names_it(package):
+    for path in sources(package):
+        if path.name != "__init__.py":
+            place = path.relative_to(ROOT)
+            test = ROOT / "tests" / place.with_name(f"test_{path.name}")
+            assert test.exists(), test.relative_to(ROOT)
+            assert {_module(path), path.stem} & set(_names_in(test)), f"{place} is not imported there"
+
+
+def _names_in(path):
+    """What a test imports, and what it takes from the kernel in the interpreter."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            yield from (node.module, *(f"{node.module}.{alias.name}" for alias in node.names))
+        elif isinstance(node, ast.Attribute) and getattr(node.value, "id", "") == "interpreted":
+            yield node.attr
 
 
 def test_every_package_is_listed_for_installation():

@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from diagnosis.rig_log import UnusableLog, read_rig_log
 
 from diagnosis.replay import replay
-from diagnosis.rig_log import UnusableLog, read_rig_log
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "rig-log"
 

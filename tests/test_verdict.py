@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-
 from diagnosis.candidate import Candidate
 from diagnosis.coordinates import coordinates_of, starts
-from diagnosis.effects import LIBRARY
 from diagnosis.fit import Fit
 from diagnosis.verdict import Outcome, judge
 from diagnosis.whiteness import Floor
+
+from diagnosis.effects import LIBRARY
 
 AT_FLOOR = Floor(gap=1.0, slow=1.0)
 

@@ -48,7 +48,7 @@ SLIP_GROWING_DEPTH = Effect(
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:
     """What every fit of a log leaves open."""
     sliding = [trial for trial in log.trials if (abs(trial.speed_mm_s) > SLIDING_MM_S).any()]
-    growing = [trial.schedule.mesh is Mesh.NEEDLE for trial in sliding]
+    growing = [trial.schedule.mesh is Mesh.LAGRANGIAN for trial in sliding]
     slips = [SLIP_CONSTANT_DEPTH] if not all(growing) else []
     slips += [SLIP_GROWING_DEPTH] if any(growing) else []
     return (*(LIBRARY[name] for name in SCATTER), *slips)

@@ -120,7 +120,7 @@ class RigParameters:
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle that goes through a schedule."""
         shaft = max(schedule.longest_mm, 1.0)
-        standing = schedule.mesh is Mesh.TISSUE
+        standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
         return Setup(
             needle=self.needle(rig, shaft),

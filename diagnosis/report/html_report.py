@@ -24,8 +24,8 @@ _BREAKDOWN = (
 _RANKING = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
     f"explain a log together share theirs. Odds below {math.exp(SIMPLE_LEAD / 2):.0f} to 1 decide "
-    "nothing: a second effect, or more parameters, have to lead by more before they are named. An effect "
-    f"that contains a simpler one has to lead that by {math.exp(NESTED_LEAD / 2):.0f} to 1."
+    "nothing: a second effect, or more parameters, have to lead by more before they are named. An "
+    f"effect that contains a simpler one has to lead that by {math.exp(NESTED_LEAD / 2):.0f} to 1."
 )
 _LIMITS = (
     "How strong each further effect may be and go unseen in these trials: of one that is stronger, "

@@ -18,7 +18,7 @@ from diagnosis.replay.replay import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
 from diagnosis.result import Diagnosis
 from sim.files import writing
-from sim.rerun_log import APPLICATION, log_series
+from sim.recording.rerun_log import APPLICATION, log_series
 
 Array = NDArray[np.float64]
 

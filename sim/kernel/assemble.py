@@ -1,18 +1,18 @@
-"""The stage equation of the chain, linearised: one function a kind of term.
+"""The stage equation of the chain, linearised: one function per kind of term.
 
     I/g (w - w*) + K (theta* + g w) + D w + sum over sites of N f(N' w) = drive - tip
 
-What is linear (inertia, torsion, viscous rows) is assembled once a step; the
+What is linear (inertia, torsion, viscous rows) is assembled once per step; the
 sites of every other row add their torque and slope at each iteration.
 """
 
 import math
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
-from sim.kernel.work import Frame, Work
+from sim.kernel.workspace import Frame, Workspace
 
 # A place is the end of the shaft if it lies within this fraction of the last element.
 _AT_END = 0.01
@@ -22,19 +22,19 @@ _AT_END = 0.01
 def is_linear(row: Array) -> bool:
     """Whether a row is viscous friction alone: no state, no iteration."""
     return (
-        row[wire.L_EXPONENT] == 1.0
-        and row[wire.L_KINETIC] == 0.0
-        and row[wire.L_STATIC] == 0.0
-        and row[wire.L_SHARED] == 0.0
-        and row[wire.L_STIFFNESS] == 0.0
-        and row[wire.L_CURVATURE] == 0.0
-        and row[wire.L_LOAD] == 0.0
-        and row[wire.L_POINT] == 0.0
+        row[memory_map.L_EXPONENT] == 1.0
+        and row[memory_map.L_KINETIC] == 0.0
+        and row[memory_map.L_STATIC] == 0.0
+        and row[memory_map.L_SHARED] == 0.0
+        and row[memory_map.L_STIFFNESS] == 0.0
+        and row[memory_map.L_CURVATURE] == 0.0
+        and row[memory_map.L_LOAD] == 0.0
+        and row[memory_map.L_POINT] == 0.0
     )
 
 
 @inlined
-def add_viscous(w: Work, loads: Array, beta: float) -> None:
+def add_viscous(w: Workspace, loads: Array, beta: float) -> None:
     """Damping of a viscous row: what the rates at the sites load the nodes with."""
     for e in range(loads.shape[0]):
         l0, l1, r0, r1 = loads[e, 0], loads[e, 1], loads[e, 2], loads[e, 3]
@@ -45,8 +45,8 @@ def add_viscous(w: Work, loads: Array, beta: float) -> None:
 
 
 @inlined
-def add_viscous_slide(w: Work, loads: Array, beta: float, frame: Frame) -> None:
-    """Slip of a viscous row because the shaft slides against the mesh, twisted.
+def add_viscous_advection(w: Workspace, loads: Array, beta: float, frame: Frame) -> None:
+    """Slip of a viscous row because a twisted shaft slides against the mesh: advection.
 
     The slip gains drift dtheta/dx: linear in the angles at the end of the stage,
     its part in the rates enters the matrix and its part in theta* the residual.
@@ -65,13 +65,13 @@ def add_viscous_slide(w: Work, loads: Array, beta: float, frame: Frame) -> None:
 
 
 @inlined
-def twist_of(w: Work, e: int, g: float) -> float:
+def twist_of(w: Workspace, e: int, g: float) -> float:
     """Twist of element e at the end of the stage, rad."""
     return w.theta[e + 1] - w.theta[e] + g * (w.omega[e + 1] - w.omega[e])
 
 
 @inlined
-def add_linear(w: Work, g: float, with_matrix: bool) -> None:
+def add_linear(w: Workspace, g: float, with_matrix: bool) -> None:
     """Inertia, torsion and viscous rows: the residual, and the matrix if wanted."""
     n = w.omega.size - 1
     arriving, before, previous = 0.0, 0.0, 0.0
@@ -94,7 +94,7 @@ def add_linear(w: Work, g: float, with_matrix: bool) -> None:
 
 
 @inlined
-def drive_torque(w: Work, frame: Frame, drive: float) -> tuple[float, float]:
+def drive_torque(w: Workspace, frame: Frame, drive: float) -> tuple[float, float]:
     """Torque of the drive on the first node, N m, and minus its slope."""
     if not frame.angle_driven:
         return drive, 0.0
@@ -106,7 +106,7 @@ def drive_torque(w: Work, frame: Frame, drive: float) -> tuple[float, float]:
 
 @compiled
 def add_row(
-    w: Work, r: int, row: Array, frame: Frame, tip_torque: float, cautious: bool
+    w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float, cautious: bool
 ) -> tuple[float, float]:
     """Every covered site of a row that is more than viscous.
 
@@ -119,8 +119,8 @@ def add_row(
     loads, before, after = w.loads[r], w.start[r], w.end[r]
     stage = Stage(frame.g, frame.axial, frame.yield_angle, cautious)
     g, n = frame.g, omega.size - 1
-    is_point, place, fraction = row[wire.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
-    load, curvature, phase = row[wire.L_LOAD], row[wire.L_CURVATURE], row[wire.L_PHASE]
+    is_point, place, fraction = row[memory_map.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
+    load, curvature, phase = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_PHASE]
     recoverable, stored = 0.0, 0.0
     for site in range(1 if is_point else 2 * n):
         e, k = (place, 0) if is_point else (site // 2, site % 2)
@@ -134,24 +134,24 @@ def add_row(
             continue
         twist = theta[e + 1] - theta[e] + g * (omega[e + 1] - omega[e])
         per_length = frame.drift / (x[e + 1] - x[e])
-        slide = per_length * twist
+        advected = per_length * twist
         rate = left * omega[e] + right * omega[e + 1]
         at_tip = e == n - 1 and right > 1.0 - _AT_END
         extra = load * abs(tip_torque if at_tip else spring[e] * twist)
         old = Memory(
-            before[slot, k, wire.Z_DRY],
-            before[slot, k, wire.Z_TURN],
-            before[slot, k, wire.Z_AXIAL],
-            before[slot, k, wire.PHI],
+            before[slot, k, memory_map.Z_DRY],
+            before[slot, k, memory_map.Z_TURN],
+            before[slot, k, memory_map.Z_AXIAL],
+            before[slot, k, memory_map.PHI],
         )
-        started = left * lag[e] + right * lag[e + 1] + slide
-        torque, slope, slip, new = site_law(rate + slide, row, extra, old, stage, started)
-        after[slot, k, wire.Z_DRY] = new.dry
-        after[slot, k, wire.Z_TURN] = new.turn
-        after[slot, k, wire.Z_AXIAL] = new.axial
-        after[slot, k, wire.PHI] = new.phi
-        stiffness = weight * row[wire.L_STIFFNESS]
-        recoverable += stiffness * new.phi * (rate + slide - slip)
+        started = left * lag[e] + right * lag[e + 1] + advected
+        torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage, started)
+        after[slot, k, memory_map.Z_DRY] = new.dry
+        after[slot, k, memory_map.Z_TURN] = new.turn
+        after[slot, k, memory_map.Z_AXIAL] = new.axial
+        after[slot, k, memory_map.PHI] = new.phi
+        stiffness = weight * row[memory_map.L_STIFFNESS]
+        recoverable += stiffness * new.phi * (rate + advected - slip)
         stored += 0.5 * stiffness * new.phi * new.phi
         if curvature != 0.0:
             angle = left * theta[e] + right * theta[e + 1] + g * rate - phase

@@ -28,11 +28,11 @@ import numba
 from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.assemble import is_linear
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.step import advance
-from sim.layout import read_layout
+from sim.kernel.struct_offsets import read_struct_offsets
 
 _SOURCES = Path(__file__).parent
 _STAGE = int(mujoco.mjtStage.mjSTAGE_ACC)
@@ -53,14 +53,14 @@ def _pointer_to(kind: Any) -> Any:
 
 _numbers = _pointer_to(types.float64)
 _addresses = _pointer_to(types.intp)
-_block: Any = njit(wire.block)
-_scratch: Any = njit(wire.scratch)
+_block: Any = njit(memory_map.block)
+_scratch: Any = njit(memory_map.scratch)
 
 
 @inlined
 def _userdata(n: int, rows: int) -> int:
-    """wire.userdata, for compiled code."""
-    return wire.CLOCK + 2 * _block(n, rows) + _scratch(n, rows)
+    """memory_map.userdata, for compiled code."""
+    return memory_map.CLOCK + 2 * _block(n, rows) + _scratch(n, rows)
 
 
 @inlined
@@ -76,10 +76,10 @@ def _torques(
     passive: Array,
 ) -> None:
     """Add to `passive` what makes MuJoCo's own step end at the angles `end`."""
-    n = int(head[wire.H_ELEMENTS])
-    chain = head[wire.H_CHAIN] != 0.0
-    rail = ((ctrl[wire.U_CARRIAGE] - qpos[0]) / h - qvel[0]) / h
-    passive[0] += head[wire.H_MASS] * rail
+    n = int(head[memory_map.H_ELEMENTS])
+    chain = head[memory_map.H_CHAIN] != 0.0
+    rail = ((ctrl[memory_map.U_CARRIAGE] - qpos[0]) / h - qvel[0]) / h
+    passive[0] += head[memory_map.H_MASS] * rail
     rate = 0.0
     for i in range(n + 1):  # for the chain: absolute rates, kept in theta's place
         rate = qvel[i + 1] + (rate if chain else 0.0)
@@ -88,20 +88,20 @@ def _torques(
     for i in range(n, -1, -1):
         left = mesh[i] - mesh[i - 1] if i > 0 else 0.0
         right = mesh[i + 1] - mesh[i] if i < n else 0.0
-        inertia = head[wire.H_ETA] * 0.5 * (left + right)
+        inertia = head[memory_map.H_ETA] * 0.5 * (left + right)
         inertial = inertia * theta[i] + (inertial if chain else 0.0)
         torque = inertial
         if i == 0:
-            angle_driven = head[wire.H_DRIVE] == wire.DRIVE_ANGLE
+            angle_driven = head[memory_map.H_DRIVE] == memory_map.DRIVE_ANGLE
             torque += (
-                head[wire.H_SERVO] * (end[0] - ctrl[wire.U_DRIVE])
+                head[memory_map.H_SERVO] * (end[0] - ctrl[memory_map.U_DRIVE])
                 if angle_driven
-                else -ctrl[wire.U_DRIVE]
+                else -ctrl[memory_map.U_DRIVE]
             )
         elif chain:
-            torque += head[wire.H_KAPPA] / left * (end[i] - end[i - 1])
+            torque += head[memory_map.H_KAPPA] / left * (end[i] - end[i - 1])
         if chain or i == n:
-            torque += ctrl[wire.U_TIP]
+            torque += ctrl[memory_map.U_TIP]
         passive[i + 1] += torque
 
 
@@ -109,10 +109,10 @@ def _torques(
 def _prime(head: Array, theta: Array, ctrl: Array, now: Array) -> None:
     """Before the first step: everything at rest, as the inputs and angles stand."""
     now[:] = 0.0
-    now[wire.B_INPUTS : wire.B_INPUTS + wire.INPUTS] = ctrl
-    if head[wire.H_DRIVE] == wire.DRIVE_ANGLE:
-        now[wire.B_INPUTS + wire.U_DRIVE] = theta[0]
-    now[wire.B_ANGLES : wire.B_ANGLES + theta.size] = theta
+    now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS] = ctrl
+    if head[memory_map.H_DRIVE] == memory_map.DRIVE_ANGLE:
+        now[memory_map.B_INPUTS + memory_map.U_DRIVE] = theta[0]
+    now[memory_map.B_ANGLES : memory_map.B_ANGLES + theta.size] = theta
 
 
 @inlined
@@ -135,34 +135,46 @@ def step_needle(
     passive: Array,
 ) -> None:
     """What the passive callback does, on arrays."""
-    head = numeric[: wire.HEADER]
-    n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
-    mesh = numeric[wire.HEADER : wire.HEADER + n + 1]
-    law = numeric[wire.HEADER + n + 1 : wire.HEADER + n + 1 + rows * wire.COLUMNS].reshape(
-        rows, wire.COLUMNS
-    )
+    head = numeric[: memory_map.HEADER]
+    n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    mesh = numeric[memory_map.HEADER : memory_map.HEADER + n + 1]
+    law = numeric[
+        memory_map.HEADER + n + 1 : memory_map.HEADER + n + 1 + rows * memory_map.COLUMNS
+    ].reshape(rows, memory_map.COLUMNS)
     size = _block(n, rows)
-    now = userdata[wire.CLOCK : wire.CLOCK + size]
-    nxt = userdata[wire.CLOCK + size : wire.CLOCK + 2 * size]
-    theta = userdata[wire.CLOCK + 2 * size : wire.CLOCK + 2 * size + n + 1]
-    scratch = userdata[wire.CLOCK + 2 * size + n + 1 :]
+    now = userdata[memory_map.CLOCK : memory_map.CLOCK + size]
+    nxt = userdata[memory_map.CLOCK + size : memory_map.CLOCK + 2 * size]
+    theta = userdata[memory_map.CLOCK + 2 * size : memory_map.CLOCK + 2 * size + n + 1]
+    scratch = userdata[memory_map.CLOCK + 2 * size + n + 1 :]
     angle = 0.0
     for i in range(n + 1):
-        angle = qpos[i + 1] + (angle if head[wire.H_CHAIN] != 0.0 else 0.0)
+        angle = qpos[i + 1] + (angle if head[memory_map.H_CHAIN] != 0.0 else 0.0)
         theta[i] = angle
-    if userdata[wire.D_PRIMED] == 0.0:
+    if userdata[memory_map.D_PRIMED] == 0.0:
         _prime(head, theta, ctrl, now)
-        userdata[wire.D_PRIMED] = 1.0
-    elif time > userdata[wire.D_TIME]:
+        userdata[memory_map.D_PRIMED] = 1.0
+    elif time > userdata[memory_map.D_TIME]:
         # Rows that are viscous alone remember nothing at their sites.
-        kept = size if _remembers(law) else wire.B_ANGLES + 2 * (n + 1)
+        kept = size if _remembers(law) else memory_map.B_ANGLES + 2 * (n + 1)
         now[:kept] = nxt[:kept]
         for i in range(n + 1):
-            now[wire.O_LANDING] = max(now[wire.O_LANDING], abs(theta[i] - now[wire.B_ANGLES + i]))
-    userdata[wire.D_TIME] = time
+            now[memory_map.O_LANDING] = max(
+                now[memory_map.O_LANDING], abs(theta[i] - now[memory_map.B_ANGLES + i])
+            )
+    userdata[memory_map.D_TIME] = time
     advance(head, mesh, law, h, theta, now, nxt, ctrl, scratch)
-    nxt[wire.O_LANDING] = now[wire.O_LANDING]
-    _torques(head, mesh, h, qpos, qvel, theta, nxt[wire.B_ANGLES : wire.B_ANGLES + n + 1], ctrl, passive)
+    nxt[memory_map.O_LANDING] = now[memory_map.O_LANDING]
+    _torques(
+        head,
+        mesh,
+        h,
+        qpos,
+        qvel,
+        theta,
+        nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1],
+        ctrl,
+        passive,
+    )
 
 
 def _sources_digest() -> int:
@@ -179,29 +191,29 @@ def _compile() -> tuple[Any, Any]:
     The offsets and the digest are closure variables, and so part of the key under
     which numba caches the machine code.
     """
-    layout, build = read_layout(), _sources_digest()
-    count_at, numeric_at = layout.model["nnumeric"], layout.model["numeric_data"]
-    step_at, time_at = layout.model["timestep"], layout.data["time"]
-    qpos_at, qvel_at, ctrl_at = (layout.data[name] for name in ("qpos", "qvel", "ctrl"))
-    passive_at, user_at = layout.data["qfrc_passive"], layout.data["userdata"]
-    sensors_at = layout.data["sensordata"]
+    offsets, build = read_struct_offsets(), _sources_digest()
+    count_at, numeric_at = offsets.model["nnumeric"], offsets.model["numeric_data"]
+    step_at, time_at = offsets.model["timestep"], offsets.data["time"]
+    qpos_at, qvel_at, ctrl_at = (offsets.data[name] for name in ("qpos", "qvel", "ctrl"))
+    passive_at, user_at = offsets.data["qfrc_passive"], offsets.data["userdata"]
+    sensors_at = offsets.data["sensordata"]
 
     @cfunc(types.void(types.intp, types.intp), cache=True)
     def passive(model: int, data: int) -> None:
         if build == 0 or _addresses(model + count_at)[0] == 0:
             return
         start = _addresses(model + numeric_at)[0]
-        head = carray(_numbers(start), wire.HEADER)
-        if head[wire.H_MAGIC] != wire.MAGIC:
+        head = carray(_numbers(start), memory_map.HEADER)
+        if head[memory_map.H_MAGIC] != memory_map.MAGIC:
             return
-        n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
+        n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
         step_needle(
-            carray(_numbers(start), wire.HEADER + n + 1 + rows * wire.COLUMNS),
+            carray(_numbers(start), memory_map.HEADER + n + 1 + rows * memory_map.COLUMNS),
             _numbers(model + step_at)[0],
             _numbers(data + time_at)[0],
             carray(_numbers(_addresses(data + qpos_at)[0]), n + 2),
             carray(_numbers(_addresses(data + qvel_at)[0]), n + 2),
-            carray(_numbers(_addresses(data + ctrl_at)[0]), wire.INPUTS),
+            carray(_numbers(_addresses(data + ctrl_at)[0]), memory_map.INPUTS),
             carray(_numbers(_addresses(data + user_at)[0]), _userdata(n, rows)),
             carray(_numbers(_addresses(data + passive_at)[0]), n + 2),
         )
@@ -210,20 +222,20 @@ def _compile() -> tuple[Any, Any]:
     def sensor(model: int, data: int, stage: int) -> None:
         if build == 0 or _addresses(model + count_at)[0] == 0 or stage != _STAGE:
             return
-        head = carray(_numbers(_addresses(model + numeric_at)[0]), wire.HEADER)
-        if head[wire.H_MAGIC] != wire.MAGIC:
+        head = carray(_numbers(_addresses(model + numeric_at)[0]), memory_map.HEADER)
+        if head[memory_map.H_MAGIC] != memory_map.MAGIC:
             return
-        size = _block(int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS]))
-        user = carray(_numbers(_addresses(data + user_at)[0]), wire.CLOCK + 2 * size)
-        shown = carray(_numbers(_addresses(data + sensors_at)[0]), wire.OUTPUTS)
-        shown[:] = user[wire.CLOCK + size : wire.CLOCK + size + wire.OUTPUTS]
+        size = _block(int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS]))
+        user = carray(_numbers(_addresses(data + user_at)[0]), memory_map.CLOCK + 2 * size)
+        shown = carray(_numbers(_addresses(data + sensors_at)[0]), memory_map.OUTPUTS)
+        shown[:] = user[memory_map.CLOCK + size : memory_map.CLOCK + size + memory_map.OUTPUTS]
 
     return passive, sensor
 
 
 @cache
 def install() -> tuple[Any, Any]:
-    """Compile (once a machine) and install both callbacks; safe to call again."""
+    """Compile (once per machine) and install both callbacks; safe to call again."""
     passive, sensor = _compile()
     mujoco.set_mjcb_passive(passive.ctypes)
     mujoco.set_mjcb_sensor(sensor.ctypes)

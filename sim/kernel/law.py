@@ -1,6 +1,6 @@
 """The law of one contact site: torque per length against slip, and its slope.
 
-Slip s is the rate of the shaft relative to the tissue that touches it. Over an
+Slip rate s is the rate of the shaft relative to the tissue that touches it. Over an
 implicit stage of length g the site solves, all at the end of the stage,
 
     f = beta s (s^2 + plateau^2)^((p-1)/2)            viscous, power law
@@ -20,7 +20,7 @@ is a dry element that truly sticks.
 import math
 from typing import NamedTuple
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded
 
 _INNER_ITERATIONS = 40
@@ -61,22 +61,22 @@ def slip_law(
     torque, tangent, secant = 0.0, 0.0, 0.0
     dry, turn, axial = old.dry, old.turn, old.axial
     g, limit = stage.g, stage.yield_angle
-    viscous = row[wire.L_VISCOUS]
-    p = row[wire.L_EXPONENT]
+    viscous = row[memory_map.L_VISCOUS]
+    p = row[memory_map.L_EXPONENT]
     if p == 1.0:
         torque = viscous * s
         tangent = secant = viscous
     elif viscous != 0.0:
-        q = s * s + row[wire.L_PLATEAU] ** 2
+        q = s * s + row[memory_map.L_PLATEAU] ** 2
         m = viscous * q ** (0.5 * (p - 1.0))
         torque = m * s
         secant = m
         tangent = m * (1.0 + (p - 1.0) * s * s / q)
-    level = row[wire.L_KINETIC] + extra
-    excess = row[wire.L_STATIC] - row[wire.L_KINETIC]
+    level = row[memory_map.L_KINETIC] + extra
+    excess = row[memory_map.L_STATIC] - row[memory_map.L_KINETIC]
     if level > 0.0 or excess > 0.0:
         if excess > 0.0:
-            w = (lag if stage.cautious else s) / row[wire.L_STRIBECK]
+            w = (lag if stage.cautious else s) / row[memory_map.L_STRIBECK]
             bump = excess * math.exp(-w * w)
             level += bump
         dry += g * s
@@ -88,8 +88,8 @@ def slip_law(
             dry = math.copysign(limit, dry)
         torque += level * dry / limit
         if excess > 0.0 and not stage.cautious:
-            tangent -= 2.0 * bump * w / row[wire.L_STRIBECK] * dry / limit
-    shared = row[wire.L_SHARED]
+            tangent -= 2.0 * bump * w / row[memory_map.L_STRIBECK] * dry / limit
+    shared = row[memory_map.L_SHARED]
     if shared > 0.0:
         turn += g * s
         axial += g * stage.axial
@@ -117,10 +117,10 @@ def site_law(
     majorises the potential of the friction, so that its iteration always descends.
     """
     torque, tangent, secant, new = slip_law(omega, row, extra, old, stage, lag)
-    k = row[wire.L_STIFFNESS]
+    k = row[memory_map.L_STIFFNESS]
     if k <= 0.0:
         return torque, secant if stage.cautious else tangent, omega, new
-    resistance = k * (row[wire.L_TIME] + stage.g)
+    resistance = k * (row[memory_map.L_TIME] + stage.g)
     push = k * old.phi
     s = omega
     # torque(s) - push - resistance (omega - s) = 0: rising in s, so bracketed Newton.

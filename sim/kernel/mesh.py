@@ -1,6 +1,6 @@
 """Where the nodes are, and how the tissue along an element loads its two nodes.
 
-The tissue acts at two contact sites an element, at the fractions
+The tissue acts at two contact sites per element, at the fractions
 (1 -+ sqrt(2/3)) / 2 of its length. Inside a covered stretch a site loads the nodes
 as it lies between them; of all symmetric pairs these sites give the damping
 a/12 [[5, 1], [1, 5]], half way between lumped and consistent, which cancels the
@@ -10,7 +10,7 @@ otherwise, the loads of a node are instead those of the exact integrals of the l
 taken as linear along the element.
 """
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.compiled import Array, inlined
 
 XI_LEFT = 0.5 * (1.0 - (2.0 / 3.0) ** 0.5)
@@ -24,11 +24,11 @@ def place_nodes(head: Array, mesh: Array, free: float, x: Array) -> None:
     With `stretching` elements the mesh stands still in the tissue and those
     elements share the free length; without, it is fixed to the needle.
     """
-    stretching = int(head[wire.H_STRETCHING])
+    stretching = int(head[memory_map.H_STRETCHING])
     scale, shift = 1.0, 0.0
     if stretching > 0:
-        scale = free / head[wire.H_FREE_REF]
-        shift = free - head[wire.H_FREE_REF]
+        scale = free / head[memory_map.H_FREE_REF]
+        shift = free - head[memory_map.H_FREE_REF]
     for i in range(x.size):
         x[i] = mesh[i] * scale if i < stretching else mesh[i] + shift
 
@@ -66,12 +66,20 @@ def cover(
     A point row fills `point` instead. `tip_loaded`: the tip carries torque.
     """
     n = x.size - 1
-    top = row[wire.L_TOP_CONST] + row[wire.L_TOP_FREE] * free + row[wire.L_TOP_INSERTED] * inserted
+    top = (
+        row[memory_map.L_TOP_CONST]
+        + row[memory_map.L_TOP_FREE] * free
+        + row[memory_map.L_TOP_INSERTED] * inserted
+    )
     top = _clip(top, 0.0, x[n])
-    if row[wire.L_POINT] != 0.0:
+    if row[memory_map.L_POINT] != 0.0:
         _locate(x, top, point)
         return
-    end = row[wire.L_END_CONST] + row[wire.L_END_FREE] * free + row[wire.L_END_INSERTED] * inserted
+    end = (
+        row[memory_map.L_END_CONST]
+        + row[memory_map.L_END_FREE] * free
+        + row[memory_map.L_END_INSERTED] * inserted
+    )
     end = _clip(end, top, x[n])
     near = 1e-9 * (x[n] - x[0])
     for e in range(n):

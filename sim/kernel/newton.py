@@ -9,17 +9,17 @@ many iterations slopes are replaced by secants, which majorise that potential.
 import math
 from typing import NamedTuple
 
-from sim.kernel import wire
+from sim.kernel import memory_map
 from sim.kernel.assemble import (
     add_linear,
     add_row,
-    add_viscous_slide,
+    add_viscous_advection,
     drive_torque,
     is_linear,
 )
 from sim.kernel.compiled import Array, inlined
 from sim.kernel.tridiagonal import factorise, substitute
-from sim.kernel.work import Frame, Work
+from sim.kernel.workspace import Frame, Workspace
 
 _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
 _BALANCE = 1e-12  # force over stiffness that is as good as none, as a rate
@@ -30,13 +30,13 @@ _ITERATIONS = 160
 
 @inlined
 def _add_other_rows(
-    law: Array, w: Work, frame: Frame, tip_torque: float, cautious: bool
+    law: Array, w: Workspace, frame: Frame, tip_torque: float, cautious: bool
 ) -> tuple[float, float]:
     recoverable, stored = 0.0, 0.0
     for r in range(law.shape[0]):
         if is_linear(law[r]):
             if frame.drift != 0.0:
-                add_viscous_slide(w, w.loads[r], law[r, wire.L_VISCOUS], frame)
+                add_viscous_advection(w, w.loads[r], law[r, memory_map.L_VISCOUS], frame)
         else:
             power, energy = add_row(w, r, law[r], frame, tip_torque, cautious)
             recoverable += power
@@ -57,7 +57,13 @@ class Search(NamedTuple):
 
 @inlined
 def newton(
-    law: Array, w: Work, frame: Frame, drive: float, tip_torque: float, nonlinear: bool, factored: bool
+    law: Array,
+    w: Workspace,
+    frame: Frame,
+    drive: float,
+    tip_torque: float,
+    nonlinear: bool,
+    factored: bool,
 ) -> tuple[bool, int, float, float]:
     """Solve one stage. Returns convergence, iterations, recoverable power, energy.
 
@@ -95,7 +101,7 @@ def newton(
 
 
 @inlined
-def _search(w: Work, search: Search) -> tuple[bool, Search]:
+def _search(w: Workspace, search: Search) -> tuple[bool, Search]:
     """Move along the last step if it overshot: dry friction would let Newton cycle.
 
     The residual is, up to sign, the gradient of a convex potential. Where the end of
@@ -124,7 +130,7 @@ def _search(w: Work, search: Search) -> tuple[bool, Search]:
 
 
 @inlined
-def _balanced(w: Work) -> bool:
+def _balanced(w: Workspace) -> bool:
     """Whether so little force is left that another step would only confirm the last."""
     for i in range(w.omega.size):
         if abs(w.rhs[i]) > _BALANCE * w.diagonal[i] * max(1.0, abs(w.omega[i])):
@@ -133,7 +139,7 @@ def _balanced(w: Work) -> bool:
 
 
 @inlined
-def _take_step(w: Work) -> tuple[float, float, float]:
+def _take_step(w: Workspace) -> tuple[float, float, float]:
     """Newton's step; returns its size, that of the rates, and the force along it."""
     n = w.omega.size
     for i in range(n):

@@ -14,7 +14,8 @@ the other; lengths and speed are those of its middle.
 
 import math
 
-from sim.kernel import wire
+from sim.kernel import memory_map
+from sim.kernel.advection import advect_tissue, forget_uncovered
 from sim.kernel.assemble import (
     add_viscous,
     drive_torque,
@@ -24,8 +25,7 @@ from sim.kernel.assemble import (
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.newton import newton
-from sim.kernel.slide import forget_uncovered, slide_tissue
-from sim.kernel.work import Frame, Work, divide
+from sim.kernel.workspace import Frame, Workspace, divide
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
@@ -39,7 +39,7 @@ def _prepare(
     theta: Array,
     now: Array,
     before: Array,
-    w: Work,
+    w: Workspace,
     frame: Frame,
     free: float,
     inserted: float,
@@ -48,22 +48,22 @@ def _prepare(
     """Fill in what the step starts from; returns whether iteration is needed."""
     n = w.omega.size - 1
     place_nodes(head, mesh, free, w.x)
-    half = 0.5 * head[wire.H_ETA] / frame.g
+    half = 0.5 * head[memory_map.H_ETA] / frame.g
     w.inertia[0] = half * (w.x[1] - w.x[0])
     w.inertia[n] = half * (w.x[n] - w.x[n - 1])
     for i in range(1, n):
         w.inertia[i] = half * (w.x[i + 1] - w.x[i - 1])
     for i in range(n):
-        w.spring[i] = head[wire.H_KAPPA] / (w.x[i + 1] - w.x[i])
+        w.spring[i] = head[memory_map.H_KAPPA] / (w.x[i + 1] - w.x[i])
     for i in range(n + 1):
         w.theta[i] = theta[i]
-        w.rest[i] = w.omega[i] = now[wire.B_ANGLES + n + 1 + i]
+        w.rest[i] = w.omega[i] = now[memory_map.B_ANGLES + n + 1 + i]
         w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
-    nonlinear = head[wire.H_BACKLASH] > 0.0
+    nonlinear = head[memory_map.H_BACKLASH] > 0.0
     for r in range(law.shape[0]):
         cover(law[r], w.x, free, inserted, tip_loaded, w.loads[r], w.point[r])
         if is_linear(law[r]):
-            add_viscous(w, w.loads[r], law[r, wire.L_VISCOUS])
+            add_viscous(w, w.loads[r], law[r, memory_map.L_VISCOUS])
         else:
             nonlinear = True
             w.start[r] = before[r]
@@ -72,13 +72,15 @@ def _prepare(
 
 
 @inlined
-def _second_stage(law: Array, theta: Array, now: Array, before: Array, w: Work, frame: Frame) -> None:
+def _second_stage(
+    law: Array, theta: Array, now: Array, before: Array, w: Workspace, frame: Frame
+) -> None:
     """Carry everything that is remembered into the second stage."""
     n = w.omega.size - 1
     for i in range(n + 1):
         reached = w.theta[i] + frame.g * w.omega[i]
         w.theta[i] = theta[i] + _CARRY * (reached - theta[i])
-        rate = now[wire.B_ANGLES + n + 1 + i]
+        rate = now[memory_map.B_ANGLES + n + 1 + i]
         w.rest[i] = rate + _CARRY * (w.omega[i] - rate)
     for r in range(law.shape[0]):
         if is_linear(law[r]):
@@ -89,21 +91,21 @@ def _second_stage(law: Array, theta: Array, now: Array, before: Array, w: Work, 
 
 
 @inlined
-def _carry_site(w: Work, r: int, e: int, k: int, before: Array, limit: float) -> None:
-    for j in range(wire.SITE):
+def _carry_site(w: Workspace, r: int, e: int, k: int, before: Array, limit: float) -> None:
+    for j in range(memory_map.SITE):
         old = before[r, e, k, j]
         w.start[r, e, k, j] = old + _CARRY * (w.end[r, e, k, j] - old)
-    dry, turn = w.start[r, e, k, wire.Z_DRY], w.start[r, e, k, wire.Z_TURN]
-    axial = w.start[r, e, k, wire.Z_AXIAL]
-    w.start[r, e, k, wire.Z_DRY] = min(max(dry, -limit), limit)
+    dry, turn = w.start[r, e, k, memory_map.Z_DRY], w.start[r, e, k, memory_map.Z_TURN]
+    axial = w.start[r, e, k, memory_map.Z_AXIAL]
+    w.start[r, e, k, memory_map.Z_DRY] = min(max(dry, -limit), limit)
     size = math.sqrt(turn * turn + axial * axial)
     if size > limit:
-        w.start[r, e, k, wire.Z_TURN] = turn * limit / size
-        w.start[r, e, k, wire.Z_AXIAL] = axial * limit / size
+        w.start[r, e, k, memory_map.Z_TURN] = turn * limit / size
+        w.start[r, e, k, memory_map.Z_AXIAL] = axial * limit / size
 
 
 @inlined
-def _friction(w: Work, frame: Frame, drive: float, tip_torque: float) -> tuple[float, float, float]:
+def _friction(w: Workspace, frame: Frame, drive: float, tip_torque: float) -> tuple[float, float, float]:
     """Torque of all friction on the shaft, its power, and the drive's torque.
 
     By balance, so that the sums hold to rounding: what inertia and torsion do not
@@ -139,66 +141,76 @@ def advance(
       head, mesh, law: the model's three numeric fields; law is (rows, columns).
       h: step, s.
       theta: angles of the nodes at the start, rad, (n + 1).
-      now: state block at the start (sim.kernel.wire); MuJoCo owns its angles.
+      now: state block at the start (sim.kernel.memory_map); MuJoCo owns its angles.
       nxt: state block that receives the end.
       ctrl: inputs at the end of the step.
-      scratch: working memory (sim.kernel.wire.scratch).
+      scratch: working memory (sim.kernel.memory_map.scratch).
     """
-    n, rows = int(head[wire.H_ELEMENTS]), int(head[wire.H_ROWS])
-    first = wire.B_ANGLES + 2 * (n + 1)
-    before = now[first:].reshape(rows, n, 2, wire.SITE)
-    w = divide(scratch, n, rows, nxt[first:].reshape(rows, n, 2, wire.SITE))
-    past = now[wire.B_INPUTS : wire.B_INPUTS + wire.INPUTS]
-    free = head[wire.H_FREE_REF] - 0.5 * (past[wire.U_CARRIAGE] + ctrl[wire.U_CARRIAGE])
-    inserted = 0.5 * (past[wire.U_INSERTED] + ctrl[wire.U_INSERTED])
-    speed = 0.5 * (past[wire.U_SPEED] + ctrl[wire.U_SPEED])
+    n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    first = memory_map.B_ANGLES + 2 * (n + 1)
+    before = now[first:].reshape(rows, n, 2, memory_map.SITE)
+    w = divide(scratch, n, rows, nxt[first:].reshape(rows, n, 2, memory_map.SITE))
+    past = now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS]
+    free = head[memory_map.H_FREE_REF] - 0.5 * (
+        past[memory_map.U_CARRIAGE] + ctrl[memory_map.U_CARRIAGE]
+    )
+    inserted = 0.5 * (past[memory_map.U_INSERTED] + ctrl[memory_map.U_INSERTED])
+    speed = 0.5 * (past[memory_map.U_SPEED] + ctrl[memory_map.U_SPEED])
     frame = Frame(
         GAMMA * h,
-        speed / head[wire.H_RADIUS],
-        head[wire.H_CONVECTION] * speed,
-        head[wire.H_PRESLIDING],
-        head[wire.H_SERVO],
-        head[wire.H_BACKLASH],
-        head[wire.H_DRIVE] == wire.DRIVE_ANGLE,
+        speed / head[memory_map.H_RADIUS],
+        head[memory_map.H_ADVECTION] * speed,
+        head[memory_map.H_PRESLIDING],
+        head[memory_map.H_SERVO],
+        head[memory_map.H_BACKLASH],
+        head[memory_map.H_DRIVE] == memory_map.DRIVE_ANGLE,
     )
-    tip_loaded = past[wire.U_TIP] != 0.0 or ctrl[wire.U_TIP] != 0.0
+    tip_loaded = past[memory_map.U_TIP] != 0.0 or ctrl[memory_map.U_TIP] != 0.0
     for r in range(rows):
-        tip_loaded |= law[r, wire.L_POINT] * law[r, wire.L_TOP_INSERTED] != 0.0
+        tip_loaded |= law[r, memory_map.L_POINT] * law[r, memory_map.L_TOP_INSERTED] != 0.0
     nonlinear = _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_loaded)
     work, dissipated, failed, iterations = 0.0, 0.0, 0, 0
     torque, friction, stored = 0.0, 0.0, 0.0
     for stage in range(2):
         reach, share = (GAMMA, h - frame.g) if stage == 0 else (1.0, frame.g)
-        drive = past[wire.U_DRIVE] + reach * (ctrl[wire.U_DRIVE] - past[wire.U_DRIVE])
-        tip_torque = past[wire.U_TIP] + reach * (ctrl[wire.U_TIP] - past[wire.U_TIP])
+        drive = past[memory_map.U_DRIVE] + reach * (ctrl[memory_map.U_DRIVE] - past[memory_map.U_DRIVE])
+        tip_torque = past[memory_map.U_TIP] + reach * (ctrl[memory_map.U_TIP] - past[memory_map.U_TIP])
         if stage == 1:
             _second_stage(law, theta, now, before, w, frame)
         again = stage == 1 and not nonlinear and frame.drift == 0.0
         solved, count, recoverable, stored = newton(law, w, frame, drive, tip_torque, nonlinear, again)
         torque, friction, power = _friction(w, frame, drive, tip_torque)
-        shaft = (ctrl[wire.U_DRIVE] - past[wire.U_DRIVE]) / h if frame.angle_driven else w.omega[0]
+        shaft = (
+            (ctrl[memory_map.U_DRIVE] - past[memory_map.U_DRIVE]) / h
+            if frame.angle_driven
+            else w.omega[0]
+        )
         work += share * (torque * shaft - tip_torque * w.omega[n])
         dissipated += share * (power - recoverable)
         failed += 0 if solved else 1
         iterations += count
     for i in range(n + 1):
-        nxt[wire.B_ANGLES + i] = w.theta[i] + frame.g * w.omega[i]
-        nxt[wire.B_ANGLES + n + 1 + i] = w.omega[i]
+        nxt[memory_map.B_ANGLES + i] = w.theta[i] + frame.g * w.omega[i]
+        nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]
     for r in range(rows):
-        if is_linear(law[r]) or law[r, wire.L_POINT] != 0.0:
+        if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
             continue
         forget_uncovered(w.loads[r], w.end[r])
-        if law[r, wire.L_STIFFNESS] > 0.0 and speed != 0.0 and head[wire.H_STRETCHING] == 0.0:
-            slide_tissue(h * speed, w.x, w.loads[r], w.end[r])
-    for j in range(wire.INPUTS):
-        nxt[wire.B_INPUTS + j] = ctrl[j]
-    nxt[wire.O_BASE_TORQUE] = torque
-    nxt[wire.O_BASE_ANGLE] = nxt[wire.B_ANGLES]
-    nxt[wire.O_TIP_ANGLE] = nxt[wire.B_ANGLES + n]
-    nxt[wire.O_FRICTION] = friction
-    nxt[wire.O_TIP_TORQUE] = ctrl[wire.U_TIP]
-    nxt[wire.O_WORK] = now[wire.O_WORK] + work
-    nxt[wire.O_DISSIPATED] = now[wire.O_DISSIPATED] + dissipated
-    nxt[wire.O_TISSUE_ENERGY] = stored
-    nxt[wire.O_FAILED] = now[wire.O_FAILED] + failed
-    nxt[wire.O_ITERATIONS] = iterations
+        if (
+            law[r, memory_map.L_STIFFNESS] > 0.0
+            and speed != 0.0
+            and head[memory_map.H_STRETCHING] == 0.0
+        ):
+            advect_tissue(h * speed, w.x, w.loads[r], w.end[r])
+    for j in range(memory_map.INPUTS):
+        nxt[memory_map.B_INPUTS + j] = ctrl[j]
+    nxt[memory_map.O_BASE_TORQUE] = torque
+    nxt[memory_map.O_BASE_ANGLE] = nxt[memory_map.B_ANGLES]
+    nxt[memory_map.O_TIP_ANGLE] = nxt[memory_map.B_ANGLES + n]
+    nxt[memory_map.O_FRICTION] = friction
+    nxt[memory_map.O_TIP_TORQUE] = ctrl[memory_map.U_TIP]
+    nxt[memory_map.O_WORK] = now[memory_map.O_WORK] + work
+    nxt[memory_map.O_DISSIPATED] = now[memory_map.O_DISSIPATED] + dissipated
+    nxt[memory_map.O_TISSUE_ENERGY] = stored
+    nxt[memory_map.O_FAILED] = now[memory_map.O_FAILED] + failed
+    nxt[memory_map.O_ITERATIONS] = iterations

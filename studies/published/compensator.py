@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from models import published
 from models.materials import MATERIALS
-from sim.control.tables import judge, turn
+from studies.control.tables import response_metrics, turn
 from studies.published.experiments.rig import STATED_RIGS, PublishedRig
 from studies.published.fitting.hypothesis import stated
 
@@ -51,7 +51,7 @@ def compensator_figures(rigs: Iterable[PublishedRig] = STATED_RIGS) -> tuple[Com
 
 def _figures(controller: str, depth_cm: float, rig: PublishedRig) -> list[CompensatorFigure]:
     tissue = MATERIALS["viscous-plastisol"]
-    run = turn(controller, depth_cm=depth_cm, free_mm=rig.free_mm, tissue=tissue)
+    run = turn(controller, depth_cm=depth_cm, free_mm=rig.free_mm, tissue=tissue).run
     return [
         CompensatorFigure(
             name=f"{table}, {controller}, {depth_cm:g} cm",
@@ -60,5 +60,5 @@ def _figures(controller: str, depth_cm: float, rig: PublishedRig) -> list[Compen
             simulated=float(value),
             unit=unit,
         )
-        for (table, printed, unit), value in zip(_TABLES, judge(run), strict=False)
+        for (table, printed, unit), value in zip(_TABLES, response_metrics(run), strict=False)
     ]

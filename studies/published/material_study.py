@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from studies.published.experiments.measurement import PublishedFigure
+from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.experiments.replay import FigureReplay
 from studies.published.fitting.fit import FigureFit
 from studies.published.selection.attainability import Unattainable
@@ -19,7 +19,7 @@ class TextComparison:
       predicted: by each leading fit, in the verdict's order.
     """
 
-    figure: PublishedFigure
+    figure: MeasuredFigure
     stated: float
     predicted: tuple[float, ...]
 
@@ -36,7 +36,7 @@ class MaterialStudy:
     """
 
     material: str
-    figures: tuple[PublishedFigure, ...]
+    figures: tuple[MeasuredFigure, ...]
     stated: tuple[FigureFit, ...]
     fits: tuple[FigureFit, ...]
     unattainable: Unattainable
@@ -57,7 +57,7 @@ class MaterialStudy:
 
 
 def compare_with_text(
-    figures: Sequence[PublishedFigure], stated: FigureFit, verdict: FigureVerdict, replay: FigureReplay
+    figures: Sequence[MeasuredFigure], stated: FigureFit, verdict: FigureVerdict, replay: FigureReplay
 ) -> tuple[TextComparison, ...]:
     """Figures of the text beside the stated rig and the leading fits."""
     fits = (stated, *verdict.leading)

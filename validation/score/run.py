@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
-from diagnosis.log.rig_log import read_rig_log
 from models.errors import NeedleError
 from sim.files import write_text
 

@@ -107,7 +107,8 @@ def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
     limit = report.get("hidden", {}).get(effect, {}).get(first.name)
     if limit is None:
         return float("nan")
-    return first.strength(answer["parameters"][effect][first.name]) / first.strength(limit)
+    true = first.distance_from_neutral(answer["parameters"][effect][first.name])
+    return true / first.distance_from_neutral(limit)
 
 
 def _is_undecidable(answer: dict[str, Any], trials: int | None) -> bool:

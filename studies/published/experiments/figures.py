@@ -23,7 +23,7 @@ import numpy as np
 from models import published
 from models.materials import slope_per_mm
 from studies.published.criteria import RELATIVE_SIGMA
-from studies.published.experiments.measurement import PublishedFigure, Quantity, TurnExperiment
+from studies.published.experiments.measurement import MeasuredFigure, Quantity, TurnExperiment
 
 _BASE_ONLY = 0  # column of Tables IV and V
 
@@ -35,13 +35,13 @@ def column_scatter(by_depth_cm: dict[float, float]) -> float:
     return float(np.sqrt(np.square(residual).sum() / (len(residual) - 1)))
 
 
-def gelatin() -> tuple[PublishedFigure, ...]:
+def gelatin() -> tuple[MeasuredFigure, ...]:
     """The torque that gelatin holds, at four depths."""
     column = dict(published.STATIC_TORQUE_GELATIN_N_MM)
     return _table_ii(column, TurnExperiment.HELD_TURN, Quantity.HELD_TORQUE, "N mm")
 
 
-def plastisol(relative_sigma: float = RELATIVE_SIGMA) -> tuple[PublishedFigure, ...]:
+def plastisol(relative_sigma: float = RELATIVE_SIGMA) -> tuple[MeasuredFigure, ...]:
     """Damping at four depths, settling and integral of the base-only turn at two.
 
     Args:
@@ -55,7 +55,7 @@ def plastisol(relative_sigma: float = RELATIVE_SIGMA) -> tuple[PublishedFigure, 
     return (
         *_table_ii(column, TurnExperiment.SLOW_TURN, Quantity.DAMPING, "N mm s"),
         *(
-            PublishedFigure(
+            MeasuredFigure(
                 source=source,
                 experiment=TurnExperiment.QUICK_TURN,
                 quantity=quantity,
@@ -73,9 +73,9 @@ def plastisol(relative_sigma: float = RELATIVE_SIGMA) -> tuple[PublishedFigure, 
 
 def _table_ii(
     column: dict[float, float], experiment: TurnExperiment, quantity: Quantity, unit: str
-) -> tuple[PublishedFigure, ...]:
+) -> tuple[MeasuredFigure, ...]:
     return tuple(
-        PublishedFigure(
+        MeasuredFigure(
             source="Table II",
             experiment=experiment,
             quantity=quantity,

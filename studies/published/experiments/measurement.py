@@ -37,7 +37,7 @@ class Quantity(StrEnum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Measurement:
+class TurnMeasurement:
     """A quantity of one experiment at one depth.
 
     Attributes:
@@ -52,7 +52,7 @@ class Measurement:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PublishedFigure(Measurement):
+class MeasuredFigure(TurnMeasurement):
     """A measurement with the value that the paper gives.
 
     Attributes:

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 from sim.simulation import Run
+from studies.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 from studies.published.experiments.base_turn import TURN_DEG
 from studies.published.experiments.measurement import Quantity, TurnExperiment
 from studies.published.experiments.rig import PublishedRig

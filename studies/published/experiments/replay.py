@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from sim.simulation import simulate
 from studies.published.criteria import ELEMENTS
-from studies.published.experiments.measurement import Measurement, TurnExperiment
+from studies.published.experiments.measurement import TurnMeasurement, TurnExperiment
 from studies.published.experiments.read_off import Quantities, read_off
 from studies.published.experiments.rig import STATED, WITH_FREE_LENGTH, PublishedRig
 from studies.published.experiments.schedules import schedule, step_s
@@ -33,7 +33,7 @@ class FigureReplay:
         self._elements, self._refinement = elements, refinement
         self._known: dict[tuple[TurnExperiment, float, PublishedRig], Quantities] = {}
 
-    def __call__(self, measurements: Sequence[Measurement], rigs: Sequence[PublishedRig]) -> Array:
+    def __call__(self, measurements: Sequence[TurnMeasurement], rigs: Sequence[PublishedRig]) -> Array:
         """Every measurement by every rig, in the measurement's unit, (measurements, rigs).
 
         Raises:

@@ -4,13 +4,13 @@ They are no part of any fit: predictions are compared with them afterwards.
 """
 
 from studies.published import criteria
-from studies.published.experiments.measurement import PublishedFigure, Quantity, TurnExperiment
+from studies.published.experiments.measurement import MeasuredFigure, Quantity, TurnExperiment
 
 _SIGMA_SOURCE = "as the words say"
 
 TEXT_FIGURES_PLASTISOL = (
     # "The plastisols have a lag of about 10 deg".
-    PublishedFigure(
+    MeasuredFigure(
         source="Fig. 3",
         experiment=TurnExperiment.SLOW_TURN,
         quantity=Quantity.LAG,
@@ -21,7 +21,7 @@ TEXT_FIGURES_PLASTISOL = (
         sigma_source=_SIGMA_SOURCE,
     ),
     # "The settling time of nearly 2 s"; the depth is not said: the deepest of Fig. 5 is taken.
-    PublishedFigure(
+    MeasuredFigure(
         source="Fig. 5",
         experiment=TurnExperiment.QUICK_TURN,
         quantity=Quantity.SETTLING,
@@ -34,7 +34,7 @@ TEXT_FIGURES_PLASTISOL = (
 )
 TEXT_FIGURES_GELATIN = (
     # "Allows the needle to snap near to the final base angle": little of the lag is left.
-    PublishedFigure(
+    MeasuredFigure(
         source="Fig. 3",
         experiment=TurnExperiment.RELEASE,
         quantity=Quantity.LAG_LEFT,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2, t
 
 from studies.published.criteria import INTERVAL, LEAST_SENSITIVITY
-from studies.published.experiments.measurement import PublishedFigure
+from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.hypothesis import Hypothesis
 
 Array = NDArray[np.float64]
@@ -32,7 +32,7 @@ class FigureFit:
     """
 
     hypothesis: Hypothesis
-    figures: tuple[PublishedFigure, ...]
+    figures: tuple[MeasuredFigure, ...]
     x: Array
     residual: Array
     jacobian: Array

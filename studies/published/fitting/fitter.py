@@ -11,7 +11,7 @@ from mujoco import minimize
 from numpy.typing import NDArray
 
 from studies.published import criteria
-from studies.published.experiments.measurement import PublishedFigure
+from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.experiments.replay import FigureReplay
 from studies.published.fitting.fit import FigureFit
 from studies.published.fitting.hypothesis import Hypothesis
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 class FigureFitter:
     """Fits hypotheses to one set of n figures."""
 
-    def __init__(self, figures: Sequence[PublishedFigure], replay: FigureReplay) -> None:
+    def __init__(self, figures: Sequence[MeasuredFigure], replay: FigureReplay) -> None:
         self.figures, self._replay = tuple(figures), replay
 
     def residual(self, hypothesis: Hypothesis, columns: Array) -> Array:

@@ -5,7 +5,7 @@ from typing import Any
 
 from studies.published.compensator import CompensatorFigure
 from studies.published.criteria import RELATIVE_SIGMA
-from studies.published.experiments.measurement import PublishedFigure
+from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.fit import FigureFit
 from studies.published.material_study import MaterialStudy, TextComparison
 from studies.published.report.limitations import limitations
@@ -56,7 +56,7 @@ def _material(study: MaterialStudy) -> dict[str, Any]:
     }
 
 
-def _figure(i: int, figure: PublishedFigure, study: MaterialStudy) -> dict[str, Any]:
+def _figure(i: int, figure: MeasuredFigure, study: MaterialStudy) -> dict[str, Any]:
     return {
         "name": figure.name,
         "published": figure.value,

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from studies.published.experiments.measurement import PublishedFigure
+from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.fit import FigureFit
 from studies.published.material_study import MaterialStudy
 from studies.published.report.values import fitted_values, names_in_words, percent, value_text
@@ -33,7 +33,7 @@ def figure_table(study: MaterialStudy) -> TextTable:
     )
 
 
-def _figure_row(i: int, figure: PublishedFigure, study: MaterialStudy) -> tuple[str, ...]:
+def _figure_row(i: int, figure: MeasuredFigure, study: MaterialStudy) -> tuple[str, ...]:
     row = [figure.name, f"{figure.value:g} {figure.unit}", f"{figure.sigma:.2g}"]
     for fit in study.stated:
         simulated = float(fit.predicted[i])
@@ -103,7 +103,7 @@ def _values(fit: FigureFit) -> str:
     return "; ".join(value.removesuffix(" -") for value in values)
 
 
-def _short(figures: Sequence[PublishedFigure]) -> str:
+def _short(figures: Sequence[MeasuredFigure]) -> str:
     """Figures by table and depth."""
     return ", ".join(f"{f.source.removeprefix('Table ')} {f.depth_mm / 10:g} cm" for f in figures)
 

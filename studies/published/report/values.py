@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from studies.published.experiments.measurement import Measurement, Quantity
+from studies.published.experiments.measurement import TurnMeasurement, Quantity
 from studies.published.experiments.schedules import observed_s
 from studies.published.fitting.fit import FigureFit
 
@@ -17,7 +17,7 @@ def with_free_length(fit: FigureFit) -> str:
     return f"{names_in_words(fit.hypothesis.names)} ({fit.hypothesis.free_length})"
 
 
-def value_text(measurement: Measurement, value: float) -> str:
+def value_text(measurement: TurnMeasurement, value: float) -> str:
     """A predicted value without its unit; a turn that does not settle is said to be longer."""
     longest = observed_s(measurement.depth_mm)
     if measurement.quantity is Quantity.SETTLING and value > longest:

@@ -7,19 +7,19 @@ with several parameters it could miss a far corner.
 """
 
 from studies.published.criteria import ATTAINABLE_ITERATIONS, RESOLVED_SIGMA
-from studies.published.experiments.measurement import PublishedFigure, Quantity
+from studies.published.experiments.measurement import MeasuredFigure, Quantity
 from studies.published.experiments.replay import FigureReplay
 from studies.published.fitting.fit import FigureFit
 from studies.published.fitting.fitter import FigureFitter
 from studies.published.fitting.hypothesis import Hypothesis
 from studies.published.selection.verdict import unresolved
 
-Unattainable = dict[Hypothesis, tuple[PublishedFigure, ...]]
+Unattainable = dict[Hypothesis, tuple[MeasuredFigure, ...]]
 
 
 def unattainable(
     fit: FigureFit, replay: FigureReplay, known: Unattainable | None = None
-) -> tuple[PublishedFigure, ...]:
+) -> tuple[MeasuredFigure, ...]:
     """Figures of the quick turn that the mechanism of a fit cannot explain.
 
     Args:
@@ -32,14 +32,14 @@ def unattainable(
     return tuple(f for f in found if all(f in figures for figures in special_cases))
 
 
-def _attains(fit: FigureFit, figures: tuple[PublishedFigure, ...], replay: FigureReplay) -> bool:
+def _attains(fit: FigureFit, figures: tuple[MeasuredFigure, ...], replay: FigureReplay) -> bool:
     """Whether a fit to these figures alone explains the last of them."""
     fitter, hypothesis = FigureFitter(figures, replay), fit.hypothesis
     x = fitter.minimum(hypothesis, [fit.x], iterations=ATTAINABLE_ITERATIONS)
     return bool(abs(fitter.residual(hypothesis, x[:, None])[-1, 0]) <= RESOLVED_SIGMA)
 
 
-def _special_cases(hypothesis: Hypothesis, known: Unattainable) -> list[tuple[PublishedFigure, ...]]:
+def _special_cases(hypothesis: Hypothesis, known: Unattainable) -> list[tuple[MeasuredFigure, ...]]:
     """What is unattainable for the special cases of a hypothesis, as far as known."""
     return [
         known[h]

@@ -8,40 +8,40 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.published import criteria
-from studies.published.experiments.measurement import Measurement, Quantity, TurnExperiment
+from studies.published.experiments.measurement import TurnMeasurement, Quantity, TurnExperiment
 from studies.published.experiments.replay import FigureReplay
 from studies.published.fitting.fit import FigureFit
 
 PROPOSED = (
-    Measurement(
+    TurnMeasurement(
         experiment=TurnExperiment.HELD_TURN,
         quantity=Quantity.HELD_TORQUE,
         depth_mm=100,
         unit="N mm",
         sigma=criteria.PROPOSED_HELD_TORQUE_SIGMA_N_MM,
     ),
-    Measurement(
+    TurnMeasurement(
         experiment=TurnExperiment.BRISK_TURN,
         quantity=Quantity.DAMPING,
         depth_mm=100,
         unit="N mm s",
         sigma=criteria.PROPOSED_DAMPING_SIGMA_N_MM_S,
     ),
-    Measurement(
+    TurnMeasurement(
         experiment=TurnExperiment.RELEASE,
         quantity=Quantity.LAG_LEFT,
         depth_mm=100,
         unit="-",
         sigma=criteria.PROPOSED_LAG_LEFT_SIGMA,
     ),
-    Measurement(
+    TurnMeasurement(
         experiment=TurnExperiment.QUICK_TURN,
         quantity=Quantity.SETTLING,
         depth_mm=200,
         unit="s",
         sigma=criteria.PROPOSED_SETTLING_SIGMA_S,
     ),
-    Measurement(
+    TurnMeasurement(
         experiment=TurnExperiment.QUICK_TURN,
         quantity=Quantity.INTEGRAL,
         depth_mm=200,
@@ -60,7 +60,7 @@ class ProposedExperiment:
       separated: share of the pairs of hypotheses that it separates.
     """
 
-    measurement: Measurement
+    measurement: TurnMeasurement
     predicted: tuple[float, ...]
     separated: float
 

@@ -18,7 +18,7 @@ from models.lag import steady_lag_deg
 from models.needle import Needle
 from studies.published.experiments.base_turn import TURN_DEG
 from studies.published.experiments.figures import plastisol
-from studies.published.experiments.measurement import PublishedFigure, Quantity
+from studies.published.experiments.measurement import MeasuredFigure, Quantity
 from studies.published.experiments.rig import STATED
 
 
@@ -49,7 +49,7 @@ def mean_delay_s(depth_mm: float, free_mm: float) -> float:
     )
 
 
-def quick_damping(free_mm: float, figures: Sequence[PublishedFigure] | None = None) -> QuickDamping:
+def quick_damping(free_mm: float, figures: Sequence[MeasuredFigure] | None = None) -> QuickDamping:
     """Damping from the two depths of Table V."""
     integrals = [f for f in figures or plastisol() if f.quantity is Quantity.INTEGRAL]
     shallow, deep = sorted(integrals, key=lambda f: f.depth_mm)

@@ -18,7 +18,7 @@ import numpy as np
 
 from diagnosis.selection.verdict import VerdictKind
 from studies.published.criteria import EQUIVALENT_AICC, LEAST_P_VALUE, RESOLVED_SIGMA
-from studies.published.experiments.measurement import PublishedFigure
+from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.fit import FigureFit
 from studies.published.fitting.mechanisms import OF_PLASTISOL
 from studies.published.selection.twist_test import contradiction
@@ -101,6 +101,6 @@ def _is_richer(fit: FigureFit, other: FigureFit) -> bool:
     return all(any(r in mechanism.contains for mechanism in known) for r in replaced)
 
 
-def unresolved(fit: FigureFit) -> list[PublishedFigure]:
+def unresolved(fit: FigureFit) -> list[MeasuredFigure]:
     """Figures whose residual is larger than two standard deviations."""
     return [f for f, z in zip(fit.figures, fit.residual, strict=True) if np.abs(z) > RESOLVED_SIGMA]

@@ -1,10 +1,10 @@
 """Names of measurements."""
 
-from studies.published.experiments.measurement import PublishedFigure, Quantity, TurnExperiment
+from studies.published.experiments.measurement import MeasuredFigure, Quantity, TurnExperiment
 
 
 def test_a_figure_is_named_by_source_quantity_and_depth_in_cm():
-    figure = PublishedFigure(
+    figure = MeasuredFigure(
         source="Table II",
         experiment=TurnExperiment.SLOW_TURN,
         quantity=Quantity.DAMPING,

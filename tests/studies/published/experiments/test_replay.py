@@ -8,7 +8,7 @@ import pytest
 from diagnosis.replay.rig_parameters import RigParameters
 from models.modes import InsertedNeedle, ramp
 from models.needle import NITINOL
-from sim.crosscheck.paper import integral_deg_s
+from studies.crosscheck.paper import integral_deg_s
 from studies.published.experiments import replay as replay_module
 from studies.published.experiments.base_turn import BaseTurn, BaseTurnShape
 from studies.published.experiments.figures import plastisol

@@ -1,1 +1,0 @@
-"""MuJoCo's needle held to closed forms, to conservation, and to the published figures."""

@@ -1,0 +1,119 @@
+"""The memory map: where a needle and its tissue lie in a MuJoCo model and its data.
+
+Everything that a simulation depends on lives in its `mjModel` (three `numeric`
+fields) and everything that it remembers lives in `mjData.userdata`, so that a
+batch can run different tissues side by side and a saved state restores exactly.
+All values are SI. This module is the only owner of the positions below; the
+compiled kernel and the Python side both import them.
+"""
+
+# --- numeric "needle": one header ------------------------------------------------
+MAGIC = 590_272.0  # marks a model as ours: other models pass the callback untouched
+(
+    H_MAGIC,
+    H_ELEMENTS,  # n
+    H_ROWS,  # rows of the law table
+    H_KAPPA,  # torsional rigidity JG, N m^2
+    H_ETA,  # rotary inertia per length, rho J, kg m
+    H_DRIVE,  # DRIVE_TORQUE or DRIVE_ANGLE
+    H_SERVO,  # stiffness between drive shaft and needle, N m / rad
+    H_BACKLASH,  # half of the play between drive shaft and needle, rad
+    H_PRESLIDING,  # angle at which a dry element slips, rad
+    H_RADIUS,  # m
+    H_ADVECTION,  # c in: slip rate = omega + c v dtheta/dx
+    H_STRETCHING,  # elements that share the free length (0: all are fixed to the needle)
+    H_FREE_REF,  # free length at carriage position 0, m
+    H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
+    H_MASS,  # of everything that the carriage moves, kg
+    H_RAIL,  # stiffness of the carriage's servo, N / m
+    HEADER,
+) = range(17)
+
+DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
+
+# --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
+
+# --- numeric "needle_law": one row per stretch of shaft, or point of it -----------
+# An end is an affine function of the lengths: a + b * free + c * inserted, in m.
+(
+    L_TOP_CONST,
+    L_TOP_FREE,
+    L_TOP_INSERTED,
+    L_END_CONST,
+    L_END_FREE,
+    L_END_INSERTED,
+    L_POINT,  # 1: acts in one place (the top), with values not per metre
+    L_VISCOUS,  # N m s / rad / m
+    L_EXPONENT,
+    L_PLATEAU,  # rate below which the power law is linear, rad/s
+    L_KINETIC,  # N m / m
+    L_STATIC,  # N m / m
+    L_STRIBECK,  # rad / s
+    L_SHARED,  # dry level shared with the axial motion, N m / m
+    L_STIFFNESS,  # tissue in series, N m / rad / m; 0: rigid
+    L_TIME,  # its time constant, s
+    L_CURVATURE,  # N m / m
+    L_PHASE,  # rad
+    L_LOAD,  # dry level over the torque that the shaft carries there
+    COLUMNS,
+) = range(20)
+
+# --- ctrl -------------------------------------------------------------------------
+U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, INPUTS = range(6)
+
+# --- state of one contact site: presliding of the dry element, of the shared one
+# (turning, axial), twist of the tissue. Two sites per element and row. -------------
+Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
+
+# --- running sums and last values that the sensors show ----------------------------
+(
+    O_BASE_TORQUE,  # what the drive puts in, N m
+    O_BASE_ANGLE,  # of the needle at the chuck, rad
+    O_TIP_ANGLE,  # rad
+    O_FRICTION,  # sum of the tissue's torque on the shaft, N m
+    O_TIP_TORQUE,  # what the tip torque input puts in, N m
+    O_WORK,  # done by the drive so far, J
+    O_DISSIPATED,  # by friction so far, J
+    O_TISSUE_ENERGY,  # stored in twisted tissue, J
+    O_FAILED,  # stages so far whose iteration did not converge
+    O_ITERATIONS,  # of the last step
+    O_LANDING,  # largest distance between MuJoCo's step and the wanted state, rad
+    OUTPUTS,
+) = range(12)
+
+# --- userdata: a clock, the state at the start of the step, at its end, and scratch ---
+D_PRIMED, D_TIME, CLOCK = range(3)
+
+
+def block(elements: int, rows: int) -> int:
+    """Values in one copy of the state: outputs, inputs, angles, rates, sites."""
+    return OUTPUTS + INPUTS + 2 * (elements + 1) + SITE * 2 * elements * rows
+
+
+def scratch(elements: int, rows: int) -> int:
+    """Values of working memory that one step needs: see `sim.kernel.workspace`."""
+    return 16 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
+
+
+def userdata(elements: int, rows: int) -> int:
+    """Values of `mjData.userdata`: the state, then working memory (never read back)."""
+    return CLOCK + 2 * block(elements, rows) + scratch(elements, rows)
+
+
+B_OUTPUTS = 0
+B_INPUTS = B_OUTPUTS + OUTPUTS
+B_ANGLES = B_INPUTS + INPUTS
+
+OUTPUT_SENSORS = (
+    "base_torque",
+    "base_angle",
+    "tip_angle",
+    "friction",
+    "tip_torque",
+    "work",
+    "dissipated",
+    "tissue_energy",
+    "failed",
+    "iterations",
+    "landing",
+)

@@ -1,0 +1,78 @@
+"""The working memory of one step, and what is constant during it."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sim.kernel import memory_map
+from sim.kernel.compiled import Array, inlined
+
+
+class Workspace(NamedTuple):
+    """Arrays of one step: (n + 1) per node, (rows, n, 2, ...) per contact site."""
+
+    x: np.ndarray  # node positions, m
+    inertia: np.ndarray  # of the nodes over the length of a stage, N m s / rad
+    spring: np.ndarray  # of the elements, N m / rad
+    theta: np.ndarray  # theta* of the stage, rad
+    rest: np.ndarray  # omega* of the stage, rad/s
+    omega: np.ndarray  # the unknown rates, rad/s
+    lag: np.ndarray  # rates at the start of the stage
+    damp_lower: np.ndarray  # viscous rows, assembled; then with inertia and torsion
+    damp_diagonal: np.ndarray
+    damp_upper: np.ndarray
+    lower: np.ndarray  # the linearised stage equation, then its factors
+    diagonal: np.ndarray
+    upper: np.ndarray
+    rhs: np.ndarray
+    step: np.ndarray  # Newton's step, rad/s
+    loads: np.ndarray  # (rows, n, 4): what sites load the nodes with, m
+    point: np.ndarray  # (rows, 2): element of a point row, and place in it
+    start: np.ndarray  # (rows, n, 2, SITE): site states at the start of the stage
+    end: np.ndarray  # the same at its end
+
+
+class Frame(NamedTuple):
+    """What does not change during a step."""
+
+    g: float  # length of a stage, s
+    axial: float  # axial speed over the radius, rad/s
+    drift: float  # speed of the shaft against the mesh, m/s
+    yield_angle: float  # presliding angle, rad
+    servo: float  # stiffness of the drive, N m / rad
+    backlash: float  # half of the play, rad
+    angle_driven: bool
+
+
+@inlined
+def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
+    """Working memory cut into its arrays; `end` is the caller's site states.
+
+    The memory is the model's own (`userdata`), so that no step allocates: numba would
+    count references to memory of its own at every access.
+    """
+    m, s = n + 1, 2 * n * rows
+    sites = 15 * m + 2 * s
+    return Workspace(
+        memory[:m],
+        memory[m : 2 * m],
+        memory[2 * m : 3 * m],
+        memory[3 * m : 4 * m],
+        memory[4 * m : 5 * m],
+        memory[5 * m : 6 * m],
+        memory[6 * m : 7 * m],
+        memory[7 * m : 8 * m],
+        memory[8 * m : 9 * m],
+        memory[9 * m : 10 * m],
+        memory[10 * m : 11 * m],
+        memory[11 * m : 12 * m],
+        memory[12 * m : 13 * m],
+        memory[13 * m : 14 * m],
+        memory[14 * m : 15 * m],
+        memory[15 * m : sites].reshape(rows, n, 4),
+        memory[sites : sites + 2 * rows].reshape(rows, 2),
+        memory[sites + 2 * rows : sites + 2 * rows + memory_map.SITE * s].reshape(
+            rows, n, 2, memory_map.SITE
+        ),
+        end,
+    )

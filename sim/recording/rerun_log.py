@@ -1,0 +1,298 @@
+"""A recording as a rerun file: the needle in 3-D, its signals, its parameters.
+
+Output only: nothing that computes imports this module. Times are whole
+nanoseconds; columns go in at once, so a run of a minute takes milliseconds.
+"""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+from matplotlib import colormaps
+from numpy.typing import NDArray
+
+from models import units
+from models.modes import InsertedNeedle
+from models.needle import Needle
+from models.tissue import Tissue
+from sim.files import writing
+from sim.recording.recording import Recording, unit_of
+
+Array = NDArray[np.float64]
+
+APPLICATION = "needle-torsion"
+TIMELINE = "time"
+_FRAMES_PER_S = 20  # of the 3-D needle; the plots show every sample
+_MODES = 4
+_PATH_FRAMES = 400
+# The twist is shown by arrows across the shaft, longer than the shaft is thick.
+_ARROW_MM, _ARROW_RADIUS_MM, _SHAFT_RADIUS_MM = 9.0, 0.5, 0.6
+_PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
+    "angles": {
+        "base_angle_deg": ("base", [90, 90, 90]),
+        "tip_angle_deg": ("tip", [214, 39, 40]),
+        "estimate_tip_deg": ("tip, estimated", [255, 127, 14]),
+        "wanted_tip_deg": ("tip, wanted", [44, 160, 44]),
+    },
+    "torque": {
+        "base_torque_n_mm": ("base torque", [31, 119, 180]),
+        "friction_n_mm": ("friction of the tissue", [148, 103, 189]),
+    },
+    "limits": {
+        "rate_limited_count": ("at the motor's rate", [188, 189, 34]),
+        "torque_limited_count": ("at the motor's torque", [227, 119, 194]),
+    },
+    "lengths": {
+        "inserted_mm": ("inserted", [140, 86, 75]),
+        "free_mm": ("free", [127, 127, 127]),
+    },
+}
+
+
+def log_recording(
+    recording: Recording, path: Path, *, results: Sequence[str] = (), force: bool = False
+) -> None:
+    """Write a recording as `.rrd`, already arranged.
+
+    Args:
+      results: lines of text that the recording shows under its title.
+
+    Raises:
+      OutputExists: the path exists and `force` is not given.
+    """
+    rr.set_strict_mode(True)
+    with writing(path, force=force) as part:
+        stream = rr.RecordingStream(APPLICATION)
+        stream.save(part, default_blueprint=blueprint(recording))
+        _log_text(stream, recording, results)
+        for plot, signals in _PLOTS.items():
+            for name, (label, colour) in signals.items():
+                if name in recording.table:
+                    log_series(
+                        stream, f"{plot}/{name}", label, recording["time_s"], recording[name], colour
+                    )
+        _log_modes(stream, recording)
+        _log_path(stream, recording)
+        _log_shaft(stream, recording)
+        stream.disconnect()
+
+
+def blueprint(recording: Recording) -> Any:
+    """Needle above tissue on the left, plots in the middle, text on the right."""
+    plots = [
+        rrb.TimeSeriesView(origin="/angles", name="Angles, deg"),
+        rrb.TimeSeriesView(origin="/torque", name="Torque, N mm"),
+        rrb.TimeSeriesView(origin="/modes", name="Modal amplitudes, deg"),
+        rrb.TimeSeriesView(origin="/lengths", name="Lengths, mm"),
+    ]
+    left: list[Any] = [rrb.Spatial3DView(origin="/world", name="Needle")]
+    if recording.group("shaft").size:
+        left.append(rrb.BarChartView(origin="/profile/shaft", name="Lag behind the base, deg"))
+    if recording.group("tissue").size:
+        left.append(rrb.BarChartView(origin="/profile/tissue", name="Twist of the tissue, deg"))
+    if "rate_limited_count" in recording.table:
+        plots.append(rrb.TimeSeriesView(origin="/limits", name="Limits reached"))
+        plots.append(rrb.TimeSeriesView(origin="/estimate", name="Modes of the estimator, deg"))
+    text = rrb.TextDocumentView(origin="/about", name="About")
+    return rrb.Blueprint(
+        rrb.Horizontal(
+            rrb.Vertical(*left, row_shares=[2] + [1] * (len(left) - 1)),
+            rrb.Vertical(*plots),
+            text,
+            column_shares=[3, 4, 2],
+        ),
+        collapse_panels=True,
+    )
+
+
+def time_column(time_s: Array) -> Any:
+    """Times as whole nanoseconds."""
+    nanoseconds = np.round(time_s * 1e9).astype("timedelta64[ns]")
+    return rr.TimeColumn(TIMELINE, duration=nanoseconds)
+
+
+def log_series(
+    stream: rr.RecordingStream,
+    path: str,
+    label: str,
+    time_s: Array,
+    values: Array,
+    colour: list[int],
+) -> None:
+    """One line of a plot."""
+    stream.log(path, rr.SeriesLines(colors=[colour], names=[label]), static=True)
+    stream.send_columns(path, indexes=[time_column(time_s)], columns=rr.Scalars.columns(scalars=values))
+
+
+def _log_text(stream: rr.RecordingStream, recording: Recording, results: Sequence[str]) -> None:
+    lines = [f"# {recording.parameters.get('protocol', 'Recording')}", ""]
+    lines += [str(recording.parameters.get("description", "")), ""]
+    lines += [f"- {line}" for line in results]
+    lines += ["", "## Signals", ""]
+    shown = [c for c in recording.table.columns if not c.startswith(("shaft_", "tissue_"))]
+    lines += [f"- `{name}`, {unit_of(name)}" for name in shown]
+    text = json.dumps(recording.parameters, indent=1)
+    lines += ["", "## Parameters", "", "```json", text, "```"]
+    stream.log("about", rr.TextDocument("\n".join(lines), media_type="text/markdown"), static=True)
+
+
+def modal_amplitudes_deg(recording: Recording, count: int = _MODES) -> Array | None:
+    """Amplitudes of the closed form's modes in the shaft's shape, deg, (N, count).
+
+    The lag behind the base, theta - u, in the modes of the base-driven needle at each
+    depth. None where the recording keeps no shape or the tissue has no damping.
+    """
+    angles, nodes = recording.group("shaft"), recording.parameters.get("nodes_mm")
+    if not angles.size or nodes is None:
+        return None
+    tissue = Tissue(**recording.parameters["tissue"])
+    damping = tissue.layers[0].interface.viscous_n_mm_s_per_mm
+    if damping == 0 or recording["inserted_mm"].max() <= 0:
+        return None
+    needle = Needle(**recording.parameters["needle"])
+    lag = angles - recording["base_angle_deg"][:, None]
+    amplitudes = np.zeros((len(lag), count))
+    x, cache = np.array(nodes), {}
+    for i, (free, inserted) in enumerate(
+        zip(recording["free_mm"], recording["inserted_mm"], strict=True)
+    ):
+        key = (round(free, 1), round(inserted, 1))
+        if inserted <= 1.0:
+            continue
+        if key not in cache:
+            cache[key] = _projector(needle, damping, *key, x, recording.parameters["stretching"], count)
+        amplitudes[i] = cache[key] @ lag[i]
+    return amplitudes
+
+
+def _projector(
+    needle: Needle,
+    damping: float,
+    free: float,
+    inserted: float,
+    nodes: Array,
+    stretching: int,
+    count: int,
+) -> Array:
+    """Matrix from angles at the nodes to amplitudes: least squares on the inserted nodes."""
+    held = InsertedNeedle(
+        needle=needle, damping_n_mm_s_per_mm=damping, inserted_mm=inserted, free_mm=free
+    )
+    depth = nodes - nodes[stretching] if stretching else nodes - free
+    inside = (depth >= -1e-6) & (depth <= inserted + 1e-6)
+    shapes = np.cos(np.outer(inserted - depth[inside], held.wavenumbers_per_mm(count)))
+    projector = np.zeros((count, nodes.size))
+    projector[:, inside] = np.linalg.pinv(shapes)
+    return projector
+
+
+def _log_modes(stream: rr.RecordingStream, recording: Recording) -> None:
+    """Modes of the shaft, in those of the closed form; and an estimator's own, if there is one."""
+    amplitudes = modal_amplitudes_deg(recording)
+    if amplitudes is not None:
+        for k in range(_MODES):
+            _log_mode(stream, "modes", k, recording["time_s"], amplitudes[:, k])
+    names = [str(n) for n in recording.table.columns if str(n).startswith("estimate_mode_")]
+    for k, name in enumerate(names):
+        _log_mode(stream, "estimate", k, recording["time_s"], recording[name])
+
+
+def _log_mode(stream: rr.RecordingStream, plot: str, k: int, time_s: Array, values: Array) -> None:
+    colour = (np.array(colormaps["Set2"](k % 8))[:3] * 255).astype(int).tolist()
+    log_series(stream, f"{plot}/{k + 1}", f"mode {k + 1}", time_s, values, colour)
+
+
+def _log_path(stream: rr.RecordingStream, recording: Recording) -> None:
+    """The path of a steered tip, and where the tip is on it."""
+    names = ("path_x_mm", "path_y_mm", "path_z_mm")
+    if not all(name in recording.table for name in names):
+        return
+    path = np.stack([recording[name] for name in names], axis=-1)
+    stream.log("world/path", rr.LineStrips3D([path], radii=0.4, colors=[[214, 39, 40]]), static=True)
+    every = np.unique(np.linspace(0, len(path) - 1, _PATH_FRAMES).astype(int))
+    stream.send_columns(
+        "world/tip",
+        indexes=[time_column(recording["time_s"][every])],
+        columns=rr.Points3D.columns(positions=path[every], radii=np.full(every.size, 1.5)),
+    )
+
+
+def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
+    """The shaft, arrows that show its twist, coloured by lag, and the tissue as a box."""
+    angles = recording.group("shaft")
+    if not angles.size:
+        return
+    time = recording["time_s"]
+    frames = np.unique(np.searchsorted(time, np.arange(time[0], time[-1], 1 / _FRAMES_PER_S)))
+    frames = np.unique(np.append(frames[frames < time.size], time.size - 1))
+    lag = angles - recording["base_angle_deg"][:, None]
+    scale = max(1.0, float(np.abs(lag).max()))
+    colours = (colormaps["turbo"](0.1 + 0.85 * np.abs(lag[frames]) / scale)[..., :3] * 255).astype(
+        np.uint8
+    )
+    stamps = time_column(time[frames])
+    places = np.array([_node_places_mm(recording, i) for i in frames])
+    turn = angles[frames] * units.DEG
+    across = _ARROW_MM * np.stack([np.zeros_like(turn), np.cos(turn), np.sin(turn)], axis=-1)
+    axis = np.stack([places, np.zeros_like(places), np.zeros_like(places)], axis=-1)
+    nodes = axis.shape[1]
+    stream.send_columns(
+        "world/bevel",
+        indexes=[stamps],
+        columns=rr.Arrows3D.columns(
+            origins=axis.reshape(-1, 3),
+            vectors=across.reshape(-1, 3),
+            colors=colours.reshape(-1, 3),
+            radii=np.full(frames.size * nodes, _ARROW_RADIUS_MM),
+        ).partition(np.full(frames.size, nodes)),
+    )
+    stream.send_columns(
+        "world/shaft",
+        indexes=[stamps],
+        columns=rr.LineStrips3D.columns(strips=list(axis), radii=np.full(frames.size, _SHAFT_RADIUS_MM)),
+    )
+    _log_profiles(
+        stream, time[frames], {"shaft": lag[frames], "tissue": recording.group("tissue")[frames]}
+    )
+    _log_tissue_box(stream, recording, frames, stamps)
+
+
+def _log_profiles(stream: rr.RecordingStream, time_s: Array, profiles: dict[str, Array]) -> None:
+    """Bars along the shaft; the viewer takes one frame of bars at a time."""
+    for i, stamp in enumerate(np.round(time_s * 1e9).astype("timedelta64[ns]")):
+        stream.set_time(TIMELINE, duration=stamp)
+        for name, values in profiles.items():
+            if values.size:
+                stream.log(f"profile/{name}", rr.BarChart(values[i].astype(np.float32)))
+    stream.reset_time()
+
+
+def _node_places_mm(recording: Recording, i: int) -> Array:
+    """Places of the nodes along x, mm: the entry is at 0."""
+    nodes: Array = np.array(recording.parameters["nodes_mm"])
+    free, stretching = float(recording["free_mm"][i]), int(recording.parameters["stretching"])
+    if not stretching:
+        return nodes - free
+    moved: Array = nodes - nodes[stretching]
+    moved[: stretching + 1] *= free / nodes[stretching]
+    return moved
+
+
+def _log_tissue_box(stream: rr.RecordingStream, recording: Recording, frames: Any, stamps: Any) -> None:
+    depth = np.maximum(recording["inserted_mm"], 0.1)[frames]
+    half = np.stack([0.5 * depth, np.full(depth.size, 12.0), np.full(depth.size, 12.0)], axis=-1)
+    centre = np.stack([0.5 * depth, np.zeros(depth.size), np.zeros(depth.size)], axis=-1)
+    stream.log(
+        "world/tissue",
+        rr.Boxes3D.from_fields(colors=[[214, 160, 140]], fill_mode="majorwireframe"),
+        static=True,
+    )
+    stream.send_columns(
+        "world/tissue",
+        indexes=[stamps],
+        columns=rr.Boxes3D.columns(half_sizes=half, centers=centre),
+    )

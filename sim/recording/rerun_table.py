@@ -1,0 +1,90 @@
+"""The content of a rerun file as a table, for machines without a screen."""
+
+from dataclasses import dataclass, replace
+from itertools import groupby
+from pathlib import Path
+
+import pyarrow as pa
+from rerun.chunk import RrdReader
+
+from models.errors import NeedleError
+from sim.recording.rerun_log import TIMELINE
+
+
+class NotARecording(NeedleError):
+    """A file is not a readable rerun recording."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """One component of one entity.
+
+    Attributes:
+      rows: values over time, or 1 for a static one.
+      start_s, end_s: first and last time; None for a static component.
+      last: the last value, where it is a number.
+    """
+
+    entity: str
+    component: str
+    rows: int
+    start_s: float | None
+    end_s: float | None
+    last: float | None
+
+
+def entries(path: Path) -> list[Entry]:
+    """Every component in the file, in the order of entities.
+
+    Raises:
+      NotARecording: the file is missing or not a rerun recording.
+    """
+    if not path.is_file():
+        raise NotARecording(f"{path}: expected a rerun recording, found no such file")
+    try:
+        batches = [(str(c.entity_path), c.to_record_batch()) for c in RrdReader(str(path)).stream()]
+    except Exception as error:  # rerun documents no type
+        raise NotARecording(
+            f"{path}: expected a rerun recording, found another format ({error})"
+        ) from error
+    found = [entry for entity, batch in batches for entry in _entries(entity, batch)]
+    if not found:
+        raise NotARecording(f"{path}: expected a rerun recording with data, found an empty one")
+    ordered = sorted(found, key=lambda e: (e.entity, e.component, e.start_s or 0.0))
+    return [_joined(list(g)) for _, g in groupby(ordered, key=lambda e: (e.entity, e.component))]
+
+
+def _joined(chunks: list[Entry]) -> Entry:
+    """One entry for a component that the file holds in several chunks."""
+    rows = sum(chunk.rows for chunk in chunks)
+    return replace(chunks[-1], rows=rows, start_s=chunks[0].start_s)
+
+
+def _entries(entity: str, batch: pa.RecordBatch) -> list[Entry]:
+    times = _times_s(batch)
+    names = [n for n in batch.schema.names if ":" in n]
+    return [
+        Entry(
+            entity=entity,
+            component=name,
+            rows=batch.num_rows,
+            start_s=times[0] if times else None,
+            end_s=times[-1] if times else None,
+            last=_last_number(batch.column(name)),
+        )
+        for name in names
+    ]
+
+
+def _times_s(batch: pa.RecordBatch) -> list[float]:
+    if TIMELINE not in batch.schema.names:
+        return []
+    nanoseconds = batch.column(TIMELINE).cast(pa.int64()).to_pylist()
+    return [t * 1e-9 for t in nanoseconds if t is not None]
+
+
+def _last_number(column: pa.Array) -> float | None:
+    value = column[-1].as_py() if len(column) else None
+    if isinstance(value, list) and len(value) == 1:
+        value = value[0]
+    return float(value) if isinstance(value, int | float) else None

@@ -1,0 +1,1 @@
+"""Controllers on the MuJoCo needle: Tables IV and V, robustness, and steered insertions."""

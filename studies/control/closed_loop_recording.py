@@ -1,0 +1,27 @@
+"""A closed-loop run as a recording: estimated and true tip, modes, command, limits reached."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from models.bevel import path_mm
+from sim.closed_loop import ClosedLoopRun
+from sim.recording.recording import Recording, record
+
+
+def record_closed_loop(controlled: ClosedLoopRun, parameters: dict[str, Any] | None = None) -> Recording:
+    """Signals of the run, of the controller, and of the tip's path where it goes in."""
+    base = record(controlled.run, parameters)
+    columns = {"wanted_tip_deg": controlled.reference_deg} | {
+        name: values
+        for name, values in controlled.log.items()
+        if name != "estimate_damping_n_mm_s_per_mm"
+    }
+    inserted = controlled.run.inputs.inserted_mm
+    if np.ptp(inserted) > 1.0:
+        x, y, z = path_mm(inserted, np.radians(controlled.run.tip_deg)).T
+        columns |= {"path_x_mm": x, "path_y_mm": y, "path_z_mm": z}
+    return Recording(
+        table=pd.concat([base.table, pd.DataFrame(columns)], axis=1), parameters=base.parameters
+    )

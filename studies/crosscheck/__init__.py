@@ -1,0 +1,1 @@
+"""MuJoCo's needle checked against closed forms, conservation, and the published figures."""

@@ -1,0 +1,105 @@
+"""Results of the cross-check: bounds that hold or fail, and published figures beside ours."""
+
+import math
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+
+def _or_none(value: Any) -> Any:
+    """JSON has no NaN: what does not exist is null."""
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """A measured value and its bounds; `why` states where the bounds come from."""
+
+    name: str
+    value: float
+    unit: str
+    low: float = float("-inf")
+    high: float = float("inf")
+    why: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the value lies within its bounds; a NaN does not."""
+        return bool(self.low <= self.value <= self.high)
+
+    @property
+    def bounds(self) -> str:
+        """The bounds as text, for example `<= 0.02`."""
+        if self.low == float("-inf"):
+            return f"<= {self.high:g}"
+        return f">= {self.low:g}" if self.high == float("inf") else f"{self.low:g} .. {self.high:g}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """A published figure beside ours. It is shown, never tuned, and fails nothing."""
+
+    item: str
+    published: float
+    ours: float
+    unit: str
+    source: str
+    note: str = ""
+
+    @property
+    def ratio(self) -> float:
+        """Ours over published; NaN where the published figure is 0."""
+        return self.ours / self.published if self.published else float("nan")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pole:
+    """A pole measured from MuJoCo beside its closed form, rad/s."""
+
+    length_mm: float
+    free_mm: float
+    drive: str
+    mode: int
+    measured: float
+    closed_form: float
+
+    @property
+    def error(self) -> float:
+        """Relative difference."""
+        return abs(self.measured / self.closed_form - 1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Findings:
+    """All results of `needle validate`."""
+
+    poles: list[Pole] = field(default_factory=list)
+    checks: list[Check] = field(default_factory=list)
+    comparisons: list[Comparison] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether every bound holds."""
+        return all(check.passed for check in self.checks)
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain values: `passed`, `poles`, `checks`, `comparisons`."""
+        return {
+            "format": "needle-validate/1",
+            "passed": self.passed,
+            "poles": [asdict(pole) for pole in self.poles],
+            "checks": [
+                {
+                    "name": c.name,
+                    "value": c.value,
+                    "unit": c.unit,
+                    "bounds": c.bounds,
+                    "passed": c.passed,
+                    "why": c.why,
+                }
+                for c in self.checks
+            ],
+            "comparisons": [
+                {k: _or_none(v) for k, v in (asdict(c) | {"ratio": c.ratio}).items()}
+                for c in self.comparisons
+            ],
+        }

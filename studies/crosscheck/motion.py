@@ -1,0 +1,242 @@
+"""Runs checked against closed-form solutions, and balances of torque and energy."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.drive import DriveKind
+from models.lag import steady_lag_deg
+from models.materials import (
+    tissue_named,
+    tissue_stiffness_n_mm_per_rad_per_mm,
+    tissue_time_constant_s,
+)
+from models.modes import InsertedNeedle
+from models.needle import NITINOL
+from models.tissue import Tissue
+from sim.discretisation import Arrangement, Discretisation, Mesh
+from sim.kernel import memory_map
+from sim.paper_protocols import protocol_named
+from sim.schedule import Schedule
+from sim.simulation import Run, simulate
+from sim.spec import Setup
+from studies.crosscheck.findings import Check
+
+Array = NDArray[np.float64]
+
+_DAMPING = 0.01725
+_LENGTH_MM = 200.0
+TURN_S, HOLD_S = 0.3, 8.0
+
+
+def base_turn(time_s: Array, angle_deg: Array, *, inserted_mm: float, free_mm: float = 0.0) -> Schedule:
+    """The base alone moves."""
+    still = np.ones_like(time_s)
+    return Schedule(
+        time_s=time_s,
+        drive=angle_deg,
+        free_mm=free_mm * still,
+        inserted_mm=inserted_mm * still,
+        speed_mm_s=0 * still,
+    )
+
+
+def viscous_setup(*, free_mm: float = 0.0, **discretisation: object) -> Setup:
+    """The paper's needle 20 cm deep in tissue that is viscous and nothing else."""
+    return Setup(
+        needle=NITINOL,
+        tissue=Tissue.uniform(viscous_n_mm_s_per_mm=_DAMPING),
+        discretisation=Discretisation(**discretisation),
+        mesh=Mesh.EULERIAN,
+        free_mm=free_mm,
+        inserted_mm=_LENGTH_MM,
+    )
+
+
+def fast_turn(*, free_mm: float = 0.0) -> Schedule:
+    """90 deg in 0.3 s, then held: 8 s in all."""
+    time = np.array([0.0, TURN_S, HOLD_S])
+    return base_turn(time, np.array([0.0, 90.0, 90.0]), inserted_mm=_LENGTH_MM, free_mm=free_mm)
+
+
+def exact_tip_deg(run: Run) -> Array:
+    """The closed form of a viscous, base-driven run, deg."""
+    closed_form = InsertedNeedle(
+        needle=NITINOL,
+        damping_n_mm_s_per_mm=_DAMPING,
+        inserted_mm=_LENGTH_MM,
+        free_mm=run.setup.free_mm,
+        drive=DriveKind.ANGLE,
+    )
+    response = closed_form.respond(run.time_s, np.radians(run.inputs.drive), count=200)
+    return np.degrees(response.tip_rad)
+
+
+def tip_error_deg(setup: Setup, schedule: Schedule) -> float:
+    """Largest difference of the tip from the closed form over a run, deg."""
+    run = simulate([setup], schedule)[0]
+    return float(np.abs(run.tip_deg - exact_tip_deg(run)).max())
+
+
+def check_fast_turn() -> list[Check]:
+    """The default discretisation on the fast turn, with and without free length."""
+    return [
+        Check(
+            name=f"tip on the 20 cm turn, {free:g} mm free",
+            value=tip_error_deg(viscous_setup(free_mm=free), fast_turn(free_mm=free)),
+            unit="deg",
+            high=0.02,
+            why="defaults: tip error <= 0.02 deg",
+        )
+        for free in (0.0, 50.0)
+    ]
+
+
+def order_in_step() -> Check:
+    """Order of convergence in the step on a turn without corners."""
+    time = np.linspace(0.0, 4.0, 4001)
+    smooth = 45 * (1 - np.cos(np.pi * np.clip(time / 2, 0, 1)))
+    schedule = base_turn(time, smooth, inserted_mm=_LENGTH_MM)
+    errors = [tip_error_deg(viscous_setup(elements=48, step_s=h), schedule) for h in (0.08, 0.04)]
+    return Check(
+        name="order of convergence in the step, 80 to 40 ms",
+        value=math.log2(errors[0] / errors[1]),
+        unit="-",
+        low=1.8,
+        high=2.4,
+        why="the method is second order; a corner-free turn of 2 s",
+    )
+
+
+def check_arrangements() -> Check:
+    """Chain and siblings land on the same angles."""
+    schedule = fast_turn()
+    chain, siblings = (
+        simulate([viscous_setup(arrangement=a)], schedule)[0].tip_deg for a in Arrangement
+    )
+    return Check(
+        name="siblings against chain, tip",
+        value=float(np.abs(chain - siblings).max()),
+        unit="deg",
+        high=1e-8,
+        why="the same step by another arrangement of bodies: rounding",
+    )
+
+
+def check_steady_twist() -> list[Check]:
+    """Twist and torque at a constant rate, against (2) and tau = b omega (25)."""
+    rate_deg_s = 4.5
+    time = np.array([0.0, 40.0])
+    schedule = base_turn(time, rate_deg_s * time, inserted_mm=_LENGTH_MM, free_mm=50.0)
+    run = simulate([viscous_setup(free_mm=50.0)], schedule)[0]
+    lag = steady_lag_deg(
+        NITINOL,
+        damping_n_mm_s_per_mm=_DAMPING,
+        rate_rad_s=math.radians(rate_deg_s),
+        free_mm=50.0,
+        inserted_mm=_LENGTH_MM,
+    )
+    torque = _DAMPING * _LENGTH_MM * math.radians(rate_deg_s)
+    # The slowest transient, exp(-0.75 40 s), is 1e-13; the servo gives 1e-6 of the lag.
+    return [
+        Check(
+            name="steady lag at 4.5 deg/s over eq. (2)",
+            value=float((run.inputs.drive[-1] - run.tip_deg[-1]) / lag),
+            unit="-",
+            low=1 - 1e-5,
+            high=1 + 1e-5,
+            why="linear elements are exact for steady twist; the servo's give is 1e-6",
+        ),
+        Check(
+            name="steady torque at 4.5 deg/s over b omega",
+            value=float(run.base_torque_n_mm[-1] / torque),
+            unit="-",
+            low=1 - 1e-5,
+            high=1 + 1e-5,
+            why="(25); the servo's give is 1e-6",
+        ),
+    ]
+
+
+def elastic_gelatin() -> Tissue:
+    """Gelatin that yields as plastisol does: its own elasticity is not stated."""
+    return Tissue.uniform(
+        name="gelatin, elastic as plastisol",
+        shared_n_mm_per_mm=tissue_named("porcine-gelatin").layers[0].interface.shared_n_mm_per_mm,
+        stiffness_n_mm_per_rad_per_mm=tissue_stiffness_n_mm_per_rad_per_mm(),
+        time_constant_s=tissue_time_constant_s(),
+    )
+
+
+def _reversal(tissue: Tissue) -> Run:
+    """Fig. 4 at 10 cm."""
+    protocol = protocol_named("fig4-10cm").but(tissue=tissue)
+    return simulate([protocol.setup()], protocol.schedule(), keep_shape=True)[0]
+
+
+def check_balances() -> list[Check]:
+    """Torque and energy in dry, yielding tissue: the run of Fig. 4 at 10 cm."""
+    run = _reversal(elastic_gelatin())
+    out = run.outputs
+    peak = np.abs(out[:, memory_map.O_BASE_TORQUE]).max()
+    imbalance = np.abs(out[:, memory_map.O_BASE_TORQUE] - out[:, memory_map.O_FRICTION]).max() / peak
+    dissipated = out[:, memory_map.O_DISSIPATED]
+    created = -min(0.0, float(np.diff(dissipated).min())) / dissipated[-1]
+    stored = out[:, memory_map.O_TISSUE_ENERGY] + _strain_energy_j(run)
+    closed = (
+        np.abs(out[:, memory_map.O_WORK] - dissipated - stored).max() / out[:, memory_map.O_WORK].max()
+    )
+    return [
+        Check(
+            name="base torque against the sum of friction (Fig. 4, 10 cm)",
+            value=float(imbalance),
+            unit="-",
+            high=1e-6,
+            why="the needle's inertia takes less than 1e-6 of the torque",
+        ),
+        Check(
+            name="energy created by tissue in any step, over all that it dissipates",
+            value=created,
+            unit="-",
+            high=1e-4,
+            why="presliding stores level z_y / 2 per mm, and gives it back: below 1e-4",
+        ),
+        Check(
+            name="work of the drive less dissipation and storage, over the work",
+            value=float(closed),
+            unit="-",
+            high=1e-4,
+            why="an identity of the method but for presliding and the stages' quadrature",
+        ),
+        Check(
+            name="stages that did not converge",
+            value=run.unconverged,
+            unit="-",
+            high=0,
+            why="every stage of Newton's method must",
+        ),
+    ]
+
+
+def _strain_energy_j(run: Run) -> Array:
+    """Torsion stored in the shaft, J, (N,)."""
+    assert run.angles_rad is not None
+    lengths = np.diff(run.setup.nodes_mm) * 1e-3
+    twist = np.diff(run.angles_rad, axis=1)
+    free = run.inputs.free_mm[:, None] * 1e-3
+    stretch = run.setup.stretching
+    now = np.tile(lengths, (len(twist), 1))
+    now[:, :stretch] *= free / (run.setup.free_mm * 1e-3)
+    rigidity = run.setup.needle.rigidity_n_mm2 * 1e-6
+    energy: Array = 0.5 * rigidity * (twist**2 / now).sum(axis=1)
+    return energy
+
+
+def reversal_lead_deg(tissue: Tissue) -> float:
+    """Fig. 4 at 10 cm: how far the tip turns back before the base overtakes it, deg."""
+    run = _reversal(tissue)
+    held = run.time_s >= 30.0 - 1e-9
+    base, tip = run.inputs.drive[held], run.tip_deg[held]
+    overtaken = int(np.argmax(base < tip))
+    return float(tip[0] - tip[overtaken])

@@ -1,0 +1,72 @@
+"""The controller for dry friction: winding, rest, unwinding, and retraction."""
+
+import math
+
+import numpy as np
+import pytest
+
+from controllers.friction import FrictionAware, Phase
+from controllers.limits import MotorLimits
+from controllers.signals import Estimate, Sample
+from models.errors import InvalidValue
+
+BETA = 0.01725
+
+
+def sample(time=0.0, base=0.0, torque=0.0, depth=100.0):
+    return Sample(time, base, torque, depth, 50.0)
+
+
+def test_the_friction_aware_controller_asks_for_retraction_when_it_can_wind_no_further():
+    controller = FrictionAware(MotorLimits(torque_n_mm=0.5))
+    stuck = Estimate(80.0, np.zeros(3), BETA)
+    phases, advances = set(), []
+    for i in range(4000):
+        command = controller.command(90.0, sample(0.001 * i, base=95.0, torque=0.6), stuck)
+        phases.add(controller.phase)
+        advances.append(command.advance_mm)
+    assert Phase.RETRACTING in phases
+    assert min(advances) == pytest.approx(-5.0, abs=0.05)
+
+
+def driven(controller, tip_deg, seconds, *, start_s=0.0):
+    """The phases that a controller passes through, and its last command, with a tip that stays."""
+    phases = []
+    for i in range(int(100 * seconds)):
+        command = controller.command(90.0, sample(start_s + 0.01 * i), Estimate(tip_deg, np.zeros(3)))
+        if not phases or phases[-1] is not controller.phase:
+            phases.append(controller.phase)
+    return phases, command
+
+
+def test_once_the_tip_has_come_the_base_rests_and_then_unwinds_half_of_the_lag():
+    controller = FrictionAware(MotorLimits(), rest_s=0.5)
+    _, wound = driven(controller, 70.0, 0.3)
+    phases, last = driven(controller, 90.0, 1.0, start_s=0.3)
+    assert phases == [Phase.RESTING, Phase.UNWINDING]
+    assert last.base_deg - 90 == pytest.approx(0.5 * (wound.base_deg - 90))
+
+
+def test_a_tip_that_slips_away_while_the_base_rests_is_wound_again():
+    controller = FrictionAware(MotorLimits(), rest_s=5.0)
+    driven(controller, 90.0, 0.2)
+    assert controller.phase is Phase.RESTING
+    driven(controller, 85.0, 0.2, start_s=0.2)
+    assert controller.phase is Phase.WINDING
+
+
+def test_the_base_winds_on_as_long_as_the_tip_is_short():
+    controller = FrictionAware(MotorLimits(), winding_per_s=4.0, gain=1.5)
+    _, early = driven(controller, 87.0, 0.5)
+    _, late = driven(controller, 87.0, 1.0, start_s=0.5)
+    # 4 / s times 3 deg: 12 deg a second
+    assert late.base_deg - early.base_deg == pytest.approx(12.0, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("field", "bad"),
+    [("dead_band_deg", math.nan), ("gain", -1), ("winding_per_s", 0), ("rest_s", 0), ("retract_mm", -1)],
+)
+def test_an_impossible_controller_is_refused_by_the_name_of_its_field(field, bad):
+    with pytest.raises(InvalidValue, match=field):
+        FrictionAware(MotorLimits(), **{field: bad})

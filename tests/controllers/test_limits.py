@@ -1,0 +1,61 @@
+"""Commands never exceed what the motor can do."""
+
+import math
+
+import numpy as np
+import pytest
+
+from controllers.laws import BaseOnly
+from controllers.limits import LimitedBase, MotorLimits, rigid_needle_estimate
+from controllers.signals import Command, Estimate, Sample, Status
+from models.errors import InvalidValue
+
+
+def sample(time=0.0, base=0.0, torque=0.0, depth=100.0):
+    return Sample(time, base, torque, depth, 50.0)
+
+
+def test_the_base_turns_no_faster_than_the_motor_can():
+    controller = BaseOnly(MotorLimits(rate_deg_s=100))
+    commands = [controller.command(90.0, sample(0.01 * i), Estimate(0.0)) for i in range(100)]
+    steps = np.diff([c.base_deg for c in commands])
+    assert steps.max() == pytest.approx(1.0)
+    assert commands[5].rate_limited
+    assert commands[-1].base_deg == 90.0
+    assert not commands[-1].rate_limited
+
+
+def test_at_its_torque_limit_the_base_goes_no_further_but_may_go_back():
+    controller = BaseOnly(MotorLimits(torque_n_mm=2.0))
+    controller.command(0.0, sample(0.0), Estimate(0.0))
+    pushed = controller.command(90.0, sample(0.1, torque=2.5), Estimate(0.0))
+    assert pushed == Command(0.0, pushed.rate_limited, True)
+    back = controller.command(-10.0, sample(0.2, torque=2.5), Estimate(0.0))
+    assert back.base_deg == pytest.approx(-10.0)
+
+
+def test_the_first_command_sets_out_from_the_measured_base():
+    base = LimitedBase(MotorLimits(rate_deg_s=100))
+    assert math.isnan(base.base_deg)
+    assert base.toward(90.0, sample(base=12.0), Status.OK).base_deg == 12.0
+    base.reset()
+    assert math.isnan(base.base_deg)
+
+
+@pytest.mark.parametrize("status", [Status.BAD_SAMPLE, Status.BAD_TIME, Status.DIVERGED])
+def test_a_bad_estimate_holds_the_last_command_and_keeps_its_status(status):
+    base = LimitedBase(MotorLimits())
+    base.toward(0.0, sample(), Status.OK)
+    last = base.toward(30.0, sample(1.0), Status.OK)
+    assert base.toward(90.0, sample(2.0), status) == Command(last.base_deg, status=status)
+
+
+def test_without_torsion_the_tip_is_where_the_base_is():
+    assert rigid_needle_estimate(sample(base=42.0)).tip_deg == 42.0
+
+
+@pytest.mark.parametrize("field", ["rate_deg_s", "torque_n_mm"])
+@pytest.mark.parametrize("bad", [0, -1, math.nan])
+def test_impossible_limits_are_refused_by_their_name(field, bad):
+    with pytest.raises(InvalidValue, match=field):
+        MotorLimits(**{field: bad})

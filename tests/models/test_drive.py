@@ -1,0 +1,25 @@
+"""The drive at the base, and what is refused."""
+
+import pytest
+
+from models.drive import Drive, DriveKind
+from models.errors import InvalidValue
+
+
+@pytest.mark.parametrize(
+    ("field", "bad"),
+    [("backlash_deg", -1), ("stiffness_n_mm_per_rad", 0), ("sheath_friction_n_mm_per_mm", -1e-3)],
+)
+def test_an_impossible_drive_is_refused_by_the_name_of_its_field(field, bad):
+    with pytest.raises(InvalidValue, match=field):
+        Drive(**{field: bad})
+
+
+def test_a_drive_is_a_rigid_servo_unless_it_says_otherwise():
+    assert (Drive().kind, Drive().stiffness_n_mm_per_rad) == (DriveKind.ANGLE, None)
+    assert Drive(kind="torque").kind is DriveKind.TORQUE
+
+
+def test_an_unknown_kind_is_answered_with_the_known_ones():
+    with pytest.raises(InvalidValue, match=r"kind: expected 'angle' or 'torque', found 'speed'"):
+        Drive(kind="speed")

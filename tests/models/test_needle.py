@@ -1,0 +1,47 @@
+"""The needle: its constants, the presets, and what is refused."""
+
+import math
+
+import pytest
+
+from models.errors import InvalidValue, UnknownName
+from models.needle import NEEDLES, NITINOL, needle_named
+
+
+def test_the_papers_needle_has_the_audited_polar_moment_and_rigidity():
+    assert pytest.approx(0.011896, abs=5e-7) == NITINOL.polar_moment_mm4
+    assert pytest.approx(323.58, abs=5e-3) == NITINOL.rigidity_n_mm2
+
+
+def test_rotary_inertia_is_density_times_polar_moment_in_si():
+    polar_m4 = math.pi * 0.59e-3**4 / 32
+    assert NITINOL.rotary_inertia_kg_m == pytest.approx(6450 * polar_m4)
+
+
+@pytest.mark.parametrize("field", ["diameter_mm", "shear_modulus_gpa", "density_g_cm3", "length_mm"])
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf, "thick", None])
+def test_an_unphysical_needle_is_refused_by_the_name_of_its_field(field, bad):
+    with pytest.raises(InvalidValue, match=field):
+        NITINOL.but(**{field: bad})
+
+
+def test_a_needle_may_be_stiffer_than_any_that_a_file_may_name():
+    """A fit varies the stiffness about its nominal value, which may be the largest plausible one."""
+    assert NITINOL.but(shear_modulus_gpa=1001.0).rigidity_n_mm2 == pytest.approx(
+        NITINOL.rigidity_n_mm2 * 1001.0 / 27.2
+    )
+
+
+def test_mass_per_length_is_density_times_cross_section():
+    assert NITINOL.mass_kg_per_m == pytest.approx(6450 * math.pi * 0.295e-3**2)
+    assert NITINOL.radius_mm == 0.295
+
+
+def test_an_unknown_needle_is_answered_with_the_known_ones():
+    with pytest.raises(UnknownName, match="steel-1.27"):
+        needle_named("gold")
+    assert needle_named("nitinol-0.59") is NITINOL
+
+
+def test_names_in_the_table_are_the_names_of_the_needles():
+    assert all(name == needle.name for name, needle in NEEDLES.items())

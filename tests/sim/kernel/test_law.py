@@ -1,0 +1,126 @@
+"""The law of one contact site against the equations of its docstring.
+
+`sim.kernel.law` in the interpreter: the same source, nothing to compile.
+"""
+
+import math
+
+import pytest
+
+G, YIELD = 1e-3, 1e-3  # length of the stage, s, and presliding angle, rad
+
+
+@pytest.fixture
+def law(interpreted):
+    return interpreted.law
+
+
+@pytest.fixture
+def row(interpreted):
+    """A row of the law table from its fields."""
+    places = interpreted.memory_map
+
+    def made(**fields):
+        values = [0.0] * places.COLUMNS
+        for name, value in ({"exponent": 1.0, "plateau": 1e-5, "stribeck": 1.0} | fields).items():
+            values[getattr(places, f"L_{name.upper()}")] = value
+        return values
+
+    return made
+
+
+def stage(law, *, axial=0.0, cautious=False):
+    return law.Stage(G, axial, YIELD, cautious)
+
+
+def memory(law, dry=0.0, turn=0.0, axial=0.0, phi=0.0):
+    return law.Memory(dry, turn, axial, phi)
+
+
+def slip_torque(law, row, s, old=None, axial=0.0):
+    return law.slip_law(s, row, 0.0, old or memory(law), stage(law, axial=axial), 0.0)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 1.4])
+def test_the_power_law_grows_with_its_exponent(law, row, exponent):
+    fields = row(viscous=0.02, exponent=exponent)
+    one, two = (slip_torque(law, fields, s)[0] for s in (1.0, 2.0))
+    assert one == pytest.approx(0.02)
+    assert two / one == pytest.approx(2**exponent)
+
+
+def test_a_dry_element_is_a_spring_up_to_its_level(law, row):
+    fields = row(kinetic=0.3, static=0.3)
+    half = slip_torque(law, fields, 0.5 * YIELD / G)
+    full = slip_torque(law, fields, 20 * YIELD / G)
+    assert half[0] == pytest.approx(0.15)
+    assert full[0] == pytest.approx(0.3)
+    assert full[3].dry == pytest.approx(YIELD)
+    assert (half[1], full[1]) == pytest.approx((0.3 * G / YIELD, 0.0))
+
+
+@pytest.mark.parametrize("s", [0.02, 0.1, 0.3])
+def test_sliding_friction_falls_from_static_to_kinetic_as_stribeck_says(law, row, s):
+    fields = row(kinetic=0.1, static=0.3, stribeck=0.1)
+    slipped = memory(law, dry=YIELD)
+    torque = slip_torque(law, fields, s, slipped)[0]
+    assert torque == pytest.approx(0.1 + 0.2 * math.exp(-((s / 0.1) ** 2)))
+
+
+def test_friction_shared_with_axial_sliding_points_along_the_slip(law, row):
+    fields, turn, axial = row(shared=0.2), 0.3, 0.4
+    old = memory(law)
+    for _ in range(50):  # each stage turns the presliding further towards the slip
+        torque, _, _, old = slip_torque(law, fields, turn, old, axial)
+    assert torque == pytest.approx(0.2 * turn / math.hypot(turn, axial), rel=1e-6)
+    assert math.hypot(old.turn, old.axial) == pytest.approx(YIELD)
+
+
+CASES = {
+    "power law": ({"viscous": 0.02, "exponent": 0.6}, 0.7, 0.0),
+    "sticking": ({"kinetic": 0.3, "static": 0.3}, 0.4 * YIELD / G, 0.0),
+    "stribeck": ({"kinetic": 0.1, "static": 0.3, "stribeck": 2.0}, 1.5, 0.0),
+    "shared": ({"shared": 0.2}, 1.3, 0.9),
+    "yielding tissue": ({"viscous": 0.02, "stiffness": 5.0, "time": 0.2}, 0.7, 0.0),
+    "all": (
+        {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "shared": 0.1, "stiffness": 5.0, "time": 0.1},
+        1.7,
+        0.8,
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_slope_is_the_derivative_of_the_torque(law, row, case):
+    fields, omega, axial = CASES[case]
+    fields, old = row(**fields), memory(law, dry=2e-4, turn=1e-4, axial=-1e-4, phi=0.01)
+
+    def site(rate):
+        return law.site_law(rate, fields, 0.0, old, stage(law, axial=axial), omega)
+
+    step = 1e-6
+    difference = (site(omega + step)[0] - site(omega - step)[0]) / (2 * step)
+    # A central difference: its error is step^2 f''' / 6 plus eps f / step, below 1e-9 here.
+    assert site(omega)[1] == pytest.approx(difference, abs=1e-8)
+    assert site(omega)[1] != pytest.approx(1.01 * difference, abs=1e-8)  # 1 % off would be seen
+
+
+def test_yielding_tissue_is_in_series_with_the_slip(law, row):
+    """f = k phi + k tau dphi/dt and dphi/dt = omega - s, both at the end of the stage."""
+    stiffness, tau, omega, old = 5.0, 0.2, 0.7, memory(law, phi=0.01)
+    fields = row(viscous=0.02, kinetic=0.1, static=0.1, stiffness=stiffness, time=tau)
+    torque, _, s, new = law.site_law(omega, fields, 0.0, old, stage(law), 0.0)
+    rate = (new.phi - old.phi) / G
+    assert rate == pytest.approx(omega - s)
+    assert torque == pytest.approx(stiffness * new.phi + stiffness * tau * rate)
+    assert torque == pytest.approx(slip_torque(law, fields, s, old)[0])
+
+
+def test_a_cautious_stage_takes_the_secant_which_is_never_below_the_tangent(law, row):
+    fields = row(kinetic=0.3, static=0.3)
+    for s in (0.2 * YIELD / G, 5 * YIELD / G):
+        torque, tangent, secant, _ = slip_torque(law, fields, s)
+        assert secant == pytest.approx(torque / s)
+        assert secant >= tangent - 1e-15
+        cautious = law.site_law(s, fields, 0.0, memory(law), stage(law, cautious=True), s)
+        assert cautious[1] == secant

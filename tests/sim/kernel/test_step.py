@@ -1,0 +1,96 @@
+"""One step of needle and tissue: its order conditions, and the compiled step beside its source."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from models import units
+from models.needle import NITINOL
+from models.tissue import Tissue
+from sim.discretisation import Discretisation
+from sim.law_table import law_table
+from sim.schedule import Schedule
+from sim.simulation import compile_model, controls, initial_data
+from sim.spec import Setup, header
+
+TISSUE = Tissue.uniform(
+    viscous_n_mm_s_per_mm=0.01,
+    kinetic_n_mm_per_mm=0.001,
+    shared_n_mm_per_mm=0.001,
+    stiffness_n_mm_per_rad_per_mm=0.02,
+    time_constant_s=0.5,
+).but(entry_friction_n_mm=0.05)
+
+
+def test_the_method_is_of_second_order_and_l_stable(interpreted):
+    """Its stability function is (1 + (1 - 2 g) z) / (1 - g z)^2 with g = 1 - 1 / sqrt 2."""
+    g = interpreted.step.GAMMA
+    assert g == pytest.approx(1 - 2**-0.5)
+    # exp(z) to second order: 1 + z + z^2 / 2 needs g^2 - 2 g + 1/2 = 0
+    assert g * g - 2 * g + 0.5 == pytest.approx(0.0, abs=1e-15)
+    # y* = y0 + (1/g - 1) (y1 - y0): the second stage's slope is (1 - g) of the first and g of its own
+    assert g * interpreted.step._CARRY == pytest.approx(1 - g)
+
+
+@pytest.fixture(scope="module")
+def run():
+    """A turn while the needle slides, by MuJoCo and the compiled callback."""
+    cut = Discretisation(elements=6, step_s=0.01)
+    setup = Setup(needle=NITINOL, tissue=TISSUE, discretisation=cut, free_mm=30, inserted_mm=60)
+    time = np.array([0.0, 0.1, 0.2])
+    inputs = Schedule(
+        time_s=time,
+        drive=np.array([0.0, 30.0, 10.0]),
+        free_mm=30 + 2.0 * time,
+        inserted_mm=np.full(3, 60.0),
+        speed_mm_s=np.full(3, -2.0),
+        tip_torque_n_mm=np.array([0.0, 0.05, 0.05]),
+    )
+    model = compile_model(setup)
+    ctrl = controls(inputs.at_steps(0.01), setup)
+    data, states = initial_data(model, setup, ctrl[0]), []
+    for u in ctrl[1:]:
+        data.ctrl[:] = u
+        mujoco.mj_step(model, data)
+        states.append(np.concatenate([np.cumsum(data.qpos[1:]), data.sensordata]))
+    return setup, ctrl, np.array(states)
+
+
+def by_the_interpreter(interpreted, setup, ctrl):
+    """The same steps by `sim.kernel.step` in the interpreter, without MuJoCo."""
+    places = interpreted.memory_map
+    law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
+    head, mesh = header(setup, rows=len(law)), setup.nodes_mm * units.MM
+    n, size = mesh.size - 1, places.block(mesh.size - 1, len(law))
+    now, nxt = np.zeros(size), np.zeros(size)
+    now[places.B_INPUTS : places.B_INPUTS + places.INPUTS] = ctrl[0]
+    scratch, angles = (
+        np.zeros(places.scratch(n, len(law))),
+        slice(places.B_ANGLES, places.B_ANGLES + n + 1),
+    )
+    states = []
+    for u in ctrl[1:]:
+        interpreted.step.advance(head, mesh, law, 0.01, now[angles].copy(), now, nxt, u, scratch)
+        states.append(np.concatenate([nxt[angles], nxt[: places.OUTPUTS]]))
+        now[:] = nxt
+    return np.array(states)
+
+
+def test_the_compiled_step_in_mujoco_lands_where_its_source_says(interpreted, run):
+    setup, ctrl, compiled = run
+    source = by_the_interpreter(interpreted, setup, ctrl)
+    n = setup.nodes_mm.size
+    # Newton's method stops within 1e-10 rad/s: 1e-12 rad a step, 2e-11 over 20.
+    assert np.abs(source[:, :n] - compiled[:, :n]).max() < 2e-11
+    torque = n + interpreted.memory_map.O_BASE_TORQUE
+    assert source[:, torque] == pytest.approx(compiled[:, torque], rel=1e-5)
+    assert np.ptp(source[:, torque]) > 1e-5  # N m: something happened
+
+
+def test_a_stage_that_differs_by_a_thousandth_would_be_seen(interpreted, run, monkeypatch):
+    """Negative control."""
+    setup, ctrl, compiled = run
+    monkeypatch.setattr(interpreted.step, "GAMMA", 1.001 * interpreted.step.GAMMA)
+    source = by_the_interpreter(interpreted, setup, ctrl)
+    n = setup.nodes_mm.size
+    assert np.abs(source[:, :n] - compiled[:, :n]).max() > 1e-7

@@ -1,0 +1,118 @@
+"""The loop around a controller: what it measures, what it moves, and what it records."""
+
+import numpy as np
+import pytest
+
+from models.needle import NITINOL
+from models.tissue import Tissue
+from sim.closed_loop import MeasurementNoise, run_closed_loop
+from sim.discretisation import Discretisation, Mesh
+from sim.schedule import Schedule
+from sim.simulation import simulate
+from sim.spec import Setup
+
+STEP_S = 0.005
+
+
+class Follower:
+    """Turns the base to the reference, and advances as it is told; keeps what it was shown."""
+
+    def __init__(self, advance_mm=lambda time_s: 0.0):
+        self.measurements, self.references, self._advance = [], [], advance_mm
+
+    def __call__(self, measurement, reference_deg):
+        self.measurements.append(measurement)
+        self.references.append(reference_deg)
+        return reference_deg
+
+    @property
+    def advance_mm(self):
+        return self._advance(self.measurements[-1].time_s)
+
+    def shown(self, name):
+        return np.array([getattr(m, name) for m in self.measurements])
+
+
+def setup(mesh=Mesh.EULERIAN):
+    return Setup(
+        needle=NITINOL,
+        tissue=Tissue.uniform(viscous_n_mm_s_per_mm=0.017),
+        discretisation=Discretisation(elements=8, step_s=STEP_S),
+        mesh=mesh,
+        free_mm=50,
+        inserted_mm=60,
+    )
+
+
+def turn(duration_s=0.5):
+    time = np.array([0.0, 0.1, duration_s])
+    return Schedule(
+        time_s=time,
+        drive=np.array([0.0, 45.0, 45.0]),
+        free_mm=np.full(3, 50.0),
+        inserted_mm=np.full(3, 60.0),
+        speed_mm_s=np.zeros(3),
+    )
+
+
+def test_a_controller_that_returns_the_reference_gives_the_open_loop_one_step_late():
+    controlled = run_closed_loop(setup(), turn(), Follower())
+    late = controlled.run.inputs
+    assert late.drive[1:] == pytest.approx(controlled.reference_deg[:-1])
+    assert late.drive[0] == 0.0
+    open_loop = simulate([setup()], late)[0]
+    # the same steps of the same model, by a batch: equal but for rounding
+    assert np.abs(open_loop.tip_deg - controlled.run.tip_deg).max() < 1e-10
+    assert np.ptp(controlled.run.tip_deg) > 10
+
+
+def test_without_noise_the_controller_sees_the_recorded_run():
+    follower = Follower()
+    run = run_closed_loop(setup(), turn(), follower).run
+    assert np.array_equal(follower.shown("time_s"), run.time_s)
+    assert np.array_equal(follower.shown("base_deg"), run.inputs.drive)
+    assert np.array_equal(follower.shown("tip_deg"), run.tip_deg)
+    assert np.array_equal(follower.shown("torque_n_mm"), run.base_torque_n_mm)
+
+
+def test_noise_has_the_stated_spread_and_is_the_same_for_the_same_seed():
+    noise = MeasurementNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=3)
+    shown = []
+    for _ in range(2):
+        follower = Follower()
+        run = run_closed_loop(setup(), turn(2.0), follower, noise=noise).run
+        exact = {
+            "base_deg": run.inputs.drive,
+            "torque_n_mm": run.base_torque_n_mm,
+            "tip_deg": run.tip_deg,
+        }
+        shown.append({name: follower.shown(name) - values for name, values in exact.items()})
+    for name, errors in shown[0].items():
+        assert np.array_equal(errors, shown[1][name])
+        # The spread of N samples is known to 1 / sqrt(2 N): four times that is 14 %.
+        assert errors.std() == pytest.approx(getattr(noise, name), rel=4 / np.sqrt(2 * errors.size))
+
+
+def test_a_retraction_beside_the_schedule_moves_the_chuck_through_a_slab():
+    follower = Follower(lambda time_s: -3.0 * min(time_s / 0.2, 1.0))
+    run = run_closed_loop(setup(), turn(), follower).run
+    assert run.inputs.free_mm[-1] == pytest.approx(53.0)
+    assert run.inputs.inserted_mm == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize(("advance", "left"), [(-20.0, 40.0), (-90.0, 0.0)])
+def test_on_a_lagrangian_mesh_a_retraction_shortens_what_is_inserted(advance, left):
+    follower = Follower(lambda time_s: advance * min(time_s / 0.4, 1.0))
+    run = run_closed_loop(setup(Mesh.LAGRANGIAN), turn(), follower).run
+    assert run.inputs.inserted_mm[-1] == pytest.approx(left)
+    assert follower.shown("inserted_mm") == pytest.approx(run.inputs.inserted_mm)
+
+
+def test_signals_of_the_controller_are_kept_at_every_sample():
+    follower = Follower()
+    controlled = run_closed_loop(
+        setup(), turn(), follower, log=lambda: {"seen": follower.references[-1]}, keep_shape=True
+    )
+    assert np.array_equal(controlled.log["seen"], controlled.reference_deg)
+    assert controlled.run.angles_rad.shape == (controlled.reference_deg.size, 10)
+    assert run_closed_loop(setup(), turn(), Follower()).run.angles_rad is None

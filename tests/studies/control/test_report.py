@@ -1,0 +1,60 @@
+"""The files of `needle control`, from a small study."""
+
+import json
+import math
+
+import matplotlib.image
+import pandas as pd
+import pytest
+
+from models.drive import DriveKind
+from models.errors import OutputExists
+from models.materials import tissue_named
+from studies.control import report, steering, tables
+from studies.control.report import FILES, ControlStudy, hankel, write_study
+from studies.crosscheck.poles import closed_form_needle
+
+
+@pytest.fixture(scope="module")
+def small():
+    responses = tables.compare(
+        tissue_named("viscous-plastisol"),
+        depth_cm=5.0,
+        free_mm=0.0,
+        controllers=("base_only", "feedforward"),
+        hold_s=2.0,
+    )
+    return ControlStudy(
+        tables=responses,
+        robustness=responses,
+        steered=steering.steered_insertions(controllers=()),
+        planes={10.0: steering.approach_plane(cases=("its own simulation",), travel_mm=20.0)},
+    )
+
+
+def test_every_file_is_written_and_says_the_same(small, tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "_SHOWN", ("base_only",))  # the picture simulates its own turns
+    paths = write_study(small, tmp_path)
+    assert [path.name for path in paths] == list(FILES)
+    content = json.loads(paths[0].read_text(), parse_constant=lambda c: pytest.fail(c))
+    table = pd.read_csv(paths[1])
+    assert [row["settle_s"] for row in content["table_iv"]] == pytest.approx(list(table["settle_s"]))
+    assert content["table_iv"][0]["published_s"] == 0.67
+    for path in paths[3:]:
+        assert matplotlib.image.imread(path).std() > 0.01  # not blank
+    with pytest.raises(OutputExists):
+        write_study(small, tmp_path)
+
+
+def test_what_does_not_exist_is_null_and_not_nan(small):
+    content = small.as_json()
+    never = content["planar_mm"]["10 mm/s"]["its own simulation"]
+    assert math.isnan(small.planes[10.0][0].converged_mm())
+    assert never is None
+
+
+def test_hankel_values_fall_and_four_of_them_hold_nearly_everything():
+    ratios = hankel()
+    assert ratios[0] == 1.0
+    assert sum(ratios[3:]) < 0.01 * sum(ratios)
+    assert closed_form_needle(200.0, 0.0, DriveKind.TORQUE).inserted_mm == 200.0
