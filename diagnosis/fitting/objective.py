@@ -1,8 +1,10 @@
 """Residuals of a log as a function of the fit's vector, and their slopes.
 
 The nuisance moves by a few per cent at the most: its slopes are taken again only where the
-effects have moved far.
+effects have moved far. A fit ends at a vector that it has been at: what was simulated there is kept.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,7 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
+_KEPT = 8  # vectors whose residuals are kept: more than a search along one direction takes
 
 
 class Objective:
@@ -33,23 +36,44 @@ class Objective:
         self.slopes: Array | None = None
         self._fresh_at: Array | None = None
         self._rows: int | None = None
+        self._known: dict[bytes, tuple[Array, ...]] = {}
+
+    def by_trial(self, x: Array) -> tuple[Array, ...]:
+        """Residuals / sigma at one vector, (n,), one array per trial.
+
+        Raises:
+          SimulationFailed: the rig cannot be simulated.
+        """
+        key = x.tobytes()
+        if key not in self._known:
+            trials = self.problem.residuals([self.parameterization.rig(x)])
+            self._known = dict(list(self._known.items())[1 - _KEPT :])
+            self._known[key] = tuple(trial[0] for trial in trials)
+        return self._known[key]
 
     def __call__(self, x: Array) -> Array:
         """(n, M) or (n,) to residuals with the prior, (N, M) or (N,)."""
         columns = x.reshape(x.shape[0], -1)
-        rigs = [self.parameterization.rig(x) for x in columns.T]
-        try:
-            trials = self.problem.residuals(rigs)
-        except SimulationFailed:
-            if self._rows is None or columns.shape[1] > 1:
-                raise
-            return np.full((self._rows, *x.shape[1:]), np.nan)  # a step too far: it is taken back
+        trials = self._trials(columns)
+        if trials is None:
+            return np.full((self._rows or 0, *x.shape[1:]), np.nan)
         rows = [
             np.concatenate([*(t[i] for t in trials), self.parameterization.weights * columns[:, i]])
             for i in range(columns.shape[1])
         ]
         self._rows = rows[0].size
         return np.stack(rows, axis=-1).reshape(-1, *x.shape[1:])
+
+    def _trials(self, columns: Array) -> Sequence[Sequence[Array]] | None:
+        """Residuals trial by trial, then column by column; None: one step too far, to be taken back."""
+        if columns.shape[1] > 1:
+            return self.problem.residuals([self.parameterization.rig(x) for x in columns.T])
+        try:
+            return [[residual] for residual in self.by_trial(np.ascontiguousarray(columns[:, 0]))]
+        except SimulationFailed:
+            if self._rows is None:
+                raise
+            return None
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """By differences away from the bounds, (N, n)."""
