@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup demo test check format bench clean
+.PHONY: setup demo test quick coverage check format bench clean
 
 setup: $(STAMP)
 
@@ -18,6 +18,12 @@ demo: $(STAMP)
 
 test: $(STAMP)
 	CI=1 $(BIN)/python -m pytest
+
+quick: $(STAMP)
+	CI=1 $(BIN)/python -m pytest -m "not slow"
+
+coverage: $(STAMP)
+	CI=1 $(BIN)/python -m pytest --cov --cov-report=term-missing:skip-covered
 
 check: $(STAMP)
 	$(BIN)/ruff format --check .

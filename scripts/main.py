@@ -17,11 +17,14 @@ from models.errors import InvalidValue, NeedleError
 def parser() -> argparse.ArgumentParser:
     """The arguments of every subcommand."""
     top = argparse.ArgumentParser(
-        prog="needle", description="A flexible needle twisting in tissue: simulate, check, replay."
+        prog="needle",
+        description="A flexible needle twisting in tissue: simulate, check, control, diagnose a rig.",
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    demo = commands.add_parser("demo", help="the main job: simulate, cross-check, replay a log")
+    demo = commands.add_parser(
+        "demo", help="the main job: simulate, cross-check, replay a log, diagnose another"
+    )
     _add_output(demo, default=Path("out/demo"))
 
     insert = commands.add_parser("insert", help="simulate a protocol")
@@ -113,23 +116,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(args: argparse.Namespace, console: Console) -> int:
-    # Imported here: `needle --help` need not wait for MuJoCo.
-    from scripts import (
-        blind,
-        control,
-        demo,
-        diagnose,
-        insert,
-        inspect,
-        published_figures,
-        replay,
-        validate,
-    )
-
+    # Imported here, for one command alone: `needle --help` need not wait for MuJoCo.
     match args.command:
         case "demo":
+            from scripts import demo
+
             return demo.run(args.out, force=args.force, console=console)
         case "insert":
+            from scripts import insert
+
             return insert.run(
                 args.protocol,
                 args.out,
@@ -139,22 +134,34 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 console=console,
             )
         case "protocols":
+            from scripts import insert
+
             return insert.list_protocols(console)
         case "validate":
+            from scripts import validate
+
             return validate.run(args.out, force=args.force, console=console)
         case "control":
+            from scripts import control
+
             return control.run(args.out, force=args.force, console=console)
         case "diagnose" if bool(args.log) == args.paper:
             raise InvalidValue("LOG", args.log, "either a rig-log/1 folder or --paper")
         case "diagnose" if args.paper:
+            from scripts import published_figures
+
             return published_figures.run(
                 args.out, json_only=args.json, force=args.force, console=console
             )
         case "diagnose":
+            from scripts import diagnose
+
             return diagnose.run(
                 args.log, args.out, json_only=args.json, force=args.force, console=console
             )
         case "blind" if args.action == "make":
+            from scripts import blind
+
             return blind.make(
                 args.out,
                 seed=args.seed,
@@ -166,12 +173,18 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 console=console,
             )
         case "blind":
+            from scripts import blind
+
             return blind.run_score(
                 args.folder, args.out, trials=args.trials, force=args.force, console=console
             )
         case "replay":
+            from scripts import replay
+
             return replay.run(args.log, args.out, force=args.force, console=console)
         case _:
+            from scripts import inspect
+
             return inspect.run(args.file, table=args.table, console=console)
 
 
