@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+from scipy.optimize import lsq_linear
 
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.decimation import decimated
@@ -135,3 +136,21 @@ def scored(names, score, **known):
     """A candidate at the noise floor, of a fit that nobody made."""
     floors = {"floor": AT_FLOOR, "held_out": (np.zeros(10),), "held_out_floor": AT_FLOOR}
     return Candidate(fit=fit_of(names), score=score, **(floors | known))
+
+
+def held_by_a_bound(beyond):
+    """The fit of a linear rig whose third parameter is beyond its bound and looks like the first."""
+    low, high = parameterization_of(("stiction",)).bounds()
+    rng = np.random.default_rng(4)
+    slopes, readings = [], []
+    true = 0.5 * (low + high)
+    true[2] = high[2] + beyond
+    for _ in range(4):
+        columns = rng.normal(size=(500, 3))
+        columns[:, 2] = -columns[:, 0] + 0.05 * columns[:, 2]
+        slopes.append(10 * columns)
+        readings.append(slopes[-1] @ true + rng.normal(size=500))
+    best = lsq_linear(np.vstack(slopes), np.concatenate(readings), bounds=(low, high)).x
+    assert abs(best[2] - high[2]) < 1e-6
+    by_trial = [j @ best - y for j, y in zip(slopes, readings, strict=True)]
+    return fit_of(("stiction",), by_trial=by_trial, jacobian=slopes, x=best)

@@ -28,9 +28,7 @@ def noises(log):
     ready, _ = prepare(log)
     claimed = log.rig.sensors.by_column()
     each = zip(ready.trials, replay(ready), strict=True)
-    return np.array(
-        [[np.nanstd(t.readings[s] - p[s]) / claimed[s] for s in SENSORS] for t, p in each]
-    )
+    return np.array([[np.nanstd(t.readings[s] - p[s]) / claimed[s] for s in SENSORS] for t, p in each])
 
 
 def test_the_example_rig_is_explained_by_the_nominal_needle(example):

@@ -61,6 +61,8 @@ def test_two_layers_keep_the_total_damping():
 
 def test_a_delayed_sensor_shows_what_was():
     time = np.linspace(0, 10, 1001)
-    tip, torque = RigParameters(tip_delay_s=0.5, tip_scale=2.0, tip_bias_deg=3.0).sensed(time, time, time)
+    tip, torque = RigParameters(tip_delay_s=0.5, tip_scale=2.0, tip_bias_deg=3.0).sensed(
+        time, time, time
+    )
     np.testing.assert_allclose(tip, 3 + 2 * np.maximum(time - 0.5, 0.0))
     np.testing.assert_array_equal(torque, time)
