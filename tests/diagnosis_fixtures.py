@@ -115,7 +115,8 @@ def coarse_of(log):
 def fit_of(names, *, by_trial=None, jacobian=None, x=None, nuisance=(), cost=None, status=ENDED):
     """A fit that nobody made: by default at the first start, with residuals of 0."""
     parameterization = parameterization_of(names, nuisance)
-    x = parameterization.joined({n: starts(LIBRARY[n])[0] for n in names}) if x is None else x
+    first = {n: starts(LIBRARY[n])[0] for n in names}
+    x = parameterization.joined(first) if x is None else np.asarray(x, float)
     by_trial = (np.zeros(10),) if by_trial is None else tuple(by_trial)
     if jacobian is None:
         jacobian = tuple(np.zeros((r.size, x.size)) for r in by_trial)
@@ -126,7 +127,7 @@ def fit_of(names, *, by_trial=None, jacobian=None, x=None, nuisance=(), cost=Non
         parameterization=parameterization,
         x=x,
         by_trial=by_trial,
-        jacobian=tuple(jacobian),
+        jacobian=tuple(np.asarray(slopes, float) for slopes in jacobian),
         cost=own if cost is None else cost,
         status=status,
     )

@@ -4,8 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import NOISE, joined, log_of, problem_of
+from diagnosis_fixtures import NOISE, RIG, joined, log_of, problem_of
 
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
@@ -22,11 +24,11 @@ def test_residuals_are_trial_by_trial_and_then_rig_by_rig():
 
 
 def test_noise_changes_as_another_problems_did():
-    problem = replace(problem_of(log_of(NOMINAL, seconds=2.0)), noise=NOISE)
     halved = replace(NOISE, sigma={s: 0.5 * own for s, own in NOISE.sigma.items()})
+    problem = FitProblem(log=PreparedLog(rig=RIG, trials=()), noise=halved, nuisance=())
     before = replace(NOISE, sigma=dict.fromkeys(NOISE.sigma, 1.0))
     after = replace(NOISE, sigma={**before.sigma, "tip_angle_deg": 1.06})
-    changed = replace(problem, noise=halved).renoised(after, before=before)
+    changed = problem.renoised(after, before=before)
     assert changed.noise["tip_angle_deg"] == pytest.approx(1.06 * halved["tip_angle_deg"])
     assert changed.noise["base_torque_n_mm"] == halved["base_torque_n_mm"]
     assert changed.log is problem.log

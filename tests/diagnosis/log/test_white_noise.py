@@ -12,6 +12,12 @@ from diagnosis.log.white_noise import white_noise
 ORDERS = (1, 2, 4)
 
 
+def moment(power, end):
+    """Mean of min(|z|, end)^power of a standard normal z."""
+    clipped = integrate.quad(lambda z: min(z, end) ** power * stats.norm.pdf(z), 0, 40, points=[end])
+    return 2 * clipped[0]
+
+
 def spread(order, samples):
     """Standard deviation of the estimate over its value: no more than chance and correlation give.
 
@@ -21,18 +27,14 @@ def spread(order, samples):
     """
     share = owner._CENTRAL_SHARE[order]
     end = stats.norm.ppf((1 + share) / 2) if share < 1 else 40.0
-    mean, fourth = (
-        2
-        * integrate.quad(lambda z: min(z, end) ** n * stats.norm.pdf(z), 0, 40, points=[min(end, 39)])[0]
-        for n in (2, 4)
-    )
+    mean, fourth = moment(2, end), moment(4, end)
     within = 2 * integrate.quad(lambda z: z**2 * stats.norm.pdf(z), 0, end)[0]
     rho = [comb(2 * order, order + j) / comb(2 * order, order) for j in range(-order, order + 1)]
     return 0.5 * np.sqrt((fourth - mean**2) / samples * np.sum(np.square(rho))) / within
 
 
 def test_chance_is_that_of_a_normal_deviation_where_all_differences_count():
-    """von Neumann's ratio: the mean square of first differences of N values takes 3 / N off or adds it."""
+    """von Neumann: the mean square of first differences of N values has a variance of 3 / N."""
     assert spread(1, 1000) == pytest.approx(np.sqrt(1.5 / 2000), rel=1e-3)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import prepared, trial, turns
 
+from diagnosis.prepare.prepared_log import PreparedTrial
 from sim.discretisation import Mesh
 
 
@@ -40,6 +41,7 @@ def test_a_known_torque_at_the_tip_is_none_where_it_was_not_read():
 
 def test_a_sensor_that_gave_nothing_was_not_measured():
     ready = prepared(trial(turns()))
+    assert isinstance(ready, PreparedTrial)
     empty = np.full(ready.time_s.size, np.nan)
     read = replace(ready, readings={"tip_angle_deg": empty, "base_torque_n_mm": 0 * empty + 1})
     assert not ready.has("tip_angle_deg")
