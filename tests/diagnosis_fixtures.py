@@ -6,9 +6,11 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import lsq_linear
 
+from diagnosis.assessment.assess import nominal_residuals
+from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.fit import Fit, nominal_fit
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.nuisance import nuisance_of
@@ -28,6 +30,9 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict
 from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.renoised import renoised
+from diagnosis.selection.search import SearchState
+from diagnosis.selection.verdict import verdict_on
 
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02
 RIG = NominalRig(
@@ -117,7 +122,7 @@ def fit_of(names, *, by_trial=None, jacobian=None, x=None, nuisance=(), cost=Non
     parameterization = parameterization_of(names, nuisance)
     first = {n: starts(LIBRARY[n])[0] for n in names}
     x = parameterization.joined(first) if x is None else np.asarray(x, float)
-    by_trial = (np.zeros(10),) if by_trial is None else tuple(by_trial)
+    by_trial = [np.asarray(r, float) for r in ([np.zeros(10)] if by_trial is None else by_trial)]
     if jacobian is None:
         jacobian = tuple(np.zeros((r.size, x.size)) for r in by_trial)
     prior = parameterization.weights * x
@@ -126,7 +131,7 @@ def fit_of(names, *, by_trial=None, jacobian=None, x=None, nuisance=(), cost=Non
         names=tuple(names),
         parameterization=parameterization,
         x=x,
-        by_trial=by_trial,
+        by_trial=tuple(by_trial),
         jacobian=tuple(np.asarray(slopes, float) for slopes in jacobian),
         cost=own if cost is None else cost,
         status=status,
@@ -155,3 +160,20 @@ def held_by_a_bound(beyond):
     assert abs(best[2] - high[2]) < 1e-6
     by_trial = [j @ best - y for j, y in zip(slopes, readings, strict=True)]
     return fit_of(("stiction",), by_trial=by_trial, jacobian=slopes, x=best)
+
+
+def start_of_search(log, effects=None):
+    """Where a search begins, among all effects that a log can show or among some."""
+    nominal = replay_nominal(log)
+    problem = nominal.problem
+    return SearchState(
+        problem=problem,
+        coarse=decimated(problem, nominal.predictions),
+        effects=testable_effects(log) if effects is None else effects,
+        nominal=nominal_fit(nominal_residuals(problem, nominal.predictions)),
+    )
+
+
+def concluded(state):
+    """The verdict on what a search has come to."""
+    return verdict_on(renoised(state.problem, sorted(state.candidates, key=lambda c: c.score))[1])

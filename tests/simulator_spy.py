@@ -18,16 +18,19 @@ class SimulatorSpy(AbstractContextManager):
       needles: that were simulated.
       nominal: replays of the nominal rig before the search.
       held_out: replays of held-out trials, by stage and the effects of the candidate.
+      assessed: the log itself and the decimated log that the assessment got.
     """
 
     def __init__(self):
         self.needles, self.nominal = 0, 0
         self.held_out = {"search": Counter(), "assessment": Counter()}
+        self.assessed = None
         self._patch = pytest.MonkeyPatch()
 
     def __enter__(self):
         self._patch.setattr(replay, "simulate", self._watched(replay.simulate, self._needles))
         self._patch.setattr(pipeline, "replay", self._watched(pipeline.replay, self._nominal))
+        self._patch.setattr(pipeline, "assess", self._watched(pipeline.assess, self._assessed))
         for stage, module in (("search", candidate), ("assessment", assess)):
             count = self._counter(self.held_out[stage])
             watched = self._watched(module.held_out_residuals, count)
@@ -49,6 +52,9 @@ class SimulatorSpy(AbstractContextManager):
 
     def _nominal(self, *_):
         self.nominal += 1
+
+    def _assessed(self, _, problem, coarse, *__):
+        self.assessed = (problem, coarse)
 
     def _counter(self, counts):
         return lambda _, fit: counts.update([fit.names])

@@ -5,50 +5,30 @@ from functools import partial
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, scored
+from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
-from diagnosis.assessment.assess import nominal_residuals
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import nominal_fit
-from diagnosis.pipeline import replay_nominal
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import fitting, search as module
 from diagnosis.selection.record import Decision
-from diagnosis.selection.renoised import renoised
-from diagnosis.selection.search import STAGES, SearchState, search
-from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.selection.search import STAGES, search
+from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
 EFFECTS = ("coulomb_friction", "tip_drag", "torque_bias")
 
 
-def state_of(log, effects=EFFECTS):
-    """Where a search among a few effects begins."""
-    nominal = replay_nominal(log)
-    problem = nominal.problem
-    return SearchState(
-        problem=problem,
-        coarse=decimated(problem, nominal.predictions),
-        effects=effects,
-        nominal=nominal_fit(nominal_residuals(problem, nominal.predictions)),
-    )
-
-
-def concluded(state):
-    """The verdict on what a search has come to."""
-    return verdict_on(renoised(state.problem, sorted(state.candidates, key=lambda c: c.score))[1])
-
-
 @pytest.fixture(scope="module")
 def dry_start():
-    return state_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0))
+    return start_of_search(
+        log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0), EFFECTS
+    )
 
 
 @pytest.fixture(scope="module")
 def still_start():
-    return state_of(log_of(NOMINAL, speed=-1.0, seed=1))
+    return start_of_search(log_of(NOMINAL, speed=-1.0, seed=1), EFFECTS)
 
 
 @pytest.fixture(scope="module")
@@ -181,7 +161,7 @@ def test_each_effect_of_a_leading_pair_is_fitted_alone(monkeypatch, still_start)
 
 
 def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
-    off = state_of(log_of(RigParameters(stiffness_scale=1.2), speed=-1.0, seconds=8.0), effects=())
+    off = start_of_search(log_of(RigParameters(stiffness_scale=1.2), speed=-1.0, seconds=8.0), ())
     found = search(off, Workers())
     (entry,) = [e for e in found.record if e.stage == "scatter of the best"]
     assert entry.effects == ("stiffness_error",)
