@@ -32,3 +32,9 @@ def test_noise_changes_as_another_problems_did():
     assert changed.noise["tip_angle_deg"] == pytest.approx(1.06 * halved["tip_angle_deg"])
     assert changed.noise["base_torque_n_mm"] == halved["base_torque_n_mm"]
     assert changed.log is problem.log
+
+
+def test_an_encoder_without_noise_stays_without():
+    quiet = replace(NOISE, sigma=NOISE.sigma | {"base_angle_deg": 0.0})
+    problem = FitProblem(log=PreparedLog(rig=RIG, trials=()), noise=quiet, nuisance=())
+    assert problem.renoised(quiet, before=quiet).noise.sigma == quiet.sigma
