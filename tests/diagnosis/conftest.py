@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 from reference_log import make_log
+from simulator_spy import SimulatorSpy
 
 from diagnosis.log.rig_log import RigLog, read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
 from diagnosis.result import Diagnosis
-from simulator_spy import SimulatorSpy
 
 SHARED = {"dry", "nothing"}
 

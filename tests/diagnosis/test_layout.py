@@ -29,7 +29,7 @@ def imported(path):
             yield from (alias.name for alias in node.names)
 
 
-@pytest.mark.parametrize("module", modules(), ids=str)
+@pytest.mark.parametrize("module", list(modules()), ids=str)
 def test_every_module_is_tested_by_the_file_of_its_name(module):
     path = TESTS / module.parent / f"test_{module.name}"
     assert path.is_file()

@@ -54,7 +54,8 @@ def test_an_explanation_is_told_with_its_parameters_gap_and_limits(log, nominal,
     level = told.parameters["coulomb_friction"]["level"]
     assert level.low < 0.001 < level.high
     assert set(told.parameters) == {"coulomb_friction"}
-    assert told.gap.before > 2 > 1.1 > told.gap.after
+    assert told.gap.before > 2
+    assert told.gap.after < 1.1
     assert set(told.with_one_more) == set(told.detection_limits) == {"tip_drag"}
     assert told.warnings == ()
     assert told.breakdown_after.signal["tip_angle_deg"] < told.breakdown.signal["tip_angle_deg"]

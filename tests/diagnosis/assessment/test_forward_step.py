@@ -27,7 +27,7 @@ def dry_log():
 
 
 def test_the_best_fit_is_about_as_good_on_the_decimated_log(dry_log):
-    coarse, best, base = dry_log
+    _, best, base = dry_log
     assert base.names == best.names
     assert base.samples < 0.3 * best.samples
     # Sums of squares of the decimated log agree with those of the log within 5 %.

@@ -42,5 +42,6 @@ def test_noise_is_grey_and_five_times_it_is_red(residual, colour):
 def test_the_view_holds_the_whole_needle():
     bounds = needle_bounds(ONE)
     longest = (ONE["free_mm"] + ONE["inserted_mm"]).max()
-    low, high = bounds.x_range.range if hasattr(bounds.x_range, "range") else bounds.x_range
+    (shown,) = bounds.range.as_arrow_array().to_pylist()
+    low, high = shown["x_range"]
     assert low < 0 < longest < high

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pandas as pd
 import pytest
-from diagnosis_fixtures import RIG, log_with, problem_of, scored
+from diagnosis_fixtures import RIG, log_of, log_with, problem_of, scored
 from reference_log import BETA, TIP, TORQUE
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate as simulate_reference
@@ -15,6 +15,7 @@ from diagnosis.criteria import CONTENDING, FINEST_ELEMENTS, FINEST_STEP_S
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.trial import Trial
 from diagnosis.replay.resolution import FINE, Resolution
+from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection import mesh_refinement as module
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.mesh_refinement import refined_mesh
@@ -93,6 +94,11 @@ def test_what_is_far_from_explained_is_not_replayed_more_finely():
     assert record == ()
 
 
+def small():
+    """A problem that no fit is made of."""
+    return problem_of(log_of(NOMINAL, seconds=2.0))
+
+
 def refined(monkeypatch, matters, *, fails=False, candidates=None):
     """What comes of candidates where some resolutions matter; no fit is made."""
     calls = []
@@ -103,7 +109,7 @@ def refined(monkeypatch, matters, *, fails=False, candidates=None):
 
     monkeypatch.setattr(module, "_matters", lambda problem, best, there: matters(problem, there))
     monkeypatch.setattr(module, "fit_all", fit_all)
-    problem = problem_with("damping_error")
+    problem = small()
     candidates = candidates or [scored(["tip_drag"], 1.0)]
     return calls, *refined_mesh(problem, candidates, Workers())
 
@@ -143,7 +149,7 @@ def test_a_resolution_that_cannot_be_simulated_does_not_matter(monkeypatch):
     def failing(*_):
         raise SimulationFailed("lost its numbers")
 
-    problem = problem_with("damping_error")
+    problem = small()
     monkeypatch.setattr(type(problem), "residuals", failing)
     found = refined_mesh(problem, [scored(["tip_drag"], 1.0)], Workers())
     assert found[0].resolution == FINE

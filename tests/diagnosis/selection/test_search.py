@@ -9,7 +9,8 @@ from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
 from diagnosis.effects import LIBRARY
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.selection import fitting, search as module
+from diagnosis.selection import fitting
+from diagnosis.selection import search as module
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import STAGES, search
 from diagnosis.selection.verdict import VerdictKind
@@ -63,11 +64,13 @@ def test_each_stage_goes_on_from_the_last(monkeypatch, dry_start):
     assert search(dry_start, Workers()).record == tuple(stage.__name__ for stage in STAGES)
 
 
+@pytest.mark.slow
 def test_dry_friction_is_found_among_others(undisturbed):
     verdict = concluded(undisturbed)
     assert (verdict.kind, verdict.effects) == (VerdictKind.EXPLAINED, ("coulomb_friction",))
 
 
+@pytest.mark.slow
 def test_every_candidate_was_made_by_a_stage_of_the_record(undisturbed):
     told = {(e.effects, e.decision) for e in undisturbed.record}
     for one in undisturbed.candidates:
@@ -75,6 +78,7 @@ def test_every_candidate_was_made_by_a_stage_of_the_record(undisturbed):
         assert made & told
 
 
+@pytest.mark.slow
 def test_an_effect_that_cannot_be_simulated_is_recorded_and_changes_nothing_else(
     dry_start, undisturbed, monkeypatch
 ):
@@ -160,6 +164,7 @@ def test_each_effect_of_a_leading_pair_is_fitted_alone(monkeypatch, still_start)
     assert asked == [("effects of the best alone", ("tip_drag", "torque_bias"))]
 
 
+@pytest.mark.slow
 def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
     off = start_of_search(log_of(RigParameters(stiffness_scale=1.2), speed=-1.0, seconds=8.0), ())
     found = search(off, Workers())
