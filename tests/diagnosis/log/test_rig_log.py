@@ -45,9 +45,9 @@ def test_a_log_of_20000_rows_is_read_in_well_below_a_second(log):
     many["time_s"] = (STEP_S * many.index).to_numpy().round(4)
     many.to_csv(log / "turns.csv", index=False)
     read_rig_log(log)  # imports and caches
-    start = time.perf_counter()
+    start = time.process_time()
     read_rig_log(log)
-    assert time.perf_counter() - start < 0.8
+    assert time.process_time() - start < 0.8
 
 
 def test_a_missing_folder_is_named(tmp_path):

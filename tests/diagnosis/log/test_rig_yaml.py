@@ -106,6 +106,6 @@ def test_a_yaml_bomb_is_refused_at_once(log):
     names = "abcdefghij"
     lines = [f"{two}: &{two} [{', '.join(['*' + one] * 9)}]" for one, two in pairwise(names)]
     (log / "rig.yaml").write_text("\n".join(["a: &a [x, x, x, x, x, x, x, x, x]", *lines]))
-    start = time.perf_counter()
+    start = time.process_time()
     assert "alias" in refusal(log)
-    assert time.perf_counter() - start < 1.0
+    assert time.process_time() - start < 1.0

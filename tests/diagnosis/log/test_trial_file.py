@@ -78,9 +78,9 @@ def test_too_many_rows_are_refused_before_they_are_read(log):
     with (log / "slides.csv").open("wb") as file:
         file.write(",".join(TURNS).encode() + b"\n")
         file.writelines([rows] * 15)
-    start = time.perf_counter()
+    start = time.process_time()
     said = refusal(log)
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < 2.0
     assert "slides.csv" in said
     assert f"at most {MOST_ROWS} rows" in said
     assert "every 10th row" in said
@@ -89,9 +89,9 @@ def test_too_many_rows_are_refused_before_they_are_read(log):
 def test_a_file_of_gigabytes_is_refused_by_its_size(log):
     with (log / "turns.csv").open("r+b") as file:
         file.truncate(10**10)  # sparse: takes no room
-    start = time.perf_counter()
+    start = time.process_time()
     assert "too large" in refusal(log)
-    assert time.perf_counter() - start < 0.5
+    assert time.process_time() - start < 0.5
 
 
 COLUMNS = [
