@@ -73,16 +73,6 @@ def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):
     assert "fails" in capsys.readouterr().out
 
 
-def test_replay_writes_predictions_picture_and_recording(tmp_path, capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "160")
-    assert main(["replay", str(EXAMPLE / "rig-log"), "--out", str(tmp_path)]) == 0
-    assert "trial_06.csv" in capsys.readouterr().out
-    assert (tmp_path / "replay.png").exists()
-    assert (tmp_path / "predictions" / "trial_01.csv").read_text().startswith("time_s,")
-    assert main(["inspect", "--table", str(tmp_path / "replay.rrd")]) == 0
-    assert "tip_angle" in capsys.readouterr().out
-
-
 def test_protocols_lists_the_names(capsys):
     assert main(["protocols"]) == 0
     assert "fig4-10cm" in capsys.readouterr().out
@@ -97,9 +87,3 @@ def test_an_interrupted_run_says_so(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(insert, "perform", interrupted)
     assert main(["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path)]) == 130
     assert list(tmp_path.iterdir()) == []
-
-
-def test_diagnose_asks_for_a_log_or_the_paper(capsys):
-    assert main(["diagnose"]) == 2
-    assert "--paper" in capsys.readouterr().err
-    assert main(["diagnose", "examples/rig-log", "--paper"]) == 2

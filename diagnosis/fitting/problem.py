@@ -43,5 +43,5 @@ class FitProblem:
 
     def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
         """The same with its noise changed as another problem's was, from `before` to `noise`."""
-        sigma = {s: own * noise[s] / before[s] for s, own in self.noise.sigma.items()}
+        sigma = {s: own * noise[s] / before[s] if own else own for s, own in self.noise.sigma.items()}
         return replace(self, noise=replace(self.noise, sigma=sigma))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from sim.simulation import simulate
 from studies.published.criteria import ELEMENTS
-from studies.published.experiments.measurement import TurnMeasurement, TurnExperiment
+from studies.published.experiments.measurement import TurnExperiment, TurnMeasurement
 from studies.published.experiments.read_off import Quantities, read_off
 from studies.published.experiments.rig import STATED, WITH_FREE_LENGTH, PublishedRig
 from studies.published.experiments.schedules import schedule, step_s

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from studies.published.experiments.measurement import TurnMeasurement, Quantity
+from studies.published.experiments.measurement import Quantity, TurnMeasurement
 from studies.published.experiments.schedules import observed_s
 from studies.published.fitting.fit import FigureFit
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.published import criteria
-from studies.published.experiments.measurement import TurnMeasurement, Quantity, TurnExperiment
+from studies.published.experiments.measurement import Quantity, TurnExperiment, TurnMeasurement
 from studies.published.experiments.replay import FigureReplay
 from studies.published.fitting.fit import FigureFit
 

@@ -1,0 +1,52 @@
+"""What to run next, in words."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+from diagnosis_fixtures import RIG, prepared, scored, trial, turns
+
+from diagnosis.assessment import advice
+from diagnosis.assessment.advice import advise
+from diagnosis.assessment.experiments import Experiment
+from diagnosis.assessment.next_experiment import Proposal
+from diagnosis.assessment.residual_breakdown import ResidualBreakdown
+from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.selection.verdict import VerdictKind, verdict_on
+
+LEFT = ResidualBreakdown(
+    signal={"tip_angle_deg": 3.0, "base_torque_n_mm": 1.0},
+    phase={"turning": 1.0, "holding": 2.0},
+    band_hz=[],
+    depth_mm=[],
+    time_s=[],
+)
+READY = prepared(trial(turns(2.0)))
+PROBLEM = SimpleNamespace(log=PreparedLog(rig=RIG, trials=(READY,)))
+UNDECIDED = verdict_on([scored(["tip_drag"], 100.0), scored(["entry_friction"], 101.0)])
+
+
+@pytest.mark.parametrize(
+    ("separation", "said"),
+    [
+        (7.5, "turn slowly: there tip_drag and entry_friction would lie 7.5 standard deviations apart"),
+        (1.0, "turn slowly, about 25 times: in each run tip_drag and entry_friction would lie 1.0"),
+        (0.1, "no run that this rig can do would tell tip_drag from entry_friction: in the best, turn"),
+    ],
+)
+def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypatch, separation, said):
+    run = Experiment(words="turn slowly", trial=READY)
+    proposal = Proposal(experiment=run, separation=separation)
+    monkeypatch.setattr(advice, "best_experiment", lambda *_: proposal)
+    assert UNDECIDED.kind is VerdictKind.UNDECIDED
+    assert advise(PROBLEM, UNDECIDED, LEFT).startswith(said)
+
+
+def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
+    unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
+    assert "largest in tip_angle_deg while holding" in advise(PROBLEM, unknown, LEFT)
+
+
+def test_where_nothing_is_left_to_tell_apart_nothing_is_said():
+    settled = verdict_on([scored(["tip_drag"], 100.0)])
+    assert advise(PROBLEM, settled, LEFT) == ""

@@ -1,0 +1,119 @@
+"""Everything that is told beside the verdict."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of
+
+from diagnosis.assessment import assess as module
+from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
+from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.fit import fit_effects, nominal_fit
+from diagnosis.log.trial import Trial
+from diagnosis.pipeline import replay_nominal
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
+
+
+@pytest.fixture(scope="module")
+def log():
+    """A trial with a gap while the base holds."""
+    whole = log_of(DRY, speed=-1.0, seconds=6.0)
+    table = whole.trials[0].table
+    kept = table[(table["time_s"] < 3.0) | (table["time_s"] > 3.2)].reset_index(drop=True)
+    return replace(whole, trials=(Trial(name="trial_01.csv", table=kept),))
+
+
+@pytest.fixture(scope="module")
+def nominal(log):
+    return replay_nominal(log)
+
+
+@pytest.fixture(scope="module")
+def fitted(nominal):
+    start = np.array([np.log(0.001), 0, 0, 0])
+    return candidate(fit_effects(nominal.problem, ("coulomb_friction",), start))
+
+
+def assessed(log, nominal, best, effects=("tip_drag",)):
+    """What is told of a candidate."""
+    coarse = decimated(nominal.problem, nominal.predictions)
+    verdict = verdict_on([best.cross_validated(nominal.problem)])
+    predictions = nominal.predictions
+    return assess(log, nominal.problem, coarse, predictions, verdict, effects, Workers())
+
+
+def test_an_explanation_is_told_with_its_parameters_gap_and_limits(log, nominal, fitted):
+    told = assessed(log, nominal, fitted)
+    level = told.parameters["coulomb_friction"]["level"]
+    assert level.low < 0.001 < level.high
+    assert set(told.parameters) == {"coulomb_friction"}
+    assert told.gap.before > 2
+    assert told.gap.after < 1.1
+    assert set(told.with_one_more) == set(told.detection_limits) == {"tip_drag"}
+    assert told.warnings == ()
+    assert told.breakdown_after.signal["tip_angle_deg"] < told.breakdown.signal["tip_angle_deg"]
+
+
+def test_predictions_are_at_the_samples_of_the_log(log, nominal, fitted):
+    told = assessed(log, nominal, fitted)
+    samples = len(log.trials[0].table)
+    assert told.explained[0].tip_angle_deg.size == samples
+    assert nominal.predictions[0].tip_angle_deg.size > samples
+    assert at_samples(nominal.problem, nominal.predictions)[0].tip_angle_deg.size == samples
+
+
+def test_residuals_of_the_nominal_rig_are_those_of_its_fit(nominal):
+    by_trial = nominal_residuals(nominal.problem, nominal.predictions)
+    (again,) = nominal.problem.residuals([RigParameters()])
+    np.testing.assert_array_equal(by_trial[0], again[0])
+
+
+def test_held_out_trials_are_not_simulated_again(log, nominal, fitted, monkeypatch):
+    monkeypatch.setattr(module, "held_out_residuals", pytest.fail)
+    assert assessed(log, nominal, fitted).gap.after < 1.1
+
+
+def failing(*_):
+    raise SimulationFailed("lost its numbers")
+
+
+def test_where_held_out_trials_cannot_be_simulated_the_gap_is_that_of_the_fit(log, nominal, monkeypatch):
+    monkeypatch.setattr(module, "held_out_residuals", failing)
+    exact = candidate(nominal_fit(nominal_residuals(nominal.problem, nominal.predictions)))
+    told = assessed(log, nominal, exact)
+    assert told.gap.after == told.gap.before == pytest.approx(exact.floor.gap)
+    (warning,) = told.warnings
+    assert "cannot be simulated (lost its numbers)" in warning
+
+
+def test_where_the_best_cannot_be_simulated_coarsely_nothing_further_is_told(
+    log, nominal, fitted, monkeypatch
+):
+    monkeypatch.setattr(module, "on_decimated", failing)
+    told = assessed(log, nominal, fitted)
+    assert told.with_one_more == told.detection_limits == {}
+    assert told.parameters
+
+
+def test_no_limits_are_told_where_nothing_explains_the_log(log, nominal):
+    exact = candidate(nominal_fit(nominal_residuals(nominal.problem, nominal.predictions)))
+    told = assessed(log, nominal, exact)
+    assert verdict_on([exact]).kind is VerdictKind.UNKNOWN
+    assert told.detection_limits == {}
+    assert told.with_one_more
+    assert told.next_experiment.startswith("no effect of the library explains")
+
+
+def test_the_assessment_of_a_whole_diagnosis_simulates_no_held_out_trial(dry):
+    best = dry.found.verdict.best
+    assert best.held_out is not None
+    assert not dry.spy.held_out["assessment"]
+    # Once to ask whether a second effect is needed, once for the verdict.
+    assert dry.spy.held_out["search"][best.names] <= 2

@@ -1,0 +1,51 @@
+"""What each further effect would add."""
+
+from dataclasses import replace
+
+import pytest
+from diagnosis_fixtures import log_of
+
+from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.pipeline import replay_nominal
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+EFFECTS = ("torque_bias", "coulomb_friction", "tip_drag")
+
+
+@pytest.fixture(scope="module")
+def dry_log():
+    """A log with dry friction: its scatter fitted, and the same on the decimated log."""
+    nominal = replay_nominal(log_of(RigParameters(kinetic_n_mm_per_mm=0.001), seconds=8.0))
+    coarse = decimated(nominal.problem, nominal.predictions)
+    best = fit_effects(nominal.problem, ())
+    return coarse, best, on_decimated(coarse, best)
+
+
+def test_the_best_fit_is_about_as_good_on_the_decimated_log(dry_log):
+    _, best, base = dry_log
+    assert base.names == best.names
+    assert base.samples < 0.3 * best.samples
+    # Sums of squares of the decimated log agree with those of the log within 5 %.
+    assert base.cost == pytest.approx(best.cost, rel=0.05)
+
+
+def test_what_the_log_has_would_add_most(dry_log):
+    coarse, best, base = dry_log
+    left = gap_with_one_more(coarse, best, base, EFFECTS, Workers())
+    assert list(left) == sorted(left, key=lambda name: left[name])
+    assert next(iter(left)) == "coulomb_friction"
+    assert left["coulomb_friction"] < 0.5 * best.gap
+    assert all(gap <= 1.001 * best.gap for gap in left.values())
+
+
+def test_what_cannot_be_simulated_adds_nothing(dry_log, monkeypatch):
+    def failing(*_):
+        raise SimulationFailed("lost its numbers")
+
+    monkeypatch.setitem(LIBRARY, "tip_drag", replace(LIBRARY["tip_drag"], apply=failing))
+    assert set(gap_with_one_more(*dry_log, EFFECTS, Workers())) == set(EFFECTS) - {"tip_drag"}

@@ -1,0 +1,40 @@
+"""Parameters of effects: their coordinates, and how far they are from neutral."""
+
+import math
+
+import pytest
+
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Parameter
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_an_effect_at_no_strength_is_the_nominal_rig(name):
+    parameters = LIBRARY[name].parameters
+    assert not math.isnan(parameters[0].distance_from_neutral(parameters[0].start[0]))
+    for p in parameters:
+        start = p.start[0]
+        if p.neutral is None:
+            assert p.towards_neutral(start, 0.5) == start
+            assert math.isnan(p.distance_from_neutral(start))
+            continue
+        assert p.towards_neutral(start, 1.0) == pytest.approx(start)
+        weaker = p.towards_neutral(start, 0.3)
+        assert p.distance_from_neutral(weaker) == pytest.approx(0.3 * p.distance_from_neutral(start))
+        gone = p.towards_neutral(start, 1e-9)
+        assert gone > 1e6 if math.isinf(p.neutral) else gone == pytest.approx(p.neutral, abs=1e-8)
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_a_value_survives_the_coordinate_of_a_fit(name):
+    for p in LIBRARY[name].parameters:
+        for value in (*p.start, p.high):
+            assert p.from_fit(p.to_fit(value)) == pytest.approx(value)
+        assert p.to_fit(p.low) < p.to_fit(p.high)
+
+
+def test_a_parameter_over_decades_moves_in_its_logarithm_and_others_in_their_unit():
+    wide = Parameter(name="level", unit="-", low=1e-6, high=1.0, start=(0.1,), logarithmic=True)
+    narrow = Parameter(name="angle", unit="deg", low=-90, high=90, start=(5.0,), scale=10.0)
+    assert wide.to_fit(0.1) == pytest.approx(math.log(0.1))
+    assert narrow.to_fit(5.0) == 0.5

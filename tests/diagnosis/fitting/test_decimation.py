@@ -1,0 +1,72 @@
+"""A log with fewer samples, on which a coarse needle answers as a fine one does."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of, prepared
+
+from diagnosis.fitting.decimation import decimated
+from diagnosis.log.trial import SENSORS
+from diagnosis.pipeline import replay_nominal
+from diagnosis.replay.replay import predict, residuals
+from diagnosis.replay.resolution import COARSE
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+RIGS = [
+    RigParameters(kinetic_n_mm_per_mm=0.0015),
+    RigParameters(backlash_deg=4.0),
+    RigParameters(tissue_stiffness_n_mm_per_rad_per_mm=0.02, tissue_time_constant_s=1),
+]
+
+
+@pytest.mark.parametrize("rig", RIGS)
+def test_a_decimated_log_weighs_an_explanation_as_the_log_does(rig):
+    """Sums of squares of what the nominal rig misses agree within 5 %, and truth fits both."""
+    nominal = replay_nominal(log_of(rig, speed=-1.0))
+    both = (nominal.problem, decimated(nominal.problem, nominal.predictions))
+    assert both[1].resolution is COARSE
+    assert both[1].log.trials[0].time_s.size < 0.3 * both[0].log.trials[0].time_s.size
+    wrong, right = (
+        [sum(float(r[0] @ r[0]) for r in problem.residuals([one])) for problem in both]
+        for one in (NOMINAL, rig)
+    )
+    samples = sum(np.isfinite(both[1].log.trials[0].readings[s]).sum() for s in SENSORS)
+    gain = [w - r for w, r in zip(wrong, right, strict=True)]
+    assert gain[1] == pytest.approx(gain[0], rel=0.05)
+    # A window's mean shares its outer samples with its neighbours: 0.9 of the noise is left.
+    assert right[1] / samples < 1.1
+
+
+def test_what_the_coarse_nominal_rig_misses_is_the_mean_of_what_the_fine_one_does():
+    nominal = replay_nominal(log_of(RigParameters(kinetic_n_mm_per_mm=0.001)))
+    coarse = decimated(nominal.problem, nominal.predictions)
+    fine, rare = nominal.problem.log.trials[0], coarse.log.trials[0]
+    left = residuals(rare, predict(coarse.log.rig, rare, [NOMINAL], COARSE)[0], coarse.noise)
+    tip = left[rare.time_s.size :] * coarse.noise["tip_angle_deg"]
+    missed = fine.readings["tip_angle_deg"] - nominal.predictions[0]["tip_angle_deg"]
+    for i in (50, 120, 200):  # trapezoidal mean over five samples: 40 ms
+        about = missed[4 * i - 2 : 4 * i + 3]
+        assert tip[i] == pytest.approx((about.sum() - 0.5 * (about[0] + about[-1])) / 4, rel=1e-6)
+
+
+def test_windows_without_readings_stay_empty():
+    log = log_of(NOMINAL)
+    table = log.trials[0].table
+    table.loc[(table["time_s"] > 3) & (table["time_s"] < 4), "tip_angle_deg"] = np.nan
+    nominal = replay_nominal(log)
+    rare = decimated(nominal.problem, nominal.predictions).log.trials[0]
+    inside = (rare.time_s > 3.05) & (rare.time_s < 3.95)
+    assert np.isnan(rare.readings["tip_angle_deg"][inside]).all()
+    assert np.isfinite(rare.readings["base_torque_n_mm"]).all()
+
+
+def test_a_torque_at_the_tip_is_decimated_with_the_rest():
+    nominal = replay_nominal(log_of(NOMINAL, seconds=3.0))
+    one = nominal.problem.log.trials[0]
+    driven = replace(one, tip_torque_n_mm=0.1 * one.time_s)
+    log = replace(nominal.problem.log, trials=(driven,))
+    rare = decimated(replace(nominal.problem, log=log), nominal.predictions).log.trials[0]
+    np.testing.assert_allclose(rare.tip_torque_n_mm, 0.1 * rare.time_s)
+    assert not rare.logged.any()
+    assert prepared(log_of(NOMINAL, seconds=3.0).trials[0]).tip_torque_n_mm is None

@@ -1,0 +1,103 @@
+"""Fitting a set of effects to a log."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import RIG, TIP, TORQUE, log_of, problem_of
+
+from diagnosis.criteria import SCATTER
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import fit_effects, nominal_fit
+from diagnosis.fitting.fit_status import Termination
+from diagnosis.fitting.parameterization import parameterization_of, starts
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+
+@pytest.fixture(scope="module")
+def dry():
+    """A log with dry friction."""
+    return problem_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.001)))
+
+
+def start_of(problem, name):
+    """The first start of an effect, nothing else off."""
+    return parameterization_of((name,), problem.nuisance).joined({name: starts(LIBRARY[name])[0]})
+
+
+def test_a_fit_finds_what_the_log_has_and_converges(dry):
+    fit = fit_effects(dry, ("coulomb_friction",), start_of(dry, "coulomb_friction"))
+    assert np.exp(fit.x[0]) == pytest.approx(0.001, rel=0.02)
+    # N readings of one unit each: 1 / sqrt(2 N) of chance, and 2 % of the noise's estimate.
+    assert fit.gap == pytest.approx(1.0, abs=4 / np.sqrt(2 * fit.samples) + 0.04)
+    assert fit.status.converged
+    assert fit.status.termination is Termination.GRADIENT
+    assert fit.status.message.startswith("Terminated after ")
+    assert fit.status.at_bound == ()
+    assert fit.size == 1
+
+
+def test_slopes_are_those_of_central_differences(dry):
+    fit = fit_effects(dry, ("coulomb_friction",), start_of(dry, "coulomb_friction"))
+    for entry, step in enumerate(0.01 * np.eye(fit.x.size)):
+        ahead, behind = (
+            dry.residuals([fit.parameterization.rig(fit.x + s * step)])[0][0] for s in (1, -1)
+        )
+        slope = (ahead - behind) / 0.02
+        # One-sided differences of 0.001, of the last iterate but one: a few per cent.
+        assert np.linalg.norm(fit.jacobian[0][:, entry] - slope) < 0.05 * np.linalg.norm(slope)
+
+
+def test_a_fit_that_is_stopped_early_says_so(dry):
+    start = start_of(dry, "coulomb_friction")
+    fit = fit_effects(dry, ("coulomb_friction",), start, most_iterations=1)
+    assert fit.status.termination is Termination.ITERATIONS
+    assert "maximum iterations" in fit.status.message
+    assert not fit.status.converged
+
+
+def test_a_parameter_that_stops_at_a_bound_is_named():
+    """A tip that is ahead of time asks for a delay below none."""
+    problem = problem_of(log_of(RigParameters(tip_delay_s=-0.05), seconds=6.0))
+    fit = fit_effects(problem, ("tip_sensor_delay",), start_of(problem, "tip_sensor_delay"))
+    assert fit.x[0] == 0.0
+    assert fit.status.at_bound == ("tip_sensor_delay.delay",)
+
+
+def test_the_cost_is_that_of_residuals_and_of_the_prior():
+    problem = problem_of(log_of(RigParameters(stiffness_scale=1.03), seconds=6.0))
+    fit = fit_effects(problem, ())
+    off = [float(fit.parts[name][0]) / SCATTER[name] for name in SCATTER]
+    assert off[0] > 1
+    left = sum(float(r @ r) for r in fit.by_trial)
+    assert fit.cost == pytest.approx(left + sum(o**2 for o in off))
+    (again,) = problem.residuals([fit.parameterization.rig(fit.x)])
+    np.testing.assert_array_equal(fit.by_trial[0], again[0])
+
+
+def test_a_start_beyond_bounds_is_brought_within(dry):
+    start = start_of(dry, "coulomb_friction")
+    start[0] = 10.0
+    fit = fit_effects(dry, ("coulomb_friction",), start, most_iterations=1)
+    assert fit.x[0] <= np.log(0.05)
+
+
+def test_nothing_to_fit_is_the_nominal_rig(dry):
+    bare = replace(dry, nuisance=())
+    fit = fit_effects(bare, ())
+    assert fit.status.termination is Termination.NOTHING_TO_FIT
+    assert fit.status.converged
+    assert fit.names == ()
+    by_trial = [r[0] for r in bare.residuals([NOMINAL])]
+    assert fit.cost == nominal_fit(by_trial).cost == pytest.approx(float(by_trial[0] @ by_trial[0]))
+    assert nominal_fit(by_trial).jacobian[0].shape == (fit.samples, 0)
+
+
+@pytest.mark.parametrize("modulus", [1000.0, 0.01])
+def test_a_needle_at_an_end_of_the_legal_range_can_be_fitted(modulus):
+    """rig.yaml may say so, and a stiffness that is left open goes beyond."""
+    rig = RIG.but(needle=RIG.needle.but(shear_modulus_gpa=modulus))
+    log = replace(log_of(NOMINAL, seconds=3.0), rig=rig)
+    sigma = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": 0.0}
+    fit = fit_effects(problem_of(log, sigma=sigma), ("stiffness_error",), most_iterations=3)
+    assert np.isfinite(fit.cost)

@@ -1,0 +1,88 @@
+"""Residuals as a function of the fit's vector."""
+
+import numpy as np
+import pytest
+
+from diagnosis.criteria import SCATTER
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.objective import Objective
+from diagnosis.fitting.parameterization import parameterization_of
+from sim.simulation import SimulationFailed
+
+OPEN = (LIBRARY["stiffness_error"],)
+DRAG = parameterization_of(("tip_drag",), OPEN)
+
+
+class ClosedForm:
+    """A problem whose two trials are known functions of a rig's tip drag and stiffness."""
+
+    def __init__(self, most_drag=np.inf):
+        self.most_drag, self.rigs = most_drag, []
+
+    def residuals(self, rigs):
+        self.rigs += rigs
+        if any(rig.tip_drag_n_mm_s_per_rad > self.most_drag for rig in rigs):
+            raise SimulationFailed("too much drag")
+        drag = [rig.tip_drag_n_mm_s_per_rad for rig in rigs]
+        scale = [rig.stiffness_scale for rig in rigs]
+        return [[np.array([d, d**2]) for d in drag], [np.array([s]) for s in scale]]
+
+
+def middle(stiffness=0.01):
+    """A vector within bounds: some drag, some stiffness."""
+    low, high = DRAG.bounds()
+    return np.array([0.5 * (low[0] + high[0]), stiffness])
+
+
+def test_residuals_are_trial_after_trial_and_then_the_prior():
+    x = middle()
+    drag = DRAG.rig(x).tip_drag_n_mm_s_per_rad
+    expected = [drag, drag**2, np.exp(0.01), 0.0, 0.01 / SCATTER["stiffness_error"]]
+    np.testing.assert_allclose(Objective(ClosedForm(), DRAG)(x), expected)
+
+
+def test_columns_are_simulated_as_one_batch():
+    objective, x = Objective(ClosedForm(), DRAG), middle()
+    both = objective(np.stack([x, middle(0.02)], axis=-1))
+    np.testing.assert_array_equal(both[:, 0], objective(x))
+    np.testing.assert_array_equal(both[:, 1], objective(middle(0.02)))
+    assert len(objective.problem.rigs) == 4
+
+
+def test_slopes_are_those_of_the_closed_form():
+    objective, x = Objective(ClosedForm(), DRAG, 1e-5), middle()
+    slopes = objective.jacobian(x, objective(x))
+    step = 1e-6 * np.eye(2)
+    central = np.stack([(objective(x + s) - objective(x - s)) / 2e-6 for s in step], axis=-1)
+    # One-sided: half the second derivative times the difference.
+    np.testing.assert_allclose(slopes, central, rtol=1e-3, atol=1e-6)
+
+
+def test_differences_stay_within_bounds():
+    objective = Objective(ClosedForm(), DRAG)
+    x = np.array([objective.high[0], 0.0])
+    objective.jacobian(x, objective(x))
+    most = DRAG.rig(objective.high).tip_drag_n_mm_s_per_rad
+    assert max(rig.tip_drag_n_mm_s_per_rad for rig in objective.problem.rigs) <= most * (1 + 1e-12)
+
+
+def test_slopes_of_the_nuisance_are_taken_again_only_far_away():
+    objective, x = Objective(ClosedForm(), DRAG), middle()
+    asked = []
+    for moved in (0.0, 0.05, 0.5):
+        there = x - [moved, 0.0]
+        at_there = objective(there)
+        before = len(objective.problem.rigs)
+        objective.jacobian(there, at_there)
+        asked.append(len(objective.problem.rigs) - before)
+    assert asked == [2, 1, 2]
+
+
+def test_a_step_too_far_is_no_number_and_a_start_that_fails_is_an_error():
+    x = middle()
+    limit = 1.001 * DRAG.rig(x).tip_drag_n_mm_s_per_rad
+    objective = Objective(ClosedForm(most_drag=limit), DRAG)
+    with pytest.raises(SimulationFailed):
+        objective(objective.high)
+    assert np.isfinite(objective(x)).all()
+    assert np.isnan(objective(objective.high)).all()

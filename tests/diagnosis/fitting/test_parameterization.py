@@ -1,0 +1,66 @@
+"""Parameters of effects as a vector that a fit can move in."""
+
+import numpy as np
+import pytest
+
+from diagnosis.criteria import SCATTER
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.parameterization import parameterization_of, starts
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+OPEN = tuple(LIBRARY[name] for name in SCATTER)
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_every_start_is_within_bounds_and_changes_the_rig(name):
+    parameterization = parameterization_of([name])
+    low, high = parameterization.bounds()
+    for start in starts(LIBRARY[name]):
+        assert np.all((low <= start) & (start <= high))
+        assert parameterization.rig(start) != RigParameters()
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_values_survive_the_vector(name):
+    parameterization = parameterization_of([name])
+    for i, start in enumerate(starts(LIBRARY[name])):
+        values = [p.start[i] for p in LIBRARY[name].parameters]
+        assert parameterization.values(start) == pytest.approx(values)
+
+
+def test_effects_stand_before_what_is_open():
+    parameterization = parameterization_of(("stiction", "tip_drag"), OPEN)
+    owners = ("stiction",) * 3 + ("tip_drag", *SCATTER)
+    assert parameterization.owners == owners
+    assert parameterization.free == 4
+    assert [p.name for p in parameterization.parameters][:4] == [
+        "kinetic",
+        "static",
+        "stribeck",
+        "damping",
+    ]
+
+
+def test_only_what_is_open_has_a_prior():
+    weights = parameterization_of(("tip_drag", "stiffness_error"), OPEN).weights
+    np.testing.assert_allclose(weights, [0, 0, 1 / SCATTER["damping_error"]])
+
+
+def test_parts_and_joined_undo_each_other():
+    parameterization = parameterization_of(("stiction", "tip_drag"), OPEN)
+    x = np.arange(1.0, 7.0)
+    parts = parameterization.parts(x)
+    assert {name: part.size for name, part in parts.items()} == {
+        "stiction": 3,
+        "tip_drag": 1,
+    } | dict.fromkeys(SCATTER, 1)
+    np.testing.assert_array_equal(parameterization.joined(parts), x)
+    np.testing.assert_array_equal(parameterization.joined({"tip_drag": x[3:4]}), [0, 0, 0, 4, 0, 0])
+
+
+def test_no_effect_is_the_nominal_rig():
+    nothing = parameterization_of(())
+    assert nothing.rig(np.zeros(0)) == NOMINAL
+    assert nothing.parts(np.zeros(0)) == {}
+    assert nothing.joined({}).size == 0
+    assert parameterization_of((), OPEN).rig(np.zeros(2)) == NOMINAL

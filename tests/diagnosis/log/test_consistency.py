@@ -1,0 +1,108 @@
+"""Columns that no passive needle can have produced together, and what a rig may well do."""
+
+import numpy as np
+import pytest
+from analytic_log import (
+    CORNERS,
+    STEP_S,
+    TIP,
+    TURNS,
+    behind,
+    change_rig,
+    change_trial,
+    lagging,
+    late,
+    refusal,
+    scaled,
+    swapped,
+    table,
+)
+
+from diagnosis.log.consistency import misfit
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.trial import UnusableLog
+
+CONTRADICTIONS = [
+    (
+        scaled("tip_angle_deg", -1),
+        r"tip_angle_deg turns the opposite way.*change the sign",
+    ),
+    (scaled("base_torque_n_mm", -1), r"base_torque_n_mm works against base_angle_deg.*change the sign"),
+    (swapped("base_angle_deg", "tip_angle_deg"), r"base_angle_deg and tip_angle_deg seem to be swapped"),
+    (swapped("base_torque_n_mm", "tip_angle_deg"), r"base_torque_n_mm and tip_angle_deg seem"),
+    (
+        swapped("base_torque_n_mm", "base_angle_deg"),
+        r"base_angle_deg and base_torque_n_mm seem",
+    ),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), CONTRADICTIONS)
+def test_wrong_signs_and_swapped_columns_are_refused(log, change, said):
+    change_trial(log, change)
+    with pytest.raises(UnusableLog, match=rf"(?s)turns\.csv: {said}"):
+        read_rig_log(log)
+
+
+def test_swapped_angles_of_equal_noise_are_found_by_who_moves_first(log):
+    """The claims tell nothing apart here: the tip leads, and torque falls as it runs ahead."""
+    change_rig(log, lambda c: c["sensors"].update(base_angle_noise_deg=TIP))
+    quick = table(corners_s=[0, 1, 1.3, 5], angles_deg=[0, 0, 90, 90], speed_mm_s=0, lag_s=1.0, seed=7)
+    change_trial(log, lambda t: swapped("base_angle_deg", "tip_angle_deg")(quick))
+    assert "the tip moves first" in refusal(log)
+
+
+def test_swapped_lengths_are_refused(log):
+    change_trial(log, swapped("inserted_mm", "free_mm"), "slides.csv")
+    said = refusal(log)
+    assert "slides.csv: inserted_mm" in said
+    assert "swapped" in said
+
+
+WAVES = np.linspace(0, 12, 481)  # 2 Hz
+LEGITIMATE = {
+    "small angles": lagging(([0, 1, 2, 8], [0, 0, 2, 2]), 0.5),
+    "only holding": lagging(([0, 8], [0, 0]), 0.5),
+    "a tip that hardly moves": lagging(([0, 1, 2, 8], [0, 0, 90, 90]), 200.0),
+    "no rest at the start": lagging(([0, 1, 8], [0, 90, 90]), 0.5),
+    "half a gain": TURNS.assign(tip_angle_deg=(TURNS["tip_angle_deg"] / 2).round(4)),
+    "a delay": TURNS.assign(tip_angle_deg=late(TURNS["tip_angle_deg"], 30)),
+    "half a turn behind": lagging((WAVES, 60 * np.sin(4 * np.pi * WAVES)), 0.3).assign(
+        tip_angle_deg=lambda t: late(t["tip_angle_deg"], 12)
+    ),
+    "stick and slip": TURNS.assign(
+        tip_angle_deg=20 * (behind(np.interp(TURNS["time_s"], *CORNERS.values()), 0.5) / 20).round()
+        + np.random.default_rng(4).normal(0, TIP, len(TURNS)).round(4)
+    ),
+    "sampled anyhow": TURNS.sample(frac=0.4, random_state=5).sort_values("time_s"),
+    "one row in ten": TURNS.iloc[::10],
+    "steps of half a degree": TURNS.assign(tip_angle_deg=(TURNS["tip_angle_deg"] * 2).round() / 2),
+    "a slow sensor that is held": TURNS.assign(
+        tip_angle_deg=TURNS["tip_angle_deg"].iloc[np.arange(1200) // 30 * 30].to_numpy()
+    ),
+    "a smooth sensor": TURNS.assign(
+        tip_angle_deg=TURNS["tip_angle_deg"].rolling(40, min_periods=1).mean().round(1)
+    ),
+    "empty cells": TURNS.assign(tip_angle_deg=TURNS["tip_angle_deg"].where(TURNS.index % 3 == 0)),
+    "seconds of the day": TURNS.assign(time_s=1.7e9 + TURNS["time_s"]),
+    "a pulse of the base": TURNS.assign(
+        base_angle_deg=TURNS["base_angle_deg"] + 30 * (TURNS.index == 50),
+        base_torque_n_mm=TURNS["base_torque_n_mm"] + 1.2 * (TURNS.index == 50),
+    ),
+}
+
+
+@pytest.mark.parametrize("what", LEGITIMATE)
+def test_what_a_rig_may_well_do_raises_no_alarm(log, what):
+    """Negative controls of every check."""
+    LEGITIMATE[what].to_csv(log / "turns.csv", index=False)
+    assert read_rig_log(log).warnings == ()
+
+
+def test_a_lagging_copy_is_explained_by_a_gain_above_zero_only():
+    base = TURNS["base_angle_deg"].to_numpy()
+    tip = TURNS["tip_angle_deg"].to_numpy()
+    same, opposite = misfit(base, tip, STEP_S)
+    assert same < 0.02
+    assert opposite > 0.6
+    assert misfit(base, -tip, STEP_S) == pytest.approx((opposite, same))

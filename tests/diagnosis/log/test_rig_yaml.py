@@ -1,0 +1,111 @@
+"""Reading rig.yaml: fields, and YAML that is more than plain values."""
+
+import time
+from itertools import pairwise
+
+import pytest
+from analytic_log import RIG, change_rig, refusal
+
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.rig_yaml import read_rig
+from diagnosis.log.trial import UnusableLog
+
+FIELDS = [
+    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', got 'rig-log/2'"),
+    (
+        lambda c: c["needle"].update(diameter_mm=5000),
+        r"needle.diameter_mm: .*0.05 to 10, found 5000",
+    ),
+    (
+        lambda c: c["needle"].update(shear_modulus_gpa=27200),
+        r"shear_modulus_gpa: .*1000, found 27200",
+    ),
+    (lambda c: c["tissue"].update(damping_n_mm_s_per_mm=17.0), r"damping_n_mm_s_per_mm.*found 17"),
+    (lambda c: c["sensors"].update(tip_angle_noise_deg=-1), r"tip_angle_noise_deg.*-1"),
+    (lambda c: c["sensors"].update(tip_angle_noise_deg=720), r"tip_angle_noise_deg: .*0 to 90"),
+    (lambda c: c["needle"].update(diameter_mm="thin"), r"diameter_mm.*'thin'"),
+    (lambda c: c["needle"].update(diameter_mm=float("nan")), r"diameter_mm.*nan"),
+    (lambda c: c["needle"].update(diameter_m=c["needle"].pop("diameter_mm")), r"'diameter_m'.*by 1000"),
+    (
+        lambda c: c["needle"].update(shear_modulus_mpa=c["needle"].pop("shear_modulus_gpa")),
+        r"'shear_modulus_gpa' is missing; 'shear_modulus_mpa'.*by 0.001 and rename",
+    ),
+    (
+        lambda c: c["sensors"].update(tip_angle_noise_rad=c["sensors"].pop("tip_angle_noise_deg")),
+        r"sensors: field 'tip_angle_noise_deg'.*57.2958",
+    ),
+    (lambda c: c["tissue"].update(damping=c["tissue"].pop("damping_n_mm_s_per_mm")), r"'damping' looks"),
+    (lambda c: c["needle"].update(colour="red"), r"needle.colour"),
+    (lambda c: c.update(trials=["turns.csv"]), r"trials"),
+    (lambda c: c["trials"].append({"file": "turns.csv"}), r"trials.2.file: 'turns.csv' is named twice"),
+    (lambda c: c["trials"].append({"file": "../turns.csv"}), r"trials.2.file.*in the folder"),
+    (lambda c: c["trials"].append({"file": "/etc/hosts"}), r"trials.2.file.*in the folder"),
+    (
+        lambda c: c["trials"].append({"file": "C:\\turns.csv"}),
+        r"trials.2.file.*in the folder",
+    ),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), FIELDS)
+def test_a_wrong_field_of_rig_yaml_is_named(log, change, said):
+    change_rig(log, change)
+    with pytest.raises(UnusableLog, match=rf"(?s)rig\.yaml.*{said}"):
+        read_rig_log(log)
+
+
+SECTIONS = [
+    (lambda c: c.update(format="rig-log/2"), "rig-log/1"),
+    (lambda c: c["needle"].pop("diameter_mm"), "diameter_mm"),
+    (lambda c: c["needle"].update(diameter_mm=-1), "diameter_mm"),
+    (lambda c: c["tissue"].update(damping="high"), "damping"),
+    (lambda c: c.pop("sensors"), "sensors"),
+    (lambda c: c.update(trials=[]), "trials"),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), SECTIONS)
+def test_what_is_wrong_with_rig_yaml_is_named(log, change, said):
+    change_rig(log, change)
+    with pytest.raises(UnusableLog, match=said):
+        read_rig(log / "rig.yaml")
+
+
+@pytest.mark.parametrize("text", ["", "- a", "format: [", "\x00"])
+def test_a_rig_yaml_that_cannot_be_read_is_refused(log, text):
+    (log / "rig.yaml").write_text(text)
+    with pytest.raises(UnusableLog, match=r"rig\.yaml"):
+        read_rig(log / "rig.yaml")
+
+
+def test_a_good_rig_yaml_is_read_as_it_stands(log):
+    rig = read_rig(log / "rig.yaml")
+    assert rig.needle.shear_modulus_gpa == RIG["needle"]["shear_modulus_gpa"]
+    assert [entry.file for entry in rig.trials] == ["turns.csv", "slides.csv"]
+
+
+YAMLS = [
+    ("", "expected a mapping"),
+    ("a: 1\nneedle: {x: 1}\na: 2\n", "line 3: 'a' is there twice"),
+    ("needle: &n {diameter_mm: 1}\n", "line 1.*anchor or alias 'n'"),
+    ("a: " + "[" * 500 + "]" * 500, "at most 10 levels"),
+    ("a: !!python/name:os.system\n", "readable YAML"),
+    ("x" * 300_000, "at most 200000 bytes"),
+]
+
+
+@pytest.mark.parametrize(("text", "said"), YAMLS)
+def test_yaml_that_is_more_than_plain_values_is_refused(log, text, said):
+    (log / "rig.yaml").write_text(text)
+    with pytest.raises(UnusableLog, match=rf"(?s)rig\.yaml.*{said}"):
+        read_rig_log(log)
+
+
+def test_a_yaml_bomb_is_refused_at_once(log):
+    """Nine levels of nine aliases would be 9^9 values."""
+    names = "abcdefghij"
+    lines = [f"{two}: &{two} [{', '.join(['*' + one] * 9)}]" for one, two in pairwise(names)]
+    (log / "rig.yaml").write_text("\n".join(["a: &a [x, x, x, x, x, x, x, x, x]", *lines]))
+    start = time.process_time()
+    assert "alias" in refusal(log)
+    assert time.process_time() - start < 1.0

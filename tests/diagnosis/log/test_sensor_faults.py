@@ -1,0 +1,77 @@
+"""Saturated, frozen and spiked samples are set aside, with a warning."""
+
+import re
+
+import numpy as np
+import pytest
+from analytic_log import TURNS, at, change_trial, frozen
+
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.sensor_faults import lines, quantum, scatter
+
+FAULTS = [
+    (
+        frozen("tip_angle_deg"),
+        r"tip_angle_deg .*frozen.* 150 of 1200 samples, lines 302-451; .*not used",
+    ),
+    (frozen("base_torque_n_mm"), r"base_torque_n_mm .*frozen.*lines 302-451; .*not used"),
+    (frozen("base_angle_deg"), r"base_angle_deg .*frozen.*lines 302-451; used as it is"),
+    (lambda t: t.assign(tip_angle_deg=1.5), r"tip_angle_deg .*frozen.*1200 of 1200"),
+    (
+        lambda t: t.assign(tip_angle_deg=t["tip_angle_deg"].clip(upper=60)),
+        r"tip_angle_deg .*saturated.*not used",
+    ),
+    (
+        lambda t: t.assign(base_torque_n_mm=t["base_torque_n_mm"].clip(-0.5, 1)),
+        r"base_torque_n_mm .*saturated",
+    ),
+    (
+        at("tip_angle_deg", r200=150.0, r201=149.0, r500=-99.0),
+        r"tip_angle_deg .*spikes.* 3 of .*lines 202-203, 502;",
+    ),
+    (at("base_angle_deg", r500=360.0), r"base_angle_deg .*spikes.*line 502; used as it is"),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), FAULTS)
+def test_faulty_samples_are_named_with_a_warning(log, change, said):
+    change_trial(log, change)
+    found = read_rig_log(log)
+    assert len(found.trials) == 2
+    assert all("turns.csv" in warning for warning in found.warnings)
+    assert any(re.search(said, warning) for warning in found.warnings), found.warnings
+
+
+def test_faulty_samples_of_a_sensor_are_set_aside_and_no_others(log):
+    change_trial(log, frozen("tip_angle_deg"))
+    trial = read_rig_log(log).trials[0]
+    empty = np.flatnonzero(np.isnan(trial["tip_angle_deg"]))
+    np.testing.assert_array_equal(empty, np.arange(300, 450))
+    assert not np.isnan(trial["base_torque_n_mm"]).any()
+
+
+def test_saturated_samples_are_set_aside(log):
+    """No reading is left within a scatter of the limit, where half of them would be cut off."""
+    change_trial(log, lambda t: t.assign(tip_angle_deg=t["tip_angle_deg"].clip(upper=60)))
+    tip = read_rig_log(log).trials[0]["tip_angle_deg"]
+    true = TURNS["tip_angle_deg"].to_numpy()
+    assert np.isnan(tip[true > 60]).all()
+    assert np.isfinite(tip[true < 50]).mean() > 0.98
+
+
+def test_scatter_is_that_of_the_noise_and_quantum_that_of_the_display():
+    rng = np.random.default_rng(6)
+    values = np.linspace(0, 100, 5000) + rng.normal(0, 0.3, 5000)
+    # 4500 second differences of correlated noise: a standard error of about 2 %.
+    assert scatter(values) == pytest.approx(0.3, rel=0.06)
+    stuck = values.copy()
+    stuck[1000:2500] = stuck[1000]
+    assert scatter(stuck) == pytest.approx(0.3, rel=0.06)
+    assert quantum((values / 0.25).round() * 0.25) == pytest.approx(0.25)
+    assert quantum(np.ones(10)) == 0
+
+
+def test_rows_are_told_as_lines_of_the_file():
+    rows = np.zeros(20, bool)
+    rows[[0, 3, 4, 5, 19]] = True
+    assert lines(rows) == "lines 2, 5-7, 21"

@@ -1,0 +1,51 @@
+"""A trial that can be replayed."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import prepared, trial, turns
+
+from diagnosis.prepare.prepared_log import PreparedTrial
+from sim.discretisation import Mesh
+
+
+def test_a_depth_that_hardly_changes_is_constant():
+    ready = prepared(trial(turns()))
+    wobble = np.random.default_rng(1).uniform(-0.05, 0.05, ready.time_s.size)
+    still = replace(ready, inserted_mm=90.0 + wobble)
+    assert np.unique(still.schedule.inserted_mm) == pytest.approx([90.0], abs=0.05)
+    assert still.schedule.mesh is Mesh.TISSUE
+
+
+def test_a_depth_that_grows_is_kept():
+    ready = prepared(trial(turns()))
+    deeper = replace(ready, inserted_mm=90.0 + ready.time_s)
+    np.testing.assert_array_equal(deeper.schedule.inserted_mm, deeper.inserted_mm)
+    assert deeper.schedule.mesh is Mesh.NEEDLE
+
+
+def test_a_replay_is_driven_by_the_motion_of_the_base():
+    ready = prepared(trial(turns()))
+    moved = replace(ready, base_motion_deg=ready.base_motion_deg + 1.0)
+    np.testing.assert_array_equal(moved.schedule.drive, ready.base_motion_deg + 1.0)
+
+
+def test_a_known_torque_at_the_tip_is_none_where_it_was_not_read():
+    ready = prepared(trial(turns()))
+    torque = np.where(ready.time_s < 1, np.nan, 0.3)
+    np.testing.assert_array_equal(
+        replace(ready, tip_torque_n_mm=torque).schedule.tip_torque_n_mm, np.nan_to_num(torque)
+    )
+
+
+def test_a_sensor_that_gave_nothing_was_not_measured():
+    ready = prepared(trial(turns()))
+    assert isinstance(ready, PreparedTrial)
+    empty = np.full(ready.time_s.size, np.nan)
+    read = replace(ready, readings={"tip_angle_deg": empty, "base_torque_n_mm": 0 * empty + 1})
+    assert not ready.has("tip_angle_deg")
+    assert not read.has("tip_angle_deg")
+    assert not read.has("base_torque_n_mm")
+    assert replace(ready, readings={"tip_angle_deg": ready.time_s}).has("tip_angle_deg")
+    assert ready.sample_s == pytest.approx(0.01)

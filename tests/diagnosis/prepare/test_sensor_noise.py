@@ -1,0 +1,59 @@
+"""Noise of the sensors, from the data."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, trial, turns
+
+from diagnosis.prepare.sensor_noise import base_noise_deg, estimate_noise
+
+
+def residuals(size=4000, seed=1):
+    """White noise of both sensors under what a nominal model lacks."""
+    rng = np.random.default_rng(seed)
+    slow = np.sin(np.linspace(0, 20, size))
+    return {
+        "tip_angle_deg": [5 * slow + rng.normal(0, TIP, size)],
+        "base_torque_n_mm": [0.2 * slow + rng.normal(0, TORQUE, size)],
+    }
+
+
+def test_a_wrong_claim_is_named_and_the_readings_are_believed():
+    claims = RIG.sensors.but(tip_angle_noise_deg=3 * TIP)
+    noise = estimate_noise(RIG.but(sensors=claims), residuals(), BASE)
+    # Fourth differences of 4000 samples are good to 2 %: four of these.
+    assert noise["tip_angle_deg"] == pytest.approx(TIP, rel=0.08)
+    (warning,) = noise.warnings
+    assert "tip_angle_deg" in warning
+    assert "rig.yaml claims 0.75" in warning
+
+
+def test_a_true_claim_raises_no_warning_and_the_readings_are_believed_too():
+    noise = estimate_noise(RIG, residuals(), BASE)
+    assert noise.warnings == ()
+    assert noise["base_torque_n_mm"] == pytest.approx(TORQUE, rel=0.08)
+    assert noise["base_torque_n_mm"] != TORQUE
+    assert noise["base_angle_deg"] == BASE
+
+
+def test_the_claim_stands_where_too_little_was_read():
+    noise = estimate_noise(RIG, {"tip_angle_deg": [np.zeros(5)]}, BASE)
+    assert noise["tip_angle_deg"] == TIP
+    assert noise["base_torque_n_mm"] == TORQUE
+
+
+def test_a_claim_of_no_noise_and_no_reading_leave_one_unit():
+    claims = RIG.sensors.but(tip_angle_noise_deg=0)
+    assert estimate_noise(RIG.but(sensors=claims), {}, BASE)["tip_angle_deg"] == 1.0
+
+
+@pytest.mark.parametrize(("true", "believed"), [(1.0, 1.0), (1.4, 1.0), (5.0, 5.0), (0.2, 0.2)])
+def test_the_encoders_claim_stands_unless_it_scatters_quite_otherwise(true, believed):
+    read = turns() + np.random.default_rng(2).normal(0, true * BASE, turns().size)
+    # 1200 samples: 4 % of standard error.
+    assert base_noise_deg(RIG, [trial(read)]) == pytest.approx(believed * BASE, rel=0.16)
+
+
+def test_the_quietest_trial_tells_the_encoders_noise():
+    rng = np.random.default_rng(3)
+    loud, quiet = (trial(turns() + rng.normal(0, s * BASE, turns().size)) for s in (9.0, 4.0))
+    assert base_noise_deg(RIG, [loud, quiet]) == pytest.approx(4 * BASE, rel=0.16)

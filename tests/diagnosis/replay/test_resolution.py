@@ -1,0 +1,21 @@
+"""How finely a replay cuts needle and time."""
+
+import pytest
+from diagnosis_fixtures import prepared, trial, turns
+
+from diagnosis.replay.resolution import COARSE, FINE
+
+
+def test_a_step_is_never_longer_than_a_sample():
+    rare, often = (
+        prepared(trial(turns(step=0.03), step=0.03)),
+        prepared(trial(turns(step=0.002), step=0.002)),
+    )
+    assert FINE.step_of(rare) == FINE.step_s
+    assert FINE.step_of(often) == pytest.approx(0.002)
+    assert COARSE.step_of(rare) == pytest.approx(0.03)
+
+
+def test_coarse_is_coarser():
+    assert COARSE.elements < FINE.elements
+    assert COARSE.step_s > FINE.step_s

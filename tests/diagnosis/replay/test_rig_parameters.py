@@ -1,0 +1,68 @@
+"""What effects change, as a MuJoCo needle."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import RIG, prepared, trial, turns
+
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+
+def setup(rig, one=None):
+    """The needle of a trial of 90 mm depth."""
+    schedule = (one or prepared(trial(turns()))).schedule
+    return rig.setup(RIG, schedule, elements=12, step_s=0.01)
+
+
+def test_the_nominal_rig_is_that_of_rig_yaml():
+    found = setup(NOMINAL)
+    assert found.needle.shear_modulus_gpa == RIG.needle.shear_modulus_gpa
+    assert found.tissue == RigParameters().tissue(RIG)
+    assert found.tissue.layers[0].interface.viscous_n_mm_s_per_mm == RIG.tissue.damping_n_mm_s_per_mm
+    assert (found.free_mm, found.inserted_mm) == (60.0, 90.0)
+    assert found.drive.backlash_deg == 0
+    assert found.drive.stiffness_n_mm_per_rad is None
+
+
+SENSORS = {"tip_bias_deg", "tip_scale", "tip_delay_s", "torque_bias_n_mm"}
+NEEDS = {  # what a field shows beside only
+    "static_excess_n_mm_per_mm": {"kinetic_n_mm_per_mm": 0.001},
+    "stribeck_rad_s": {"kinetic_n_mm_per_mm": 0.001, "static_excess_n_mm_per_mm": 0.001},
+    "tissue_time_constant_s": {"tissue_stiffness_n_mm_per_rad_per_mm": 0.01},
+    "layer_boundary_fraction": {"layer_ratio": 2.0},
+    "curvature_phase_deg": {"curvature_n_mm_per_mm": 0.001},
+}
+
+
+@pytest.mark.parametrize("name", [f.name for f in fields(RigParameters)])
+def test_every_parameter_changes_the_needle_or_its_sensors(name):
+    about = replace(NOMINAL, **NEEDS.get(name, {}))
+    changed = replace(about, **{name: 0.7 * getattr(about, name) or 0.001})
+    assert (changed.without_sensors() == about.without_sensors()) is (name in SENSORS)
+    if name == "material_share_growing_depth":
+        ready = prepared(trial(turns()))
+        deeper = replace(ready, inserted_mm=90 + ready.time_s, free_mm=60 - ready.time_s)
+        assert setup(changed, deeper) != setup(about, deeper)
+    elif name in SENSORS:
+        time = np.linspace(0, 1, 11)
+        before, after = (np.concatenate(r.sensed(time, time, time)) for r in (about, changed))
+        assert not np.array_equal(before, after)
+    else:
+        assert setup(changed) != setup(about)
+
+
+def test_two_layers_keep_the_total_damping():
+    layers = RigParameters(layer_ratio=3.0, layer_boundary_fraction=0.4).tissue(RIG).layers
+    shallow, deep = (layer.interface.viscous_n_mm_s_per_mm for layer in layers)
+    assert deep == pytest.approx(3 * shallow)
+    assert 0.4 * shallow + 0.6 * deep == pytest.approx(RIG.tissue.damping_n_mm_s_per_mm)
+
+
+def test_a_delayed_sensor_shows_what_was():
+    time = np.linspace(0, 10, 1001)
+    tip, torque = RigParameters(tip_delay_s=0.5, tip_scale=2.0, tip_bias_deg=3.0).sensed(
+        time, time, time
+    )
+    np.testing.assert_allclose(tip, 3 + 2 * np.maximum(time - 0.5, 0.0))
+    np.testing.assert_array_equal(torque, time)

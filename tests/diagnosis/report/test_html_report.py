@@ -1,0 +1,51 @@
+"""The page for people."""
+
+from dataclasses import replace
+
+import pytest
+
+from diagnosis.report.html_report import page
+from diagnosis.report.sentences import headline
+
+
+@pytest.fixture(scope="session")
+def dry_page(dry):
+    return page(dry.found, dry.report)
+
+
+def test_the_page_starts_with_the_verdict(dry_page, dry):
+    assert f"<h1>{headline(dry.found)}</h1>" in dry_page
+    assert "explains the gap" in dry_page
+
+
+def test_the_page_opens_without_a_network(dry_page):
+    assert "://" not in dry_page
+    assert dry_page.count("data:image/png;base64,") == 3
+
+
+def test_the_page_shows_how_the_search_went(dry_page, dry):
+    assert "<h2>How the search went</h2>" in dry_page
+    after = dry_page.split("How the search went")[1]
+    assert after.count("<tr>") == len(dry.found.record) + 1
+    assert "promises to stay far above what is at the noise floor" in after
+
+
+def test_the_page_shows_parameters_limits_and_what_is_open(dry_page):
+    assert "N mm / mm" in dry_page
+    for title in ("Detection limits", "What these trials cannot tell", "Noise and numerical error"):
+        assert f"<h2>{title}</h2>" in dry_page
+
+
+def test_warnings_stand_in_boxes(dry):
+    warned = page(dry.found, {**dry.report, "warnings": ["mind the <gap>"], "parameters": {}})
+    assert '<p class="warning">mind the &lt;gap&gt;</p>' in warned
+
+
+def test_without_limits_there_is_no_heading_for_them(dry):
+    told = replace(dry.found.assessment, detection_limits={})
+    assert "Detection limits" not in page(replace(dry.found, assessment=told), dry.report)
+
+
+def test_the_next_experiment_stands_with_what_is_open(dry):
+    asked = page(dry.found, {**dry.report, "next_experiment": "turn slowly"})
+    assert "<li>Next: turn slowly</li>" in asked

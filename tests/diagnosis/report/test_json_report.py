@@ -1,0 +1,106 @@
+"""report.json: the contract with other programs."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from diagnosis_fixtures import scored
+
+from diagnosis.effects import LIBRARY
+from diagnosis.report.json_report import FORMAT, as_json
+from diagnosis.selection.record import Decision
+
+KEYS = {
+    "format",
+    "verdict",
+    "effects",
+    "confusable",
+    "ranking",
+    "parameters",
+    "gap",
+    "where",
+    "next_experiment",
+    "floor",
+    "fit",
+    "further",
+    "hidden",
+    "cannot_tell",
+    "replay_error",
+    "noise",
+    "search",
+    "warnings",
+}
+
+
+def test_every_key_is_there_and_no_other(dry):
+    assert set(dry.report) == KEYS
+    assert dry.report["format"] == FORMAT
+
+
+def test_a_report_is_strict_json(dry):
+    text = json.dumps(dry.report, allow_nan=False)
+    assert json.loads(text, parse_constant=pytest.fail) == dry.report
+
+
+def test_what_explains_the_log_is_told_with_its_value_unit_and_place(dry):
+    report = dry.report
+    assert report["verdict"] == "explained"
+    assert report["effects"] == ["coulomb_friction"]
+    level = report["parameters"]["coulomb_friction"]["level"]
+    assert level["value"] == pytest.approx(0.0015, rel=0.03)
+    assert level["low"] < level["value"] < level["high"]
+    assert level["unit"] == "N mm / mm"
+    assert report["where"]["place"] == "interface"
+
+
+def test_the_gap_is_told_with_its_reduction(dry):
+    gap = dry.report["gap"]
+    assert gap["before"] > 3
+    assert gap["after"] < 1.05
+    assert gap["shrink_low"] < gap["shrink"] < gap["shrink_high"]
+
+
+def test_probabilities_are_of_everything_and_add_up(dry):
+    ranking = dry.report["ranking"]
+    assert {r["effect"] for r in ranking} == {*LIBRARY, "none", "unknown"}
+    assert sum(r["probability"] for r in ranking) == pytest.approx(1.0)
+    assert ranking[0]["effect"] == "coulomb_friction"
+
+
+def test_how_the_fit_ended_is_told(dry):
+    fit = dry.report["fit"]
+    assert set(fit) == {"status", "message", "at_bound"}
+    assert fit["status"] == "converged: gradient"
+    assert fit["message"].startswith("Terminated after ")
+    assert fit["at_bound"] == []
+
+
+def test_every_decision_of_the_search_is_told(dry):
+    search = dry.report["search"]
+    assert len(search) == len(dry.found.record)
+    assert {e["decision"] for e in search} <= {d.value for d in Decision}
+    keys = {"stage", "effects", "decision", "reason", "score", "gap"}
+    assert all(set(entry) == keys for entry in search)
+    finalist = {"stage": "finalists", "effects": ["coulomb_friction"], "decision": "made"}
+    assert any(finalist.items() <= entry.items() for entry in search)
+
+
+def test_both_floors_are_told(dry):
+    floor = dry.report["floor"]
+    assert floor["fitted"]["gap"] <= floor["fitted"]["gap_limit"]
+    assert floor["unseen"]["slow"] <= floor["unseen"]["slow_limit"]
+    assert floor["surprise"] == dry.found.verdict.best.shift
+
+
+def test_what_was_not_checked_on_held_out_trials_has_no_floor_there(dry):
+    best = scored(["tip_drag"], 1.0, held_out=None, held_out_floor=None)
+    found = replace(dry.found, verdict=replace(dry.found.verdict, best=best))
+    assert as_json(found)["floor"]["unseen"] is None
+
+
+def test_a_rig_with_nothing_unmodelled_gives_no_alarm(nothing):
+    assert nothing.report["verdict"] == "none"
+    assert nothing.report["effects"] == []
+    assert nothing.report["where"]["place"] == ""
+    assert nothing.report["warnings"] == []
+    assert set(nothing.report) == KEYS

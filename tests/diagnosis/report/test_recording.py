@@ -1,0 +1,37 @@
+"""gap.rrd: measured, nominal and explained side by side."""
+
+import pytest
+from sim.rerun_table import entries
+
+from diagnosis.report.recording import log_gap
+from models.errors import OutputExists
+
+
+@pytest.fixture(scope="session")
+def recorded(dry, tmp_path_factory):
+    path = tmp_path_factory.mktemp("recording") / "gap.rrd"
+    log_gap(dry.found, "the verdict in words", path)
+    return path
+
+
+def test_signals_and_residuals_of_every_trial_are_there(recorded, dry):
+    found = {e.entity for e in entries(recorded)}
+    for i, _ in enumerate(dry.log.trials):
+        root = f"/trial_{i + 1}"
+        names = [f"{root}/tip_angle_deg/{n}" for n in ("measured", "nominal", "explained")]
+        names += [f"{root}/residual/base_torque_n_mm/{n}" for n in ("nominal", "explained")]
+        assert set(names) <= found
+
+
+def test_a_signal_has_every_sample(recorded, dry):
+    own = [e for e in entries(recorded) if e.entity == "/trial_3/tip_angle_deg/measured" and e.rows > 1]
+    assert {e.rows for e in own} == {len(dry.log.trials[2].table)}
+    tip = dry.log.trials[2]["tip_angle_deg"][-1]
+    assert [e.last for e in own if e.last is not None] == [pytest.approx(tip)]
+
+
+def test_a_recording_that_exists_is_kept(recorded, dry):
+    before = recorded.read_bytes()
+    with pytest.raises(OutputExists):
+        log_gap(dry.found, "again", recorded)
+    assert recorded.read_bytes() == before

@@ -1,0 +1,57 @@
+"""The tables of the page."""
+
+import re
+
+import pytest
+from diagnosis_fixtures import scored
+
+from diagnosis.report.tables import limit_in_words, limits_table, parameter_table, search_table
+from diagnosis.selection.record import dropped, failed, kept, not_fitted
+from diagnosis.workers import Failure
+
+
+def cells(table):
+    """Rows of a table of plain text."""
+    rows = re.findall(r"<tr>(.*?)</tr>", table)
+    return [re.findall(r"<t[hd]>(.*?)</t[hd]>", row) for row in rows]
+
+
+@pytest.mark.parametrize(
+    ("effect", "values", "words"),
+    [
+        ("base_compliance", {"stiffness": 240.0}, "stiffness ≥ 240 N mm / rad"),
+        ("tip_drag", {"damping": 0.02}, "damping ≤ 0.02 N mm s / rad"),
+        ("tip_angle_bias", {"bias": -0.025}, "|bias| ≤ 0.025 deg"),
+        ("tip_angle_scale", {"scale": 0.99}, "scale ≥ 0.9900"),
+        ("layered_tissue", {"ratio": 1.1, "boundary": 0.35}, "ratio ≤ 1.1000, boundary 0.3500"),
+        ("stiction", {}, "any strength"),
+    ],
+)
+def test_a_limit_is_told_with_its_direction(effect, values, words):
+    assert limit_in_words(effect, values) == words
+
+
+def test_limits_are_a_row_for_each_effect():
+    limits = {"tip_drag": {"damping": 0.02}, "stiction": {}}
+    expected = [["tip_drag", "damping ≤ 0.02 N mm s / rad"], ["stiction", "any strength"]]
+    assert cells(limits_table(limits))[1:] == expected
+
+
+def test_a_parameter_is_told_with_its_interval_and_unit():
+    level = {"value": 0.0015, "low": 0.00148, "high": 0.00152, "unit": "N mm / mm"}
+    row = cells(parameter_table({"coulomb_friction": {"level": level}}))[1]
+    assert row == ["coulomb_friction", "level", "0.0015", "0.00148 to 0.00152", "N mm / mm"]
+
+
+def test_every_decision_of_the_search_is_a_row():
+    record = (
+        *kept("nominal rig", [scored([], 12.34)], "as rig.yaml says"),
+        *not_fitted("pairs", [("tip_drag", "stiction")], "promises too little"),
+        *failed("pairs", [Failure(effects=("stiction",), reason="a < b")]),
+        *dropped("finalists", [scored(["tip_drag"], 20.0)], "others are better"),
+    )
+    rows = cells(search_table(record))[1:]
+    assert rows[0] == ["nominal rig", "nominal rig", "kept", "1.000", "12.3", "as rig.yaml says"]
+    assert rows[1] == ["pairs", "tip_drag + stiction", "dropped", "", "", "promises too little"]
+    assert rows[2][2:] == ["failed", "", "", "a &lt; b"]
+    assert len(rows) == 4

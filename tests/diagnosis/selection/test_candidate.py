@@ -1,0 +1,114 @@
+"""A fitted explanation: what it names, and whether it explains the log."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import fit_of, joined, log_of, problem_of, scored
+
+from diagnosis.criteria import SCATTER, SCATTER_NAMED, SHIFT_LIMIT
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection import candidate as module
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.complexity import complexity_penalty
+from sim.simulation import SimulationFailed
+
+SCALES = tuple(LIBRARY[name] for name in SCATTER)
+DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
+
+
+def fitted(other):
+    """Dry friction, fitted to a trial that has it and to another that may not."""
+    problem = problem_of(joined(log_of(DRY, speed=-1.0), log_of(other, seed=4, speed=-1.0)))
+    fit = fit_effects(problem, ("coulomb_friction",), np.array([np.log(0.001), 0, 0, 0]))
+    return problem, candidate(fit).cross_validated(problem)
+
+
+@pytest.fixture(scope="module")
+def same():
+    return fitted(DRY)
+
+
+def test_an_explanation_that_holds_where_it_was_not_fitted_explains(same):
+    _, good = same
+    assert 0 < good.shift < 9
+    assert good.held_out_floor.reached
+    assert good.explains
+
+
+def test_an_explanation_that_does_not_hold_where_it_was_not_fitted_does_not():
+    """Friction in one trial and none in the other: no level explains both."""
+    problem, torn = fitted(NOMINAL)
+    assert module.shift_statistic(torn.fit) > 9
+    assert not torn.explains
+    # Even if its residual were at the floor, its trials tell different levels.
+    assert not replace(torn, floor=NoiseFloor(gap=1, slow=1)).cross_validated(problem).explains
+
+
+def test_what_cannot_be_simulated_without_a_trial_is_said_and_explains_nothing(same, monkeypatch):
+    problem, good = same
+
+    def failing(*_):
+        raise SimulationFailed("lost its numbers")
+
+    monkeypatch.setattr(module, "held_out_residuals", failing)
+    checked = candidate(good.fit).cross_validated(problem)
+    assert checked.held_out_failure == "lost its numbers"
+    assert checked.held_out is None
+    assert not checked.explains
+
+
+def test_what_is_above_the_floor_is_not_simulated_on_held_out_trials(monkeypatch):
+    monkeypatch.setattr(module, "held_out_residuals", pytest.fail)
+    above = scored(["tip_drag"], 1.0, floor=NoiseFloor(gap=2, slow=2), held_out=None)
+    assert above.cross_validated(None) is above
+
+
+def test_the_score_is_the_cost_and_the_penalty():
+    fit = fit_of(("tip_drag",), by_trial=np.ones((2, 50)))
+    assert candidate(fit).score == pytest.approx(100 + complexity_penalty(("tip_drag",), 100))
+
+
+@pytest.mark.parametrize(("shift", "explains"), [(SHIFT_LIMIT, True), (SHIFT_LIMIT + 0.1, False)])
+def test_trials_that_shift_too_far_are_not_explained(shift, explains):
+    assert scored(["tip_drag"], 1.0, shift=shift).explains is explains
+
+
+def off_by(stiffness, damping, *, names=(), slopes=(1e3, 0.0)):
+    """A candidate whose constants are off so far, and how sharply a log shows it."""
+    first = [[0.0]] * 10 if names else [[]] * 10
+    rows = np.hstack([np.array(first), np.tile(slopes, (10, 1))])
+    x = np.array([*([-3.0] if names else []), stiffness, damping])
+    return replace(scored(names, 1.0), fit=fit_of(names, x=x, jacobian=[rows], nuisance=SCALES))
+
+
+def test_a_constant_that_is_off_for_certain_is_named_alone():
+    assert off_by(0.05, 0.0).named == ("stiffness_error",)
+    assert off_by(0.05, 0.0, slopes=(10.0, 0.0)).named == ()  # 3 % of standard error
+    assert off_by(0.002, 0.0).named == ()  # certain, and less than two simulations differ by
+
+
+def test_beside_an_effect_a_constant_is_named_beyond_its_scatter():
+    beyond = 1.01 * SCATTER_NAMED * SCATTER["stiffness_error"]
+    assert off_by(beyond, 0.0, names=("tip_drag",)).named == ("tip_drag", "stiffness_error")
+    assert off_by(0.9 * beyond, 0.0, names=("tip_drag",)).named == ("tip_drag",)
+
+
+def test_a_ratio_that_is_off_does_not_say_which_constant_is():
+    """Slopes of stiffness and damping that are opposite: their ratio alone shows."""
+    ratio = off_by(0.02, -0.02, slopes=(1e3, -1e3))
+    assert ratio.jointly_significant
+    assert ratio.unidentifiable
+    assert not ratio.explains
+    told = off_by(0.05, 0.0)
+    assert told.jointly_significant
+    assert not told.unidentifiable
+
+
+def test_stiffness_or_damping_alone_are_scatter():
+    assert scored(["stiffness_error"], 1.0).only_scatter
+    assert not scored(["stiffness_error", "tip_drag"], 1.0).only_scatter
+    assert not scored([], 1.0).only_scatter

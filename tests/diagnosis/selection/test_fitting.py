@@ -1,0 +1,129 @@
+"""Which sets of effects are fitted, and why others are not."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import fit_of, scored
+
+from diagnosis.criteria import CONTENDING, FINALISTS, NEAR_FLOOR
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.selection import fitting
+from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists, fit_screened
+from diagnosis.selection.record import Decision
+from diagnosis.selection.screening import Screened
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+SAMPLES = 1000
+PROBLEM = FitProblem(log=PreparedLog(rig=None, trials=()), noise=None, nuisance=())
+
+
+@pytest.fixture
+def made(monkeypatch):
+    """Fits that end with the cost that their start says, and the names that were fitted."""
+    names = []
+
+    def fit_effects(_, effects, start=None):
+        names.append(tuple(effects))
+        if start is not None and np.isnan(start[0]):
+            raise SimulationFailed("lost its numbers")
+        cost = SAMPLES if start is None else float(start[0])
+        white = np.random.default_rng(len(names)).normal(size=SAMPLES)
+        return fit_of(effects, by_trial=[white * np.sqrt(abs(cost) / float(white @ white))], cost=cost)
+
+    monkeypatch.setattr(fitting, "fit_effects", fit_effects)
+    return names
+
+
+def screened(name, promise, fitted=None):
+    """An effect that promises a cost, and what its fit comes to."""
+    start = np.array([promise if fitted is None else fitted])
+    return Screened(names=(name,), start=start, cost=promise, gain=10.0)
+
+
+def decisions(record):
+    return {(e.effects, e.decision): e for e in record}
+
+
+def test_the_most_promising_are_fitted_first_and_come_back_best_first(made):
+    each = [screened("tip_drag", 3000.0, 2000.0), screened("torque_bias", 2500.0, 2900.0)]
+    found, record = fit_screened("single", PROBLEM, each, 9, Workers())
+    assert made == [("torque_bias",), ("tip_drag",)]
+    assert [c.names for c in found] == [("tip_drag",), ("torque_bias",)]
+    assert {e.decision for e in record} == {Decision.MADE}
+
+
+def test_no_more_are_fitted_than_asked_for(made):
+    each = [screened("tip_drag", 3000.0), screened("torque_bias", 2500.0)]
+    fit_screened("single", PROBLEM, each, 1, Workers())
+    assert made == [("torque_bias",)]
+
+
+BATCH = [
+    screened(n, 900.0 + i, 1000.0)
+    for i, n in enumerate(("stiction", "tip_drag", "torque_bias", "tip_angle_bias"))
+]
+
+
+def test_once_something_is_at_the_floor_only_what_comes_near_or_is_contained_is_fitted(made):
+    far = NEAR_FLOOR * SAMPLES + 100
+    later = [
+        screened("entry_friction", far),
+        screened("coulomb_friction", far),
+        screened("tip_angle_scale", 0.9 * far),
+    ]
+    _, record = fit_screened("single", PROBLEM, [*BATCH, *later], 9, Workers())
+    assert ("entry_friction",) not in made
+    assert {("coulomb_friction",), ("tip_angle_scale",)} <= set(made)  # stiction contains the one
+    out = decisions(record)[("entry_friction",), Decision.DROPPED]
+    assert "far above" in out.reason
+    assert out.score is None
+
+
+def test_the_best_start_of_a_set_is_kept(made):
+    each = [screened("tip_drag", 2000.0, 2500.0), screened("tip_drag", 2100.0, 2200.0)]
+    (found,), record = fit_screened("single", PROBLEM, each, 9, Workers())
+    assert found.fit.cost == 2200.0
+    (out,) = [e for e in record if e.decision is Decision.DROPPED]
+    assert "another start" in out.reason
+
+
+def test_a_fit_that_fails_is_recorded_and_the_others_go_on(made):
+    each = [screened("tip_drag", 2000.0, np.nan), screened("torque_bias", 2100.0)]
+    (found,), record = fit_screened("single", PROBLEM, each, 9, Workers())
+    assert found.names == ("torque_bias",)
+    assert decisions(record)[("tip_drag",), Decision.FAILED].reason == "lost its numbers"
+
+
+def test_finalists_are_the_best_within_reach(made):
+    near = [
+        scored([n], 100.0 + i)
+        for i, n in enumerate(
+            ("tip_drag", "stiction", "torque_bias", "tip_angle_bias", "tip_angle_scale")
+        )
+    ]
+    far = scored(["entry_friction"], 101.0 + CONTENDING)
+    found, record = fit_finalists("finalists", PROBLEM, [*near, far], Workers())
+    assert len(found) == FINALISTS == 4
+    assert made == [c.names for c in near[:FINALISTS]]
+    out = {e.effects: e.reason for e in record if e.decision is Decision.DROPPED}
+    assert "4 others are better" in out["tip_angle_scale",]
+    assert "by more than 60" in out["entry_friction",]
+
+
+def test_no_contender_is_no_finalist(made):
+    assert fit_finalists("finalists", PROBLEM, [], Workers()) == ([], ())
+
+
+def test_each_effect_of_a_candidate_is_fitted_alone_from_where_it_is(made):
+    pair = scored(["tip_drag", "torque_bias"], 1.0)
+    found, record = fit_each_alone("alone", PROBLEM, pair, pair.names, Workers())
+    assert [c.names for c in found] == [("tip_drag",), ("torque_bias",)]
+    assert [c.fit.cost for c in found] == [float(pair.fit.parts[n][0]) for n in pair.names]
+    assert {e.stage for e in record} == {"alone"}
+
+
+def test_calls_come_back_in_their_order(made):
+    calls = [(PROBLEM, (n,), np.array([c])) for n, c in (("tip_drag", 3.0), ("stiction", 1.0))]
+    found, _ = fit_all("any", calls, Workers())
+    assert [c.fit.cost for c in found] == [3.0, 1.0]

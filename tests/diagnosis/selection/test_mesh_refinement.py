@@ -1,0 +1,163 @@
+"""A replay is made finer where, and only where, the log asks for it."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pandas as pd
+import pytest
+from diagnosis_fixtures import RIG, log_of, log_with, problem_of, scored
+from reference_log import BETA, TIP, TORQUE
+from reference_rig import Rig as ReferenceRig
+from reference_rig import simulate as simulate_reference
+
+from diagnosis.criteria import CONTENDING, FINEST_ELEMENTS, FINEST_STEP_S
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.log.trial import Trial
+from diagnosis.replay.resolution import FINE, Resolution
+from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.selection import mesh_refinement as module
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.mesh_refinement import refined_mesh
+from diagnosis.selection.record import Decision
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+ELASTIC = {"stiffness": 0.05, "time_constant": 0.4}
+CASES = {"tissue_viscoelasticity": ELASTIC, "damping_error": {"scale": 1.3}}
+SIGMA = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": 0.01}
+
+
+@cache
+def problem_with(effect):
+    """A needle that turns to and fro while it goes from 100 to 160 mm deep, at 3 mm/s."""
+    time = np.arange(0, 20, 0.01)
+    lengths = {
+        "inserted_mm": 100 + 3 * time,
+        "free_mm": 70 - 3 * time,
+        "speed_mm_s": np.full(time.size, 3.0),
+    }
+    base = 240 * np.sin(2 * np.pi * 0.15 * time) ** 2
+    rig = ReferenceRig(
+        diameter_mm=0.59,
+        shear_modulus_gpa=27.2,
+        damping_n_mm_s_per_mm=BETA,
+        effects={effect: CASES[effect]},
+    )
+    found = simulate_reference(
+        rig, time_s=time, base_angle_deg=base, cells=200, dt=1e-2, slip="material", **lengths
+    )
+    rng = np.random.default_rng(0)
+    table = {
+        "time_s": time,
+        "base_angle_deg": base,
+        "base_torque_n_mm": found.base_torque_n_mm + rng.normal(0, TORQUE, time.size),
+        "tip_angle_deg": found.tip_angle_deg + rng.normal(0, TIP, time.size),
+    }
+    log = log_with(Trial(name="trial_01.csv", table=pd.DataFrame(table | lengths)))
+    return problem_of(replace(log, rig=RIG.but(tissue={"damping_n_mm_s_per_mm": BETA})), sigma=SIGMA)
+
+
+@cache
+def usual(effect):
+    """The true explanation, fitted by the usual needle."""
+    return candidate(fit_effects(problem_with(effect), (effect,)))
+
+
+@pytest.mark.parametrize(
+    ("effect", "asks"), [("tissue_viscoelasticity", True), ("damping_error", False)]
+)
+@pytest.mark.slow
+def test_a_replay_is_as_fine_as_the_log_asks(effect, asks):
+    problem, found, record = refined_mesh(problem_with(effect), [usual(effect)], Workers())
+    assert (problem.resolution != FINE) is asks
+    # A true explanation that the usual needle has to refuse.
+    assert usual(effect).floor.reached is not asks
+    assert found[0].floor.reached
+    made = [e for e in record if e.decision is Decision.MADE]
+    assert bool(made) is asks
+    assert {e.stage for e in record} <= {module.STAGE}
+
+
+@pytest.mark.slow
+def test_what_is_far_from_explained_is_not_replayed_more_finely():
+    problem = problem_with("tissue_viscoelasticity")
+    one = problem.log.trials[0]
+    ringing = one.readings["tip_angle_deg"] + 10 * TIP * np.sin(2 * np.pi * 2.3 * one.time_s)
+    readings = {**one.readings, "tip_angle_deg": ringing}
+    log = replace(problem.log, trials=(replace(one, readings=readings),))
+    far = replace(problem, log=log)
+    before = candidate(fit_effects(far, ("tissue_viscoelasticity",)))
+    after, found, record = refined_mesh(far, [before], Workers())
+    assert after.resolution == FINE
+    assert found[0] is before
+    assert record == ()
+
+
+def small():
+    """A problem that no fit is made of."""
+    return problem_of(log_of(NOMINAL, seconds=2.0))
+
+
+def refined(monkeypatch, matters, *, fails=False, candidates=None):
+    """What comes of candidates where some resolutions matter; no fit is made."""
+    calls = []
+
+    def fit_all(stage, each, _):
+        calls.append(each)
+        return [] if fails else [scored(call[1], 1.0) for call in each], ()
+
+    monkeypatch.setattr(module, "_matters", lambda problem, best, there: matters(problem, there))
+    monkeypatch.setattr(module, "fit_all", fit_all)
+    problem = small()
+    candidates = candidates or [scored(["tip_drag"], 1.0)]
+    return calls, *refined_mesh(problem, candidates, Workers())
+
+
+def test_elements_and_step_are_refined_to_the_finest_and_no_further(monkeypatch):
+    _, problem, _, _ = refined(monkeypatch, lambda problem, there: there != problem.resolution)
+    assert problem.resolution == Resolution(elements=FINEST_ELEMENTS, step_s=FINEST_STEP_S)
+
+
+def test_only_what_matters_is_refined(monkeypatch):
+    _, problem, _, _ = refined(
+        monkeypatch, lambda problem, there: there.elements == 24 != problem.resolution.elements
+    )
+    assert problem.resolution == replace(FINE, elements=24)
+
+
+def test_candidates_that_are_far_behind_are_dropped(monkeypatch):
+    each = [scored(["tip_drag"], 1.0), scored(["stiction"], 2.0 + CONTENDING)]
+    calls, _, found, record = refined(
+        monkeypatch,
+        lambda problem, there: there.elements == 24 != problem.resolution.elements,
+        candidates=each,
+    )
+    assert [call[1] for call in calls[0]] == [("tip_drag",)]
+    assert [c.names for c in found] == [("tip_drag",)]
+    (out,) = record
+    assert (out.effects, out.decision) == (("stiction",), Decision.DROPPED)
+
+
+def test_where_no_finer_fit_can_be_simulated_the_usual_ones_stand(monkeypatch):
+    _, problem, found, _ = refined(monkeypatch, lambda problem, there: True, fails=True)
+    assert problem.resolution == FINE
+    assert [c.names for c in found] == [("tip_drag",)]
+
+
+def test_a_resolution_that_cannot_be_simulated_does_not_matter(monkeypatch):
+    def failing(*_):
+        raise SimulationFailed("lost its numbers")
+
+    problem = small()
+    monkeypatch.setattr(type(problem), "residuals", failing)
+    found = refined_mesh(problem, [scored(["tip_drag"], 1.0)], Workers())
+    assert found[0].resolution == FINE
+
+
+@pytest.mark.parametrize(("change", "matters"), [(0.09, False), (0.11, True)])
+def test_a_change_matters_from_a_tenth_of_the_noise(change, matters):
+    white = np.random.default_rng(1).normal(size=4000)
+    white /= np.sqrt(np.mean(white**2))
+    assert module._is_much(np.full(4000, change), white) is matters
+    assert not module._is_much(np.full(4000, change), 2 * white)  # far from explained

@@ -1,0 +1,54 @@
+"""Candidates in units of the noise that the best of them leaves."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
+
+from diagnosis.criteria import NOISE_TRUST
+from diagnosis.fitting.fit import nominal_fit
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.renoised import any_explains, renoised
+
+OVERSTATED = {"tip_angle_deg": 1.05 * TIP, "base_torque_n_mm": 1.05 * TORQUE, "base_angle_deg": BASE}
+
+
+def nominal(problem):
+    """The nominal rig as a candidate."""
+    return candidate(nominal_fit([r[0] for r in problem.residuals([NOMINAL])]))
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return problem_of(log_of(NOMINAL), sigma=OVERSTATED)
+
+
+def test_noise_is_that_which_the_best_leaves_and_costs_are_in_its_units(problem):
+    before = nominal(problem)
+    noise, (after,) = renoised(problem, [before])
+    # First differences of 1200 samples: 2.5 % of standard error.
+    assert noise["tip_angle_deg"] == pytest.approx(TIP, rel=3 * np.sqrt(0.75 / 1200))
+    assert abs(noise["tip_angle_deg"] / OVERSTATED["tip_angle_deg"] - 1) <= NOISE_TRUST
+    factors = np.repeat(
+        [problem.noise[s] / noise[s] for s in ("base_torque_n_mm", "tip_angle_deg")], 1200
+    )
+    np.testing.assert_allclose(after.fit.by_trial[0], before.fit.by_trial[0] * factors)
+
+
+def test_what_is_at_the_floor_is_checked_on_held_out_trials(problem):
+    _, (checked,) = renoised(problem, [nominal(problem)])
+    assert checked.held_out is not None
+    assert checked.explains
+
+
+def test_candidates_come_back_best_first(problem):
+    worse = candidate(nominal_fit([1.5 * r[0] for r in problem.residuals([NOMINAL])]))
+    _, found = renoised(problem, [nominal(problem), worse])
+    assert [c.score for c in found] == sorted(c.score for c in found)
+    assert found[-1].floor.gap == pytest.approx(1.5 * found[0].floor.gap)
+
+
+def test_whether_any_explains(problem):
+    assert any_explains(problem, [nominal(problem)])
+    dry = problem_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.001)), sigma=OVERSTATED)
+    assert not any_explains(dry, [nominal(dry)])

@@ -1,0 +1,65 @@
+"""What an effect could explain at best, before a fit."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import coarse_of, log_of, problem_of
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.screening import screen
+
+
+@pytest.fixture(scope="module")
+def dry():
+    """A decimated log with dry friction, and the fit of its scatter alone."""
+    coarse = coarse_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.001)))
+    return coarse, fit_effects(coarse, ())
+
+
+def test_what_the_log_has_promises_most(dry):
+    names = ("coulomb_friction", "tip_drag", "torque_bias", "chuck_backlash")
+    promises = {name: screen(*dry, name)[0] for name in names}
+    assert min(promises, key=lambda name: promises[name].cost) == "coulomb_friction"
+    best = promises["coulomb_friction"]
+    assert best.gain > 0.9 * dry[1].cost
+    without = best.cost + best.gain
+    for one in promises.values():
+        assert one.cost + one.gain == pytest.approx(without)
+
+
+def test_a_fit_from_there_comes_near_what_was_promised(dry):
+    coarse, base = dry
+    best = screen(coarse, base, "coulomb_friction")[0]
+    fit = fit_effects(coarse, best.names, best.start)
+    assert fit.cost < base.cost - 0.9 * best.gain
+
+
+def test_as_many_starts_as_parameters_come_back_best_first(dry):
+    found = screen(*dry, "stiction")
+    assert len(found) == len(LIBRARY["stiction"].parameters)
+    assert [s.cost for s in found] == sorted(s.cost for s in found)
+    assert len(screen(*dry, "stiction", most_starts=2)) == 2
+    assert {s.names for s in found} == {("stiction",)}
+
+
+def test_what_the_nuisance_took_over_is_no_start(dry):
+    coarse, base = dry
+    assert abs(base.parts["damping_error"][0]) > 0.01
+    start = screen(coarse, base, "coulomb_friction")[0].start
+    np.testing.assert_array_equal(start[1:], 0.0)
+
+
+def test_what_scatter_has_found_costs_only_its_prior_to_name():
+    """A stiffness that is far off is found as scatter first; screening need not move it."""
+    problem = problem_of(log_of(RigParameters(stiffness_scale=1.43)))
+    base = fit_effects(problem, ())
+    scale = base.parts["stiffness_error"]
+    assert np.exp(scale[0]) == pytest.approx(1.43, rel=0.02)
+    best = screen(problem, base, "stiffness_error")[0]
+    parameterization = base.parameterization
+    prior = parameterization.weights[parameterization.owners.index("stiffness_error")] * scale[0]
+    assert prior**2 > 100
+    # The rest of the fit is where it is for the sake of the prior too, a little.
+    assert best.cost == pytest.approx(base.cost - prior**2, rel=0.01)
+    assert best.start[0] == pytest.approx(scale[0])

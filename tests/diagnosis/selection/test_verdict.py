@@ -1,0 +1,105 @@
+"""What is concluded from candidates whose scores are given."""
+
+from dataclasses import replace
+
+import pytest
+from diagnosis_fixtures import fit_of, scored
+
+from diagnosis.criteria import SCATTER
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.verdict import VerdictKind, places, verdict_on
+
+
+def verdict(*each):
+    """On candidates at the noise floor, by names and score."""
+    return verdict_on(sorted((scored(*one) for one in each), key=lambda c: c.score))
+
+
+@pytest.mark.parametrize(
+    ("lead", "kind", "effects"),
+    [
+        (8, VerdictKind.EXPLAINED, ("stiction",)),
+        (3, VerdictKind.UNDECIDED, ("coulomb_friction",)),
+        (-3, VerdictKind.UNDECIDED, ("coulomb_friction",)),
+        (-8, VerdictKind.UNDECIDED, ("coulomb_friction",)),
+        (-12, VerdictKind.EXPLAINED, ("coulomb_friction",)),
+    ],
+)
+def test_an_effect_and_one_that_contains_it_are_told_apart_by_their_scores(lead, kind, effects):
+    found = verdict((["coulomb_friction"], 100.0), (["stiction"], 100.0 - lead))
+    assert (found.kind, found.effects) == (kind, effects)
+    if kind is VerdictKind.UNDECIDED:
+        assert set(found.confusable) == {("coulomb_friction",), ("stiction",)}
+
+
+@pytest.mark.parametrize(("lead", "kind"), [(8, VerdictKind.UNDECIDED), (12, VerdictKind.EXPLAINED)])
+def test_unrelated_effects_are_told_apart_by_more(lead, kind):
+    found = verdict((["tip_drag"], 100.0), (["entry_friction"], 100.0 + lead))
+    assert found.kind is kind
+    assert found.effects == ("tip_drag",)
+
+
+def test_a_second_effect_has_to_lead_the_first_alone():
+    near = verdict((["tip_drag"], 108.0), (["tip_drag", "torque_bias"], 100.0))
+    assert (near.kind, near.effects) == (VerdictKind.EXPLAINED, ("tip_drag",))
+    far = verdict((["tip_drag"], 112.0), (["tip_drag", "torque_bias"], 100.0))
+    assert set(far.effects) == {"tip_drag", "torque_bias"}
+
+
+def test_a_richer_form_with_a_second_effect_needs_the_wider_margin():
+    near = verdict((["coulomb_friction"], 108.0), (["stiction", "torque_bias"], 100.0))
+    assert (near.kind, near.effects) == (VerdictKind.EXPLAINED, ("coulomb_friction",))
+    far = verdict((["coulomb_friction"], 112.0), (["stiction", "torque_bias"], 100.0))
+    assert set(far.effects) == {"stiction", "torque_bias"}
+
+
+def test_what_is_above_the_noise_floor_explains_nothing():
+    above = NoiseFloor(gap=2.0, slow=5.0)
+    found = verdict_on([scored(["tip_drag"], 1.0, floor=above), scored([], 100.0, floor=above)])
+    assert found.kind is VerdictKind.UNKNOWN
+    assert not found.settled
+    assert found.best.names == ("tip_drag",)
+    assert dict(found.ranking)["unknown"] == 1.0
+
+
+def test_what_was_not_checked_on_held_out_trials_explains_nothing():
+    found = verdict_on([scored(["tip_drag"], 1.0, held_out=None)])
+    assert found.kind is VerdictKind.UNKNOWN
+
+
+def test_what_is_as_good_as_the_nominal_rig_is_none():
+    found = verdict(([], 105.0), (["tip_drag"], 100.0))
+    assert found.kind is VerdictKind.NONE
+    assert found.settled
+    assert found.effects == ()
+
+
+def test_a_rig_whose_constants_are_off_is_named_by_no_effect_that_adds_nothing():
+    """Stiffness and damping off by 2 % for certain, and open which: an effect behind it is no rival."""
+    scales = tuple(LIBRARY[name] for name in SCATTER)
+    off = fit_of((), x=[0.02, -0.02], jacobian=[[[1e3, -1e3]] * 10], nuisance=scales)
+    ratio = replace(scored([], 100.0), fit=off)
+    assert ratio.unidentifiable
+    beside = fit_of(
+        ("tip_drag",), x=[-3.0, 0.02, -0.02], jacobian=[[[0, 1e3, -1e3]] * 10], nuisance=scales
+    )
+    other = replace(scored(["tip_drag"], 101.0), fit=beside)
+    found = verdict_on(
+        [ratio, other, scored(["damping_error"], 102.0), scored(["stiffness_error"], 102.0)]
+    )
+    assert set(found.confusable) == {("damping_error",), ("stiffness_error",)}
+
+
+def test_probabilities_are_those_of_the_scores():
+    ranking = dict(verdict((["tip_drag"], 100.0), (["entry_friction"], 104.0)).ranking)
+    assert sum(ranking.values()) == pytest.approx(1.0)
+    assert ranking["tip_drag"] / ranking["entry_friction"] == pytest.approx(2.718281828**2)
+    assert set(ranking) == {*LIBRARY, "none", "unknown"}
+
+
+def test_the_place_is_that_of_the_first_effect():
+    assert places(("tip_drag", "torque_bias")) == "needle"
+    assert places(()) == ""
+    assert candidate(fit_of(("tip_drag",))).names == ("tip_drag",)

@@ -1,0 +1,99 @@
+"""`needle replay` and `needle diagnose`, as a person runs them."""
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from diagnosis.log.trial import SENSORS
+from diagnosis.pipeline import replay_nominal
+from diagnosis.report.sentences import headline
+from scripts import diagnose as command
+from scripts import replay as replaying
+from scripts.main import main
+
+
+@pytest.fixture
+def wide(monkeypatch):
+    """A screen on which no line is broken."""
+    monkeypatch.setenv("COLUMNS", "200")
+
+
+def test_a_rig_with_nothing_unmodelled_gives_no_alarm(nothing):
+    """The command itself, over processes: what it prints is report.json."""
+    assert nothing.report["verdict"] == "none"
+    assert nothing.report["effects"] == []
+
+
+def test_a_log_that_cannot_be_used_exits_2(tmp_path, capsys):
+    assert main(["diagnose", str(tmp_path / "nowhere")]) == 2
+    assert "rig.yaml" in capsys.readouterr().err
+
+
+def test_diagnose_asks_for_a_log_or_the_paper(capsys):
+    assert main(["diagnose"]) == 2
+    assert "--paper" in capsys.readouterr().err
+    assert main(["diagnose", "examples/rig-log", "--paper"]) == 2
+
+
+def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch, capsys, wide):
+    monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
+    assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().out
+    assert headline(dry.found) in said
+    for name in ("report.json", "report.html", "gap.rrd", "trial_03.csv"):
+        assert name in said
+    assert (tmp_path / "out" / "report.html").is_file()
+    assert re.search(r"coulomb_friction\s+│ level\s+│ 0\.001", said)
+
+
+def test_a_report_that_exists_is_kept_before_any_work_is_done(dry, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(command, "diagnose", pytest.fail)
+    (tmp_path / "report.json").write_text("mine")
+    assert main(["diagnose", str(dry.folder), "--out", str(tmp_path)]) == 2
+    assert "--force" in capsys.readouterr().err
+    assert (tmp_path / "report.json").read_text() == "mine"
+
+
+@pytest.fixture(scope="session")
+def replayed(dry, tmp_path_factory):
+    """What `needle replay` writes of the log with dry friction."""
+    folder = tmp_path_factory.mktemp("replay")
+    assert main(["replay", str(dry.folder), "--out", str(folder)]) == 0
+    return folder
+
+
+def test_replay_writes_predictions_picture_and_recording(replayed, capsys, wide):
+    assert (replayed / "replay.png").stat().st_size > 1000
+    assert (replayed / "predictions" / "trial_01.csv").read_text().startswith("time_s,")
+    assert main(["inspect", "--table", str(replayed / "replay.rrd")]) == 0
+    assert "tip_angle" in capsys.readouterr().out
+
+
+def test_replay_and_diagnose_predict_the_same_of_the_nominal_rig(replayed, dry):
+    for trial, nominal in zip(dry.log.trials, dry.found.nominal, strict=True):
+        table = pd.read_csv(replayed / "predictions" / trial.name)
+        for sensor in SENSORS:
+            # Six digits are written.
+            np.testing.assert_allclose(
+                table[f"{sensor}_nominal"], nominal[sensor], rtol=1e-5, atol=1e-12
+            )
+
+
+def test_the_gap_that_replay_shows_is_that_of_diagnose_but_for_the_noise(dry):
+    nominal = replay_nominal(dry.log)
+    each = list(zip(nominal.problem.log.trials, nominal.predictions, strict=True))
+    for sensor in SENSORS:
+        gaps = [replaying.gap(nominal, t, p, sensor) for t, p in each]
+        sizes = [t.time_s.size for t, _ in each]
+        pooled = np.sqrt(np.average(np.square(gaps), weights=sizes))
+        noises = nominal.problem.noise[sensor] / dry.found.noise[sensor]
+        assert dry.found.assessment.breakdown.signal[sensor] / pooled == pytest.approx(noises, rel=1e-12)
+
+
+def test_the_table_of_replay_has_a_row_for_each_trial(dry):
+    nominal = replay_nominal(dry.log)
+    table = replaying.table(nominal)
+    assert list(table.columns[0].cells) == [t.name for t in dry.log.trials]
+    assert list(table.columns[1].cells) == [str(len(t.table)) for t in dry.log.trials]

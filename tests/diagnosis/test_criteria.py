@@ -1,0 +1,42 @@
+"""Every number that decides something is used, and is told where it comes from."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from diagnosis import criteria
+
+SOURCE = Path(criteria.__file__)
+
+
+def names():
+    """Of all criteria."""
+    found = []
+    for node in ast.parse(SOURCE.read_text()).body:
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                parts = target.elts if isinstance(target, ast.Tuple) else [target]
+                found += [part.id for part in parts]
+    return found
+
+
+def used(path):
+    """Names that a module reads."""
+    nodes = ast.walk(ast.parse(path.read_text()))
+    return {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
+
+
+@pytest.fixture(scope="module")
+def in_use():
+    folder = SOURCE.parent
+    return set().union(*(used(path) for path in folder.rglob("*.py") if path != SOURCE))
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_criterion_decides_something(in_use, name):
+    assert name in in_use
+
+
+def test_no_criterion_is_given_twice():
+    assert len(names()) == len(set(names()))

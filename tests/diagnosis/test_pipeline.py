@@ -1,0 +1,122 @@
+"""From a log to a diagnosis."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from diagnosis_fixtures import joined, log_of, start_of_search
+from reference_log import BETA, make_log
+
+from diagnosis.criteria import NOISE_TRUST
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.noise_floor import floor_of
+from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.trial import SENSORS
+from diagnosis.pipeline import diagnose, replay_nominal
+from diagnosis.replay import replay as replaying
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.record import Decision
+from diagnosis.selection.verdict import VerdictKind
+from sim.simulation import SimulationFailed
+
+DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
+
+
+def test_dry_friction_is_found_where_others_would_see_damping(dry):
+    verdict = dry.found.verdict
+    assert (verdict.kind, verdict.effects) == (VerdictKind.EXPLAINED, ("coulomb_friction",))
+
+
+def test_the_nominal_rig_is_replayed_once(dry):
+    assert dry.spy.nominal == 1
+
+
+def test_both_problems_carry_the_noise_that_the_best_explanation_leaves(dry):
+    fine, coarse = dry.spy.assessed
+    start = start_of_search(dry.log)
+    for sensor in SENSORS:
+        change = fine.noise[sensor] / start.problem.noise[sensor]
+        assert change != 1.0
+        assert abs(change - 1) <= NOISE_TRUST
+        assert coarse.noise[sensor] == pytest.approx(change * start.coarse.noise[sensor])
+    assert dry.found.noise is fine.noise
+
+
+def test_a_nominal_replay_is_that_of_the_diagnosis_but_for_the_noise(dry):
+    """Residuals are the same; gaps differ by the ratio of the noises alone."""
+    nominal = replay_nominal(dry.log)
+    for sensor in SENSORS:
+        before, after = nominal.problem.noise[sensor], dry.found.noise[sensor]
+        gaps = []
+        for one, other in zip(nominal.predictions, dry.found.nominal, strict=True):
+            np.testing.assert_array_equal(one[sensor], other[sensor])
+        each = zip(nominal.problem.log.trials, nominal.predictions, strict=True)
+        left = np.concatenate([t.readings[sensor] - p[sensor] for t, p in each])
+        gaps = [np.sqrt(np.mean((left / before) ** 2)), dry.found.assessment.breakdown.signal[sensor]]
+        assert gaps[1] / gaps[0] == pytest.approx(before / after, rel=1e-12)
+        assert abs(after / before - 1) <= NOISE_TRUST
+
+
+@pytest.mark.slow
+def test_a_weak_second_effect_is_found_though_the_first_alone_is_at_the_floor(tmp_path):
+    effects = {"tip_angle_bias": {"bias": 2.5}, "tip_drag": {"damping": 0.025}}
+    log = read_rig_log(make_log(tmp_path / "log", effects))
+    assert set(diagnose(log, workers=1).verdict.effects) == {"tip_angle_bias", "tip_drag"}
+    alone = fit_effects(replay_nominal(log).problem, ("tip_angle_bias",))
+    assert floor_of(alone.by_trial).reached
+
+
+@pytest.mark.slow
+def test_without_torque_a_damping_that_is_off_is_undecided_against_stiffness(tmp_path):
+    """The tip feels only their ratio: each alone is within a rig's scatter, the ratio is not."""
+    folder = make_log(tmp_path / "log", {}, damping=0.96 * BETA, seed=5)
+    for path in folder.glob("trial_*.csv"):
+        pd.read_csv(path).drop(columns="base_torque_n_mm").to_csv(path, index=False)
+    found = diagnose(read_rig_log(folder), workers=1)
+    assert found.verdict.kind is VerdictKind.UNDECIDED
+    assert set(found.verdict.confusable) == {("damping_error",), ("stiffness_error",)}
+    assert found.assessment.next_experiment.startswith("no run that this rig can do")
+
+
+@pytest.mark.slow
+def test_dry_friction_that_never_slides_is_undecided_and_the_next_experiment_slides():
+    found = diagnose(log_of(DRY), workers=1)
+    assert found.verdict.kind is VerdictKind.UNDECIDED
+    both = {("coulomb_friction",), ("speed_dependent_friction",)}
+    assert both <= set(found.verdict.confusable)
+    assert "sliding" in found.assessment.next_experiment
+    assert "standard deviations apart" in found.assessment.next_experiment
+
+
+@pytest.mark.slow
+def test_dry_friction_that_slides_is_told_from_that_which_shares_itself_with_the_motion():
+    sliding = joined(log_of(DRY), log_of(DRY, speed=-2.0, seed=1))
+    assert diagnose(sliding, workers=1).verdict.effects == ("coulomb_friction",)
+
+
+@pytest.mark.parametrize(("rig", "kind"), [(NOMINAL, VerdictKind.NONE), (DRY, VerdictKind.UNKNOWN)])
+def test_where_nothing_but_the_nominal_rig_can_be_simulated_there_is_a_verdict(rig, kind, monkeypatch):
+    log = log_of(rig, speed=-1.0, seed=1)
+    original = replaying._run
+
+    def nominal_alone(nominal, trial, rigs, *arguments, **options):
+        if any(rig != NOMINAL for rig in rigs):
+            raise SimulationFailed("the simulation lost its numbers")
+        return original(nominal, trial, rigs, *arguments, **options)
+
+    monkeypatch.setattr(replaying, "_run", nominal_alone)
+    found = diagnose(log, workers=1)
+    assert found.verdict.kind is kind
+    assert found.verdict.best.names == ()
+    lost = {e.effects for e in found.record if e.decision is Decision.FAILED}
+    assert () in lost
+    assert any(warning.startswith("the nominal rig: not fully tried") for warning in found.warnings)
+
+
+def test_progress_is_told_by_stage():
+    told = []
+    log = log_of(NOMINAL, seconds=2.0)
+    diagnose(log, workers=1, progress=lambda stage, share: told.append((stage, share)))
+    stages = list(dict.fromkeys(stage for stage, _ in told))
+    assert stages[:2] == ["nominal rig", "screening single effects"]
+    assert stages[-1] == "detection limits"
+    assert all(0 < share <= 1 for _, share in told)
