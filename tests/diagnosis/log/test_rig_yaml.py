@@ -11,7 +11,7 @@ from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.trial import UnusableLog
 
 FIELDS = [
-    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', got 'rig-log/2'"),
+    (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', found 'rig-log/2'"),
     (
         lambda c: c["needle"].update(diameter_mm=5000),
         r"needle.diameter_mm: .*0.05 to 10, found 5000",

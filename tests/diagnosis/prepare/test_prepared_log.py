@@ -15,14 +15,14 @@ def test_a_depth_that_hardly_changes_is_constant():
     wobble = np.random.default_rng(1).uniform(-0.05, 0.05, ready.time_s.size)
     still = replace(ready, inserted_mm=90.0 + wobble)
     assert np.unique(still.schedule.inserted_mm) == pytest.approx([90.0], abs=0.05)
-    assert still.schedule.mesh is Mesh.TISSUE
+    assert still.schedule.mesh is Mesh.EULERIAN
 
 
 def test_a_depth_that_grows_is_kept():
     ready = prepared(trial(turns()))
     deeper = replace(ready, inserted_mm=90.0 + ready.time_s)
     np.testing.assert_array_equal(deeper.schedule.inserted_mm, deeper.inserted_mm)
-    assert deeper.schedule.mesh is Mesh.NEEDLE
+    assert deeper.schedule.mesh is Mesh.LAGRANGIAN
 
 
 def test_a_replay_is_driven_by_the_motion_of_the_base():

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import rerun as rr
 from diagnosis_fixtures import trial, turns
-from sim.rerun_table import entries
 
 from diagnosis.report import needle_view
 from diagnosis.report.needle_view import log_needle, needle_bounds
+from sim.recording.rerun_table import entries
 
 ONE = trial(turns(2.0), speed=-1.0)  # 200 samples
 

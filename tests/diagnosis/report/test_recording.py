@@ -1,10 +1,10 @@
 """gap.rrd: measured, nominal and explained side by side."""
 
 import pytest
-from sim.rerun_table import entries
 
 from diagnosis.report.recording import log_gap
 from models.errors import OutputExists
+from sim.recording.rerun_table import entries
 
 
 @pytest.fixture(scope="session")

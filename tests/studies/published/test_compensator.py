@@ -1,5 +1,7 @@
 """The compensator's columns beside ours."""
 
+from types import SimpleNamespace
+
 from models import published
 from studies.published import compensator
 from studies.published.compensator import compensator_figures
@@ -10,10 +12,10 @@ def test_every_figure_of_the_compensator_stands_beside_its_own_turn(monkeypatch)
     # A turn that settles in its depth in s, with an integral of ten times as much; feedback halves both.
     def turn(controller, *, depth_cm, free_mm, tissue):
         assert (free_mm, tissue.name) == (0.0, "viscous-plastisol")
-        return depth_cm / (2 if controller == "feedback" else 1)
+        return SimpleNamespace(run=depth_cm / (2 if controller == "feedback" else 1))
 
     monkeypatch.setattr(compensator, "turn", turn)
-    monkeypatch.setattr(compensator, "judge", lambda settles: (settles, 10 * settles))
+    monkeypatch.setattr(compensator, "response_metrics", lambda settles: (settles, 10 * settles))
     found = {f.name: f for f in compensator_figures([WITHOUT_FREE_LENGTH])}
     assert len(found) == 8
     settling = found["Table IV, feedback, 10 cm"]

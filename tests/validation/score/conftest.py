@@ -13,6 +13,13 @@ LOGS = 10
 DOCS = Path(__file__).parents[3] / "docs"
 
 
+def pytest_collection_modifyitems(items):
+    """What waits for logs to be diagnosed is slow."""
+    for item in items:
+        if "folder" in getattr(item, "fixturenames", ()) and "validation/score" in str(item.path):
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
     """Ten short logs of all kinds (two of none, two of Coulomb friction) and their reports.
