@@ -59,7 +59,7 @@ def run(folder: Path) -> list[report.Goal]:
     rows, goals = [], []
     for name in TIP_CONTROLLERS:
         median, largest = cost_us(name, samples)
-        rows.append({"pilot": name, "median, us": median, "largest, us": largest})
+        rows.append({"controller": name, "median, us": median, "largest, us": largest})
         goals.append(report.Goal(name=f"a sample of {name}", measured=median, bound=BOUND_US, unit="us"))
     report.show("One sample of a control loop at 1 kHz", rows, folder, "control_loop")
     return goals

@@ -32,7 +32,7 @@ TRUTH = {DRY: {SCALE: 1.0, STIFFNESS: 1.0, LEVEL: 0.0015}, CONTROL: {SCALE: 1.3,
 LEVEL_BOUND, FLOOR_BOUND, AGREEMENT_BOUND, GAP_BOUND = 0.05, 1.05, 0.02, 2.0
 
 _RIG, _OURS = "the rig", "diagnosis"
-_COLUMNS = "residual over noise; scales of nominal; damping of each trial alone; dry torque"
+_COLUMNS = "residual / sigma; scales of nominal; damping of each trial alone; dry torque"
 
 
 def diagnosed(name: str, log: RigLog) -> Finding:

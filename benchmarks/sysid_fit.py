@@ -36,7 +36,7 @@ class Finding:
 
     Attributes:
       intervals: value, low and high by `effect.parameter`, in the vocabulary's units.
-      residual: root mean square over noise; 1 is the floor.
+      residual: root mean square of residual / sigma; 1 is the floor.
       alone: the damping scale of each trial by itself.
     """
 

@@ -25,14 +25,14 @@ NAMES = [
 ]
 
 
-@pytest.mark.parametrize(("wanted", "found", "mend"), NAMES)
-def test_a_column_of_another_name_or_unit_is_said_and_not_guessed(log, wanted, found, mend):
+@pytest.mark.parametrize(("wanted", "found", "fix"), NAMES)
+def test_a_column_of_another_name_or_unit_is_said_and_not_guessed(log, wanted, found, fix):
     change_trial(log, renamed(wanted, found))
     said = refusal(log)
     assert "turns.csv, line 1" in said
     assert f"{wanted!r} is missing" in said
     assert found in said
-    assert mend in said
+    assert fix in said
 
 
 @pytest.mark.parametrize("name", ["temperature_c", "tip_x_mm", "motor_current_a", "base_speed_deg_s"])
