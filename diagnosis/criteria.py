@@ -8,6 +8,8 @@ Under each stands its scale, where it comes from, and on what it was set. Three 
 
 A score is -2 log(likelihood) plus penalties: a difference of s are odds of exp(s / 2) to 1. Sigma is
 one standard deviation of a sensor's noise. Costs are sums of squared residuals / sigma.
+
+Numbers of a numerical method that decide nothing (windows, differences, iterations) stay with it.
 """
 
 # Reading a log: what is refused (log/)
@@ -132,8 +134,10 @@ GAP_LIMIT = 1.03
 """Root mean square of residual / sigma at the noise floor. Numerical error below a tenth of sigma adds
 0.005; noise of the base angle that returns as torque the rest. White residuals measured 0.98 to 1.02 on
 practice logs, unexplained ones 6 and more."""
+SLOW_BLOCK = 25
 SLOW_LIMIT = 1.25
-"""The same of means of 25 samples, scaled by 5. White: 0.95 to 1.07; unexplained: 30 and more."""
+"""The same of means of so many samples, scaled by the square root of these. White residuals measured
+0.95 to 1.07, unexplained ones 30 and more."""
 FLOOR_SIGMA = 3.5
 """Derived: standard deviations of both under chance, which widen the limits where samples are few: one
 white residual in 4000 is above."""

@@ -14,7 +14,7 @@ from studies.published.report.values import fitted_values
 from studies.published.selection.assumed_sigma import consistent_sets
 from studies.published.selection.discrimination import ProposedExperiment
 from studies.published.selection.quick_damping import quick_damping
-from studies.published.selection.twist_test import contradiction
+from studies.published.selection.twist_constraint import contradiction
 from studies.published.selection.verdict import is_consistent, unresolved
 from studies.published.study import PublishedStudy
 

@@ -7,7 +7,7 @@ from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.fit import FigureFit
 from studies.published.material_study import MaterialStudy
 from studies.published.report.values import fitted_values, names_in_words, percent, value_text
-from studies.published.selection.twist_test import contradiction
+from studies.published.selection.twist_constraint import contradiction
 from studies.published.selection.verdict import unresolved
 from studies.published.study import PublishedStudy
 

@@ -10,7 +10,7 @@ from scipy.stats import chi2
 from studies.published.criteria import LARGEST_SIGMA, LEAST_P_VALUE, SCANNED_SIGMAS
 from studies.published.experiments.figures import plastisol
 from studies.published.fitting.fit import FigureFit, chi_square_p_value
-from studies.published.selection.twist_test import contradiction
+from studies.published.selection.twist_constraint import contradiction
 
 
 def chi_square_at(fit: FigureFit, relative_sigma: float) -> float:

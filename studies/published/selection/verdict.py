@@ -21,7 +21,7 @@ from studies.published.criteria import EQUIVALENT_AICC, LEAST_P_VALUE, RESOLVED_
 from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.fit import FigureFit
 from studies.published.fitting.mechanisms import OF_PLASTISOL
-from studies.published.selection.twist_test import contradiction
+from studies.published.selection.twist_constraint import contradiction
 
 __all__ = ["FigureVerdict", "VerdictKind", "by_aicc", "figure_verdict", "is_consistent", "unresolved"]
 

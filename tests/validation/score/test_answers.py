@@ -28,7 +28,13 @@ def test_an_entry_per_log_is_read(written):
 
 @pytest.mark.parametrize(
     ("text", "found"),
-    [("", "an empty file"), ("[]", r"found \[\]"), ("{}", r"found \{\}"), ("{", "no JSON"), ("3", "found 3")],
+    [
+        ("", "an empty file"),
+        ("[]", r"found \[\]"),
+        ("{}", r"found \{\}"),
+        ("{", "no JSON"),
+        ("3", "found 3"),
+    ],
 )
 def test_a_file_without_entries_is_refused_with_what_was_found(written, text, found):
     with pytest.raises(InvalidValue, match=found) as error:

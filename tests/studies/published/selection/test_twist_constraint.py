@@ -4,7 +4,7 @@ import pytest
 from reference_fits import fit_with
 
 from diagnosis.replay.rig_parameters import RigParameters
-from studies.published.selection.twist_test import contradiction, twist_test_torque_n_mm
+from studies.published.selection.twist_constraint import contradiction, twist_test_torque_n_mm
 
 
 def test_the_stated_shaft_gives_the_measured_torque():
