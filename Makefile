@@ -2,6 +2,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
+# Over two processes; tests that share what is costly to make stay together.
+SPREAD := -n 2 --dist loadgroup
 
 .PHONY: setup demo test quick coverage check format bench clean
 
@@ -17,13 +19,13 @@ demo: $(STAMP)
 	CI=1 $(BIN)/needle demo --out out/demo --force
 
 test: $(STAMP)
-	CI=1 $(BIN)/python -m pytest
+	CI=1 $(BIN)/python -m pytest $(SPREAD)
 
 quick: $(STAMP)
-	CI=1 $(BIN)/python -m pytest -m "not slow"
+	CI=1 $(BIN)/python -m pytest $(SPREAD) -m "not slow"
 
 coverage: $(STAMP)
-	CI=1 $(BIN)/python -m pytest --cov --cov-report=term-missing:skip-covered
+	CI=1 $(BIN)/python -m pytest $(SPREAD) --cov --cov-report=term-missing:skip-covered
 
 check: $(STAMP)
 	$(BIN)/ruff format --check .

@@ -1,6 +1,21 @@
-"""What several tests share."""
+"""What several tests share, and how they are spread over processes."""
 
 import os
+from pathlib import Path
+
+import pytest
 
 os.environ.setdefault("CI", "1")  # rerun collects nothing
 os.environ.setdefault("MPLBACKEND", "Agg")
+
+ROOT = Path(__file__).parent
+DIAGNOSED = {"dry", "nothing"}
+"""Fixtures that wait for a whole diagnosis: one process makes each once."""
+
+
+def pytest_collection_modifyitems(items):
+    """Tests of a folder share its fixtures, so that they run in one process."""
+    for item in items:
+        folder = item.path.relative_to(ROOT).parent.as_posix()
+        group = "diagnosed" if DIAGNOSED & set(getattr(item, "fixturenames", ())) else folder
+        item.add_marker(pytest.mark.xdist_group(group))

@@ -1,12 +1,13 @@
 """The tables of `report.html`."""
 
 from collections.abc import Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.report.html_parts import table
-from diagnosis.selection.record import RecordEntry
+from diagnosis.selection.record import Decision, RecordEntry
 
 _FOUR_DECIMALS = (0.1, 10.0)  # factors near 1 are told by four decimals, else three digits
 
@@ -28,19 +29,22 @@ def limits_table(limits: Mapping[str, Mapping[str, float]]) -> str:
 
 
 def search_table(record: Sequence[RecordEntry]) -> str:
-    """Every decision of every stage of the search."""
-    rows = [
-        (
-            entry.stage,
-            " + ".join(entry.effects) or "nominal rig",
-            entry.decision.value,
-            "" if entry.gap is None else f"{entry.gap:.3f}",
-            "" if entry.score is None else f"{entry.score:.1f}",
-            entry.reason,
-        )
-        for entry in record
-    ]
+    """Every decision of every stage of the search; what was not fitted for one reason is one row."""
+    rows = [_row(list(same)) for _, same in groupby(record, _as_one)]
     return table(("stage", "explanation", "decision", "residual / σ", "score", "reason"), rows)
+
+
+def _as_one(entry: RecordEntry) -> tuple[str, Decision, str] | int:
+    """What entries of one row have in common; a fit has a row of its own."""
+    return (entry.stage, entry.decision, entry.reason) if entry.gap is None else id(entry)
+
+
+def _row(same: Sequence[RecordEntry]) -> tuple[str, ...]:
+    first = same[0]
+    named = ", ".join(" + ".join(entry.effects) or "nominal rig" for entry in same)
+    gap = "" if first.gap is None else f"{first.gap:.3f}"
+    score = "" if first.score is None else f"{first.score:.1f}"
+    return first.stage, named, first.decision.value, gap, score, first.reason
 
 
 def limit_in_words(effect: str, values: Mapping[str, float]) -> str:

@@ -55,3 +55,16 @@ def test_every_decision_of_the_search_is_a_row():
     assert rows[1] == ["pairs", "tip_drag + stiction", "dropped", "", "", "promises too little"]
     assert rows[2][2:] == ["failed", "", "", "a &lt; b"]
     assert len(rows) == 4
+
+
+def test_what_was_not_fitted_for_one_reason_is_one_row_and_every_fit_has_its_own():
+    few = not_fitted("pairs", [("tip_drag",), ("stiction",), ()], "promises too little")
+    other = not_fitted("pairs", [("torque_bias",)], "another reason")
+    fits = dropped("pairs", [scored(["tip_drag"], 20.0), scored(["stiction"], 21.0)], "far")
+    rows = cells(search_table((*few, *other, *fits)))[1:]
+    assert [row[1] for row in rows] == [
+        "tip_drag, stiction, nominal rig",
+        "torque_bias",
+        "tip_drag",
+        "stiction",
+    ]
