@@ -93,7 +93,8 @@ def test_dry_friction_that_never_slides_is_undecided_and_the_next_experiment_sli
 @pytest.mark.slow
 def test_dry_friction_that_slides_is_told_from_that_which_shares_itself_with_the_motion():
     sliding = joined(log_of(DRY), log_of(DRY, speed=-2.0, seed=1))
-    found = search(start_of_search(sliding), Workers())
+    kinds = ("coulomb_friction", "speed_dependent_friction", "stiction")
+    found = search(start_of_search(sliding, kinds), Workers())
     assert concluded(found).effects == ("coulomb_friction",)
 
 
