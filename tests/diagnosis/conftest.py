@@ -14,6 +14,7 @@ from simulator_spy import SimulatorSpy
 from diagnosis.log.rig_log import RigLog, read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
+from diagnosis.report.write import write_report
 from diagnosis.result import Diagnosis
 
 SHARED = {"dry", "nothing"}
@@ -50,6 +51,14 @@ def dry(tmp_path_factory):
     with SimulatorSpy() as spy:
         found = diagnose(log, workers=1)
     return Diagnosed(folder=folder, log=log, found=found, report=as_json(found), spy=spy)
+
+
+@pytest.fixture(scope="session")
+def written(dry, tmp_path_factory):
+    """The report on dry friction, as files."""
+    folder = tmp_path_factory.mktemp("report") / "out"
+    write_report(dry.found, folder)
+    return folder
 
 
 @pytest.fixture(scope="session")

@@ -8,6 +8,7 @@ import pytest
 
 from diagnosis.log.trial import SENSORS
 from diagnosis.pipeline import replay_nominal
+from diagnosis.report import write
 from diagnosis.report.sentences import headline
 from scripts import diagnose as command
 from scripts import replay as replaying
@@ -39,6 +40,7 @@ def test_diagnose_asks_for_a_log_or_the_paper(capsys):
 
 def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch, capsys, wide):
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
+    monkeypatch.setattr(write, "page", lambda *_: "a page")  # its pictures take a second
     assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().out
     assert headline(dry.found) in said

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
-from diagnosis_fixtures import joined, log_of, start_of_search
+from diagnosis_fixtures import concluded, joined, log_of, start_of_search
 from reference_log import BETA, make_log
 
 from diagnosis.criteria import NOISE_TRUST
@@ -15,7 +15,9 @@ from diagnosis.pipeline import diagnose, replay_nominal
 from diagnosis.replay import replay as replaying
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
+from diagnosis.selection.search import search
 from diagnosis.selection.verdict import VerdictKind
+from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
 DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
@@ -60,8 +62,9 @@ def test_a_nominal_replay_is_that_of_the_diagnosis_but_for_the_noise(dry):
 def test_a_weak_second_effect_is_found_though_the_first_alone_is_at_the_floor(tmp_path):
     effects = {"tip_angle_bias": {"bias": 2.5}, "tip_drag": {"damping": 0.025}}
     log = read_rig_log(make_log(tmp_path / "log", effects))
-    assert set(diagnose(log, workers=1).verdict.effects) == {"tip_angle_bias", "tip_drag"}
-    alone = fit_effects(replay_nominal(log).problem, ("tip_angle_bias",))
+    start = start_of_search(log)
+    assert set(concluded(search(start, Workers())).effects) == {"tip_angle_bias", "tip_drag"}
+    alone = fit_effects(start.problem, ("tip_angle_bias",))
     assert floor_of(alone.by_trial).reached
 
 
@@ -90,7 +93,9 @@ def test_dry_friction_that_never_slides_is_undecided_and_the_next_experiment_sli
 @pytest.mark.slow
 def test_dry_friction_that_slides_is_told_from_that_which_shares_itself_with_the_motion():
     sliding = joined(log_of(DRY), log_of(DRY, speed=-2.0, seed=1))
-    assert diagnose(sliding, workers=1).verdict.effects == ("coulomb_friction",)
+    kinds = ("coulomb_friction", "speed_dependent_friction", "stiction")
+    found = search(start_of_search(sliding, kinds), Workers())
+    assert concluded(found).effects == ("coulomb_friction",)
 
 
 @pytest.mark.parametrize(("rig", "kind"), [(NOMINAL, VerdictKind.NONE), (DRY, VerdictKind.UNKNOWN)])

@@ -19,6 +19,16 @@ from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
+# All that dry friction along the shaft could be taken for.
+FRICTION = (
+    "coulomb_friction",
+    "stiction",
+    "speed_dependent_friction",
+    "shear_thinning",
+    "entry_friction",
+    "sheath_friction",
+)
+
 
 def test_a_bias_goes_unseen_below_its_closed_form(nothing):
     """A constant b in N readings takes N (b / noise)^2 off the cost, less what a fit takes back.
@@ -47,7 +57,7 @@ def test_what_is_stronger_than_its_limit_is_seen(nothing, tmp_path, share, seen)
     """
     level = share * nothing.found.assessment.detection_limits["coulomb_friction"]["level"]
     folder = make_log(tmp_path / "log", {"coulomb_friction": {"level": level}}, seed=11)
-    found = search(start_of_search(read_rig_log(folder)), Workers())
+    found = search(start_of_search(read_rig_log(folder), FRICTION), Workers())
     assert ("coulomb_friction" in concluded(found).effects) is seen
 
 

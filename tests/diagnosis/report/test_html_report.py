@@ -2,15 +2,24 @@
 
 from dataclasses import replace
 
+import matplotlib.pyplot as plt
 import pytest
 
+from diagnosis.report import html_report
 from diagnosis.report.html_report import page
 from diagnosis.report.sentences import headline
 
 
 @pytest.fixture(scope="session")
-def dry_page(dry):
-    return page(dry.found, dry.report)
+def dry_page(written):
+    return (written / "report.html").read_text()
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Pages without their pictures, which take a second each."""
+    for name in ("draw_breakdown", "draw_ranking", "draw_trials"):
+        monkeypatch.setattr(html_report, name, lambda _: plt.figure())
 
 
 def test_the_page_starts_with_the_verdict(dry_page, dry):
@@ -36,16 +45,16 @@ def test_the_page_shows_parameters_limits_and_what_is_open(dry_page):
         assert f"<h2>{title}</h2>" in dry_page
 
 
-def test_warnings_stand_in_boxes(dry):
+def test_warnings_stand_in_boxes(dry, undrawn):
     warned = page(dry.found, {**dry.report, "warnings": ["mind the <gap>"], "parameters": {}})
     assert '<p class="warning">mind the &lt;gap&gt;</p>' in warned
 
 
-def test_without_limits_there_is_no_heading_for_them(dry):
+def test_without_limits_there_is_no_heading_for_them(dry, undrawn):
     told = replace(dry.found.assessment, detection_limits={})
     assert "Detection limits" not in page(replace(dry.found, assessment=told), dry.report)
 
 
-def test_the_next_experiment_stands_with_what_is_open(dry):
+def test_the_next_experiment_stands_with_what_is_open(dry, undrawn):
     asked = page(dry.found, {**dry.report, "next_experiment": "turn slowly"})
     assert "<li>Next: turn slowly</li>" in asked

@@ -8,10 +8,8 @@ from sim.recording.rerun_table import entries
 
 
 @pytest.fixture(scope="session")
-def recorded(dry, tmp_path_factory):
-    path = tmp_path_factory.mktemp("recording") / "gap.rrd"
-    log_gap(dry.found, "the verdict in words", path)
-    return path
+def recorded(written):
+    return written / "gap.rrd"
 
 
 def test_signals_and_residuals_of_every_trial_are_there(recorded, dry):

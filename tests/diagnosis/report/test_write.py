@@ -11,27 +11,19 @@ from diagnosis.report.write import output_paths, write_report
 from models.errors import OutputExists
 
 
-@pytest.fixture(scope="session")
-def folder(dry, tmp_path_factory):
-    out = tmp_path_factory.mktemp("report") / "out"
-    paths = write_report(dry.found, out)
-    assert paths == output_paths(dry.log, out)
-    return out
+def test_every_file_is_there_and_nothing_else(written, dry):
+    found = {path for path in written.rglob("*") if path.is_file()}
+    assert found == set(output_paths(dry.log, written))
 
 
-def test_every_file_is_there_and_nothing_else(folder, dry):
-    found = {path for path in folder.rglob("*") if path.is_file()}
-    assert found == set(output_paths(dry.log, folder))
-
-
-def test_the_report_on_disk_is_that_of_the_diagnosis(folder, dry):
-    text = (folder / "report.json").read_text()
+def test_the_report_on_disk_is_that_of_the_diagnosis(written, dry):
+    text = (written / "report.json").read_text()
     assert json.loads(text, parse_constant=pytest.fail) == dry.report
 
 
-def test_predictions_are_at_the_samples_of_the_log(folder, dry):
+def test_predictions_are_at_the_samples_of_the_log(written, dry):
     for trial, explained in zip(dry.log.trials, dry.found.assessment.explained, strict=True):
-        table = pd.read_csv(folder / "predictions" / trial.name)
+        table = pd.read_csv(written / "predictions" / trial.name)
         names = [
             f"{s}_{p}" for s in ("base_torque_n_mm", "tip_angle_deg") for p in ("nominal", "explained")
         ]
@@ -42,17 +34,18 @@ def test_predictions_are_at_the_samples_of_the_log(folder, dry):
         )
 
 
-def test_a_report_that_exists_is_kept(folder, dry):
-    before = (folder / "report.html").read_bytes()
+def test_a_report_that_exists_is_kept(written, dry):
+    before = (written / "report.html").read_bytes()
     with pytest.raises(OutputExists):
-        write_report(dry.found, folder)
-    assert (folder / "report.html").read_bytes() == before
+        write_report(dry.found, written)
+    assert (written / "report.html").read_bytes() == before
 
 
 def test_an_interrupted_report_leaves_nothing(dry, tmp_path, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
+    monkeypatch.setattr(write, "page", lambda *_: "a page")
     monkeypatch.setattr(write, "log_gap", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_report(dry.found, tmp_path)
