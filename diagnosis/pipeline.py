@@ -23,7 +23,7 @@ from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.sensor_noise import estimate_noise
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
-from diagnosis.selection.renoised import renoised
+from diagnosis.selection.checked import check
 from diagnosis.selection.search import SearchState, search
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
 from diagnosis.workers import Progress, Workers, process_pool, silent
@@ -105,9 +105,9 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
 def _judged(found: SearchState) -> tuple[FitProblem, FitProblem, Verdict]:
     """Both problems with the noise that the best explanation leaves, and the verdict in its units."""
     before = found.problem.noise
-    noise, candidates = renoised(found.problem, found.candidates)
-    problem = replace(found.problem, noise=noise)
-    verdict = verdict_on(candidates)
+    checked = check(found.problem, found.candidates, found.checked)
+    problem = replace(found.problem, noise=checked.noise)
+    verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
-    return problem, found.coarse.renoised(noise, before=before), verdict
+    return problem, found.coarse.renoised(checked.noise, before=before), verdict

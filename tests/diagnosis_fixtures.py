@@ -30,7 +30,7 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.renoised import renoised
+from diagnosis.selection.checked import check
 from diagnosis.selection.search import SearchState
 from diagnosis.selection.verdict import verdict_on
 
@@ -176,4 +176,4 @@ def start_of_search(log, effects=None):
 
 def concluded(state):
     """The verdict on what a search has come to."""
-    return verdict_on(renoised(state.problem, sorted(state.candidates, key=lambda c: c.score))[1])
+    return verdict_on(check(state.problem, state.candidates, state.checked).candidates)

@@ -26,10 +26,10 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.fitting import Made, fit_all, fit_each_alone, fit_finalists, fit_screened
 from diagnosis.selection.mesh_refinement import refined_mesh
 from diagnosis.selection.record import RecordEntry, dropped, failed, kept, not_fitted
-from diagnosis.selection.renoised import any_explains
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.workers import Failure, Task, Workers, attempt
 
@@ -45,6 +45,7 @@ class SearchState:
       nominal: the nominal rig, exactly as rig.yaml says.
       candidates: fitted on the log itself.
       singles: single effects, fitted on the decimated log, best first.
+      checked: candidates as they were checked before pairs were tried.
       record: of every stage so far.
     """
 
@@ -54,6 +55,7 @@ class SearchState:
     nominal: Fit
     candidates: tuple[Candidate, ...] = ()
     singles: tuple[Candidate, ...] = ()
+    checked: Checked | None = None
     record: tuple[RecordEntry, ...] = ()
 
     @property
@@ -126,7 +128,8 @@ def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
 def pairs(state: SearchState, workers: Workers) -> SearchState:
     """Pairs, where no effect alone explains the log, or where a second promises enough."""
     stage = "pairs"
-    alone = any_explains(state.problem, state.candidates)
+    checked = check(state.problem, state.candidates)
+    state, alone = replace(state, checked=checked), checked.explains
     bases = product(state.singles[: 1 if alone else PAIR_BASES], state.effects)
     calls = [(state.coarse, base.fit, effect) for base, effect in bases if effect not in base.names]
     screened, record = _screened(stage, calls, workers)

@@ -1,4 +1,6 @@
-"""Candidates in units of the noise that the best of them leaves."""
+"""Candidates in units of the noise that the best of them leaves, and on held-out trials."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -7,9 +9,11 @@ from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
 from diagnosis.criteria import NOISE_TRUST
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection import candidate as module
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.renoised import any_explains, renoised
+from diagnosis.selection.checked import check
 
+QUIET = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE}
 OVERSTATED = {"tip_angle_deg": 1.05 * TIP, "base_torque_n_mm": 1.05 * TORQUE, "base_angle_deg": BASE}
 
 
@@ -25,7 +29,8 @@ def problem():
 
 def test_noise_is_that_which_the_best_leaves_and_costs_are_in_its_units(problem):
     before = nominal(problem)
-    noise, (after,) = renoised(problem, [before])
+    checked = check(problem, [before])
+    noise, (after,) = checked.noise, checked.candidates
     # First differences of 1200 samples: 2.5 % of standard error.
     assert noise["tip_angle_deg"] == pytest.approx(TIP, rel=3 * np.sqrt(0.75 / 1200))
     assert abs(noise["tip_angle_deg"] / OVERSTATED["tip_angle_deg"] - 1) <= NOISE_TRUST
@@ -36,19 +41,35 @@ def test_noise_is_that_which_the_best_leaves_and_costs_are_in_its_units(problem)
 
 
 def test_what_is_at_the_floor_is_checked_on_held_out_trials(problem):
-    _, (checked,) = renoised(problem, [nominal(problem)])
+    (checked,) = check(problem, [nominal(problem)]).candidates
     assert checked.held_out is not None
     assert checked.explains
 
 
 def test_candidates_come_back_best_first(problem):
     worse = candidate(nominal_fit([1.5 * r[0] for r in problem.residuals([NOMINAL])]))
-    _, found = renoised(problem, [nominal(problem), worse])
+    found = check(problem, [worse, nominal(problem)]).candidates
     assert [c.score for c in found] == sorted(c.score for c in found)
     assert found[-1].floor.gap == pytest.approx(1.5 * found[0].floor.gap)
 
 
 def test_whether_any_explains(problem):
-    assert any_explains(problem, [nominal(problem)])
+    assert check(problem, [nominal(problem)]).explains
     dry = problem_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.001)), sigma=OVERSTATED)
-    assert not any_explains(dry, [nominal(dry)])
+    assert not check(dry, [nominal(dry)]).explains
+
+
+def test_what_was_checked_is_not_simulated_once_more_unless_the_noise_is_another(problem, monkeypatch):
+    best = nominal(problem)
+    known = check(problem, [best])
+    worse = candidate(nominal_fit([1.5 * r for r in best.fit.by_trial]))
+    simulated = []
+    monkeypatch.setattr(
+        module, "held_out_residuals", lambda _, fit: simulated.append(fit) or fit.by_trial
+    )
+    assert check(problem, [best, worse], known).candidates[0] is known.candidates[0]
+    assert not simulated
+    louder = replace(problem, noise=replace(problem.noise, sigma=QUIET))
+    assert known.of(best.fit, louder.noise) is None
+    check(louder, [best], known)
+    assert len(simulated) == 1

@@ -1,0 +1,55 @@
+"""Candidates checked: in units of the noise that the best of them leaves, and on held-out trials."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.selection.candidate import Candidate, candidate
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Checked:
+    """Candidates that were checked, best first.
+
+    Attributes:
+      noise: re-estimated from what the best leaves.
+      fits: of the candidates, in units of the first estimate, in their order.
+    """
+
+    noise: Noise
+    candidates: tuple[Candidate, ...]
+    fits: tuple[Fit, ...]
+
+    @property
+    def explains(self) -> bool:
+        """Whether one of them explains the log."""
+        return any(c.explains for c in self.candidates)
+
+    def of(self, fit: Fit, noise: Noise) -> Candidate | None:
+        """What was found of a fit under that noise; None: it was not checked."""
+        if noise.sigma != self.noise.sigma:
+            return None
+        each = zip(self.fits, self.candidates, strict=True)
+        return next((known for own, known in each if own is fit), None)
+
+
+def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked | None = None) -> Checked:
+    """Check candidates.
+
+    Args:
+      candidates: fitted to the problem.
+      known: checked before; what is the same is not simulated once more.
+    """
+    best = min(candidates, key=lambda c: c.score)
+    noise = reestimated_noise(problem, best.fit)
+    again = replace(problem, noise=noise)
+
+    def checked(fit: Fit) -> Candidate:
+        before = known.of(fit, noise) if known else None
+        return before or candidate(rescaled(fit, problem, noise)).cross_validated(again)
+
+    each = sorted(((checked(c.fit), c.fit) for c in candidates), key=lambda pair: pair[0].score)
+    return Checked(noise=noise, candidates=tuple(c for c, _ in each), fits=tuple(fit for _, fit in each))
