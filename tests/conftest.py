@@ -7,12 +7,17 @@ import pytest
 
 os.environ.setdefault("CI", "1")  # rerun collects nothing
 os.environ.setdefault("MPLBACKEND", "Agg")
+for library in ("OPENBLAS", "OMP", "MKL"):
+    os.environ.setdefault(
+        f"{library}_NUM_THREADS", "1"
+    )  # processes share the cores, threads do not help
 
 ROOT = Path(__file__).parent
 DIAGNOSED = {"dry", "nothing"}
 """Fixtures that wait for a whole diagnosis: one process makes each once."""
 
 
+@pytest.hookimpl(tryfirst=True)  # before groups are read
 def pytest_collection_modifyitems(items):
     """Tests of a folder share its fixtures, so that they run in one process."""
     for item in items:
