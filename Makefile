@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
-# Over two processes; tests that share what is costly to make stay together.
+# For short tests, over two processes; what takes long uses two by itself.
 SPREAD := -n 2 --dist loadgroup
 
 .PHONY: setup compiled demo test quick coverage check format bench clean
@@ -23,13 +23,13 @@ compiled: $(STAMP)
 	$(BIN)/python -c "from sim.simulation import prepare_processes as sim; from validation.rig.simulation import compile_kernels as rig; sim(); rig()"
 
 test: compiled
-	CI=1 $(BIN)/python -m pytest $(SPREAD)
+	CI=1 $(BIN)/python -m pytest
 
 quick: compiled
 	CI=1 $(BIN)/python -m pytest $(SPREAD) -m "not slow"
 
 coverage: compiled
-	CI=1 $(BIN)/python -m pytest $(SPREAD) --cov --cov-report=term-missing:skip-covered
+	CI=1 $(BIN)/python -m pytest --cov --cov-report=term-missing:skip-covered
 
 check: $(STAMP)
 	$(BIN)/ruff format --check .

@@ -19,7 +19,7 @@ DIAGNOSED = {"dry", "nothing"}
 
 @pytest.hookimpl(tryfirst=True)  # before groups are read
 def pytest_collection_modifyitems(items):
-    """Tests of a folder share its fixtures, so that they run in one process."""
+    """Tests of a folder share its fixtures: where there are several processes, they run in one."""
     for item in items:
         folder = item.path.relative_to(ROOT).parent.as_posix()
         group = "diagnosed" if DIAGNOSED & set(getattr(item, "fixturenames", ())) else folder

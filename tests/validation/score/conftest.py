@@ -9,7 +9,7 @@ from validation.logs.make import make_logs
 from validation.score.run import diagnose_all
 from validation.score.scores import read_scores
 
-LOGS = 10
+LOGS = 7
 DOCS = Path(__file__).parents[3] / "docs"
 
 
@@ -22,7 +22,7 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
-    """Ten short logs of all kinds (two of none, two of Coulomb friction) and their reports.
+    """Seven short logs of all kinds (one of Coulomb friction) and their reports.
 
     The seed was chosen by the kinds and effects that it gives, before any log was diagnosed.
     """

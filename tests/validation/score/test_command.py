@@ -6,7 +6,7 @@ import pytest
 
 from scripts.main import main
 
-LOGS = 10
+LOGS = 7
 
 
 def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
