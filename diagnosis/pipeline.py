@@ -24,6 +24,7 @@ from diagnosis.prepare.sensor_noise import estimate_noise
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
+from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import SearchState, search
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
 from diagnosis.workers import Progress, Workers, process_pool, silent
@@ -45,6 +46,21 @@ class NominalReplay:
     predictions: list[Prediction]
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Judged:
+    """A verdict, with what it rests on.
+
+    Attributes:
+      problem, coarse: with the noise that the best explanation leaves.
+      record: of the search and of the verdict.
+    """
+
+    problem: FitProblem
+    coarse: FitProblem
+    verdict: Verdict
+    record: tuple[RecordEntry, ...]
+
+
 def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> Diagnosis:
     """Diagnose a log.
 
@@ -59,15 +75,17 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     nominal = replay_nominal(log)
     with process_pool(workers, progress) as pool:
         found = _searched(log, nominal, pool)
-        problem, coarse, verdict = _judged(found)
-        assessment = assess(log, problem, coarse, nominal.predictions, verdict, found.effects, pool)
+        last = _judged(found)
+        assessment = assess(
+            log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
+        )
     return Diagnosis(
         log=log,
-        noise=problem.noise,
-        nominal=at_samples(problem, nominal.predictions),
-        verdict=verdict,
+        noise=last.problem.noise,
+        nominal=at_samples(last.problem, nominal.predictions),
+        verdict=last.verdict,
         assessment=assessment,
-        record=found.record,
+        record=last.record,
     )
 
 
@@ -102,12 +120,17 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
-def _judged(found: SearchState) -> tuple[FitProblem, FitProblem, Verdict]:
-    """Both problems with the noise that the best explanation leaves, and the verdict in its units."""
+def _judged(found: SearchState) -> Judged:
+    """The verdict on what the search found."""
     before = found.problem.noise
     checked = check(found.problem, found.candidates, found.checked)
     problem = replace(found.problem, noise=checked.noise)
     verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
-    return problem, found.coarse.renoised(checked.noise, before=before), verdict
+    return Judged(
+        problem=problem,
+        coarse=found.coarse.renoised(checked.noise, before=before),
+        verdict=verdict,
+        record=(*found.record, *judged(checked.candidates)),
+    )

@@ -46,8 +46,21 @@ class Candidate:
     @property
     def explains(self) -> bool:
         """Whether nothing beyond noise is left, also on trials that the fit has not seen."""
-        holds = self.held_out is not None and self.shift <= SHIFT_LIMIT
-        return self.floor.reached and holds and not self.unidentifiable
+        return not self.objection
+
+    @property
+    def objection(self) -> str:
+        """Why it does not explain the log, in words; empty: it does."""
+        floor = self.floor
+        if not floor.small:
+            return f"above the noise floor: residual {floor.gap:.3f} sigma, limit {floor.gap_limit:.3f}"
+        if not floor.reached:
+            return f"not white: slow part {floor.slow:.3f} sigma, limit {floor.slow_limit:.3f}"
+        if self.held_out is None:
+            return f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
+        if self.shift > SHIFT_LIMIT:
+            return f"held-out trials shift by {self.shift:.1f}, limit {SHIFT_LIMIT:g}"
+        return "stiffness and damping are off, and which is open" if self.unidentifiable else ""
 
     def cross_validated(self, problem: FitProblem) -> "Candidate":
         """The same with held-out trials, if it is at the noise floor."""

@@ -59,6 +59,16 @@ def not_fitted(stage: str, sets: Iterable[tuple[str, ...]], reason: str) -> tupl
     )
 
 
+def judged(candidates: Iterable[Candidate]) -> tuple[RecordEntry, ...]:
+    """What the verdict rests on: which candidates explain the log, and why others do not."""
+    return tuple(
+        _entry("verdict", c, Decision.DROPPED, c.objection)
+        if c.objection
+        else _entry("verdict", c, Decision.KEPT, "at the noise floor, on held-out trials too")
+        for c in candidates
+    )
+
+
 def failed(stage: str, failures: Iterable[Failure]) -> tuple[RecordEntry, ...]:
     """What a stage could not simulate."""
     return tuple(

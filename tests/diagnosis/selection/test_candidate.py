@@ -112,3 +112,24 @@ def test_stiffness_or_damping_alone_are_scatter():
     assert scored(["stiffness_error"], 1.0).only_scatter
     assert not scored(["stiffness_error", "tip_drag"], 1.0).only_scatter
     assert not scored([], 1.0).only_scatter
+
+
+ABOVE = NoiseFloor(gap=1.05, slow=1.0)
+SLOW = NoiseFloor(gap=1.0, slow=1.4)
+
+
+@pytest.mark.parametrize(
+    ("known", "reason"),
+    [
+        ({}, ""),
+        ({"floor": ABOVE}, "above the noise floor: residual 1.050 sigma, limit 1.030"),
+        ({"floor": SLOW}, "not white: slow part 1.400 sigma, limit 1.250"),
+        ({"held_out": None}, "held-out trials cannot be simulated: not tried"),
+        ({"held_out": None, "held_out_failure": "lost"}, "held-out trials cannot be simulated: lost"),
+        ({"shift": 20.2}, "held-out trials shift by 20.2, limit 12"),
+    ],
+)
+def test_what_does_not_explain_the_log_says_why(known, reason):
+    one = scored(["tip_drag"], 1.0, **known)
+    assert one.objection == reason
+    assert one.explains is (reason == "")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from diagnosis_fixtures import scored
 
-from diagnosis.selection.record import Decision, dropped, failed, kept, made, not_fitted
+from diagnosis.selection.record import Decision, dropped, failed, judged, kept, made, not_fitted
 from diagnosis.workers import Failure
 
 ONE = scored(["tip_drag"], 12.5)
@@ -36,3 +36,10 @@ def test_what_failed_is_told_in_the_words_of_what_failed():
     (entry,) = failed("pairs", [Failure(effects=("stiction",), reason="lost its numbers")])
     assert (entry.effects, entry.reason) == (("stiction",), "lost its numbers")
     assert entry.decision is Decision.FAILED
+
+
+def test_the_verdict_says_which_candidates_explain_the_log_and_why_others_do_not():
+    good, bad = judged([scored(["tip_drag"], 1.0), scored(["stiction"], 0.5, shift=20.0)])
+    assert (good.decision, good.stage) == (Decision.KEPT, "verdict")
+    assert (bad.decision, bad.effects) == (Decision.DROPPED, ("stiction",))
+    assert bad.reason == "held-out trials shift by 20.0, limit 12"

@@ -178,10 +178,16 @@ def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
 def test_the_record_of_a_whole_search_tells_who_made_what_and_why_others_are_out(dry):
     record = dry.found.record
     own = [(e.stage, e.decision) for e in record if e.effects == ("coulomb_friction",)]
-    assert own == [("single effects", Decision.MADE), ("finalists", Decision.MADE)]
+    assert own == [
+        ("single effects", Decision.MADE),
+        ("finalists", Decision.MADE),
+        ("verdict", Decision.KEPT),
+    ]
     stages = list(dict.fromkeys(e.stage for e in record))
-    assert stages == ["nominal rig", "single effects", "finalists", "pairs", "finalists, pairs"]
+    search = ["nominal rig", "single effects", "finalists", "pairs", "finalists, pairs"]
+    assert stages == [*search, "verdict"]
     out = {e.effects: e for e in record if e.decision is Decision.DROPPED}
+    assert out[()].reason.startswith("above the noise floor")
     assert "far above what is at the noise floor" in out["tip_drag",].reason
     assert out["tip_drag",].score is None
     assert out["coulomb_friction", "tip_drag"].reason == "screening promises too little"

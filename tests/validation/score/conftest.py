@@ -40,7 +40,7 @@ def scores(folder):
 
 @pytest.fixture(scope="session")
 def long_run():
-    """The table of 210 long logs, as `needle blind score` wrote it for docs/diagnosis.md."""
+    """The table of 210 long logs, as `needle blind score` wrote it for docs/accuracy.md."""
     return pd.read_csv(DOCS / "blind_scores.csv", index_col="case")
 
 

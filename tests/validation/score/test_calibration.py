@@ -1,4 +1,4 @@
-"""Accuracy and calibration: closed cases, and the figures that docs/diagnosis.md states."""
+"""Accuracy and calibration: closed cases, and the figures that docs/accuracy.md states."""
 
 import numpy as np
 import pandas as pd

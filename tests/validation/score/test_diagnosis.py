@@ -1,6 +1,6 @@
 """The diagnosis on rigs that it has never met: a short run of `needle blind`.
 
-The long run, of 210 logs, is in docs/diagnosis.md; what follows from its table alone is tested in
+The long run, of 210 logs, is in docs/accuracy.md; what follows from its table alone is tested in
 `test_calibration`. It has 98 of 100 right; then seven logs have fewer than 6 right with a probability
 of 0.8 % (binomial). With every other one right, 6 or more are with one of 6.3 %.
 """
