@@ -22,6 +22,25 @@ def test_insert_writes_everything_it_names(tmp_path, capsys):
     assert mujoco.MjModel.from_xml_path(str(model)).nq > 10
 
 
+def test_insert_runs_a_model_that_was_changed_in_its_file(tmp_path):
+    model, ours, theirs = tmp_path / "needle.xml", tmp_path / "ours", tmp_path / "theirs"
+    command = ["insert", "--protocol", "fig5-5cm"]
+    assert main([*command, "--out", str(ours), "--mjcf", str(model)]) == 0
+    text = model.read_text()
+    assert text.count('timestep="0.01"') == 1
+    model.write_text(text.replace('timestep="0.01"', 'timestep="0.02"'))
+    assert main([*command, "--out", str(theirs), "--model", str(model)]) == 0
+    rows = [len((folder / "fig5-5cm.csv").read_text().splitlines()) for folder in (ours, theirs)]
+    assert rows[1] - 2 == pytest.approx((rows[0] - 2) / 2, abs=1)
+
+
+@pytest.mark.parametrize("beside", [["--mjcf", "other.xml"], ["--controller", "feedforward"]])
+def test_a_changed_model_is_refused_beside_another_choice(tmp_path, capsys, beside):
+    command = ["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path), "--model", "needle.xml"]
+    assert main([*command, *beside]) == 2
+    assert "--model" in capsys.readouterr().err + capsys.readouterr().out
+
+
 def test_insert_takes_a_file(tmp_path):
     protocol = str(EXAMPLE / "protocol.yaml")
     assert main(["insert", "--protocol", protocol, "--out", str(tmp_path)]) == 0
@@ -81,7 +100,7 @@ def test_protocols_lists_the_names(capsys):
 def test_an_interrupted_run_says_so(monkeypatch, capsys, tmp_path):
     from scripts import insert
 
-    def interrupted(_):
+    def interrupted(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(insert, "perform", interrupted)

@@ -25,9 +25,9 @@ from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
 from sim.kernel import memory_map
-from sim.kernel.assemble import is_linear
 from sim.kernel.compiled import Array, compiled, inlined
-from sim.kernel.shaft import Needle, Shaft, motor_of, read_nodes, read_springs
+from sim.kernel.shaft import ModelArrays, Shaft, motor_of, read_nodes, read_springs
+from sim.kernel.stage.assemble import is_linear
 from sim.kernel.step import advance
 from sim.kernel.struct_offsets import read_struct_offsets
 from sim.kernel.torques import landing_force, landing_torque, to_joints
@@ -84,7 +84,14 @@ def _remembers(law: Array) -> bool:
 
 @compiled
 def _begin(
-    law: Array, shaft: Shaft, time: float, theta: Array, ctrl: Array, clock: Array, now: Array, nxt: Array
+    law: Array,
+    shaft: Shaft,
+    time: float,
+    theta: Array,
+    ctrl: Array,
+    clock: Array,
+    now: Array,
+    nxt: Array,
 ) -> None:
     """Make the end of the last step the start of this one, if time has moved on."""
     n = theta.size - 1
@@ -146,7 +153,7 @@ def _absolute(chain: bool, joints: Array, out: Array) -> None:
 @compiled
 def step_needle(
     numeric: Array,
-    needle: Needle,
+    needle: ModelArrays,
     h: float,
     time: float,
     qpos: Array,
@@ -199,7 +206,7 @@ def step_needle(
 def _sources_digest() -> int:
     """Changes whenever a source of the compiled code does: part of the cache key."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for source in sorted(_SOURCES.glob("*.py")):
+    for source in sorted(_SOURCES.rglob("*.py")):
         digest.update(source.read_bytes())
     return int.from_bytes(digest.digest()[:6], "big")
 
@@ -233,7 +240,7 @@ def _compile() -> tuple[Any, Any]:
             return
         n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
         bodies = memory_map.FIRST_BODY + n + 1
-        needle = Needle(
+        needle = ModelArrays(
             carray(_numbers(_addresses(model + inertia_at)[0]), (bodies, 3)),
             carray(_numbers(_addresses(model + quat_at)[0]), (bodies, 4)),
             _numbers(_addresses(model + mass_at)[0])[memory_map.FIRST_BODY - 1],

@@ -104,7 +104,7 @@ def torques(elements: int) -> int:
 
 def scratch(elements: int, rows: int) -> int:
     """Values of working memory that one step needs: angles, rates, inertia and springs of the
-    shaft, then `sim.kernel.workspace`."""
+    shaft, then `sim.kernel.stage.workspace`."""
     return 19 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 

@@ -25,8 +25,9 @@ def interpreted():
     numba.config.DISABLE_JIT = True
     try:
         package = importlib.import_module("sim.kernel")
-        names = [m.name for m in pkgutil.iter_modules(package.__path__) if m.name != "callback"]
-        return SimpleNamespace(**{n: importlib.import_module(f"sim.kernel.{n}") for n in names})
+        found = [m.name for m in pkgutil.walk_packages(package.__path__, "sim.kernel.") if not m.ispkg]
+        names = [name for name in found if not name.endswith(".callback")]
+        return SimpleNamespace(**{n.rpartition(".")[2]: importlib.import_module(n) for n in names})
     finally:
         numba.config.DISABLE_JIT = False
         for name in [name for name in sys.modules if name.startswith("sim.kernel")]:
@@ -43,7 +44,7 @@ def shaft_of(interpreted):
         shaft, model = interpreted.shaft, needle_spec(setup).compile()
         chain = bool(model.numeric("needle").data[interpreted.memory_map.H_CHAIN])
         siblings = None if chain else model.numeric("needle_springs").data
-        needle = shaft.Needle(
+        needle = shaft.ModelArrays(
             model.body_inertia,
             model.body_iquat,
             model.body_subtreemass[1],

@@ -6,7 +6,8 @@ from sim.kernel import memory_map
 
 
 @pytest.mark.parametrize(
-    ("prefix", "size"), [("H_", "HEADER"), ("L_", "COLUMNS"), ("U_", "INPUTS"), ("O_", "OUTPUTS"), ("T_", "TORQUES")]
+    ("prefix", "size"),
+    [("H_", "HEADER"), ("L_", "COLUMNS"), ("U_", "INPUTS"), ("O_", "OUTPUTS"), ("T_", "TORQUES")],
 )
 def test_every_field_of_a_block_has_a_place_of_its_own(prefix, size):
     names = [name for name in vars(memory_map) if name.startswith(prefix)]
