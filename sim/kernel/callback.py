@@ -30,7 +30,7 @@ from sim.kernel.shaft import ModelArrays, Shaft, motor_of, read_nodes, read_spri
 from sim.kernel.stage.assemble import is_linear
 from sim.kernel.step import advance
 from sim.kernel.struct_offsets import read_struct_offsets
-from sim.kernel.torques import landing_force, landing_torque, to_joints
+from sim.kernel.torques import inertia_torque, landing_force, landing_torque, to_joints
 
 _SOURCES = Path(__file__).parent
 _STAGE = int(mujoco.mjtStage.mjSTAGE_ACC)
@@ -128,9 +128,15 @@ def _add_torques(
     correction = torques[memory_map.T_CORRECTION]
     to_joints(chain, tissue)
     largest = 0.0
+    nxt[memory_map.O_INERTIA] = inertia_torque(shaft, h, theta, rates, nxt)
     if head[memory_map.H_ORDER] == 1.0:
         correction[:] = 0.0
     else:
+        if shaft.servo > 0.0:
+            # The last stage's own torque of a stiff servo rings where inertia counts.
+            nxt[memory_map.O_BASE_TORQUE] = (
+                nxt[memory_map.O_FRICTION] + nxt[memory_map.O_TIP_TORQUE] + nxt[memory_map.O_INERTIA]
+            )
         end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
         landing_torque(chain, shaft, h, theta, rates, end, ctrl, correction)
         for i in range(n + 1):
