@@ -80,8 +80,8 @@ def _draw_poles(axis: Axes, findings: Findings) -> None:
     for source, of_source in groupby(findings.poles, key=lambda p: p.source):
         colour = _COLOURS[source]
         for _, case in groupby(of_source, key=lambda p: (p.length_mm, p.free_mm, p.drive)):
-            errors = {p.mode: 100 * p.error for p in case}
-            axis.plot(errors.keys(), errors.values(), "o-", ms=3, lw=0.7, color=colour)
+            errors = [100 * p.error for p in case]
+            axis.plot(range(1, len(errors) + 1), errors, "o-", ms=3, lw=0.7, color=colour)
         bound = 100 * poles.SOURCES[source].bound
         axis.axhline(bound, color=colour, ls="--", lw=1, label=f"{source.words}, bound")
     axis.set(xlabel="mode", ylabel="error, %", yscale="log", xticks=range(1, poles.COUNT + 1))
