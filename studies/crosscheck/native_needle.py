@@ -12,15 +12,17 @@ a rigid base needs no body and no stiff servo. Where it gives a torque, a motor 
 base's own node.
 
 The chain is lumped (3), and every pole is that of the continuous needle times
-(sin x / x)^2, x = w a / 2 with w the mode's wavenumber: smaller by less than x^2 / 3. A free
-length changes the sign of that error at most. MuJoCo's integrator `discrete` is implicit in
-position and velocity; on a linear model its step is that of backward Euler,
+(sin x / x)^2, x = w a / 2 with w the mode's wavenumber: smaller by less than x^2 / 3. Base-
+driven with a free length, w solves tan(w l) sin(w a) / a = 1 / f instead of w tan(w l) = 1 / f,
+and is larger by at most x^2 / 3: the pole is off by x^2 / 3 at most, either way. MuJoCo's
+integrator `discrete` is implicit in position and velocity; on a linear model its step is that
+of backward Euler,
 
-    M s^2 + D s + K,   s = (1 - 1/z) / h,   z = theta(t + h) / theta(t),
+    (M s^2 + D s + K) theta = 0,   s = (1 - 1/z) / h,   z = theta(t + h) / theta(t),
 
 so that poles follow from steps without an error of the step.
 
-Units are mm, N mm, s, rad. In N m the absolute residual at which MuJoCo stops to iterate is
+Units are mm, N mm, s, rad. In N m, the absolute residual at which MuJoCo stops iterating is
 too coarse: rates are then off by 0.2 % at angles of a degree, and here by 2e-8.
 """
 
