@@ -1,10 +1,12 @@
 """The console command, as a person runs it."""
 
+import io
 import json
 from pathlib import Path
 
 import mujoco
 import pytest
+from rich.console import Console
 
 from scripts.main import main
 
@@ -74,12 +76,34 @@ def test_bad_input_is_one_clear_line_and_exit_2(arguments, capsys, tmp_path, mon
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_validate_writes_the_contract(tmp_path):
     assert main(["validate", "--out", str(tmp_path / "v")]) == 0
     content = json.loads((tmp_path / "v" / "validate.json").read_text())
     assert content["passed"] is True
-    assert len(content["poles"]) == 48
+    for source in ("second_order", "native"):
+        assert sum(p["source"] == source for p in content["poles"]) == 48
     assert {p["drive"] for p in content["poles"]} == {"torque", "angle"}
+
+
+def test_the_poles_fit_in_80_columns_in_a_section_per_source():
+    from scripts import validate
+    from studies.crosscheck.findings import Findings, Pole, PoleSource
+
+    case = {"length_mm": 200.0, "free_mm": 50.0, "drive": "torque", "closed_form": -1186.0}
+    found = [
+        Pole(**case, mode=mode, measured=-1186.601, source=source)
+        for source in (PoleSource.SECOND_ORDER, PoleSource.NATIVE)
+        for mode in (1, 2, 3, 4)
+    ]
+    console = Console(width=80, file=io.StringIO())
+    console.print(validate.poles_table(Findings(poles=found)))
+    lines = console.file.getvalue().splitlines()
+    assert sum("-1186.601 -1186.601 -1186.601 -1186.601" in line for line in lines) == 2
+    assert [word for line in lines for word in ("second order", "native") if word in line] == [
+        "second order",
+        "native",
+    ]
 
 
 def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):

@@ -37,6 +37,8 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "tip_angle_deg": ("tip", [214, 39, 40]),
         "estimate_tip_deg": ("tip, estimated", [255, 127, 14]),
         "wanted_tip_deg": ("tip, wanted", [44, 160, 44]),
+        "closed_form_tip_deg": ("tip, closed form", [44, 160, 44]),
+        "native_tip_deg": ("tip, native needle", [148, 103, 189]),
     },
     "torque": {
         "base_torque_n_mm": ("base torque", [31, 119, 180]),

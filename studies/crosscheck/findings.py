@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import asdict, dataclass, field
+from enum import StrEnum
 from typing import Any
 
 
@@ -51,6 +52,22 @@ class Comparison:
         return self.ours / self.published if self.published else float("nan")
 
 
+class PoleSource(StrEnum):
+    """Which needle in MuJoCo a pole was measured from."""
+
+    SECOND_ORDER = "second_order"
+    """Ours, with the default method of the step."""
+    FIRST_ORDER = "first_order"
+    """Ours, with the first-order method of the step."""
+    NATIVE = "native"
+    """MuJoCo's own springs and dampers, without a callback."""
+
+    @property
+    def words(self) -> str:
+        """As text."""
+        return self.value.replace("_", " ")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Pole:
     """A pole measured from MuJoCo beside its closed form, rad/s."""
@@ -61,6 +78,7 @@ class Pole:
     mode: int
     measured: float
     closed_form: float
+    source: PoleSource
 
     @property
     def error(self) -> float:

@@ -1,6 +1,7 @@
 """Runs checked against closed-form solutions, and balances of torque and energy."""
 
 import math
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,35 +63,25 @@ def fast_turn(*, free_mm: float = 0.0) -> Schedule:
 
 def exact_tip_deg(run: Run) -> Array:
     """The closed form of a viscous, base-driven run, deg."""
-    closed_form = InsertedNeedle(
-        needle=NITINOL,
+    response = closed_form(run.setup).respond(run.time_s, np.radians(run.inputs.drive), count=200)
+    return np.degrees(response.tip_rad)
+
+
+def closed_form(setup: Setup) -> InsertedNeedle:
+    """The continuous needle of `viscous_setup`."""
+    return InsertedNeedle(
+        needle=setup.needle,
         damping_n_mm_s_per_mm=_DAMPING,
         inserted_mm=_LENGTH_MM,
-        free_mm=run.setup.free_mm,
+        free_mm=setup.free_mm,
         drive=DriveKind.ANGLE,
     )
-    response = closed_form.respond(run.time_s, np.radians(run.inputs.drive), count=200)
-    return np.degrees(response.tip_rad)
 
 
 def tip_error_deg(setup: Setup, schedule: Schedule) -> float:
     """Largest difference of the tip from the closed form over a run, deg."""
     run = simulate([setup], schedule)[0]
     return float(np.abs(run.tip_deg - exact_tip_deg(run)).max())
-
-
-def check_fast_turn() -> list[Check]:
-    """The default discretisation on the fast turn, with and without free length."""
-    return [
-        Check(
-            name=f"tip on the 20 cm turn, {free:g} mm free",
-            value=tip_error_deg(viscous_setup(free_mm=free), fast_turn(free_mm=free)),
-            unit="deg",
-            high=0.02,
-            why="defaults: tip error <= 0.02 deg",
-        )
-        for free in (0.0, 50.0)
-    ]
 
 
 def order_in_step() -> Check:
@@ -169,7 +160,8 @@ def elastic_gelatin() -> Tissue:
     )
 
 
-def _reversal(tissue: Tissue) -> Run:
+@cache
+def reversal(tissue: Tissue) -> Run:
     """Fig. 4 at 10 cm."""
     protocol = protocol_named("fig4-10cm").but(tissue=tissue)
     return simulate([protocol.setup()], protocol.schedule(), keep_shape=True)[0]
@@ -177,7 +169,7 @@ def _reversal(tissue: Tissue) -> Run:
 
 def check_balances() -> list[Check]:
     """Torque and energy in dry, yielding tissue: the run of Fig. 4 at 10 cm."""
-    run = _reversal(elastic_gelatin())
+    run = reversal(elastic_gelatin())
     out = run.outputs
     peak = np.abs(out[:, memory_map.O_BASE_TORQUE]).max()
     imbalance = np.abs(out[:, memory_map.O_BASE_TORQUE] - out[:, memory_map.O_FRICTION]).max() / peak
@@ -235,7 +227,7 @@ def _strain_energy_j(run: Run) -> Array:
 
 def reversal_lead_deg(tissue: Tissue) -> float:
     """Fig. 4 at 10 cm: how far the tip turns back before the base overtakes it, deg."""
-    run = _reversal(tissue)
+    run = reversal(tissue)
     held = run.time_s >= 30.0 - 1e-9
     base, tip = run.inputs.drive[held], run.tip_deg[held]
     overtaken = int(np.argmax(base < tip))

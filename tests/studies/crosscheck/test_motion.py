@@ -11,13 +11,12 @@ from studies.crosscheck import motion
 @pytest.mark.parametrize(
     "checks",
     [
-        motion.check_fast_turn,
         lambda: [motion.check_arrangements()],
         lambda: [motion.order_in_step()],
         motion.check_steady_twist,
         motion.check_balances,
     ],
-    ids=["fast turn", "arrangements", "order", "steady twist", "balances"],
+    ids=["arrangements", "order", "steady twist", "balances"],
 )
 def test_the_needle_passes(checks):
     for check in checks():
