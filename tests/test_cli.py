@@ -90,9 +90,15 @@ def test_the_poles_fit_in_80_columns_in_a_section_per_source():
     from scripts import validate
     from studies.crosscheck.findings import Findings, Pole, PoleSource
 
-    case = {"length_mm": 200.0, "free_mm": 50.0, "drive": "torque", "closed_form": -1186.0}
+    case = {
+        "length_mm": 200.0,
+        "free_mm": 50.0,
+        "drive": "torque",
+        "closed_form": -1186.0,
+        "bound": 0.005,
+    }
     found = [
-        Pole(**case, mode=mode, measured=-1186.601, source=source)
+        Pole(**case, mode=mode, measured=-1186.601, closed_form=-1186.0, source=source, bound=0.005)
         for source in (PoleSource.SECOND_ORDER, PoleSource.NATIVE)
         for mode in (1, 2, 3, 4)
     ]

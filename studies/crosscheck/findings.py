@@ -56,9 +56,9 @@ class PoleSource(StrEnum):
     """Which needle in MuJoCo a pole was measured from."""
 
     SECOND_ORDER = "second_order"
-    """Ours, with the default method of the step."""
+    """Ours, with the step that is corrected to second order: the default."""
     FIRST_ORDER = "first_order"
-    """Ours, with the first-order method of the step."""
+    """Ours, with MuJoCo's own step, to which only the tissue's torque is added."""
     NATIVE = "native"
     """MuJoCo's own springs and dampers, without a callback."""
 
@@ -70,7 +70,11 @@ class PoleSource(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Pole:
-    """A pole measured from MuJoCo beside its closed form, rad/s."""
+    """A pole measured from MuJoCo beside its closed form, rad/s.
+
+    Attributes:
+      bound: relative error that its source may have.
+    """
 
     length_mm: float
     free_mm: float
@@ -79,6 +83,7 @@ class Pole:
     measured: float
     closed_form: float
     source: PoleSource
+    bound: float
 
     @property
     def error(self) -> float:

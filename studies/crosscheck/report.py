@@ -33,8 +33,9 @@ def cross_check() -> Findings:
         checks=[
             *poles.check_poles(measured),
             *poles.order_in_elements(),
-            motion.order_in_step(),
+            *motion.order_in_step(),
             *turn.check_fast_turn(),
+            motion.check_first_order_turn(),
             motion.check_arrangements(),
             *motion.check_steady_twist(),
             *motion.check_balances(),

@@ -43,6 +43,7 @@ POLE = Pole(
     measured=-1.006,
     closed_form=-1.0,
     source=PoleSource.FIRST_ORDER,
+    bound=0.015,
 )
 
 

@@ -12,11 +12,12 @@ from studies.crosscheck import motion
     "checks",
     [
         lambda: [motion.check_arrangements()],
-        lambda: [motion.order_in_step()],
+        motion.order_in_step,
+        lambda: [motion.check_first_order_turn()],
         motion.check_steady_twist,
         motion.check_balances,
     ],
-    ids=["arrangements", "order", "steady twist", "balances"],
+    ids=["arrangements", "order", "first order", "steady twist", "balances"],
 )
 def test_the_needle_passes(checks):
     for check in checks():

@@ -10,7 +10,7 @@ from models.errors import OutputExists
 from studies.crosscheck.findings import Check, Comparison, Findings, Pole, PoleSource
 from studies.crosscheck.report import FILES, write_report
 
-CASE = {"length_mm": 50.0, "free_mm": 0.0, "drive": "angle"}
+CASE = {"length_mm": 50.0, "free_mm": 0.0, "drive": "angle", "bound": 0.005}
 FINDINGS = Findings(
     poles=[
         Pole(**CASE, mode=m, measured=-1.001 * m, closed_form=-float(m), source=source)
@@ -45,7 +45,7 @@ def test_the_json_is_complete_and_strict(folder):
 def test_tables_hold_what_the_json_holds(folder):
     rows = (folder / "poles.csv").read_text().splitlines()
     assert len(rows) == 1 + len(FINDINGS.poles)
-    assert rows[0] == "length_mm,free_mm,drive,mode,measured,closed_form,source,error"
+    assert rows[0] == "length_mm,free_mm,drive,mode,measured,closed_form,source,bound,error"
     assert (folder / "published.csv").read_text().splitlines()[2] == "half,2.0,1.0,s,there,,0.5"
     assert (folder / "checks.csv").read_text().splitlines()[1] == "c,2.0,-,<= 1,False,"
 
