@@ -37,7 +37,7 @@ UNITS = (
     "_n_mm",
     "_mm2",
     "_kg_m",
-    "_mm_s",
+    *("_mm_s", "_sigma"),
 )
 PER = ("_per_",)
 DIMENSIONLESS = (

@@ -101,7 +101,7 @@ def assess(
         next_experiment=advise(coarse, verdict, left),
         numerical_error=error,
         explained=explained,
-        warnings=(*numerical_warnings(error), *lost),
+        warnings=(*problem.log.warnings, *numerical_warnings(error), *lost),
     )
 
 
