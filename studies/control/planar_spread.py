@@ -1,0 +1,55 @@
+"""What a camera's noise makes of the planar controller: median and range over its seeds."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from studies.control.planar_study import PlaneApproach
+
+SETTLED_MM = 100.0  # travel after which the height counts as the one that is held
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spread:
+    """Median, least and largest of the seeds; NaN where the tip never came to stay."""
+
+    median: float
+    least: float
+    largest: float
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> "Spread":
+        """Of values among which NaN, never, is larger than any number."""
+        ranked = sorted(math.inf if math.isnan(value) else value for value in values)
+        middle = 0.5 * (ranked[(len(ranked) - 1) // 2] + ranked[len(ranked) // 2])
+        median, least, largest = (
+            value if math.isfinite(value) else math.nan for value in (middle, ranked[0], ranked[-1])
+        )
+        return cls(median=median, least=least, largest=largest)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanarSpread:
+    """One case at one speed, over the seeds.
+
+    Attributes:
+      converged_mm: travel until the tip stays within 0.5 mm of the plane.
+      never: seeds in which it does not.
+      rms_mm: height after 100 mm of travel.
+    """
+
+    converged_mm: Spread
+    never: int
+    rms_mm: Spread
+
+    @classmethod
+    def of(cls, approaches: Sequence[PlaneApproach]) -> "PlanarSpread":
+        """Of the approaches of every seed."""
+        travels = [approach.converged_mm() for approach in approaches]
+        return cls(
+            converged_mm=Spread.of(travels),
+            never=int(np.isnan(travels).sum()),
+            rms_mm=Spread.of([approach.rms_mm(SETTLED_MM) for approach in approaches]),
+        )
