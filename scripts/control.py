@@ -11,7 +11,7 @@ from sim.files import refuse_existing
 from sim.recording.rerun_log import log_recording
 from studies.control.closed_loop_recording import record_closed_loop
 from studies.control.report import FILES, ControlStudy, hankel, write_study
-from studies.control.steered_insertions import STEERED, SteeredInsertion, TurnOrder
+from studies.control.steering.steered_insertions import STEERED, SteeredInsertion, TurnOrder
 from studies.control.study import run_study
 from studies.control.tables import StepResponse
 

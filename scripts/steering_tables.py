@@ -4,10 +4,10 @@ import math
 
 from rich.table import Table
 
-from studies.control.planar_spread import PlanarSpread, Spread
-from studies.control.planar_study import PLANAR_CASES
-from studies.control.steered_insertions import PUBLISHED_MM, STEERED
-from studies.control.steering_study import SteeringStudy
+from studies.control.steering.planar_spread import PlanarSpread, Spread
+from studies.control.steering.planar_study import PLANAR_CASES
+from studies.control.steering.steered_insertions import PUBLISHED_MM, STEERED
+from studies.control.steering.steering_study import SteeringStudy
 
 
 def steering_tables(study: SteeringStudy) -> list[Table]:

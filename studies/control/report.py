@@ -15,9 +15,9 @@ from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.files import refuse_existing, write_text, writing
 from studies.control import tables
-from studies.control.steering_figures import draw_planes, draw_steered
-from studies.control.steering_report import steering_json
-from studies.control.steering_study import SteeringStudy
+from studies.control.steering.steering_figures import draw_planes, draw_steered
+from studies.control.steering.steering_report import steering_json
+from studies.control.steering.steering_study import SteeringStudy
 from studies.control.tables import StepResponse
 from studies.crosscheck.poles import closed_form_needle
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from studies.control.planar_study import PLANAR_CASES, approach_plane, imaged_approaches
-from studies.control.steered_insertions import TurnOrder, steered_insertions
-from studies.control.steering_study import SteeringStudy
+from studies.control.steering.planar_study import PLANAR_CASES, approach_plane, imaged_approaches
+from studies.control.steering.steered_insertions import TurnOrder, steered_insertions
+from studies.control.steering.steering_study import SteeringStudy
 
 
 @pytest.fixture(scope="session")

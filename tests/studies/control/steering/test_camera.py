@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.errors import InvalidValue
-from studies.control.camera import Camera, CameraModel
+from studies.control.steering.camera import Camera, CameraModel
 
 
 def views(camera, *, until_s, step_s=0.01, place=lambda t: np.array([t])):

@@ -2,8 +2,8 @@
 
 import json
 
-from studies.control.steered_insertions import STEERED
-from studies.control.steering_report import steering_json
+from studies.control.steering.steered_insertions import STEERED
+from studies.control.steering.steering_report import steering_json
 
 
 def test_both_orders_of_half_turns_are_there_with_their_names(small_steering):

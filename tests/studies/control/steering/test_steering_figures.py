@@ -4,9 +4,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from studies.control.planar_study import PlaneApproach
-from studies.control.steered_insertions import TurnOrder
-from studies.control.steering_figures import draw_planes, draw_steered
+from studies.control.steering.planar_study import PlaneApproach
+from studies.control.steering.steered_insertions import TurnOrder
+from studies.control.steering.steering_figures import draw_planes, draw_steered
 
 
 @pytest.fixture(autouse=True)

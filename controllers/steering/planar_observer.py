@@ -1,6 +1,6 @@
 """Pitch and roll against a plane from images of the height alone: the observer of ref. [8].
 
-In x = (z, t_z, d_z) of controllers.planar the needle is linear but for its input, e_z times
+In x = (z, t_z, d_z) of controllers.steering.planar the needle is linear but for its input, e_z times
 the roll. Over a travel s without roll
 
     x(s) = Phi(s) x,    Phi(s) = [1  sin(ks)/k  (1 - cos(ks))/k;  0  cos(ks)  sin(ks);
@@ -23,7 +23,7 @@ import control
 import numpy as np
 from numpy.typing import NDArray
 
-from controllers.planar import PlanarState
+from controllers.steering.planar import PlanarState
 from models.errors import InvalidValue
 
 Array = NDArray[np.float64]

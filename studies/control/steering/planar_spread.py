@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studies.control.planar_study import PlaneApproach
+from studies.control.steering.planar_study import PlaneApproach
 
 SETTLED_MM = 100.0  # travel after which the height counts as the one that is held
 

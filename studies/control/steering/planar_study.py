@@ -13,15 +13,15 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from controllers.planar_observer import PlanarObserver
+from controllers.steering.planar_observer import PlanarObserver
 from models.bevel import PREBENT_RADIUS_MM
 from models.materials import MATERIALS
 from models.tissue import Tissue
 from sim.closed_loop import Measurement, MeasurementNoise, run_closed_loop
 from sim.schedule import Schedule
-from studies.control.camera import Camera, CameraModel
-from studies.control.insertion_setup import constant_speed, lagrangian_setup
-from studies.control.planar_loop import CascadedPlanarController, ImagedHeight, KnownPose
+from studies.control.steering.camera import Camera, CameraModel
+from studies.control.steering.insertion_setup import constant_speed, lagrangian_setup
+from studies.control.steering.planar_loop import CascadedPlanarController, ImagedHeight, KnownPose
 from studies.control.tables import DESIGN
 from studies.control.tip_controllers import TipController, tip_controller_named
 
@@ -62,9 +62,9 @@ class PlaneApproach:
         return float(self.travelled_mm[outside[-1] + 1])
 
     def rms_mm(self, after_mm: float) -> float:
-        """Root mean square height after a travel."""
+        """Root mean square height after a travel; NaN if the run was shorter."""
         late = self.height_mm[self.travelled_mm >= after_mm]
-        return float(np.sqrt(np.mean(late**2)))
+        return float(np.sqrt(np.mean(late**2))) if late.size else math.nan
 
 
 def approach_plane(

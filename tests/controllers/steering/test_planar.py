@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from controllers.planar import PlanarController, PlanarState
+from controllers.steering.planar import PlanarController, PlanarState
 from models.bevel import BevelTip
 from models.errors import InvalidValue
 

@@ -1,7 +1,7 @@
 """The stages of steering are announced in order and kept under their speeds."""
 
-from studies.control import planar_study, steering_study
-from studies.control.steered_insertions import TurnOrder
+from studies.control.steering import planar_study, steering_study
+from studies.control.steering.steered_insertions import TurnOrder
 
 
 def test_every_stage_is_announced_and_its_result_kept(monkeypatch):

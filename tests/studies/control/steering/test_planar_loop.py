@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from controllers.planar_observer import PlanarObserver
+from controllers.steering.planar_observer import PlanarObserver
 from models.bevel import BevelTip
 from sim.closed_loop import Measurement
-from studies.control.camera import Camera, CameraModel
-from studies.control.planar_loop import CascadedPlanarController, ImagedHeight, KnownPose
+from studies.control.steering.camera import Camera, CameraModel
+from studies.control.steering.planar_loop import CascadedPlanarController, ImagedHeight, KnownPose
 
 RADIUS_MM = 61.0
 

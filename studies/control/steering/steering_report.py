@@ -4,10 +4,10 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from studies.control.planar_spread import PlanarSpread
-from studies.control.planar_study import PlaneApproach
-from studies.control.steered_insertions import PUBLISHED_MM
-from studies.control.steering_study import SteeringStudy
+from studies.control.steering.planar_spread import PlanarSpread
+from studies.control.steering.planar_study import PlaneApproach
+from studies.control.steering.steered_insertions import PUBLISHED_MM
+from studies.control.steering.steering_study import SteeringStudy
 
 
 def steering_json(study: SteeringStudy) -> dict[str, Any]:

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from studies.control.planar_study import PLANAR_CASES, WITHIN_MM, PlaneApproach
-from studies.control.steered_insertions import PUBLISHED_MM, SteeredInsertion, TurnOrder
-from studies.control.steering_study import SteeringStudy
+from studies.control.steering.planar_study import PLANAR_CASES, WITHIN_MM, PlaneApproach
+from studies.control.steering.steered_insertions import PUBLISHED_MM, SteeredInsertion, TurnOrder
+from studies.control.steering.steering_study import SteeringStudy
 
 _COLOURS = dict(zip(PLANAR_CASES, ("black", "tab:red", "tab:blue", "tab:green"), strict=True))
 _SHOWN_MM = 5.0

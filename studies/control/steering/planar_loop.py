@@ -9,11 +9,11 @@ estimator says.
 import math
 from typing import Protocol
 
-from controllers.planar import PlanarController, PlanarState
-from controllers.planar_observer import PlanarObserver
+from controllers.steering.planar import PlanarController, PlanarState
+from controllers.steering.planar_observer import PlanarObserver
 from models.bevel import PREBENT_RADIUS_MM, BevelTip
 from sim.closed_loop import Measurement
-from studies.control.camera import Camera
+from studies.control.steering.camera import Camera
 from studies.control.tip_controllers import TipController
 
 

@@ -3,7 +3,12 @@
 import numpy as np
 import pytest
 
-from studies.control.steered_insertions import PUBLISHED_MM, TurnOrder, half_turns, steered_insertions
+from studies.control.steering.steered_insertions import (
+    PUBLISHED_MM,
+    TurnOrder,
+    half_turns,
+    steered_insertions,
+)
 
 
 def heights(order):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from controllers.planar_observer import PlanarObserver
+from controllers.steering.planar_observer import PlanarObserver
 from models.bevel import BevelTip
 from models.errors import InvalidValue
 

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from studies.control import planar_study
-from studies.control.planar_study import PlaneApproach, approach_plane, imaged_approaches
-from studies.control.steered_insertions import SteeredInsertion, TurnOrder, steered_insertions
+from studies.control.steering import planar_study
+from studies.control.steering.planar_study import PlaneApproach, approach_plane, imaged_approaches
+from studies.control.steering.steered_insertions import SteeredInsertion, TurnOrder, steered_insertions
 
 STEERING_STAGES = ("steered insertions", "the planar controller", "the planar controller with images")
 

@@ -20,7 +20,7 @@ from models.materials import MATERIALS
 from models.tissue import Tissue
 from sim.closed_loop import ClosedLoopRun, run_closed_loop
 from sim.schedule import Schedule
-from studies.control.insertion_setup import lagrangian_setup
+from studies.control.steering.insertion_setup import lagrangian_setup
 from studies.control.tables import DESIGN
 from studies.control.tip_controllers import tip_controller_named
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from studies.control import planar_study
-from studies.control.planar_study import PlaneApproach, approach_plane, imaged_approaches
+from studies.control.steering import planar_study
+from studies.control.steering.planar_study import PlaneApproach, approach_plane, imaged_approaches
 
 COMPARED = ("its own simulation", "torsion left out", "torsion compensated")
 

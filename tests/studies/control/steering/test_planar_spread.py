@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from studies.control.planar_spread import PlanarSpread, Spread
-from studies.control.planar_study import PlaneApproach
+from studies.control.steering.planar_spread import PlanarSpread, Spread
+from studies.control.steering.planar_study import PlaneApproach
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import pytest
 
 from models.materials import MATERIALS
 from sim.discretisation import Mesh
-from studies.control.insertion_setup import constant_speed, lagrangian_setup
+from studies.control.steering.insertion_setup import constant_speed, lagrangian_setup
 
 
 def test_the_schedule_moves_at_its_speed_and_keeps_the_shaft_as_long_as_it_is():
