@@ -4,15 +4,19 @@ import math
 
 from rich.table import Table
 
-from studies.control.steering.planar_spread import PlanarSpread, Spread
+from studies.control.steering.planar_spread import PlanarSpread
 from studies.control.steering.planar_study import PLANAR_CASES
+from studies.control.steering.seed_spread import Spread
 from studies.control.steering.steered_insertions import PUBLISHED_MM, STEERED
 from studies.control.steering.steering_study import SteeringStudy
 
 
 def steering_tables(study: SteeringStudy) -> list[Table]:
     """Every table, in the order of the stages."""
-    return [_steered(study), _known_pose(study), _travels(study), _heights(study)]
+    return [
+        *(_steered(study), _known_pose(study), _travels(study), _heights(study)),
+        *(_fused(study), _spun(study)),
+    ]
 
 
 def _steered(study: SteeringStudy) -> Table:
@@ -56,6 +60,25 @@ def _heights(study: SteeringStudy) -> Table:
     for name in PLANAR_CASES:
         spreads = [PlanarSpread.of(by[name]).rms_mm for by in study.imaged.values()]
         table.add_row(name, *(_shown(spread, ".2f") for spread in spreads))
+    return table
+
+
+def _fused(study: SteeringStudy) -> Table:
+    title = "Roll of the tip from base and images: error, median (range) of the seeds, deg"
+    table = Table("needle", "estimator", "rms, second half", "at the end", title=title)
+    for plant, by_estimator in study.fused.items():
+        for name, errors in by_estimator.items():
+            table.add_row(plant, name, _shown(errors.rms_deg, ".1f"), _shown(errors.end_deg, ".1f"))
+    return table
+
+
+def _spun(study: SteeringStudy) -> Table:
+    title = "Duty-cycled spinning: curvature over that of a held tip, and its direction"
+    table = Table("controller", "from, cm", "duty", "law", "curvature", "direction, deg", title=title)
+    for one in study.spun:
+        direction = "" if math.isnan(one.direction_deg) else f"{one.direction_deg:.0f}"
+        row = (one.case, f"{one.start_mm / 10:g}", f"{one.duty:g}", f"{1 - one.duty:.2f}")
+        table.add_row(*row, f"{one.share:.2f}", direction)
     return table
 
 

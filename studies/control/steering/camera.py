@@ -41,6 +41,9 @@ class CameraModel(Record):
             )
 
 
+CAMERA = CameraModel()
+
+
 @dataclass(frozen=True, slots=True)
 class View:
     """What a camera does at one instant.

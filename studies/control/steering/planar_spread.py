@@ -1,33 +1,14 @@
 """What a camera's noise makes of the planar controller: median and range over its seeds."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from studies.control.steering.planar_study import PlaneApproach
+from studies.control.steering.seed_spread import Spread
 
 SETTLED_MM = 100.0  # travel after which the height counts as the one that is held
-
-
-@dataclass(frozen=True, kw_only=True)
-class Spread:
-    """Median, least and largest of the seeds; NaN where the tip never came to stay."""
-
-    median: float
-    least: float
-    largest: float
-
-    @classmethod
-    def of(cls, values: Sequence[float]) -> "Spread":
-        """Of values among which NaN, never, is larger than any number."""
-        ranked = sorted(math.inf if math.isnan(value) else value for value in values)
-        middle = 0.5 * (ranked[(len(ranked) - 1) // 2] + ranked[len(ranked) // 2])
-        median, least, largest = (
-            value if math.isfinite(value) else math.nan for value in (middle, ranked[0], ranked[-1])
-        )
-        return cls(median=median, least=least, largest=largest)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,7 +19,7 @@ from models.materials import MATERIALS
 from models.tissue import Tissue
 from sim.closed_loop import Measurement, MeasurementNoise, run_closed_loop
 from sim.schedule import Schedule
-from studies.control.steering.camera import Camera, CameraModel
+from studies.control.steering.camera import CAMERA, Camera, CameraModel
 from studies.control.steering.insertion_setup import constant_speed, lagrangian_setup
 from studies.control.steering.planar_loop import CascadedPlanarController, ImagedHeight, KnownPose
 from studies.control.tables import DESIGN
@@ -35,7 +35,6 @@ PLANAR_CASES = {
     "torsion compensated, regulator": "lqr",
 }
 SEEDS = tuple(range(1, 9))
-CAMERA = CameraModel()
 WITHIN_MM = 0.5
 # Set on the rigid needle: any faster, and the camera's noise shakes it out of the 0.5 mm.
 CONTROLLER_SETTLING_MM, OBSERVER_SETTLING_MM = 15.0, 10.0

@@ -26,6 +26,11 @@ def steering_json(study: SteeringStudy) -> dict[str, Any]:
             _speed(speed): {name: _spread(approaches) for name, approaches in cases.items()}
             for speed, cases in study.imaged.items()
         },
+        "fused": {
+            plant: {name: asdict(errors) for name, errors in by_estimator.items()}
+            for plant, by_estimator in study.fused.items()
+        },
+        "duty_cycle": [_plain(asdict(one) | {"law_share": 1.0 - one.duty}) for one in study.spun],
     }
 
 

@@ -22,6 +22,7 @@ def test_with_the_pose_known_torsion_doubles_the_travel_and_compensation_takes_i
     assert approaches["torsion compensated"].converged_mm() < 1.1 * alone
 
 
+@pytest.mark.slow
 def test_with_images_torsion_at_least_doubles_the_travel_and_compensation_takes_it_back():
     found = imaged_approaches(speed_mm_s=7.5, cases=COMPARED, seeds=(1, 2, 3))
     median = {name: travels(approaches)[1] for name, approaches in found.items()}

@@ -1,5 +1,7 @@
 """Steered insertions: what torsion costs, and what its compensation gives back."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from studies.control.steering.steered_insertions import (
 )
 
 
+@cache
 def heights(order):
     made = steered_insertions(order, controllers=("base_only", "feedforward"))
     return {one.name: one.out_of_plane_mm for one in made}

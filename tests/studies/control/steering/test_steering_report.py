@@ -22,3 +22,10 @@ def test_what_does_not_happen_is_null_and_the_seeds_are_counted(small_steering):
     imaged = content["planar"]["10 mm/s"]["its own simulation"]
     assert imaged["converged_mm"] == {"median": None, "least": None, "largest": None}
     assert (imaged["never"], imaged["seeds"]) == (2, 2)
+
+
+def test_errors_of_the_roll_and_spun_curvatures_are_there_in_numbers(small_steering):
+    content = steering_json(small_steering)
+    assert content["fused"]["plant"]["base alone"]["rms_deg"]["median"] == 2.0
+    (spun,) = content["duty_cycle"]
+    assert (spun["law_share"], spun["share"], spun["direction_deg"]) == (0.25, 0.01, None)
