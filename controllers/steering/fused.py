@@ -135,15 +135,16 @@ class FusedEstimator(FeedforwardEstimator):
         self.covariance[self._clone] = self.covariance[_POSITION]
         self.covariance[:, self._clone] = self.covariance[:, _POSITION]
 
-    def see(self, position_mm: Array) -> float:
+    def see(self, position_mm: ArrayLike) -> float:
         """Correct by the tip's position, (3,), at the last exposure.
 
         Returns:
           Log likelihood of the image; 0 for one that is not finite, which is left out.
         """
-        if self._cloned_mm is None or not np.isfinite(position_mm).all():
+        seen = np.asarray(position_mm, float)
+        if self._cloned_mm is None or not np.isfinite(seen).all():
             return 0.0
-        innovation = position_mm - self._cloned_mm
+        innovation = seen - self._cloned_mm
         cross = self.covariance[:, self._clone]
         expected = cross[self._clone] + self.noise.image_mm**2 * np.eye(3)
         weighted = np.linalg.solve(expected, innovation)

@@ -13,13 +13,11 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from controllers.signals import Estimate, Sample
 from controllers.steering.fused import FusedEstimator
 from models.errors import InvalidValue
-
-Array = NDArray[np.float64]
 
 _RETURN = 1e-3  # e: probability with which an image starts the choice anew
 
@@ -71,7 +69,7 @@ class ModelAverage:
         for one in self.filters:
             one.expose()
 
-    def see(self, position_mm: Array) -> None:
+    def see(self, position_mm: ArrayLike) -> None:
         """Correct both by the tip's position, (3,), and weigh them by how well they expected it."""
         logs = np.array([one.see(position_mm) for one in self.filters])
         posterior = self._weights * np.exp(logs - logs.max())

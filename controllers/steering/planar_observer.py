@@ -1,4 +1,4 @@
-"""Pitch and roll against a plane from images of the height alone: the observer of ref. [8].
+"""Pitch and roll against a plane from images of the height alone: an observer after ref. [8].
 
 In x = (z, t_z, d_z) of controllers.steering.planar the needle is linear but for its input, e_z times
 the roll. Over a travel s without roll

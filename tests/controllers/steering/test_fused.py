@@ -97,9 +97,9 @@ class Truth:
         return position + self.noise.image_mm * self.rng.normal(size=3)
 
 
-def followed(seed, *, noise=NOISE, late=4):
+def followed(seed, *, noise=NOISE, assumed=None, late=4):
     """A filter that followed a truth with images that arrive `late` samples after exposure."""
-    truth, one, exposed = Truth(seed, noise), fused(noise), None
+    truth, one, exposed = Truth(seed, noise), fused(assumed or noise), None
     for i in range(truth.times.size):
         truth.advance(i)
         one.update(truth.sample(i))
@@ -120,13 +120,26 @@ def normalised_error(truth, one):
     return float(error @ np.linalg.solve(one.covariance[:11, :11], error)), error
 
 
+def mean_nees(seeds, assumed=NOISE):
+    """Mean of e' P^-1 e over seeds, and the bounds of chi-square that hold in 99.9 % of trials."""
+    found = [normalised_error(*followed(seed, assumed=assumed))[0] for seed in range(seeds)]
+    low, high = chi2.ppf([0.0005, 0.9995], seeds * 11) / seeds
+    return float(np.mean(found)), low, high
+
+
 @pytest.mark.slow
 def test_its_errors_are_as_large_as_its_covariance_says():
-    """The mean of e' P^-1 e over seeds (NEES) lies where chi-square does in 99.9 % of trials."""
-    seeds, freedom = 30, 11
-    found = [normalised_error(*followed(seed))[0] for seed in range(seeds)]
-    low, high = chi2.ppf([0.0005, 0.9995], seeds * freedom) / seeds
-    assert low < np.mean(found) < high
+    found, low, high = mean_nees(30)
+    assert low < found < high
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"image_mm": 0.2}, {"torque_bias_n_mm": 0.05}, {"lag_drift_deg": 0.2}]
+)
+def test_a_filter_that_assumes_too_little_noise_is_found_out(wrong):
+    """Negative control of the test above."""
+    found, _, high = mean_nees(8, NOISE.but(**wrong))
+    assert found > high
 
 
 @pytest.mark.slow
