@@ -10,7 +10,7 @@ STAGES = ("Tables IV and V", "robustness", *STEERING_STAGES)
 
 
 def run_study(progress: Callable[[str], None] = lambda stage: None) -> ControlStudy:
-    """Run everything; about a minute.
+    """Run everything; about two minutes.
 
     Args:
       progress: called with the name of each stage as it begins.
