@@ -36,7 +36,7 @@ PLANAR_CASES = {
 }
 SEEDS = tuple(range(101, 117))  # none of those on which the settling lengths were set
 WITHIN_MM = 0.5
-# Set on the rigid needle with seeds 1 to 8: any faster, and the camera's noise shakes it out of the 0.5 mm.
+# Set on the rigid needle with seeds 1 to 8: any faster, and the camera's noise shakes the tip.
 CONTROLLER_SETTLING_MM, OBSERVER_SETTLING_MM = 15.0, 10.0
 _HEIGHT_MM, _START_MM, _FREE_MM = 3.0, 100.0, 50.0
 _BASE_DEG, _TORQUE_N_MM = 0.02, 0.015  # noise, as in Tables IV and V
