@@ -48,3 +48,15 @@ def test_signals_are_finite_and_named_with_their_units(name):
     modes = [key for key in signals if key.startswith("estimate_mode_")]
     assert len(modes) == (0 if controller.estimator is None else DESIGN.order - 1)
     assert {"estimate_tip_deg", "command_base_deg", "rate_limited_count"} <= set(signals)
+
+
+@pytest.mark.parametrize("name", ["base_only", "feedforward", "lqr"])
+def test_a_controller_that_was_reset_acts_as_a_new_one(name):
+    def bases(controller):
+        return [controller(measured(0.01 * i, torque_n_mm=0.2 * i), 90.0) for i in range(20)]
+
+    used, new = tip_controller_named(name, DESIGN), tip_controller_named(name, DESIGN)
+    first = bases(used)
+    used.reset()
+    assert used.estimated_tip_deg == 0.0
+    assert bases(used) == bases(new) == first
