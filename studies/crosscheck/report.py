@@ -13,6 +13,7 @@ from sim.files import refuse_existing, write_text, writing
 from sim.simulation import simulate
 from studies.crosscheck import motion, paper, poles
 from studies.crosscheck.findings import Findings
+from studies.crosscheck.linear import linear_checks
 
 FILES = ("validate.json", "poles.csv", "checks.csv", "published.csv", "validate.png")
 
@@ -30,6 +31,7 @@ def cross_check() -> Findings:
             motion.check_arrangements(),
             *motion.check_steady_twist(),
             *motion.check_balances(),
+            *linear_checks(),
         ],
         comparisons=paper.compare_all(),
     )
