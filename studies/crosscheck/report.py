@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from sim.files import refuse_existing, write_text, writing
 from sim.simulation import simulate
-from studies.crosscheck import motion, paper, poles
+from studies.crosscheck import motion, paper, paper_text, poles
 from studies.crosscheck.findings import Findings
 from studies.crosscheck.linear import linear_checks
 
@@ -33,7 +33,7 @@ def cross_check() -> Findings:
             *motion.check_balances(),
             *linear_checks(),
         ],
-        comparisons=paper.compare_all(),
+        comparisons=[*paper.compare_all(), *paper_text.compare_text()],
     )
 
 
