@@ -21,9 +21,10 @@ more, a figure does not even give its own sign."""
 TEXT_LAG_SIGMA_DEG = 1.5
 TEXT_SETTLING_SIGMA_S = 0.3
 TEXT_LAG_LEFT_SIGMA = 0.15
+TEXT_ERROR_LEFT_SIGMA_DEG = 3.0
 """Of "a lag of about 10 deg", "the settling time of nearly 2 s", and what is left of the lag where
-it is to "snap near to the final base angle". Chosen: 15 % of 10 deg, of 2 s, of the lag. No fit uses
-them."""
+it is to "snap near to the final base angle". Chosen: 15 % of 10 deg, of 2 s, of the lag; and 3 deg,
+within which the paper calls a tip settled, of what is left of a turn after 6 s. No fit uses them."""
 
 PROPOSED_HELD_TORQUE_SIGMA_N_MM = 0.01
 PROPOSED_DAMPING_SIGMA_N_MM_S = 0.05

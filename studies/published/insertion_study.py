@@ -68,13 +68,11 @@ class InsertionPrediction:
         """Whether both deviations are within two standard deviations."""
         return max(map(abs, self.residual)) <= RESOLVED_SIGMA
 
-    @property
-    def missed_text(self) -> tuple[str, ...]:
-        """Figures of the text that it misses by more than two standard deviations, by name."""
+    def text_misses(self) -> tuple[float, ...]:
+        """Distance from every figure of the text, in standard deviations."""
         return tuple(
-            figure.name
+            abs(value - figure.value) / figure.sigma
             for figure, value in zip(TEXT_FIGURES_PLASTISOL, self.text, strict=True)
-            if abs(value - figure.value) > RESOLVED_SIGMA * figure.sigma
         )
 
 
@@ -95,6 +93,13 @@ class InsertionStudy:
     def stated(self) -> InsertionPrediction:
         """The rig as stated."""
         return next(p for p in self.predictions if p.hypothesis is STATED_INSERTION)
+
+    def worsened(self, prediction: InsertionPrediction) -> tuple[str, ...]:
+        """Figures of the text that it misses by two more standard deviations than the stated rig."""
+        misses = zip(
+            TEXT_FIGURES_PLASTISOL, prediction.text_misses(), self.stated.text_misses(), strict=True
+        )
+        return tuple(f.name for f, now, stated in misses if now > stated + RESOLVED_SIGMA)
 
 
 def sigma_mm(deviation_mm: float) -> float:
@@ -130,6 +135,7 @@ def of_fit(fit: FigureFit) -> InsertionHypothesis:
     return InsertionHypothesis(
         name=" and ".join(fit.hypothesis.names),
         basis=f"Tables II, IV, V, {fit.hypothesis.free_length}",
+        of_tables=True,
         apply=lambda _: rig,
     )
 

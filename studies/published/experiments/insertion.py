@@ -135,9 +135,7 @@ def deviations_alone_mm(
     return [found[rig] for rig in rigs]
 
 
-def deviation_compensated_mm(
-    rig: InsertionRig, sense: WindingSense = WindingSense.TO_AND_FRO
-) -> float:
+def deviation_compensated_mm(rig: InsertionRig, sense: WindingSense = WindingSense.TO_AND_FRO) -> float:
     """Deviation with our feedforward compensation, which knows the stated needle only, mm."""
     inputs = reference(rig.shaft_mm, sense)
     controller: FeedbackController = tip_controller_named("feedforward", DESIGN)
@@ -172,5 +170,3 @@ class ServoedController:
         self._base_deg = command + (error + growth * h) * decay
         self._rate_deg_s = (growth - (error + growth * h) / time) * decay
         return self._base_deg
-
-

@@ -35,6 +35,7 @@ from studies.published.experiments.insertion import InsertionRig
 _PREBEND_RAD, _PREBENT_MM = math.radians(15.0), 12.0  # Section V
 _POISSON = 0.33  # of Nitinol
 _MEAN_DEPTH_MM = 25.0  # of the four turns
+_SLOW_TURN_MM = 230.0 + 100.0  # Section II-A
 _TWIST_TEST_MM = published.TWIST_TEST_LENGTH.value
 
 
@@ -46,12 +47,14 @@ class InsertionHypothesis:
       name: in words.
       basis: where its value is from; empty where Fig. 12 sets it.
       parameter: what Fig. 12 sets; None: nothing.
+      of_tables: whether a fit to Tables II, IV and V sets it.
       apply: the rig, given the parameter's value (anything where there is none).
     """
 
     name: str
     basis: str = ""
     parameter: Parameter | None = None
+    of_tables: bool = False
     apply: Callable[[float], InsertionRig]
 
 
@@ -98,13 +101,9 @@ def _at(mechanism: tuple[str, str, str], value: float, basis: str) -> InsertionH
     )
 
 
-def _set_by_figure_12(
-    mechanism: tuple[str, str, str], low: float, high: float
-) -> InsertionHypothesis:
+def _set_by_figure_12(mechanism: tuple[str, str, str], low: float, high: float) -> InsertionHypothesis:
     name, field, unit = mechanism
-    return InsertionHypothesis(
-        name=name, parameter=_fitted(unit, low, high), apply=_of_model(field)
-    )
+    return InsertionHypothesis(name=name, parameter=_fitted(unit, low, high), apply=_of_model(field))
 
 
 ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
@@ -131,6 +130,11 @@ ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
     _set_by_figure_12(_BENT, 0.01, 1.0),
     _at(_DRAG, prebend_drag_n_mm_s(), "a slender body"),
     _set_by_figure_12(_DRAG, 0.05, 4.0),
+    InsertionHypothesis(
+        name="longer shaft",
+        basis="330 mm, base to exit in the slow turns (Section II-A)",
+        apply=lambda _: InsertionRig(shaft_mm=_SLOW_TURN_MM),
+    ),
     InsertionHypothesis(
         name="longer shaft",
         basis="410 mm, the twist test's",
