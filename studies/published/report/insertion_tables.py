@@ -120,6 +120,6 @@ def _named(prediction: InsertionPrediction) -> str:
 def _prebend() -> str:
     return (
         f"A prebent tip would cost up to {prebend_torque_n_mm():.1f} N mm a quarter turn in a channel "
-        f"that does not give, and drag {prebend_drag_n_mm_s():.0f} N mm s / rad as a slender body, which "
+        f"that does not give, and drag {prebend_drag_n_mm_s():.0f} N mm s / rad as a slender body; that "
         "is far more than Fig. 12 allows. A channel that turns with the tip is in no hypothesis here."
     )
