@@ -8,7 +8,7 @@ import numpy as np
 
 from models import published
 from models.haptics import torque_n_mm_per_deg
-from models.lag import lag_deg
+from models.lag import lag_deg, twist_deg
 from models.materials import tissue_named
 from models.needle import NEEDLES, NITINOL
 from sim.paper_protocols import protocol_named
@@ -17,7 +17,7 @@ from studies.crosscheck.findings import Comparison
 from studies.crosscheck.paper import compare, settling_s
 
 _TURN_DEG = 90.0
-_SLOW_TURN_S = 20.0
+_SLOW_TURN_S, _SLOW_FREE_MM, _SLOW_DEPTH_MM = 20.0, 230.0, 100.0
 _FIG_5_TURN_BEGINS_S, _FIG_5_ENDS_S = 1.0, 8.3  # in the protocol; after the turn began
 
 
@@ -29,10 +29,10 @@ def compare_text() -> list[Comparison]:
 def figure_3() -> list[Comparison]:
     """The lag at the end of the slow turn, 10 cm deep; of gelatin the text gives no number."""
     table_ii = published.DAMPING_PLASTISOL_N_MM_S[10.0] * np.radians(_TURN_DEG) / _SLOW_TURN_S
-    own = lag_deg(NITINOL, base_torque_n_mm=table_ii, free_mm=230, inserted_mm=100)
+    own = lag_deg(NITINOL, base_torque_n_mm=table_ii, free_mm=_SLOW_FREE_MM, inserted_mm=_SLOW_DEPTH_MM)
     plastisol = (
-        f"Table II's own torque at 10 cm gives {own:.1f} deg by eq. (2): at the stated lengths Fig. 3 "
-        "and Table II do not agree, and no law of the tissue can meet both"
+        f"Table II's own torque at 10 cm gives {own:.1f} deg by eq. (2), and {_at_exit_deg(table_ii):.1f} "
+        "deg if all of it acted at the exit: Fig. 3 and Table II do not agree at the stated lengths"
     )
     circular = "its friction here is what eq. (2) makes of this lag: no test of the model"
     simtest = "simulated with the one torque that Section II-D states, 1.0 N mm"
@@ -45,6 +45,11 @@ def figure_3() -> list[Comparison]:
             ("simtest", published.SIMTEST_LAG, simtest),
         )
     ]
+
+
+def _at_exit_deg(torque_n_mm: float) -> float:
+    """Lag if a torque acted where the needle leaves the tissue in the slow turns, deg: equation (1)."""
+    return twist_deg(NITINOL, torque_n_mm=torque_n_mm, length_mm=_SLOW_FREE_MM + _SLOW_DEPTH_MM)
 
 
 def _slow_lag_deg(material: str) -> float:

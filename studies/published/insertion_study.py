@@ -26,6 +26,7 @@ from studies.published.experiments.text_figures import TEXT_FIGURES_PLASTISOL
 from studies.published.fitting.fit import FigureFit
 from studies.published.fitting.insertion_hypotheses import (
     ALL_INSERTION_HYPOTHESES,
+    SLOW_TURN_SHAFT_MM,
     STATED_INSERTION,
     InsertionHypothesis,
 )
@@ -116,25 +117,27 @@ def study_insertions(
     """Every hypothesis, and what fits to the tables predict.
 
     Args:
-      fits: of Tables II, IV and V, that stand as hypotheses without a parameter.
+      fits: of Tables II, IV and V, that stand as hypotheses without a parameter, with the shaft of
+        this study and with that of the slow turns.
 
     Raises:
       SimulationFailed: a rig cannot be simulated.
     """
-    wanted = (*hypotheses, *map(of_fit, fits))
+    lengths = (InsertionRig().shaft_mm, SLOW_TURN_SHAFT_MM)
+    wanted = (*hypotheses, *(of_fit(fit, length) for length in lengths for fit in fits))
     predictions = sorted((predict(h, replay) for h in wanted), key=lambda p: p.rms_residual)
     rig, sense = InsertionRig(), WindingSense.ONE_WAY
     one_way = (deviations_alone_mm([rig], sense)[0], deviation_compensated_mm(rig, sense))
     return InsertionStudy(predictions=tuple(predictions), one_way_mm=one_way)
 
 
-def of_fit(fit: FigureFit) -> InsertionHypothesis:
+def of_fit(fit: FigureFit, shaft_mm: float) -> InsertionHypothesis:
     """A fit to the tables as a hypothesis on the insertion: the same tissue, drive and motion."""
     found = fit.hypothesis.rig(fit.x)
-    rig = InsertionRig(model=found.model.without_sensors(), turn=found.turn)
+    rig = InsertionRig(model=found.model.without_sensors(), turn=found.turn, shaft_mm=shaft_mm)
     return InsertionHypothesis(
         name=" and ".join(fit.hypothesis.names),
-        basis=f"Tables II, IV, V, {fit.hypothesis.free_length}",
+        basis=f"Tables II, IV, V, {fit.hypothesis.free_length}; {shaft_mm:g} mm of shaft",
         of_tables=True,
         apply=lambda _: rig,
     )

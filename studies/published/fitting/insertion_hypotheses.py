@@ -35,7 +35,8 @@ from studies.published.experiments.insertion import InsertionRig
 _PREBEND_RAD, _PREBENT_MM = math.radians(15.0), 12.0  # Section V
 _POISSON = 0.33  # of Nitinol
 _MEAN_DEPTH_MM = 25.0  # of the four turns
-_SLOW_TURN_MM = 230.0 + 100.0  # Section II-A
+SLOW_TURN_SHAFT_MM = 230.0 + 100.0
+"""From base to exit in the slow turns (Section II-A)."""
 _TWIST_TEST_MM = published.TWIST_TEST_LENGTH.value
 
 
@@ -133,7 +134,7 @@ ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
     InsertionHypothesis(
         name="longer shaft",
         basis="330 mm, base to exit in the slow turns (Section II-A)",
-        apply=lambda _: InsertionRig(shaft_mm=_SLOW_TURN_MM),
+        apply=lambda _: InsertionRig(shaft_mm=SLOW_TURN_SHAFT_MM),
     ),
     InsertionHypothesis(
         name="longer shaft",

@@ -4,7 +4,11 @@ import math
 
 from models import published
 from studies.published.experiments.text_figures import TEXT_FIGURES_PLASTISOL
-from studies.published.fitting.insertion_hypotheses import prebend_drag_n_mm_s, prebend_torque_n_mm
+from studies.published.fitting.insertion_hypotheses import (
+    SLOW_TURN_SHAFT_MM,
+    prebend_drag_n_mm_s,
+    prebend_torque_n_mm,
+)
 from studies.published.insertion_study import InsertionPrediction, InsertionStudy
 from studies.published.report.tables import TextTable
 from studies.published.report.values import deviation_text, value_text
@@ -101,7 +105,8 @@ def _of_tables(study: InsertionStudy) -> list[str]:
     alone, compensated = ([p.alone_mm for p in found], [p.compensated_mm for p in found])
     return [
         f"What explains Tables II, IV and V predicts {_range(alone)} with the base alone and "
-        f"{_range(compensated)} compensated: it does not explain Fig. 12 as well."
+        f"{_range(compensated)} compensated, also with {SLOW_TURN_SHAFT_MM:g} mm of shaft: it does not "
+        "explain Fig. 12 as well."
         if not any(p.meets_both for p in found)
         else "Of what explains Tables II, IV and V, "
         + "; ".join(_named(p) for p in found if p.meets_both)

@@ -13,7 +13,8 @@ def test_figure_3_lags_by_what_equation_2_makes_of_the_stated_friction():
     viscous = math.degrees(1.7254 * math.radians(90) / 20 * 280 / 323.576)
     assert found["hard-plastisol"].ours == pytest.approx(viscous, abs=0.01)
     assert found["hard-plastisol"].ratio == pytest.approx(0.67, abs=0.01)
-    assert "6.3 deg" in found["hard-plastisol"].note
+    # Table II prints 1.63 N mm s at 10 cm, alone 6 % below its line; 330 mm is base to exit.
+    assert "gives 6.3 deg by eq. (2), and 7.5 deg if" in found["hard-plastisol"].note
     # Soft tissue still winds up at 20 s: a little less.
     assert viscous - 0.3 < found["soft-plastisol"].ours < viscous
     assert found["simtest"].ours == pytest.approx(49.6, abs=0.05)

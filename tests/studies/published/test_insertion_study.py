@@ -79,11 +79,12 @@ def test_larger_damping_meets_fig_12_and_spoils_figs_3_and_5(study):
 
 def test_fits_to_the_tables_take_their_tissue_and_motion_along(study):
     fit = study.plastisol.verdict.best
-    made = insertion_study.of_fit(fit)
+    made = insertion_study.of_fit(fit, 330.0)
     rig = made.apply(math.nan)
     assert rig.turn == fit.hypothesis.rig(fit.x).turn
     assert rig.model.rate_exponent == fit.hypothesis.rig(fit.x).model.rate_exponent != 1.0
     assert made.of_tables
+    assert rig.shaft_mm == 330.0
     assert "no free length" in made.basis
 
 

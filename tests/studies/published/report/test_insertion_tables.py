@@ -41,7 +41,7 @@ def test_sentences_say_what_is_left_and_what_is_contradicted(insertions):
     assert "leave the plane by 0.69 mm and 0.17 mm" in said
     assert "larger damping would miss those by far more" in said
     assert "Without such a contradiction: longer shaft, 330 mm" in said
-    assert "it does not explain Fig. 12 as well" in said
+    assert "330 mm of shaft: it does not explain Fig. 12 as well" in said
 
 
 def test_where_nothing_meets_both_deviations_that_is_said(insertions):
