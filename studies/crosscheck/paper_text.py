@@ -31,18 +31,19 @@ def figure_3() -> list[Comparison]:
     table_ii = published.DAMPING_PLASTISOL_N_MM_S[10.0] * np.radians(_TURN_DEG) / _SLOW_TURN_S
     own = lag_deg(NITINOL, base_torque_n_mm=table_ii, free_mm=_SLOW_FREE_MM, inserted_mm=_SLOW_DEPTH_MM)
     plastisol = (
-        f"Table II's own torque at 10 cm gives {own:.1f} deg by eq. (2), and {_at_exit_deg(table_ii):.1f} "
-        "deg if all of it acted at the exit: Fig. 3 and Table II do not agree at the stated lengths"
+        f"Table II's own torque at 10 cm gives {own:.1f} deg by eq. (2), and "
+        f"{_at_exit_deg(table_ii):.1f} deg if all of it acted at the exit: Fig. 3 and Table II do not "
+        "agree at the stated lengths"
     )
     circular = "its friction here is what eq. (2) makes of this lag: no test of the model"
     simtest = "simulated with the one torque that Section II-D states, 1.0 N mm"
     return [
-        compare(f"Fig. 3, lag after the slow turn, {material}", figure, _slow_lag_deg(material), note)
-        for material, figure, note in (
-            ("soft-plastisol", published.FIG_3_PLASTISOL_LAG, plastisol),
-            ("hard-plastisol", published.FIG_3_PLASTISOL_LAG, plastisol),
-            ("chicken", published.CHICKEN_LAG, circular),
-            ("simtest", published.SIMTEST_LAG, simtest),
+        compare(f"Fig. 3, lag after the slow turn, {name}", figure, _slow_lag_deg(material), note)
+        for name, material, figure, note in (
+            ("soft plastisol", "soft-plastisol", published.FIG_3_PLASTISOL_LAG, plastisol),
+            ("hard plastisol", "hard-plastisol", published.FIG_3_PLASTISOL_LAG, plastisol),
+            ("chicken (sets its own friction)", "chicken", published.CHICKEN_LAG, circular),
+            ("SimTest", "simtest", published.SIMTEST_LAG, simtest),
         )
     ]
 

@@ -11,14 +11,14 @@ def test_figure_3_lags_by_what_equation_2_makes_of_the_stated_friction():
     found = {c.item.split(", ")[-1]: c for c in paper_text.figure_3()}
     # Rigid tissue at a constant rate: b omega (f + l / 2) / kappa, b = 1.7254 at 10 cm (Table II).
     viscous = math.degrees(1.7254 * math.radians(90) / 20 * 280 / 323.576)
-    assert found["hard-plastisol"].ours == pytest.approx(viscous, abs=0.01)
-    assert found["hard-plastisol"].ratio == pytest.approx(0.67, abs=0.01)
+    assert found["hard plastisol"].ours == pytest.approx(viscous, abs=0.01)
+    assert found["hard plastisol"].ratio == pytest.approx(0.67, abs=0.01)
     # Table II prints 1.63 N mm s at 10 cm, alone 6 % below its line; 330 mm is base to exit.
-    assert "gives 6.3 deg by eq. (2), and 7.5 deg if" in found["hard-plastisol"].note
+    assert "gives 6.3 deg by eq. (2), and 7.5 deg if" in found["hard plastisol"].note
     # Soft tissue still winds up at 20 s: a little less.
-    assert viscous - 0.3 < found["soft-plastisol"].ours < viscous
-    assert found["simtest"].ours == pytest.approx(49.6, abs=0.05)
-    assert found["chicken"].ours == pytest.approx(3.0, abs=0.01)
+    assert viscous - 0.3 < found["soft plastisol"].ours < viscous
+    assert found["SimTest"].ours == pytest.approx(49.6, abs=0.05)
+    assert found["chicken (sets its own friction)"].ours == pytest.approx(3.0, abs=0.01)
 
 
 def test_figure_5_prints_settling_and_what_is_left():
