@@ -106,3 +106,12 @@ those with half the step and twice the elements (tested)."""
 
 INSERTION_SCAN = 10
 """Values of a parameter at which the deviation is simulated before it is narrowed down."""
+
+CHANNEL_TOLERANCE_N_MM = 0.01
+CHANNEL_ITERATIONS = 40
+CHANNEL_RELAXATION = 0.7
+"""Agreement between the torque of the prebent tip's channel and the roll that it follows from, and
+how it is iterated. A deviation is then within 0.1 mm (tested)."""
+
+COARSE_SCAN = 4
+"""As INSERTION_SCAN, where every value needs an iteration of its own."""

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from diagnosis.effects.effect import Parameter
 from models import published
-from studies.published.criteria import INSERTION_SCAN, INSERTION_SIGMA, RESOLVED_SIGMA
+from studies.published.criteria import COARSE_SCAN, INSERTION_SIGMA, RESOLVED_SIGMA
 from studies.published.experiments.insertion import (
     InsertionRig,
     WindingSense,
@@ -29,6 +30,7 @@ from studies.published.fitting.insertion_hypotheses import (
     SLOW_TURN_SHAFT_MM,
     STATED_INSERTION,
     InsertionHypothesis,
+    prebend_torque_n_mm,
 )
 
 _ALONE_MM, _COMPENSATED_MM = published.FIG_12_BASE_ONLY, published.FIG_12_COMPENSATED
@@ -117,14 +119,15 @@ def study_insertions(
     """Every hypothesis, and what fits to the tables predict.
 
     Args:
-      fits: of Tables II, IV and V, that stand as hypotheses without a parameter, with the shaft of
-        this study and with that of the slow turns.
+      fits: of Tables II, IV and V, best first, that stand as hypotheses without a parameter, with the
+        shaft of this study and with that of the slow turns; the best also with a prebent tip.
 
     Raises:
       SimulationFailed: a rig cannot be simulated.
     """
     lengths = (InsertionRig().shaft_mm, SLOW_TURN_SHAFT_MM)
-    wanted = (*hypotheses, *(of_fit(fit, length) for length in lengths for fit in fits))
+    of_tables = [of_fit(fit, length) for length in lengths for fit in fits]
+    wanted = (*hypotheses, *of_tables, *map(in_channel, of_tables[len(fits) : len(fits) + 1]))
     predictions = sorted((predict(h, replay) for h in wanted), key=lambda p: p.rms_residual)
     rig, sense = InsertionRig(), WindingSense.ONE_WAY
     one_way = (deviations_alone_mm([rig], sense)[0], deviation_compensated_mm(rig, sense))
@@ -140,6 +143,21 @@ def of_fit(fit: FigureFit, shaft_mm: float) -> InsertionHypothesis:
         basis=f"Tables II, IV, V, {fit.hypothesis.free_length}; {shaft_mm:g} mm of shaft",
         of_tables=True,
         apply=lambda _: rig,
+    )
+
+
+def in_channel(hypothesis: InsertionHypothesis) -> InsertionHypothesis:
+    """A hypothesis without a parameter, and a prebent tip in a channel that gives as Fig. 12 asks."""
+    most = prebend_torque_n_mm()
+    return InsertionHypothesis(
+        name=f"{hypothesis.name}, prebent tip in the channel that it cuts",
+        basis=hypothesis.basis,
+        parameter=Parameter(
+            name="value", unit="N mm", low=0.03 * most, high=most, start=(most,), logarithmic=True
+        ),
+        of_tables=True,
+        scan=COARSE_SCAN,
+        apply=lambda torque: replace(hypothesis.apply(math.nan), channel_n_mm=torque),
     )
 
 
@@ -171,8 +189,8 @@ def value_for_base_alone(hypothesis: InsertionHypothesis) -> float:
     p = hypothesis.parameter
     if p is None:
         return math.nan
-    scanned = np.geomspace(p.low, p.high, INSERTION_SCAN)
-    for _ in range(2):  # the second scan between neighbours of the first, 1 / 81 of the range apart
+    scanned = np.geomspace(p.low, p.high, hypothesis.scan)
+    for _ in range(2):  # the second scan between neighbours of the first
         miss = np.array(deviations_alone_mm([hypothesis.apply(float(v)) for v in scanned]))
         miss -= _ALONE_MM.value
         crossings = np.flatnonzero(np.diff(np.sign(miss)) != 0)
@@ -182,7 +200,7 @@ def value_for_base_alone(hypothesis: InsertionHypothesis) -> float:
         i = int(crossings[0] if miss[0] < 0 else crossings[-1])
         low, high = scanned[i], scanned[i + 1]
         share = miss[i] / (miss[i] - miss[i + 1])
-        scanned = np.geomspace(low, high, INSERTION_SCAN)
+        scanned = np.geomspace(low, high, hypothesis.scan)
     return float(low * (high / low) ** share)
 
 

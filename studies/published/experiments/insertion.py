@@ -13,7 +13,7 @@ Table II).
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -29,6 +29,7 @@ from studies.control.tables import DESIGN
 from studies.control.tip_controllers import tip_controller_named
 from studies.published.criteria import INSERTION_ELEMENTS, INSERTION_STEP_S
 from studies.published.experiments.base_turn import TURN_DEG, BaseTurn, BaseTurnShape
+from studies.published.experiments.channel import run_in_channel
 from studies.published.experiments.rig import STATED
 
 Array = NDArray[np.float64]
@@ -60,11 +61,13 @@ class InsertionRig:
       model: needle, tissue and drive, as the diagnosis of rig logs has them.
       shaft_mm: between chuck and tip.
       turn: of the base alone by 90 deg; a half turn at the same rate, or by the same servo.
+      channel_n_mm: torque of the prebent tip for a quarter turn out of the channel that it cuts.
     """
 
     model: RigParameters = RigParameters()  # noqa: RUF009 - frozen
     shaft_mm: float = 120.0
     turn: BaseTurn = BaseTurn()  # noqa: RUF009 - frozen
+    channel_n_mm: float = 0.0
 
     def setup(self, inputs: Schedule) -> Setup:
         """The MuJoCo needle that goes through the insertion."""
@@ -126,22 +129,43 @@ def deviations_alone_mm(
     Raises:
       SimulationFailed: a rig cannot be simulated.
     """
-    found: dict[InsertionRig, float] = {}
-    for motion in dict.fromkeys((rig.shaft_mm, rig.turn) for rig in rigs):
-        group = [rig for rig in dict.fromkeys(rigs) if (rig.shaft_mm, rig.turn) == motion]
+    held = [rig for rig in dict.fromkeys(rigs) if rig.channel_n_mm > 0]
+    found = {rig: deviation_mm(_alone_in_channel(rig, sense)) for rig in held}
+    free = [rig for rig in dict.fromkeys(rigs) if rig.channel_n_mm == 0]
+    for motion in dict.fromkeys((rig.shaft_mm, rig.turn) for rig in free):
+        group = [rig for rig in free if (rig.shaft_mm, rig.turn) == motion]
         inputs = base_alone(group[0], sense)
         runs = simulate([rig.setup(inputs) for rig in group], inputs)
         found |= {rig: deviation_mm(run) for rig, run in zip(group, runs, strict=True)}
     return [found[rig] for rig in rigs]
 
 
+def _alone_in_channel(rig: InsertionRig, sense: WindingSense) -> Run:
+    inputs = base_alone(rig, sense)
+
+    def run(tip_torque_n_mm: Array) -> Run:
+        loaded = replace(inputs, tip_torque_n_mm=tip_torque_n_mm)
+        return simulate([rig.setup(loaded)], loaded)[0]
+
+    return run_in_channel(run, inputs.time_s.size, rig.channel_n_mm)
+
+
 def deviation_compensated_mm(rig: InsertionRig, sense: WindingSense = WindingSense.TO_AND_FRO) -> float:
     """Deviation with our feedforward compensation, which knows the stated needle only, mm."""
-    inputs = reference(rig.shaft_mm, sense)
+    inputs = reference(rig.shaft_mm, sense).at_steps(INSERTION_STEP_S)
+
+    def run(tip_torque_n_mm: Array) -> Run:
+        loaded = replace(inputs, tip_torque_n_mm=tip_torque_n_mm)
+        return run_closed_loop(rig.setup(loaded), loaded, _compensator(rig)).run
+
+    return deviation_mm(run_in_channel(run, inputs.time_s.size, rig.channel_n_mm))
+
+
+def _compensator(rig: InsertionRig) -> FeedbackController:
     controller: FeedbackController = tip_controller_named("feedforward", DESIGN)
     if rig.turn.shape is BaseTurnShape.SERVO:
-        controller = ServoedController(controller, rig.turn.time_s)
-    return deviation_mm(run_closed_loop(rig.setup(inputs), inputs, controller).run)
+        return ServoedController(controller, rig.turn.time_s)
+    return controller
 
 
 class ServoedController:

@@ -5,8 +5,8 @@ one hypothesis, and the same mechanism with the value that Fig. 12 asks for is a
 
     prebend       a tip bent by alpha has to follow a channel of radius R. If the channel does not
                   give, a quarter turn costs EI alpha / R; EI = kappa (1 + nu) for a round wire.
-                  MuJoCo's law is a torque that prefers the first orientation, per mm inserted;
-                  the channel that turns with the tip is not in it.
+                  Once with the channel that the tip cuts on its way, once with MuJoCo's own law,
+                  a torque per mm inserted that prefers the first orientation for good.
     tip drag      the bent length L sweeps through the tissue. At radius y = x sin alpha its drag
                   per mm and speed is twice that along the shaft (a slender body), beta / r^2:
                   2 beta / r^2 sin^2 alpha L^3 / 3.
@@ -29,12 +29,13 @@ from models.materials import (
     tissue_time_constant_s,
 )
 from models.needle import NITINOL
+from studies.published.criteria import INSERTION_SCAN
 from studies.published.experiments.base_turn import TURN_DEG, BaseTurn
+from studies.published.experiments.channel import PREBENT_MM
 from studies.published.experiments.insertion import InsertionRig
 
-_PREBEND_RAD, _PREBENT_MM = math.radians(15.0), 12.0  # Section V
+_PREBEND_RAD = math.radians(15.0)  # Section V
 _POISSON = 0.33  # of Nitinol
-_MEAN_DEPTH_MM = 25.0  # of the four turns
 SLOW_TURN_SHAFT_MM = 230.0 + 100.0
 """From base to exit in the slow turns (Section II-A)."""
 _TWIST_TEST_MM = published.TWIST_TEST_LENGTH.value
@@ -48,7 +49,8 @@ class InsertionHypothesis:
       name: in words.
       basis: where its value is from; empty where Fig. 12 sets it.
       parameter: what Fig. 12 sets; None: nothing.
-      of_tables: whether a fit to Tables II, IV and V sets it.
+      of_tables: whether it stands on a fit to Tables II, IV and V.
+      scan: values of the parameter at which it is first simulated.
       apply: the rig, given the parameter's value (anything where there is none).
     """
 
@@ -56,6 +58,7 @@ class InsertionHypothesis:
     basis: str = ""
     parameter: Parameter | None = None
     of_tables: bool = False
+    scan: int = INSERTION_SCAN
     apply: Callable[[float], InsertionRig]
 
 
@@ -77,7 +80,7 @@ def prebend_drag_n_mm_s() -> float:
     """Viscous torque of the prebent length that sweeps through plastisol, N mm s / rad."""
     damping = slope_per_mm(dict(published.DAMPING_PLASTISOL_N_MM_S))
     across = 2 * damping / NITINOL.radius_mm**2
-    return across * math.sin(_PREBEND_RAD) ** 2 * _PREBENT_MM**3 / 3
+    return across * math.sin(_PREBEND_RAD) ** 2 * PREBENT_MM**3 / 3
 
 
 def _fitted(unit: str, low: float, high: float) -> Parameter:
@@ -87,7 +90,7 @@ def _fitted(unit: str, low: float, high: float) -> Parameter:
 _GELATIN = slope_per_mm(dict(published.STATIC_TORQUE_GELATIN_N_MM))
 _DRY = ("dry friction along the shaft", "kinetic_n_mm_per_mm", "N mm / mm")
 _SHARED = ("friction shared with axial speed", "shared_n_mm_per_mm", "N mm / mm")
-_BENT = ("torque of the prebent tip", "curvature_n_mm_per_mm", "N mm / mm")
+_BENT = ("prebent tip that keeps to its first channel", "curvature_n_mm_per_mm", "N mm / mm")
 _DRAG = ("drag of the prebent tip", "tip_drag_n_mm_s_per_rad", "N mm s / rad")
 
 STATED_INSERTION = InsertionHypothesis(
@@ -127,7 +130,11 @@ ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
     _set_by_figure_12(_DRY, 1e-3, 0.2),
     _at(_SHARED, _GELATIN, "gelatin, Table II"),
     _set_by_figure_12(_SHARED, 1e-3, 3.0),
-    _at(_BENT, prebend_torque_n_mm() / _MEAN_DEPTH_MM, "a channel that does not give"),
+    InsertionHypothesis(
+        name="prebent tip in the channel that it cuts",
+        basis=f"{prebend_torque_n_mm():.2g} N mm: a channel that does not give",
+        apply=lambda _: InsertionRig(channel_n_mm=prebend_torque_n_mm()),
+    ),
     _set_by_figure_12(_BENT, 0.01, 1.0),
     _at(_DRAG, prebend_drag_n_mm_s(), "a slender body"),
     _set_by_figure_12(_DRAG, 0.05, 4.0),

@@ -42,18 +42,26 @@ def insertion_table(study: InsertionStudy) -> TextTable:
 
 
 def value_or_basis(prediction: InsertionPrediction) -> str:
-    """The value that Fig. 12 asks for, or where the value is from."""
-    parameter = prediction.hypothesis.parameter
+    """The value that Fig. 12 asks for, and where anything else is from."""
+    parameter, basis = prediction.hypothesis.parameter, prediction.hypothesis.basis
     if parameter is None:
-        return prediction.hypothesis.basis
+        return basis
+    value = f"{prediction.value:.3g} {parameter.unit} (set by {_ALONE_MM:g} mm)".replace(" - ", " ")
     if math.isnan(prediction.value):
-        return f"none of {parameter.low:g} to {parameter.high:g} gives {_ALONE_MM:g} mm"
-    return f"{prediction.value:.3g} {parameter.unit} (set by {_ALONE_MM:g} mm)".replace(" - ", " ")
+        value = f"none of {parameter.low:.3g} to {parameter.high:.3g} gives {_ALONE_MM:g} mm"
+    return f"{value}; {basis}" if basis else value
 
 
 def insertion_sentences(study: InsertionStudy) -> list[str]:
     """What Figs. 11 and 12 show, one point a sentence or two."""
-    return [_stated(study), _one_way(study), *_explanations(study), *_of_tables(study), _prebend()]
+    return [
+        _stated(study),
+        _one_way(study),
+        *_explanations(study),
+        *_of_tables(study),
+        *_with_channel(study),
+        _prebend(),
+    ]
 
 
 def _stated(study: InsertionStudy) -> str:
@@ -99,7 +107,7 @@ def _explanations(study: InsertionStudy) -> list[str]:
 
 def _of_tables(study: InsertionStudy) -> list[str]:
     """What explains the tables leaves of Fig. 12."""
-    found = [p for p in study.predictions if p.hypothesis.of_tables]
+    found = [p for p in study.predictions if p.hypothesis.of_tables and not p.hypothesis.parameter]
     if not found:
         return []
     alone, compensated = ([p.alone_mm for p in found], [p.compensated_mm for p in found])
@@ -111,6 +119,16 @@ def _of_tables(study: InsertionStudy) -> list[str]:
         else "Of what explains Tables II, IV and V, "
         + "; ".join(_named(p) for p in found if p.meets_both)
         + " explains Fig. 12 as well."
+    ]
+
+
+def _with_channel(study: InsertionStudy) -> list[str]:
+    """The best explanation of the tables with a prebent tip in its channel."""
+    return [
+        f"With {_named(p)}, {deviation_text(p.compensated_mm)} are left compensated. Gain and motor of "
+        "the compensator are ours, not the paper's."
+        for p in study.predictions
+        if p.hypothesis.of_tables and math.isfinite(p.value)
     ]
 
 
@@ -126,5 +144,5 @@ def _prebend() -> str:
     return (
         f"A prebent tip would cost up to {prebend_torque_n_mm():.1f} N mm a quarter turn in a channel "
         f"that does not give, and drag {prebend_drag_n_mm_s():.0f} N mm s / rad as a slender body; that "
-        "is far more than Fig. 12 allows. A channel that turns with the tip is in no hypothesis here."
+        "drag is far more than Fig. 12 allows."
     )

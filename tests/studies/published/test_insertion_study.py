@@ -9,7 +9,7 @@ from diagnosis.effects.effect import Parameter
 from diagnosis.replay.rig_parameters import RigParameters
 from studies.published import insertion_study
 from studies.published.experiments.insertion import InsertionRig
-from studies.published.fitting.insertion_hypotheses import InsertionHypothesis
+from studies.published.fitting.insertion_hypotheses import InsertionHypothesis, prebend_torque_n_mm
 from studies.published.insertion_study import sigma_mm, value_for_base_alone
 
 
@@ -86,6 +86,23 @@ def test_fits_to_the_tables_take_their_tissue_and_motion_along(study):
     assert made.of_tables
     assert rig.shaft_mm == 330.0
     assert "no free length" in made.basis
+
+
+def test_the_best_fit_is_also_given_a_prebent_tip_whose_channel_gives(study):
+    found = next(
+        p for p in study.insertions.predictions if math.isfinite(p.value) and p.hypothesis.of_tables
+    )
+    assert found.hypothesis.basis.endswith("330 mm of shaft")
+    assert 0.0 < found.value < prebend_torque_n_mm()
+    # Straight between values a ninth of the range apart.
+    assert found.alone_mm == pytest.approx(12.0, abs=0.3)
+    without = next(
+        p
+        for p in study.insertions.predictions
+        if p.hypothesis.basis == found.hypothesis.basis and not p.hypothesis.parameter
+    )
+    assert without.alone_mm < 10.0
+    assert found.text == without.text
 
 
 def test_what_acts_at_the_tip_is_absent_where_the_tip_is_outside_the_tissue():

@@ -29,10 +29,12 @@ def test_the_nearest_hypothesis_comes_first_and_has_a_star(insertions):
 
 
 def test_a_value_is_said_with_its_unit_and_what_set_it(insertions):
-    fitted = next(p for p in insertions.predictions if p.hypothesis.parameter)
+    fitted = next(p for p in insertions.predictions if p.hypothesis.name == "larger damping")
     assert value_or_basis(fitted) == "3.25 (set by 12 mm)"
     never = replace(fitted, value=math.nan)
     assert value_or_basis(never) == "none of 1 to 10 gives 12 mm"
+    based = replace(fitted, hypothesis=replace(fitted.hypothesis, basis="here"))
+    assert value_or_basis(based) == "3.25 (set by 12 mm); here"
 
 
 def test_sentences_say_what_is_left_and_what_is_contradicted(insertions):
@@ -42,6 +44,7 @@ def test_sentences_say_what_is_left_and_what_is_contradicted(insertions):
     assert "larger damping would miss those by far more" in said
     assert "Without such a contradiction: longer shaft, 330 mm" in said
     assert "330 mm of shaft: it does not explain Fig. 12 as well" in said
+    assert "With base_servo and shear_thinning, prebent tip in the channel that it cuts" in said
 
 
 def test_where_nothing_meets_both_deviations_that_is_said(insertions):
