@@ -18,7 +18,7 @@ from analytic_log import (
     table,
 )
 
-from diagnosis.log.consistency import misfit
+from diagnosis.log.binned_trial import misfit
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import UnusableLog
 

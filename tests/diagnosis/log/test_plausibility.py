@@ -5,7 +5,7 @@ import re
 import pytest
 from analytic_log import change_rig, change_trial, scaled
 
-from diagnosis.log.plausibility import travelled_mm
+from diagnosis.log.travel import travelled_mm
 from diagnosis.log.rig_log import read_rig_log
 
 DOUBTS = [
