@@ -49,7 +49,7 @@ SHORTEST_SAMPLE_S = 1e-5
 LEAST_DEPTH_MM = 1.0
 """Derived: READING_RANGE ends at 1000 mm, so that all lengths in metres are below this."""
 SHORTEST_SHAFT_DIAMETERS = 3.0
-"""Physical: a shaft is longer, unless it is in metres and below 3000 diameters; needles have 50 to 500."""
+"""Physical: a shaft is longer, unless in metres (and below 3000 diameters); needles have 50 to 500."""
 LENGTH_JUMP_MM, LENGTH_HOLD_S = 5.0, 1.0
 """Physical: what a length may change by between two samples, beside its travel in so long a hold."""
 WRAP_PERIODS_DEG = (360.0, 180.0)
@@ -57,7 +57,7 @@ WRAP_REMAINDER = 1 / 6
 WRAP_MOTION_SIGMA = 6.0
 WRAP_FLICKERS = 3
 """A wrap of an angle: its periods; share of one by which motion may change the jump; standard deviations
-by which the motion on both sides is certain; jumps to and fro that no lone spike makes."""
+by which the motion on both sides is certain; returns in a row that are no lone spike."""
 NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
@@ -104,8 +104,8 @@ NOISE_RATIO = (0.5, 2.0)
 BACKWARD_TRAVEL_MM, BACKWARD_SHARE = 5.0, 0.2
 """Physical: depth that changes by more, against the speed, to within this share of it."""
 TORQUE_OVER_TWIST = 5.0
-"""Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2. Without
-the tip, over what the swing of the base does: 1.43 at most in 94 logs."""
+"""Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2.
+Where the tip is not measured, over what the swing of the base does: 1.43 at most in 94 logs."""
 
 # Scales: what is in another unit than the rig's own (log/torque_scale.py, log/time_scale.py)
 
@@ -119,8 +119,8 @@ LAG_UNDER_NOMINAL, LAG_OVER_NOMINAL = 1 / 12, 100.0
 may be: damping that is off, delays and friction make it late, hardly anything early."""
 LAG_UNEXPLAINED = 0.1
 LAG_DISTINCT = 3.0
-"""Share of variance that the lag may leave, and times that (or 1 %) that lags near the nominal leave: 1.05
-times at most in the same 94 logs."""
+"""Share of variance that the lag may leave, and times that (or 1 %) that lags near the nominal leave:
+1.05 times at most in the same 94 logs."""
 
 # Plausibility: what is used with a warning (log/plausibility.py)
 

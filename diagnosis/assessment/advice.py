@@ -1,11 +1,13 @@
 """What to run next: where two explanations are left, the run that would tell them apart."""
 
-from diagnosis.assessment.experiments import experiments
+from diagnosis.assessment.experiments import experiments, has_axis
 from diagnosis.assessment.next_experiment import best_experiment
 from diagnosis.assessment.residual_breakdown import ResidualBreakdown
 from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.verdict import Verdict, VerdictKind
+
+_WITHOUT_AXIS = "at two rates and two amplitudes, with reversals and with rests of two lengths"
 
 
 def advise(problem: FitProblem, verdict: Verdict, left: ResidualBreakdown) -> str:
@@ -18,7 +20,7 @@ def advise(problem: FitProblem, verdict: Verdict, left: ResidualBreakdown) -> st
     if verdict.kind is VerdictKind.UNDECIDED:
         return _tell_apart(problem, verdict)
     if verdict.kind is VerdictKind.UNKNOWN:
-        return _look_closer(left)
+        return _look_closer(problem, left)
     return ""
 
 
@@ -38,10 +40,11 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
     )
 
 
-def _look_closer(left: ResidualBreakdown) -> str:
+def _look_closer(problem: FitProblem, left: ResidualBreakdown) -> str:
     phase = max(left.phase, key=lambda k: left.phase[k], default="")
     signal = max(left.signal, key=lambda k: left.signal[k], default="")
+    varied = "at two depths and two rates" if has_axis(problem.log) else _WITHOUT_AXIS
     return (
         f"no effect of the library explains the residual, which is largest in {signal} while {phase}: "
-        "repeat that phase alone, at two depths and two rates, to see what it depends on"
+        f"repeat that phase alone, {varied}, to see what it depends on"
     )

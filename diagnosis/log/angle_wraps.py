@@ -86,6 +86,8 @@ def _advance(values: Array) -> float:
 
 
 def _flickers(jump: Array, at: Rows) -> bool:
-    """To and fro between the ends of the range again and again, within a few samples."""
-    turned = np.sign(jump[at[1:]]) == -np.sign(jump[at[:-1]])
-    return int((turned & (np.diff(at) <= min(_WINDOWS))).sum()) >= WRAP_FLICKERS
+    """To and fro between the ends of the range again and again, each within a few samples."""
+    signs, beside = np.sign(jump[at]), np.diff(at) <= min(_WINDOWS)
+    back = beside & (signs[1:] == -signs[:-1])
+    in_a_row = np.convolve(back, np.ones(WRAP_FLICKERS), "valid") if back.size >= WRAP_FLICKERS else back
+    return bool((in_a_row >= WRAP_FLICKERS).any())

@@ -23,7 +23,7 @@ from diagnosis.criteria import (
     LARGE_TURN_DEG,
 )
 from diagnosis.log.binned_trial import BinnedTrial, binned, lagging
-from diagnosis.log.trial import Trial
+from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.wording import listed
 
 Array = NDArray[np.float64]
@@ -44,7 +44,9 @@ def nominal_lag_s(trial: Trial, rigidity_n_mm2: float, damping: float) -> float:
 def lag_warnings(trials: Sequence[Trial], rigidity_n_mm2: float, damping: float) -> list[str]:
     """Warnings about trials whose needle follows far sooner or far later than the nominal one."""
     off: dict[str, tuple[float, float]] = {}
-    for trial in (t for t in trials if not t.tip_is_loaded):
+    for trial in trials:
+        if trial.tip_is_loaded or not any(trial.has(sensor) for sensor in SENSORS):
+            continue
         nominal = nominal_lag_s(trial, rigidity_n_mm2, damping)
         found = _lag_s(binned(trial), nominal)
         if found is not None:

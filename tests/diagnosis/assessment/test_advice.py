@@ -44,7 +44,17 @@ def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypat
 
 def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
-    assert "largest in tip_angle_deg while holding" in advise(PROBLEM, unknown, LEFT)
+    slides = PreparedLog(rig=RIG, trials=(prepared(trial(turns(2.0), speed=-1.0)),))
+    said = advise(SimpleNamespace(log=slides), unknown, LEFT)
+    assert "largest in tip_angle_deg while holding" in said
+    assert "at two depths and two rates" in said
+
+
+def test_a_rig_without_depth_gets_no_advice_about_depths():
+    said = advise(PROBLEM, replace(UNDECIDED, kind=VerdictKind.UNKNOWN), LEFT)
+    assert "largest in tip_angle_deg while holding" in said
+    assert "at two rates and two amplitudes, with reversals and with rests" in said
+    assert "depth" not in said
 
 
 def test_where_nothing_is_left_to_tell_apart_nothing_is_said():
