@@ -82,7 +82,7 @@ SPIKE_SIGMA = 20.0
 SPIKE_SHARE = 0.2
 """A lone sample so far off its neighbours, which agree within this share of its jump."""
 
-# Consistency: columns that no passive needle can have produced together (log/consistency.py)
+# Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
 LARGE_TURN_DEG = 20.0
 """Physical: smaller motions are not judged; noise and play of a rig are far below."""
@@ -107,7 +107,7 @@ TORQUE_OVER_TWIST = 5.0
 """Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2.
 Where the tip is not measured, over what the swing of the base does: 1.43 at most in 94 logs."""
 
-# Scales: what is in another unit than the rig's own (log/torque_scale.py, log/time_scale.py)
+# Scales: what is in another unit than the rig's own (log/checks/)
 
 TORQUE_UNDER_NOMINAL = 1 / 8
 """Torque over the least that a motion asks of the nominal needle: 0.34 and more in 94 logs of rigs with
@@ -122,7 +122,7 @@ LAG_DISTINCT = 3.0
 """Share of variance that the lag may leave, and times that (or 1 %) that lags near the nominal leave:
 1.05 times at most in the same 94 logs."""
 
-# Plausibility: what is used with a warning (log/plausibility.py)
+# Plausibility: what is used with a warning (log/checks/plausibility.py)
 
 PAUSE_STEPS, PAUSE_STEPS_UNEVEN = 10.0, 30.0
 UNEVEN_QUARTILES = 1.5

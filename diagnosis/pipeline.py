@@ -16,7 +16,7 @@ from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.noise_claims import far_claims
+from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepare import prepare

@@ -7,17 +7,17 @@ with a warning, or set aside with one. The files themselves are only ever read.
 from dataclasses import dataclass
 from pathlib import Path
 
-from diagnosis.log.angle_wraps import refuse_wraps
-from diagnosis.log.consistency import refuse_contradictions
-from diagnosis.log.lengths import refuse_impossible_lengths
-from diagnosis.log.noise_claims import far_claims
+from diagnosis.log.checks.angle_wraps import refuse_wraps
+from diagnosis.log.checks.consistency import refuse_contradictions
+from diagnosis.log.checks.lengths import refuse_impossible_lengths
+from diagnosis.log.checks.noise_claims import far_claims
+from diagnosis.log.checks.plausibility import plausibility_warnings
+from diagnosis.log.checks.repeated_trials import refuse_repeated_trials
+from diagnosis.log.checks.time_scale import lag_warnings
+from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.log.plausibility import plausibility_warnings
-from diagnosis.log.repeated_trials import refuse_repeated_trials
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.sensor_faults import without_faults
-from diagnosis.log.time_scale import lag_warnings
-from diagnosis.log.torque_scale import torque_warnings
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 from diagnosis.log.trial_file import read_trial, refuse_too_large
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from analytic_log import STEP_S, TURNS, behind
 
-from diagnosis.log.binned_trial import binned, lagging, misfit
+from diagnosis.log.checks.binned_trial import binned, lagging, misfit
 from diagnosis.log.trial import Trial
 
 

@@ -2,8 +2,8 @@
 
 import pytest
 
+from diagnosis.log.checks.travel import travelled_mm
 from diagnosis.log.rig_log import read_rig_log
-from diagnosis.log.travel import travelled_mm
 
 
 def test_travel_is_the_integral_of_the_speed(log):

@@ -17,8 +17,9 @@ from analytic_log import (
     table,
 )
 
+from diagnosis.log.checks.consistency import refuse_contradictions
 from diagnosis.log.rig_log import read_rig_log
-from diagnosis.log.trial import UnusableLog
+from diagnosis.log.trial import Trial, UnusableLog
 
 CONTRADICTIONS = [
     (
@@ -103,3 +104,13 @@ def test_what_a_rig_may_well_do_raises_no_alarm(log, what):
     """Negative controls of every check."""
     LEGITIMATE[what].to_csv(log / "turns.csv", index=False)
     assert read_rig_log(log).warnings == ()
+
+
+def test_a_tip_that_is_driven_may_turn_against_the_base(log):
+    (rig, trial) = (read_rig_log(log).rig, read_rig_log(log).trials[0])
+    backwards = trial.table.assign(tip_angle_deg=-trial.table["tip_angle_deg"])
+    claims = (rig.sensors.by_column(), rig.rigidity_n_mm2)
+    with pytest.raises(UnusableLog, match="opposite way"):
+        refuse_contradictions(log, Trial(name="turns.csv", table=backwards), *claims)
+    driven = backwards.assign(tip_torque_n_mm=0.5)
+    refuse_contradictions(log, Trial(name="turns.csv", table=driven), *claims)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from analytic_log import change_rig, change_trial, refusal, scaled
 
+from diagnosis.log.checks.lengths import length_warnings
 from diagnosis.log.rig_log import read_rig_log
 
 
@@ -52,6 +53,10 @@ def test_a_thick_shaft_a_needle_in_air_and_no_free_length_are_no_faults(log):
     change_trial(log, lambda t: t.assign(free_mm=0.0, inserted_mm=100.0))
     said = [w for w in read_rig_log(log).warnings if "_mm " in w and "torque" not in w]
     assert said == []
+
+
+def test_the_lengths_of_a_good_log_raise_no_alarm(log):
+    assert [length_warnings(trial) for trial in read_rig_log(log).trials] == [[], []]
 
 
 @pytest.mark.parametrize("column", ["inserted_mm", "free_mm"])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from analytic_log import BASE, TIP, TORQUE, TURNS, change_trial, scaled
 
-from diagnosis.log.noise_claims import far_claims
+from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import Trial
 

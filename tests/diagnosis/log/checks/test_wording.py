@@ -1,6 +1,6 @@
 """What messages share."""
 
-from diagnosis.log.wording import listed
+from diagnosis.log.checks.wording import listed
 
 
 def test_four_names_are_listed_and_the_others_counted():

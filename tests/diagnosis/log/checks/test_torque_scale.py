@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from analytic_log import TORQUE, change_rig, change_trial, scaled
 
+from diagnosis.log.checks.torque_scale import torque_over_twist
 from diagnosis.log.rig_log import read_rig_log
 
 BOTH = ("turns.csv", "slides.csv")
@@ -99,3 +100,10 @@ def test_a_rig_that_hardly_moves_is_not_judged(log):
 
     change_both(log, quiet)
     assert not any("base_torque_n_mm" in warning for warning in read_rig_log(log).warnings)
+
+
+def test_the_torque_of_a_spring_is_once_its_stiffness_times_its_twist():
+    base, tip = np.linspace(0, 90, 500), np.linspace(0, 30, 500)
+    torque = 1.7 * np.radians(base - tip)
+    # The largest hundredth of the torque is left out: 1 % of a ramp.
+    assert torque_over_twist(base, tip, torque, 1.7) == pytest.approx(0.99, abs=1e-6)

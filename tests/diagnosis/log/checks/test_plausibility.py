@@ -5,6 +5,7 @@ import re
 import pytest
 from analytic_log import change_rig, change_trial, scaled
 
+from diagnosis.log.checks.plausibility import plausibility_warnings
 from diagnosis.log.rig_log import read_rig_log
 
 DOUBTS = [
@@ -51,3 +52,20 @@ def test_claims_that_a_sensor_cannot_keep_are_said(log, column, field):
     assert any("smallest step is 1," in w and column in w for w in read_rig_log(log).warnings)
     change_rig(log, lambda c: c["sensors"].update({field: 0}))
     assert any("a noise of 0" in w and column in w for w in read_rig_log(log).warnings)
+
+
+def test_a_good_log_raises_none(log):
+    found = read_rig_log(log)
+    assert plausibility_warnings(found.trials, found.rig.sensors.by_column()) == []
+
+
+def test_a_base_that_rests_and_a_tip_that_drifts_by_a_few_degrees_are_not_compared(log):
+    change_trial(
+        log,
+        lambda t: t.assign(
+            base_angle_deg=0.02 * (t.index % 2),
+            tip_angle_deg=t["tip_angle_deg"] / 20,
+            base_torque_n_mm=t["base_torque_n_mm"] / 20,
+        ),
+    )
+    assert not any("times as far" in warning for warning in read_rig_log(log).warnings)

@@ -24,10 +24,10 @@ from diagnosis.criteria import (
     TURN_LEAST_SIGMA,
     UNEVEN_QUARTILES,
 )
-from diagnosis.log.lengths import length_warnings
+from diagnosis.log.checks.lengths import length_warnings
+from diagnosis.log.checks.wording import listed
 from diagnosis.log.sensor_faults import lines, quantum, scatter
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.log.wording import listed
 
 Array = NDArray[np.float64]
 

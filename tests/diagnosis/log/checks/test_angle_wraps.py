@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from analytic_log import BASE, TIP, change_trial, refusal
 
-from diagnosis.log.angle_wraps import wraps
+from diagnosis.log.checks.angle_wraps import wraps
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import UnusableLog
 

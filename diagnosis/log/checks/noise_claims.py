@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import BELIEVED_SCATTER
+from diagnosis.log.checks.wording import listed
 from diagnosis.log.trial import Trial
 from diagnosis.log.unit_hints import unit_off_by
 from diagnosis.log.white_noise import white_noise
-from diagnosis.log.wording import listed
 
 Array = NDArray[np.float64]
 

@@ -22,9 +22,9 @@ from diagnosis.criteria import (
     LAG_UNEXPLAINED,
     LARGE_TURN_DEG,
 )
-from diagnosis.log.binned_trial import BinnedTrial, binned, lagging
+from diagnosis.log.checks.binned_trial import BinnedTrial, binned, lagging
+from diagnosis.log.checks.wording import listed
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.log.wording import listed
 
 Array = NDArray[np.float64]
 

@@ -22,9 +22,9 @@ from diagnosis.criteria import (
     TORQUE_UNDER_NOMINAL,
     TURN_LEAST_DEG,
 )
-from diagnosis.log.binned_trial import binned
+from diagnosis.log.checks.binned_trial import binned
+from diagnosis.log.checks.wording import listed
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.log.wording import listed
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ import pytest
 from analytic_log import STEP_S, change_trial, lagging, scaled
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
+from diagnosis.log.checks.time_scale import nominal_lag_s
 from diagnosis.log.rig_log import read_rig_log
-from diagnosis.log.time_scale import nominal_lag_s
 from diagnosis.log.trial import UnusableLog
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL

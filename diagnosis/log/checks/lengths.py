@@ -18,8 +18,8 @@ from diagnosis.criteria import (
     PAUSE_STEPS,
     SHORTEST_SHAFT_DIAMETERS,
 )
+from diagnosis.log.checks.travel import travelled_mm
 from diagnosis.log.sensor_faults import lines
-from diagnosis.log.travel import travelled_mm
 from diagnosis.log.trial import Trial, UnusableLog
 
 Array = NDArray[np.float64]
