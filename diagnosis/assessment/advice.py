@@ -1,9 +1,12 @@
 """What to run next: where two explanations are left, the run that would tell them apart."""
 
-from diagnosis.assessment.experiments import experiments, has_axis
+from collections.abc import Sequence
+
+from diagnosis.assessment.experiments import experiments, has_axis, sliding_experiments
 from diagnosis.assessment.next_experiment import best_experiment
 from diagnosis.assessment.residual_breakdown import ResidualBreakdown
 from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS
+from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.verdict import Verdict, VerdictKind
 
@@ -34,9 +37,23 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
         return f"{found.experiment.words}: there {apart}"
     if runs <= MOST_RUNS:
         return f"{found.experiment.words}, about {runs:.0f} times: in each run {apart}"
-    return (
+    return _only_sliding(problem, one.fit, other.fit, names) or (
         f"no run that this rig can do would tell {names[0]} from {names[1]}: in the best, "
         f"{found.experiment.words}, they would lie {found.separation:.2f} standard deviations apart"
+    )
+
+
+def _only_sliding(problem: FitProblem, one: Fit, other: Fit, names: Sequence[str]) -> str:
+    """What a rig that seems to have no axis cannot tell, and a needle that slides would."""
+    if has_axis(problem.log):
+        return ""
+    found = best_experiment(problem, one, other, sliding_experiments(problem.log))
+    if found.separation < DECISIVE_SIGMA:
+        return ""
+    return (
+        f"no turn of the base alone would tell {names[0]} from {names[1]}; if the rig can slide the "
+        f"needle, {found.experiment.words}: there they would lie {found.separation:.1f} standard "
+        "deviations apart"
     )
 
 

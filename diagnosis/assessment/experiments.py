@@ -1,8 +1,8 @@
 """Runs that a rig can do, as its log shows: depths, free lengths, axial speeds and rates of turning.
 
 A rig whose trials are all equally deep and never slide is taken to have no axis: its runs differ in
-rate, amplitude, reversals and rests alone. One that has an axis but never slid may be able to: such
-runs say that they ask for it.
+rate, amplitude, reversals and rests alone, and those that slide are kept apart. One that has an axis but
+never slid may be able to: such runs say that they ask for it.
 """
 
 from collections.abc import Iterator
@@ -24,6 +24,7 @@ SAMPLE_S = 0.04
 _REST_S = 0.5
 _SLOW_MM_S = 1.0
 _SLOW_DEG_S = 5.0
+_FASTEST_AT_LEAST_DEG_S = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,12 +44,7 @@ def has_axis(log: PreparedLog) -> bool:
 
 def experiments(log: PreparedLog) -> Iterator[Experiment]:
     """Runs that the rig can do: turns at rest, and with an axis sliding and at two depths as well."""
-    rates = np.concatenate(
-        [np.abs(base_rate(trial.time_s, trial.base_motion_deg)) for trial in log.trials]
-    )
-    motions = _motions(max(float(np.quantile(rates, 0.99)), 10.0))
-    free = float(np.median(np.concatenate([trial.free_mm for trial in log.trials])))
-    depths = sorted({round(float(np.median(trial.inserted_mm)), 1) for trial in log.trials})
+    motions, depths, free = _motions(_fast_deg_s(log)), _depths_mm(log), _free_mm(log)
     if not has_axis(log):
         for words, (time, angle) in (motions | _rotary_motions()).items():
             yield Experiment(words=words, trial=_trial(time, angle, depths[0], free, 0.0))
@@ -63,6 +59,30 @@ def experiments(log: PreparedLog) -> Iterator[Experiment]:
                 sliding = f", sliding out at {speed:g} mm/s{able}" if speed else ""
                 where = f", {depth:g} mm deep with {free:.0f} mm free{sliding}"
                 yield Experiment(words=words + where, trial=_trial(time, angle, depth, free, -speed))
+
+
+def sliding_experiments(log: PreparedLog) -> Iterator[Experiment]:
+    """Runs that a rig without an axis cannot do: for what no turn of its base can tell."""
+    depth, free = _depths_mm(log)[0], _free_mm(log)
+    for words, (time, angle) in _motions(_fast_deg_s(log)).items():
+        yield Experiment(
+            words=f"{words}, sliding out at {_SLOW_MM_S:g} mm/s",
+            trial=_trial(time, angle, depth, free, -_SLOW_MM_S),
+        )
+
+
+def _fast_deg_s(log: PreparedLog) -> float:
+    """Rate at which the base turns in its fastest hundredth."""
+    each = [np.abs(base_rate(trial.time_s, trial.base_motion_deg)) for trial in log.trials]
+    return max(float(np.quantile(np.concatenate(each), 0.99)), _FASTEST_AT_LEAST_DEG_S)
+
+
+def _depths_mm(log: PreparedLog) -> list[float]:
+    return sorted({round(float(np.median(trial.inserted_mm)), 1) for trial in log.trials})
+
+
+def _free_mm(log: PreparedLog) -> float:
+    return float(np.median(np.concatenate([trial.free_mm for trial in log.trials])))
 
 
 def _motions(fast: float) -> dict[str, Motion]:

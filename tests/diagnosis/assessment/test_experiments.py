@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.assessment.experiments import SAMPLE_S, experiments, has_axis
+from diagnosis.assessment.experiments import (
+    SAMPLE_S,
+    experiments,
+    has_axis,
+    sliding_experiments,
+)
 from diagnosis.prepare.prepared_log import PreparedLog
 
 
@@ -37,6 +42,16 @@ def test_a_rig_without_an_axis_varies_rates_amplitudes_reversals_and_rests_alone
     for one in found:
         assert np.all(one.trial.inserted_mm == 90.0)
         assert np.all(one.trial.speed_mm_s == 0.0)
+
+
+def test_what_only_sliding_tells_is_proposed_at_the_depth_that_the_rig_has():
+    found = list(sliding_experiments(PreparedLog(rig=RIG, trials=(prepared(trial(turns())),))))
+    assert found
+    for one in found:
+        assert "sliding out at 1 mm/s" in one.words
+        assert "deep" not in one.words
+        assert np.all(one.trial.inserted_mm == 90.0)
+        assert np.all(one.trial.speed_mm_s == -1.0)
 
 
 @pytest.mark.parametrize("way", ["slides", "two depths", "goes deeper"])
