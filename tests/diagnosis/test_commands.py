@@ -133,3 +133,17 @@ def test_replay_refuses_an_angle_that_wraps(replay_of):
     assert code == 2
     assert "base_angle_deg wraps" in said
     assert "numpy.unwrap(values, period=180)" in said
+
+
+def test_diagnose_tells_warnings_of_the_log_before_anything_is_simulated(tmp_path, monkeypatch, capsys):
+    log = write_log(tmp_path / "log")
+    change_trial(log, lambda t: t.assign(tip_angle_deg=np.radians(t["tip_angle_deg"])))
+
+    def simulated(*_, **__):
+        raise RuntimeError("simulated")
+
+    monkeypatch.setattr(command, "diagnose", simulated)
+    with pytest.raises(RuntimeError, match="simulated"):
+        main(["diagnose", str(log)])
+    said = " ".join(capsys.readouterr().err.split())
+    assert "warning: turns.csv: tip_angle_deg scatters by" in said
