@@ -2,23 +2,26 @@
 
 from diagnosis.assessment.experiments import experiments
 from diagnosis.assessment.next_experiment import best_experiment
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown
 from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdict import Verdict, VerdictKind
 
 
-def advise(problem: FitProblem, verdict: Verdict, left: ResidualBreakdown) -> str:
+def advise(
+    problem: FitProblem, verdict: Verdict, nominal: ResidualBreakdown, left: ResidualBreakdown
+) -> str:
     """A sentence or two; empty where nothing is left to tell apart.
 
     Args:
       problem: the decimated log, on which runs are simulated.
+      nominal: the residual of the nominal rig.
       left: what the best explanation leaves.
     """
     if verdict.kind is VerdictKind.UNDECIDED:
         return _tell_apart(problem, verdict)
     if verdict.kind is VerdictKind.UNKNOWN:
-        return _look_closer(left)
+        return _look_closer(nominal, left)
     return ""
 
 
@@ -38,10 +41,9 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
     )
 
 
-def _look_closer(left: ResidualBreakdown) -> str:
-    phase = max(left.phase, key=lambda k: left.phase[k], default="")
-    signal = max(left.signal, key=lambda k: left.signal[k], default="")
+def _look_closer(nominal: ResidualBreakdown, left: ResidualBreakdown) -> str:
     return (
-        f"no effect of the library explains the residual, which is largest in {signal} while {phase}: "
+        f"no effect of the library explains the residual. That of the nominal rig is {nominal.largest}; "
+        f"what the best explanation leaves is {left.largest}: "
         "repeat that phase alone, at two depths and two rates, to see what it depends on"
     )

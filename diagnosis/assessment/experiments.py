@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.residual_breakdown import base_rate
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.residuals.motion import base_rate
 
 Array = NDArray[np.float64]
 

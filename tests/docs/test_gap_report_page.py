@@ -7,7 +7,7 @@ from pathlib import Path
 
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.intervals import Interval
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.report import json_report

@@ -10,7 +10,7 @@ from diagnosis.assessment import advice
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.experiments import Experiment
 from diagnosis.assessment.next_experiment import Proposal
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.selection.verdict import VerdictKind, verdict_on
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 
-from diagnosis.assessment.residual_breakdown import base_rate, phases, residual_breakdown
+from diagnosis.residuals.residual_breakdown import base_rate, phases, residual_breakdown
 from diagnosis.log.trial import Trial
 from diagnosis.replay.replay import Prediction
 
