@@ -13,9 +13,9 @@ _BREAKDOWN = (
     "after adding the effect."
 )
 _LOOPS = (
-    "Trials in which the nominal model misses most. A loop of torque against base angle that is as wide "
-    "at any rate is dry friction, one that widens with the rate is damping; lag against torque is a "
-    "line for an elastic shaft, and has a step where there is play."
+    "Trials whose loops differ most from those of the nominal model. A loop of torque against base "
+    "angle that is as wide at any rate is dry friction, one that widens with the rate is damping; a "
+    "flat part after each reversal is play; lag against torque is a line for an elastic shaft."
 )
 _ALONG = (
     "A mean residual that steps with the sign of the rate is dry friction, one that grows with the rate "
@@ -28,8 +28,9 @@ _MEMORY = (
     "something slow that the model lacks; a peak is a resonance or a disturbance."
 )
 _LEADS = (
-    "Where one leads, the cause is nearer to it, or the other sensor is late: what happens at the drive "
-    "reaches the torque first, what happens at the tip its angle."
+    "What happens at the drive, or a shaft that is too stiff or too soft, shows in the torque first; "
+    "what happens at the tip shows there first; friction and damping all along the shaft show in both "
+    "at once; what one sensor does alone does not show in the other."
 )
 
 

@@ -38,14 +38,17 @@ class ResidualBreakdown:
     @property
     def largest(self) -> str:
         """The signal and the phase with the largest residual: the words of every report and advice."""
-        signal, phase = _largest(self.signal), _largest(self.phase)
-        return f"largest in {signal} and while {phase}" if phase else f"largest in {signal}"
+        signal, phase = _first(self.signal), _first(self.phase)
+        words = f"largest in {signal} ({self.signal[signal]:.2f} σ)" if signal else "nowhere"
+        if not phase:
+            return words
+        when = "after a reversal" if phase == "reversal" else f"while {phase}"
+        return f"{words} and {when} ({self.phase[phase]:.2f} σ)"
 
 
-def _largest(parts: Mapping[str, float]) -> str:
-    """The part with the largest residual, and that residual; empty without parts."""
-    name = max(parts, key=lambda part: parts[part], default="")
-    return f"{name} ({parts[name]:.2f} σ)" if name else ""
+def _first(parts: Mapping[str, float]) -> str:
+    """The part with the largest residual; empty without parts."""
+    return max(parts, key=lambda part: parts[part], default="")
 
 
 def residual_breakdown(residuals: Sequence[TrialResidual]) -> ResidualBreakdown:

@@ -30,8 +30,9 @@ _TORQUE = LABELS["base_torque_n_mm"]
 def draw_loops(found: Diagnosis) -> Figure:
     """Loops of the trials that tell most, in the order of the log."""
     shown = telling_trials(found)
+    rows, columns = len(shown), max(len(_pictures(found.log.trials[i])) for i in shown)
     figure, axes = plt.subplots(
-        len(shown), 2, figsize=(13, 3.4 * len(shown)), layout="constrained", squeeze=False
+        rows, columns, figsize=(6.5 * columns, 3.4 * rows), layout="constrained", squeeze=False
     )
     for row, i in zip(axes, shown, strict=True):
         trial = found.log.trials[i]
@@ -58,7 +59,7 @@ def telling_trials(found: Diagnosis) -> list[int]:
 
 
 def _visible(residual: TrialResidual, noise: Noise) -> float:
-    """The residual beyond noise, as a share of the range of what was read: the larger of the sensors'."""
+    """The residual beyond noise over the range of what was read: the larger of both sensors'."""
     beyond = {s: max(float(np.nanmean(left**2)) - 1, 0.0) for s, left in residual.left.items()}
     ranges = {s: float(np.nanmax(residual.trial[s]) - np.nanmin(residual.trial[s])) for s in beyond}
     return max((noise[s] * beyond[s] ** 0.5 / ranges[s] for s in beyond if ranges[s] > 0), default=0.0)

@@ -25,7 +25,8 @@ def draw_memory(found: Diagnosis) -> Figure:
         _draw_autocorrelation(row[1], sensor, shapes)
         for axis in row:
             axis.minorticks_off()  # they take half of the time
-    axes[0, 0].legend(fontsize=7)
+    if axes[0, 0].get_lines():
+        axes[0, 0].legend(fontsize=7)
     return figure
 
 

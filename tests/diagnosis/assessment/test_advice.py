@@ -10,8 +10,8 @@ from diagnosis.assessment import advice
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.experiments import Experiment
 from diagnosis.assessment.next_experiment import Proposal
-from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdict import VerdictKind, verdict_on
 
 LEFT = ResidualBreakdown(
@@ -21,6 +21,7 @@ LEFT = ResidualBreakdown(
     depth_mm=[],
     time_s=[],
 )
+NOMINAL = replace(LEFT, signal={"tip_angle_deg": 3.0, "base_torque_n_mm": 5.0})
 READY = prepared(trial(turns(2.0)))
 PROBLEM = SimpleNamespace(log=PreparedLog(rig=RIG, trials=(READY,)))
 UNDECIDED = verdict_on([scored(["tip_drag"], 100.0), scored(["entry_friction"], 101.0)])
@@ -39,14 +40,16 @@ def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypat
     proposal = Proposal(experiment=run, separation=separation)
     monkeypatch.setattr(advice, "best_experiment", lambda *_: proposal)
     assert UNDECIDED.kind is VerdictKind.UNDECIDED
-    assert advise(PROBLEM, UNDECIDED, LEFT).startswith(said)
+    assert advise(PROBLEM, UNDECIDED, NOMINAL, LEFT).startswith(said)
 
 
 def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
-    assert "largest in tip_angle_deg while holding" in advise(PROBLEM, unknown, LEFT)
+    said = advise(PROBLEM, unknown, NOMINAL, LEFT)
+    assert f"of the nominal rig is {NOMINAL.largest}" in said
+    assert f"what the best explanation leaves is {LEFT.largest}: repeat that phase alone" in said
 
 
 def test_where_nothing_is_left_to_tell_apart_nothing_is_said():
     settled = verdict_on([scored(["tip_drag"], 100.0)])
-    assert advise(PROBLEM, settled, LEFT) == ""
+    assert advise(PROBLEM, settled, NOMINAL, LEFT) == ""
