@@ -43,7 +43,8 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
 
 def _look_closer(nominal: ResidualBreakdown, left: ResidualBreakdown) -> str:
     return (
-        f"no effect of the library explains the residual. That of the nominal rig is {nominal.largest}; "
+        "no effect of the library explains the residual. "
+        f"That of the nominal model is {nominal.largest}; "
         f"what the best explanation leaves is {left.largest}: "
         "repeat that phase alone, at two depths and two rates, to see what it depends on"
     )

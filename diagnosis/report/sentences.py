@@ -76,7 +76,7 @@ def largest_parts(found: Diagnosis) -> str:
     """In which signal and phase the residual is largest, before and after the best explanation."""
     told = found.assessment
     return (
-        f"Residual of the nominal rig: {told.breakdown.largest}; "
+        f"Residual of the nominal model: {told.breakdown.largest}; "
         f"of the best explanation: {told.breakdown_after.largest}"
     )
 

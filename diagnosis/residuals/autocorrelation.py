@@ -31,13 +31,13 @@ class Autocorrelation:
     """How long a residual remembers itself.
 
     Attributes:
-      lag_1_correlation: from one sample to the next.
+      lag_one_correlation: from one sample to the next.
       integral_s: T; None: longer than these trials can tell.
       white_limit: within which white noise stays at 95 of 100 lags.
       by_lag_s: some lags, and rho there.
     """
 
-    lag_1_correlation: float
+    lag_one_correlation: float
     integral_s: float | None
     white_limit: float
     by_lag_s: list[tuple[float, float]]
@@ -56,7 +56,7 @@ def autocorrelation(parts: Sequence[Array], step_s: float) -> Autocorrelation | 
     rho = products / np.maximum(pairs, 1) / (products[0] / pairs[0])
     shown = np.unique(np.rint(np.geomspace(1, most, _SHOWN)).astype(int))
     return Autocorrelation(
-        lag_1_correlation=float(rho[1]),
+        lag_one_correlation=float(rho[1]),
         integral_s=_integral_s(rho, step_s),
         white_limit=float(INTERVAL_Z / np.sqrt(pairs[0])),
         by_lag_s=[(float(k * step_s), float(rho[k])) for k in shown],

@@ -46,7 +46,7 @@ def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypat
 def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
     said = advise(PROBLEM, unknown, NOMINAL, LEFT)
-    assert f"of the nominal rig is {NOMINAL.largest}" in said
+    assert f"of the nominal model is {NOMINAL.largest}" in said
     assert f"what the best explanation leaves is {LEFT.largest}: repeat that phase alone" in said
 
 

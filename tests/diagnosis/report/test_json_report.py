@@ -75,9 +75,9 @@ def test_where_the_gap_is_is_told_of_the_nominal_rig_and_after_of_what_is_left(d
 def test_the_memory_of_the_residual_is_told_before_and_after(dry):
     before = dry.report["where"]["autocorrelation"]["base_torque_n_mm"]
     after = dry.report["where"]["after"]["autocorrelation"]["base_torque_n_mm"]
-    assert before["lag_1_correlation"] > 0.5
+    assert before["lag_one_correlation"] > 0.5
     # Within its band in 95 of 100, beyond twice that in 1 of 10 000.
-    assert abs(after["lag_1_correlation"]) < 2 * after["white_limit"]
+    assert abs(after["lag_one_correlation"]) < 2 * after["white_limit"]
     assert after["integral_s"] == pytest.approx(0.01, rel=1.0)
 
 

@@ -21,7 +21,7 @@ def test_the_memory_of_an_autoregressive_residual_is_its_closed_form(phi):
     exact = STEP * (1 + phi) / (1 - phi)
     # Lag 1 is good to sqrt((1 - phi^2) / N); the integral to sqrt(2 (2 M + 1) / N) with its window M of
     # five integral times, 6 % at phi = 0.9; it is never below one step.
-    assert found.lag_1_correlation == pytest.approx(phi, abs=4 * np.sqrt((1 - phi**2) / 100_000))
+    assert found.lag_one_correlation == pytest.approx(phi, abs=4 * np.sqrt((1 - phi**2) / 100_000))
     assert found.integral_s == pytest.approx(max(exact, STEP), rel=0.2)
 
 
@@ -44,14 +44,14 @@ def test_a_shifted_copy_shows_at_its_lag():
 
 def test_an_offset_is_remembered_for_longer_than_can_be_told():
     found = autocorrelation([np.full(500, 3.0)], STEP)
-    assert found.lag_1_correlation == pytest.approx(1.0)
+    assert found.lag_one_correlation == pytest.approx(1.0)
     assert found.integral_s is None
 
 
 def test_missing_samples_do_not_shorten_the_memory():
     gappy = autoregressive(0.9, size=60_000)
     gappy[np.random.default_rng(1).random(gappy.size) < 0.4] = np.nan
-    assert autocorrelation([gappy], STEP).lag_1_correlation == pytest.approx(0.9, abs=0.03)
+    assert autocorrelation([gappy], STEP).lag_one_correlation == pytest.approx(0.9, abs=0.03)
 
 
 @pytest.mark.parametrize("values", [np.ones(5), np.zeros(100), np.full(100, np.nan)])

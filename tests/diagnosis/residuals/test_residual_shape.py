@@ -35,7 +35,7 @@ def test_noise_is_at_the_floor_everywhere_and_nothing_leads(noise):
     assert found.leads.signal == ""
     assert set(found.spectrum) == {"base_torque_n_mm", "tip_angle_deg"}
     for own in found.autocorrelation.values():
-        assert abs(own.lag_1_correlation) < 2 * own.white_limit
+        assert abs(own.lag_one_correlation) < 2 * own.white_limit
 
 
 def test_a_gap_is_found_where_the_base_turns_fast(noise):
@@ -69,4 +69,4 @@ def test_one_sensor_has_a_memory_and_leads_nothing(noise):
     assert found.leads is None
     assert set(found.autocorrelation) == {"base_torque_n_mm"}
     # Good to sqrt((1 - 0.81) / 1200) = 0.013, less a bias of 0.002.
-    assert found.autocorrelation["base_torque_n_mm"].lag_1_correlation == pytest.approx(0.9, abs=0.05)
+    assert found.autocorrelation["base_torque_n_mm"].lag_one_correlation == pytest.approx(0.9, abs=0.05)
