@@ -4,7 +4,7 @@ With values r at even steps, over the pairs that were both read,
 
     rho(k) = mean(r[i] r[i + k]) / mean(r[i]^2),    T = step (1 + 2 sum_k rho(k)).
 
-White noise of N samples has |rho| < 1.96 / sqrt(N) at 95 of 100 lags and T of one step; duration / T
+White noise has |rho| < 1.96 / sqrt(N), of N pairs, at 95 of 100 lags and T of one step; duration / T
 is the number of independent samples. The mean is not taken off: a residual is expected to have none.
 The sum ends at the first lag beyond five T (Sokal 1996), since later lags add noise alone; a residual
 that remembers itself for too long to say so has no T.
@@ -33,7 +33,7 @@ class Autocorrelation:
     Attributes:
       lag_one_correlation: from one sample to the next.
       integral_s: T; None: longer than these trials can tell.
-      white_limit: within which white noise stays at 95 of 100 lags.
+      white_limit: within which white noise stays at 95 of 100 lags; of the lag with the fewest pairs.
       by_lag_s: some lags, and rho there.
     """
 
@@ -58,7 +58,7 @@ def autocorrelation(parts: Sequence[Array], step_s: float) -> Autocorrelation | 
     return Autocorrelation(
         lag_one_correlation=float(rho[1]),
         integral_s=_integral_s(rho, step_s),
-        white_limit=float(INTERVAL_Z / np.sqrt(pairs[0])),
+        white_limit=float(INTERVAL_Z / np.sqrt(max(pairs.min(), 1.0))),
         by_lag_s=[(float(k * step_s), float(rho[k])) for k in shown],
     )
 

@@ -14,7 +14,7 @@ from scipy.signal import welch
 
 Array = NDArray[np.float64]
 
-_SEGMENT_S = 10.0
+_SEGMENT_S, _SEGMENT_SAMPLES = 10.0, 128
 _PER_OCTAVE = 3
 
 
@@ -38,7 +38,7 @@ def spectrum(parts: Sequence[Array], step_s: float) -> Spectrum | None:
       None for trials of a few samples.
     """
     longest = max(part.size for part in parts)
-    size = min(round(_SEGMENT_S / step_s), longest)
+    size = min(max(round(_SEGMENT_S / step_s), _SEGMENT_SAMPLES), longest)
     if size <= 2:
         return None
     own = [_density(part, size, step_s) for part in parts]

@@ -27,7 +27,8 @@ def test_the_memory_of_an_autoregressive_residual_is_its_closed_form(phi):
 
 def test_white_noise_stays_in_its_band_and_remembers_nothing():
     found = autocorrelation([autoregressive(0.0, seed=s) for s in range(5)], STEP)
-    assert found.white_limit == pytest.approx(1.96 / np.sqrt(100_000), rel=1e-3)
+    # The longest lag is 10 s: 1000 steps, which five trials of 20 000 samples have 95 000 times.
+    assert found.white_limit == pytest.approx(1.96 / np.sqrt(95_000), rel=1e-3)
     beyond = [abs(rho) > found.white_limit for _, rho in found.by_lag_s]
     assert len(beyond) > 30
     assert np.mean(beyond) < 0.2  # 5 % are expected; more than 8 of 40 once in 10^4
@@ -52,6 +53,15 @@ def test_missing_samples_do_not_shorten_the_memory():
     gappy = autoregressive(0.9, size=60_000)
     gappy[np.random.default_rng(1).random(gappy.size) < 0.4] = np.nan
     assert autocorrelation([gappy], STEP).lag_one_correlation == pytest.approx(0.9, abs=0.03)
+
+
+def test_few_pairs_widen_the_band():
+    few = autoregressive(0.0, size=3000)
+    few[np.random.default_rng(2).random(few.size) < 0.9] = np.nan
+    found = autocorrelation([few], STEP)
+    # A hundredth of 3000 samples, less a quarter at the longest lag, are pairs.
+    assert found.white_limit > 1.96 / np.sqrt(30)
+    assert np.mean([abs(rho) > found.white_limit for _, rho in found.by_lag_s]) < 0.2
 
 
 @pytest.mark.parametrize("values", [np.ones(5), np.zeros(100), np.full(100, np.nan)])

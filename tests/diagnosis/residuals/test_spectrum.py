@@ -49,5 +49,11 @@ def test_missing_samples_and_short_trials_do_not_change_the_level():
     np.testing.assert_allclose(np.mean(power[-6:]), found.white_per_hz, rtol=0.05)
 
 
+def test_a_slow_log_has_segments_that_tell_frequencies_apart():
+    hertz = np.transpose(spectrum([white(1000)], 2.0).power_per_hz)[0]
+    assert hertz[0] == pytest.approx(1 / 256)
+    assert hertz.size > 15
+
+
 def test_a_few_samples_have_no_spectrum():
     assert spectrum([np.ones(2)], STEP) is None
