@@ -172,6 +172,27 @@ LEAST_DIFFERENCES = 20
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
+# Where the residual is (residuals/)
+
+TURNING_DEG_S = 1.0
+AFTER_REVERSAL_S = 2.0
+STRETCH_S = 5.0
+BANDS_HZ = ((0.0, 0.1), (0.1, 1.0), (1.0, 10.0), (10.0, 1000.0))
+"""Parts that the residual is broken down into: turning, after a reversal, stretches, frequencies."""
+ANGLE_PARTS = 12
+SINCE_REVERSAL_PARTS_S = (0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0)
+RATE_PARTS_DEG_S = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
+"""Parts along the motion: of the range of the base angle, after a reversal, and of the rate, either way;
+the slowest is a base that holds."""
+LEAST_IN_PART = 20
+"""Derived: the root mean square of fewer samples is known to no better than 16 %, 1 / sqrt(2 N)."""
+LONGEST_LAG_S = 10.0
+LONGEST_LEAD_S = 2.0
+"""Physical: a needle relaxes within seconds. Lags of the autocorrelation, and of one sensor's residual
+behind the other's."""
+LEAD_SIGMA = 4.0
+"""Derived: the highest of 400 independent correlations of unrelated residuals exceeds four of their
+standard deviations in 2.5 of 100 logs; those of slow residuals are fewer."""
 
 # Noise floor (fitting/noise_floor.py, fitting/noise_reestimation.py)
 
@@ -258,8 +279,3 @@ ALMOST_NOTHING_SIGMA = 0.01
 leaves above the noise."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
-TURNING_DEG_S = 1.0
-AFTER_REVERSAL_S = 2.0
-STRETCH_S = 5.0
-BANDS_HZ = ((0.0, 0.1), (0.1, 1.0), (1.0, 10.0), (10.0, 1000.0))
-"""Parts that the residual is broken down into: turning, after a reversal, stretches, frequencies."""

@@ -1,7 +1,7 @@
 """`needle diagnose`: what a rig has that its nominal model lacks."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +14,10 @@ from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
-from diagnosis.report.sentences import headline, largest_residual, nearest
+from diagnosis.report.sentences import headline, largest_parts, largest_residual, nearest
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from sim.files import refuse_existing
 
@@ -54,7 +55,8 @@ def _summary(found: Diagnosis, console: Console) -> None:
     for warning in found.warnings:
         console.print(f"warning: {escape(warning)}", highlight=False)
     console.print(_breakdown_table(found))
-    console.print(escape(largest_residual(found)), highlight=False)
+    for sentence in (largest_parts(found), largest_residual(found)):
+        console.print(escape(sentence), highlight=False)
     if found.verdict.effects:
         console.print(_parameter_table(as_json(found)["parameters"], "What explains it"))
     elif found.assessment.nearest.effects:
@@ -69,15 +71,20 @@ def _summary(found: Diagnosis, console: Console) -> None:
 
 
 def _breakdown_table(found: Diagnosis) -> Table:
-    table = Table("where", "residual / σ", title="Residual of the nominal model")
-    parts = found.assessment.breakdown
-    for name, value in (*parts.signal.items(), *parts.phase.items()):
-        table.add_row(name, f"{value:.2f}")
-    for low, high, value in parts.band_hz:
-        table.add_row(f"{low:g} to {high:g} Hz", f"{value:.2f}")
-    for depth, value in parts.depth_mm:
-        table.add_row(f"{depth:g} mm deep", f"{value:.2f}")
+    table = Table("where", "nominal", "explained", title="Residual / σ")
+    before, after = found.assessment.breakdown, found.assessment.breakdown_after
+    for (name, gap), (_, left) in zip(_by_part(before), _by_part(after), strict=True):
+        table.add_row(name, f"{gap:.2f}", f"{left:.2f}")
     return table
+
+
+def _by_part(parts: ResidualBreakdown) -> Iterator[tuple[str, float]]:
+    yield from parts.signal.items()
+    yield from parts.phase.items()
+    for low, high, value in parts.band_hz:
+        yield f"{low:g} to {high:g} Hz", value
+    for depth, value in parts.depth_mm:
+        yield f"{depth:g} mm deep", value
 
 
 def _parameter_table(parameters: Mapping[str, Any], title: str) -> Table:

@@ -4,26 +4,29 @@ from collections.abc import Sequence
 
 from diagnosis.assessment.experiments import experiments, has_axis, sliding_experiments
 from diagnosis.assessment.next_experiment import best_experiment
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown
 from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdict import Verdict, VerdictKind
 
 _WITHOUT_AXIS = "at two rates and two amplitudes, with reversals and with rests of two lengths"
 
 
-def advise(problem: FitProblem, verdict: Verdict, left: ResidualBreakdown) -> str:
+def advise(
+    problem: FitProblem, verdict: Verdict, nominal: ResidualBreakdown, left: ResidualBreakdown
+) -> str:
     """A sentence or two; empty where nothing is left to tell apart.
 
     Args:
       problem: the decimated log, on which runs are simulated.
+      nominal: the residual of the nominal rig.
       left: what the best explanation leaves.
     """
     if verdict.kind is VerdictKind.UNDECIDED:
         return _tell_apart(problem, verdict)
     if verdict.kind is VerdictKind.UNKNOWN:
-        return _look_closer(problem, left)
+        return _look_closer(problem, nominal, left)
     return ""
 
 
@@ -57,9 +60,11 @@ def _only_sliding(problem: FitProblem, one: Fit, other: Fit, names: Sequence[str
     )
 
 
-def _look_closer(problem: FitProblem, left: ResidualBreakdown) -> str:
+def _look_closer(problem: FitProblem, nominal: ResidualBreakdown, left: ResidualBreakdown) -> str:
     varied = "at two depths and two rates" if has_axis(problem.log) else _WITHOUT_AXIS
     return (
-        f"no effect of the library explains the residual, which is largest {left.worst_part}: "
+        "no effect of the library explains the residual. "
+        f"That of the nominal model is {nominal.largest}; "
+        f"what the best explanation leaves is {left.largest}: "
         f"repeat that phase alone, {varied}, to see what it depends on"
     )

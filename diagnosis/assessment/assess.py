@@ -12,12 +12,14 @@ from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, intervals
 from diagnosis.assessment.nearest import Nearest, nearest_of
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay, residuals
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
+from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
+from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict
@@ -36,6 +38,7 @@ class Assessment:
       nearest: the best that was tried, whatever the verdict.
       breakdown: of the residual of the nominal rig.
       breakdown_after: of what the best explanation leaves.
+      shape, shape_after: of the same two residuals.
       parameters: by effect that was accepted.
       with_one_more: gap that one more effect may bring it down to, by effect.
       detection_limits: parameters at the largest strength that may go unseen, by effect; empty where
@@ -49,6 +52,8 @@ class Assessment:
     nearest: Nearest
     breakdown: ResidualBreakdown
     breakdown_after: ResidualBreakdown
+    shape: ResidualShape
+    shape_after: ResidualShape
     parameters: dict[str, dict[str, Interval]]
     with_one_more: dict[str, float]
     detection_limits: dict[str, dict[str, float]]
@@ -84,7 +89,9 @@ def assess(
     change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
     error = numerical_error(change)
     explained = at_samples(problem, predictions)
-    left = residual_breakdown(log, explained, problem.noise)
+    before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
+    left = trial_residuals(log, explained, problem.noise)
+    where = residual_breakdown(before), residual_breakdown(left)
     after, lost = _held_out(problem, verdict.best)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
     own = intervals(problem, best, change, left=_above_noise(verdict.best))
@@ -93,12 +100,14 @@ def assess(
     return Assessment(
         gap=gap,
         nearest=nearest_of(verdict.best, named, own, gap),
-        breakdown=residual_breakdown(log, at_samples(problem, nominal), problem.noise),
-        breakdown_after=left,
+        breakdown=where[0],
+        breakdown_after=where[1],
+        shape=residual_shape(before),
+        shape_after=residual_shape(left),
         parameters={e: p for e, p in own.items() if e in verdict.effects},
         with_one_more=with_one_more,
         detection_limits=limits,
-        next_experiment=advise(coarse, verdict, left),
+        next_experiment=advise(coarse, verdict, *where),
         numerical_error=error,
         explained=explained,
         warnings=(*problem.log.warnings, *numerical_warnings(error), *lost),

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.residual_breakdown import base_rate
 from diagnosis.criteria import SAME_DEPTH_MM, SLIDING_MM_S
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.residuals.motion import base_rate
 
 Array = NDArray[np.float64]
 

@@ -6,22 +6,18 @@ from typing import Any
 
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
-from diagnosis.report.figures import draw_breakdown, draw_ranking, draw_trials
+from diagnosis.report.figures.overview import draw_ranking, draw_trials
 from diagnosis.report.sentences import (
     headline,
-    largest_residual,
     nearest,
     reduction,
     replay_quality,
     with_one_more,
 )
 from diagnosis.report.tables import limits_table, parameter_table, search_table
+from diagnosis.report.where import where_section
 from diagnosis.result import Diagnosis
 
-_BREAKDOWN = (
-    "Root mean square of measured minus predicted, in units of each sensor's noise (σ), before and "
-    "after adding the effect."
-)
 _RANKING = (
     "Probability of each explanation, given the library, the noise and these trials. Two effects that "
     f"explain a log together share theirs. Odds below {math.exp(SIMPLE_LEAD / 2):.0f} to 1 decide "
@@ -48,7 +44,7 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     parts = [
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
-        *_where(found),
+        *where_section(found),
         *_nearest(found, report),
         *_which(found, report),
         html.heading("How much is explained"),
@@ -65,16 +61,6 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
         search_table(found.record),
     ]
     return html.document("Gap report", parts)
-
-
-def _where(found: Diagnosis) -> list[str]:
-    alt = "Bars of residual / σ by signal, phase, frequency and depth, nominal and explained"
-    return [
-        html.heading("Where the gap is"),
-        html.paragraph(_BREAKDOWN),
-        html.picture(draw_breakdown(found), alt),
-        html.paragraph(f"{largest_residual(found)}."),
-    ]
 
 
 def _nearest(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:

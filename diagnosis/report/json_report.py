@@ -1,14 +1,18 @@
 """`report.json`: gap-report/1, the contract with other programs (docs/gap-report.md)."""
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
+
+from pydantic_core import to_jsonable_python
 
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.assessment.intervals import Interval
 from diagnosis.assessment.nearest import Nearest
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
+from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import RecordEntry
@@ -61,15 +65,20 @@ def _nearest(nearest: Nearest) -> dict[str, Any]:
 
 
 def _where(diagnosis: Diagnosis) -> dict[str, Any]:
-    parts, effects = diagnosis.assessment.breakdown, diagnosis.verdict.effects
+    """The residual of the nominal rig, and of what the best explanation leaves."""
+    told, effects = diagnosis.assessment, diagnosis.verdict.effects
     return {
-        "signal": parts.signal,
-        "phase": parts.phase,
-        "band_hz": [list(b) for b in parts.band_hz],
-        "depth_mm": [list(d) for d in parts.depth_mm],
-        "time_s": [list(t) for t in parts.time_s],
+        **_parts(told.breakdown, told.shape),
         "place": LIBRARY[effects[0]].place.value if effects else "",
+        "after": _parts(told.breakdown_after, told.shape_after),
     }
+
+
+def _parts(breakdown: ResidualBreakdown, shape: ResidualShape) -> dict[str, Any]:
+    """Both records as they are; which signal leads only where that is certain."""
+    certain = shape if shape.leads and shape.leads.signal else replace(shape, leads=None)
+    parts: dict[str, Any] = to_jsonable_python({**asdict(breakdown), **asdict(certain)})
+    return parts
 
 
 def _floor(best: Candidate) -> dict[str, Any]:

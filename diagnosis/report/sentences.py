@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from diagnosis.criteria import ALMOST_NOTHING_SIGMA
 from diagnosis.effects import LIBRARY
+from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
 
@@ -44,8 +45,8 @@ def nearest(found: Diagnosis) -> str:
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) explain "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is largest "
-        f"{found.assessment.breakdown_after.worst_part}{bound}"
+        f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is "
+        f"{found.assessment.breakdown_after.largest}{bound}"
     )
 
 
@@ -90,6 +91,38 @@ def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
     return f"Largest residual: {value:.2f} σ, {stretch}"
+
+
+def largest_parts(found: Diagnosis) -> str:
+    """In which signal and phase the residual is largest, before and after the best explanation."""
+    told = found.assessment
+    return (
+        f"Residual of the nominal model: {told.breakdown.largest}; "
+        f"of the best explanation: {told.breakdown_after.largest}"
+    )
+
+
+def leading(found: Diagnosis) -> str:
+    """Which signal's residual leads the other's, or why that cannot be said."""
+    own = found.assessment.shape.leads
+    if own is None:
+        return "Which residual leads cannot be said: that takes both sensors, for eight seconds at least"
+    interval = f"(95 % interval {1000 * own.low_s:.0f} to {1000 * own.high_s:.0f} ms)"
+    if own.signal:
+        other = next(sensor for sensor in SENSORS if sensor != own.signal)
+        return (
+            f"The residual of {own.signal} leads that of {other} by {1000 * own.by_s:.0f} ms "
+            f"{interval}, correlation {own.correlation:.2f}"
+        )
+    if abs(own.correlation) <= own.chance_limit:
+        return (
+            "Which residual leads cannot be said: their correlation of "
+            f"{own.correlation:.2f} is within chance ({own.chance_limit:.2f})"
+        )
+    return (
+        f"Which residual leads cannot be said: that of {SENSORS[0]} is ahead of that of {SENSORS[1]} by "
+        f"{1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
+    )
 
 
 def _capital(text: str) -> str:

@@ -10,7 +10,7 @@ from analytic_log import change_trial, write_log
 from diagnosis.log.trial import SENSORS
 from diagnosis.pipeline import replay_nominal
 from diagnosis.report import write
-from diagnosis.report.sentences import headline
+from diagnosis.report.sentences import headline, largest_parts
 from scripts import diagnose as command
 from scripts import replay as replaying
 from scripts.main import main
@@ -49,6 +49,10 @@ def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch
         assert name in said
     assert (tmp_path / "out" / "report.html").is_file()
     assert re.search(r"coulomb_friction\s+│ level\s+│ 0\.001", said)
+    told = dry.found.assessment
+    before, after = (parts.signal["tip_angle_deg"] for parts in (told.breakdown, told.breakdown_after))
+    assert re.search(rf"tip_angle_deg\s+│ {before:.2f}\s+│ {after:.2f}", said)
+    assert largest_parts(dry.found) in said
 
 
 def test_a_report_that_exists_is_kept_before_any_work_is_done(dry, tmp_path, monkeypatch, capsys):

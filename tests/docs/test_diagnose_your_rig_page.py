@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from diagnosis.effects import LIBRARY
-from diagnosis.report import html_report
+from diagnosis.report import html_report, where
 from diagnosis.selection.verdict import VerdictKind
 
 ROOT = Path(__file__).parents[2]
@@ -16,16 +16,19 @@ EXAMPLE = ROOT / "examples" / "rig-log-dry"
 
 
 def headings_of_the_report():
-    for node in ast.walk(ast.parse(Path(html_report.__file__).read_text())):
-        called = isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "heading"
-        if called and isinstance(node.args[0], ast.Constant):
-            yield node.args[0].value
+    """Headings below the first, each with the marks that it has on the page: one level deeper."""
+    for module in (html_report, where):
+        for node in ast.walk(ast.parse(Path(module.__file__).read_text())):
+            called = isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "heading"
+            if called and isinstance(node.args[0], ast.Constant):
+                level = next((k.value.value for k in node.keywords if k.arg == "level"), 2)
+                yield f"{'#' * (level + 1)} {node.args[0].value}"
 
 
 def test_every_section_of_the_report_is_explained():
     headings = list(headings_of_the_report())
-    assert len(headings) == 9
-    assert [h for h in headings if f"\n### {h}\n" not in PAGE] == []
+    assert len(headings) == 13
+    assert [h for h in headings if f"\n{h}\n" not in PAGE] == []
 
 
 @pytest.mark.parametrize("verdict", VerdictKind)

@@ -7,15 +7,22 @@ from pathlib import Path
 
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.intervals import Interval
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.report import json_report
+from diagnosis.residuals.autocorrelation import Autocorrelation
+from diagnosis.residuals.lead import Lead
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
+from diagnosis.residuals.residual_shape import ResidualShape
+from diagnosis.residuals.spectrum import Spectrum
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.verdict import VerdictKind
 
 PAGE = (Path(__file__).parents[2] / "docs" / "gap-report.md").read_text()
-WRITTEN_AS_THEY_ARE = (GapReduction, Interval, ResidualBreakdown, NoiseFloor, RecordEntry)
+WRITTEN_AS_THEY_ARE = (
+    *(GapReduction, Interval, ResidualBreakdown, NoiseFloor, RecordEntry),
+    *(ResidualShape, Autocorrelation, Spectrum, Lead),
+)
 
 
 def keys_of_the_report():

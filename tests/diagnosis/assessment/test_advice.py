@@ -10,8 +10,8 @@ from diagnosis.assessment import advice
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.experiments import Experiment
 from diagnosis.assessment.next_experiment import Proposal
-from diagnosis.assessment.residual_breakdown import ResidualBreakdown
 from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdict import VerdictKind, verdict_on
 
 LEFT = ResidualBreakdown(
@@ -21,6 +21,7 @@ LEFT = ResidualBreakdown(
     depth_mm=[],
     time_s=[],
 )
+NOMINAL = replace(LEFT, signal={"tip_angle_deg": 3.0, "base_torque_n_mm": 5.0})
 READY = prepared(trial(turns(2.0)))
 PROBLEM = SimpleNamespace(log=PreparedLog(rig=RIG, trials=(READY,)))
 UNDECIDED = verdict_on([scored(["tip_drag"], 100.0), scored(["entry_friction"], 101.0)])
@@ -39,7 +40,7 @@ def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypat
     proposal = Proposal(experiment=run, separation=separation)
     monkeypatch.setattr(advice, "best_experiment", lambda *_: proposal)
     assert UNDECIDED.kind is VerdictKind.UNDECIDED
-    assert advise(PROBLEM, UNDECIDED, LEFT).startswith(said)
+    assert advise(PROBLEM, UNDECIDED, NOMINAL, LEFT).startswith(said)
 
 
 @pytest.mark.parametrize(
@@ -55,7 +56,7 @@ def test_sliding_is_asked_of_a_rig_without_an_axis_only_where_no_turn_tells(monk
         return Proposal(experiment=run, separation=sliding if "sliding" in run.words else 0.1)
 
     monkeypatch.setattr(advice, "best_experiment", best)
-    found = advise(PROBLEM, UNDECIDED, LEFT)
+    found = advise(PROBLEM, UNDECIDED, NOMINAL, LEFT)
     assert found.startswith(said)
     assert "deep" not in found
 
@@ -63,18 +64,18 @@ def test_sliding_is_asked_of_a_rig_without_an_axis_only_where_no_turn_tells(monk
 def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
     slides = PreparedLog(rig=RIG, trials=(prepared(trial(turns(2.0), speed=-1.0)),))
-    said = advise(SimpleNamespace(log=slides), unknown, LEFT)
-    assert "largest in tip_angle_deg while holding" in said
+    said = advise(SimpleNamespace(log=slides), unknown, NOMINAL, LEFT)
+    assert f"of the nominal model is {NOMINAL.largest}" in said
+    assert f"what the best explanation leaves is {LEFT.largest}: repeat that phase alone" in said
     assert "at two depths and two rates" in said
 
 
 def test_a_rig_without_depth_gets_no_advice_about_depths():
-    said = advise(PROBLEM, replace(UNDECIDED, kind=VerdictKind.UNKNOWN), LEFT)
-    assert "largest in tip_angle_deg while holding" in said
+    said = advise(PROBLEM, replace(UNDECIDED, kind=VerdictKind.UNKNOWN), NOMINAL, LEFT)
     assert "at two rates and two amplitudes, with reversals and with rests" in said
     assert "depth" not in said
 
 
 def test_where_nothing_is_left_to_tell_apart_nothing_is_said():
     settled = verdict_on([scored(["tip_drag"], 100.0)])
-    assert advise(PROBLEM, settled, LEFT) == ""
+    assert advise(PROBLEM, settled, NOMINAL, LEFT) == ""

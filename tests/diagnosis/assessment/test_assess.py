@@ -59,6 +59,8 @@ def test_an_explanation_is_told_with_its_parameters_gap_and_limits(log, nominal,
     assert set(told.with_one_more) == set(told.detection_limits) == {"tip_drag"}
     assert told.warnings == ()
     assert told.breakdown_after.signal["tip_angle_deg"] < told.breakdown.signal["tip_angle_deg"]
+    before, after = (s.autocorrelation["tip_angle_deg"] for s in (told.shape, told.shape_after))
+    assert before.lag_one_correlation > 0.5 > abs(after.lag_one_correlation)
 
 
 def test_predictions_are_at_the_samples_of_the_log(log, nominal, fitted):

@@ -18,8 +18,9 @@ def dry_page(written):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Pages without their pictures, which take a second each."""
-    for name in ("draw_breakdown", "draw_ranking", "draw_trials"):
+    for name in ("draw_ranking", "draw_trials"):
         monkeypatch.setattr(html_report, name, lambda _: plt.figure())
+    monkeypatch.setattr(html_report, "where_section", lambda _: [])
 
 
 def test_the_page_starts_with_the_verdict(dry_page, dry):
@@ -29,7 +30,14 @@ def test_the_page_starts_with_the_verdict(dry_page, dry):
 
 def test_the_page_opens_without_a_network(dry_page):
     assert "://" not in dry_page
-    assert dry_page.count("data:image/png;base64,") == 3
+    assert dry_page.count("data:image/png;base64,") == 6
+    assert len(dry_page) < 3e6
+
+
+def test_the_page_shows_where_the_gap_is(dry_page):
+    where = dry_page.split("<h2>Where the gap is</h2>")[1].split("<h2>")[0]
+    below = ("Loops of torque and lag", "Along the motion", "Spectrum and memory", "Which signal leads")
+    assert [where.count(f"<h3>{title}</h3>") for title in below] == [1] * 4
 
 
 def test_the_page_shows_how_the_search_went(dry_page, dry):

@@ -1,13 +1,14 @@
 """report.json: the contract with other programs."""
 
 import json
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 from diagnosis_fixtures import scored
 
 from diagnosis.effects import LIBRARY
 from diagnosis.report.json_report import FORMAT, as_json
+from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision
 
 KEYS = {
@@ -52,6 +53,43 @@ def test_what_explains_the_log_is_told_with_its_value_unit_and_place(dry):
     assert level["low"] < level["value"] < level["high"]
     assert level["unit"] == "N mm / mm"
     assert report["where"]["place"] == "interface"
+
+
+PARTS = {"signal", "phase", "band_hz", "depth_mm", "time_s"}
+SHAPE = {
+    *("base_angle_deg", "since_reversal_s", "rate_deg_s", "autocorrelation", "spectrum", "leads"),
+}
+
+
+def test_where_the_gap_is_is_told_of_the_nominal_rig_and_after_of_what_is_left(dry):
+    where = dry.report["where"]
+    assert set(where) == PARTS | SHAPE | {"place", "after"}
+    assert set(where["after"]) == PARTS | SHAPE
+    told = dry.found.assessment
+    assert where["signal"] == told.breakdown.signal
+    assert where["after"]["signal"] == told.breakdown_after.signal
+    for part in ("base_angle_deg", "since_reversal_s", "rate_deg_s"):
+        assert max(gap for _, gap in where[part]) > 2
+        assert max(gap for _, gap in where["after"][part]) < 1.7
+
+
+def test_the_memory_of_the_residual_is_told_before_and_after(dry):
+    before = dry.report["where"]["autocorrelation"]["base_torque_n_mm"]
+    after = dry.report["where"]["after"]["autocorrelation"]["base_torque_n_mm"]
+    assert before["lag_one_correlation"] > 0.5
+    # Within its band in 95 of 100, beyond twice that in 1 of 10 000.
+    assert abs(after["lag_one_correlation"]) < 2 * after["white_limit"]
+    assert after["integral_s"] == pytest.approx(0.01, rel=1.0)
+
+
+def test_which_signal_leads_is_told_where_it_is_certain_alone(dry):
+    certain = Lead(
+        signal="tip_angle_deg", by_s=0.1, low_s=0.05, high_s=0.2, correlation=0.9, chance_limit=0.2
+    )
+    for leads, told in ((certain, asdict(certain)), (replace(certain, signal=""), None), (None, None)):
+        shape = replace(dry.found.assessment.shape, leads=leads)
+        found = replace(dry.found, assessment=replace(dry.found.assessment, shape=shape))
+        assert as_json(found)["where"]["leads"] == told
 
 
 def test_the_gap_is_told_with_its_reduction(dry):

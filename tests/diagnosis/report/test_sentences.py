@@ -1,18 +1,24 @@
 """What a diagnosis says in sentences."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
+from diagnosis.assessment.advice import advise
+from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
     headline,
+    largest_parts,
     largest_residual,
+    leading,
     nearest,
     reduction,
     replay_quality,
     titles,
     with_one_more,
 )
+from diagnosis.residuals.lead import Lead
 from diagnosis.selection.verdict import VerdictKind
 
 
@@ -93,3 +99,37 @@ def test_noise_and_numerical_error_are_told_by_sensor(dry):
 def test_the_largest_residual_is_told_with_where_it_is(dry):
     stretch, value = dry.found.assessment.breakdown.worst
     assert largest_residual(dry.found) == f"Largest residual: {value:.2f} σ, {stretch}"
+
+
+def test_table_sentence_and_advice_name_the_same_parts_with_the_same_numbers(dry):
+    """What is said of an unknown effect, of the largest numbers of the tables before and after."""
+    told = dry.found.assessment
+    unknown = concluding(dry.found, kind=VerdictKind.UNKNOWN).verdict
+    problem = SimpleNamespace(log=prepare(dry.found.log)[0])
+    advice = advise(problem, unknown, told.breakdown, told.breakdown_after)
+    for parts in (told.breakdown, told.breakdown_after):
+        signal = max(parts.signal, key=parts.signal.get)
+        phase = max(parts.phase, key=parts.phase.get)
+        assert f"largest in {signal} ({parts.signal[signal]:.2f} σ) and" in parts.largest
+        assert parts.largest.endswith(f"({parts.phase[phase]:.2f} σ)")
+        assert parts.largest in advice
+        assert parts.largest in largest_parts(dry.found)
+
+
+LEAD = Lead(signal="tip_angle_deg", by_s=0.1, low_s=0.05, high_s=0.2, correlation=-0.9, chance_limit=0.2)
+
+
+@pytest.mark.parametrize(
+    ("lead", "said"),
+    [
+        (LEAD, "The residual of tip_angle_deg leads that of base_torque_n_mm by 100 ms (95 % interval"),
+        (replace(LEAD, signal="", low_s=-0.05), "base_torque_n_mm is ahead of that of tip_angle_deg"),
+        (replace(LEAD, signal="", correlation=0.1), "correlation of 0.10 is within chance (0.20)"),
+        (None, "takes both sensors"),
+    ],
+)
+def test_which_signal_leads_is_said_or_why_it_cannot_be(dry, lead, said):
+    shape = replace(dry.found.assessment.shape, leads=lead)
+    sentence = leading(replace(dry.found, assessment=replace(dry.found.assessment, shape=shape)))
+    assert said in sentence
+    assert ("cannot be said" in sentence) == (lead is None or not lead.signal)

@@ -1,4 +1,4 @@
-"""The pictures of `report.html`."""
+"""The whole in pictures: the residual by part, the ranking, and every trial along time."""
 
 from collections.abc import Sequence
 
@@ -8,16 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from diagnosis.log.trial import SENSORS
+from diagnosis.report.figures.style import LABELS, MEASURED, PREDICTIONS
+from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.result import Diagnosis
-
-_LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
 
 
 def _bars(axis: Axes, names: Sequence[str], values: Sequence[Sequence[float]], title: str) -> None:
     rows = np.arange(len(names))
-    for shift, colour, label, own in zip(
-        (-0.2, 0.2), ("tab:blue", "tab:red"), ("nominal", "explained"), values, strict=True
-    ):
+    for shift, (label, colour), own in zip((-0.2, 0.2), PREDICTIONS.items(), values, strict=True):
         axis.barh(rows + shift, own, 0.4, color=colour, label=label)
     axis.axvline(1.0, color="k", lw=1)
     axis.set_yticks(rows, names, fontsize=8)
@@ -58,19 +56,19 @@ def draw_trials(found: Diagnosis) -> Figure:
     figure, axes = plt.subplots(
         2 * count, 2, figsize=(13, 4.2 * count), layout="constrained", squeeze=False
     )
-    each = zip(found.log.trials, found.nominal, found.assessment.explained, strict=True)
-    for i, (trial, nominal, explained) in enumerate(each):
+    both = {"nominal": found.nominal, "explained": found.assessment.explained}
+    left = {name: trial_residuals(found.log, own, found.noise) for name, own in both.items()}
+    for i, trial in enumerate(found.log.trials):
         for j, sensor in enumerate(SENSORS):
             above, below, time = axes[2 * i, j], axes[2 * i + 1, j], trial["time_s"]
             if trial.has(sensor):
-                above.plot(time, trial[sensor], color="0.6", lw=0.8, label="measured")
+                above.plot(time, trial[sensor], color=MEASURED, lw=0.8, label="measured")
                 below.axhspan(-2, 2, color="0.9", zorder=0)
-                for prediction, colour in ((nominal, "tab:blue"), (explained, "tab:red")):
-                    left = (trial[sensor] - prediction[sensor]) / found.noise[sensor]
-                    below.plot(time, left, color=colour, lw=0.5)
-            above.plot(time, nominal[sensor], color="tab:blue", lw=1, label="nominal")
-            above.plot(time, explained[sensor], color="tab:red", lw=1, label="explained")
-            above.set_title(f"{trial.name}: {_LABELS[sensor]}", fontsize=9, loc="left")
+            for name, colour in PREDICTIONS.items():
+                above.plot(time, both[name][i][sensor], color=colour, lw=1, label=name)
+                if trial.has(sensor):
+                    below.plot(time, left[name][i].left[sensor], color=colour, lw=0.5)
+            above.set_title(f"{trial.name}: {LABELS[sensor]}", fontsize=9, loc="left")
             below.set(ylabel="residual / σ", xlabel="time, s")
             below.set_ylim(*_limits_of(below))
     axes[0, 0].legend(fontsize=8)

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from diagnosis.report.figures import draw_breakdown, draw_ranking, draw_trials
+from diagnosis.report.figures.overview import draw_breakdown, draw_ranking, draw_trials
 
 
 @pytest.fixture(autouse=True)

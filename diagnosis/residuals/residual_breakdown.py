@@ -1,26 +1,16 @@
 """The residual broken down: by signal, by phase of the motion, by frequency, by depth, along time."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
-    AFTER_REVERSAL_S,
-    BANDS_HZ,
-    SLIDING_MM_S,
-    STRETCH_S,
-    TURNING_DEG_S,
-)
-from diagnosis.log.rig_log import RigLog
-from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.sensor_noise import Noise
-from diagnosis.replay.replay import Prediction
+from diagnosis.criteria import BANDS_HZ, STRETCH_S
+from diagnosis.residuals.motion import phases
+from diagnosis.residuals.trial_residual import TrialResidual
 
 Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-
-_SMOOTH_S = 0.2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,59 +36,31 @@ class ResidualBreakdown:
         return f"{name}, {begin:.0f}–{end:.0f} s", gap
 
     @property
-    def worst_part(self) -> str:
-        """The signal and the phase with the largest residual, in words."""
-        signal = max(self.signal, key=lambda k: self.signal[k], default="")
-        phase = max(self.phase, key=lambda k: self.phase[k], default="")
-        return f"in {signal} while {phase}" if phase else f"in {signal}"
+    def largest(self) -> str:
+        """The signal and the phase with the largest residual: the words of every report and advice."""
+        signal, phase = _first(self.signal), _first(self.phase)
+        words = f"largest in {signal} ({self.signal[signal]:.2f} σ)" if signal else "nowhere"
+        if not phase:
+            return words
+        when = "after a reversal" if phase == "reversal" else f"while {phase}"
+        return f"{words} and {when} ({self.phase[phase]:.2f} σ)"
 
 
-def base_rate(time_s: Array, base_deg: Array) -> Array:
-    """Rate of the base, deg/s, (N,), from angles averaged over 0.2 s."""
-    width = max(3, round(_SMOOTH_S / float(np.median(np.diff(time_s)))))
-    padded = np.pad(base_deg, width, mode="edge")
-    smooth = np.convolve(padded, np.ones(width) / width, "same")
-    return np.asarray(np.gradient(smooth[width:-width], time_s))
+def _first(parts: Mapping[str, float]) -> str:
+    """The part with the largest residual; empty without parts."""
+    return max(parts, key=lambda part: parts[part], default="")
 
 
-def phases(trial: Trial) -> dict[str, Mask]:
-    """Masks of a trial's samples: they may overlap."""
-    time = trial["time_s"]
-    rate = base_rate(time, trial["base_angle_deg"])
-    turning = np.abs(rate) > TURNING_DEG_S
-    speed = trial["speed_mm_s"]
-    return {
-        "turning": turning,
-        "holding": ~turning,
-        "reversal": _after_reversal(time, np.where(turning, np.sign(rate), 0.0)),
-        "translating": np.abs(speed) > SLIDING_MM_S,
-        "retracting": speed < -SLIDING_MM_S,
-    }
-
-
-def _after_reversal(time: Array, direction: Array) -> Mask:
-    """Samples up to two seconds after the base began to turn the other way."""
-    mask = np.zeros(time.size, bool)
-    moving = np.flatnonzero(direction)
-    changed = moving[1:][np.diff(direction[moving]) != 0]
-    for i in changed:
-        mask |= (time >= time[i]) & (time < time[i] + AFTER_REVERSAL_S)
-    return mask
-
-
-def residual_breakdown(log: RigLog, predictions: list[Prediction], noise: Noise) -> ResidualBreakdown:
-    """The residual of predictions at the samples of the log, by part."""
+def residual_breakdown(residuals: Sequence[TrialResidual]) -> ResidualBreakdown:
+    """Residuals of the trials of a log, by part."""
     signal: dict[str, list[Array]] = {}
     phase: dict[str, list[Array]] = {}
     band: dict[tuple[float, float], list[float]] = {}
     depth: dict[float, list[Array]] = {}
     stretch: dict[tuple[str, float], list[Array]] = {}
-    for trial, prediction in zip(log.trials, predictions, strict=True):
-        masks = phases(trial)
-        for sensor in SENSORS:
-            if not trial.has(sensor):
-                continue
-            left = (trial[sensor] - prediction[sensor]) / noise[sensor]
+    for residual in residuals:
+        trial, masks = residual.trial, phases(residual.trial)
+        for sensor, left in residual.left.items():
             fine = np.isfinite(left)
             signal.setdefault(sensor, []).append(left[fine])
             for name, mask in masks.items():

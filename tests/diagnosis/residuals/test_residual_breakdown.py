@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 
-from diagnosis.assessment.residual_breakdown import base_rate, phases, residual_breakdown
 from diagnosis.log.trial import Trial
 from diagnosis.replay.replay import Prediction
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
+from diagnosis.residuals.trial_residual import trial_residuals
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +23,8 @@ def found():
     )
     off = (table["time_s"] >= 5.8) & (table["time_s"] < 9)
     predicted = replace(predicted, tip_angle_deg=predicted.tip_angle_deg + 5 * TIP * off.to_numpy())
-    return residual_breakdown(log_with(Trial(name=motion.name, table=table)), [predicted], NOISE)
+    log = log_with(Trial(name=motion.name, table=table))
+    return residual_breakdown(trial_residuals(log, [predicted], NOISE))
 
 
 def test_a_gap_is_found_in_its_signal(found):
@@ -49,18 +51,21 @@ def test_a_gap_is_found_in_its_band_and_at_its_depth(found):
     assert found.depth_mm[0][0] == 90.0
 
 
-def test_the_rate_of_a_ramp_is_its_slope():
-    time = np.arange(0, 5, 0.01)
-    rate = base_rate(time, 30 * time)
-    np.testing.assert_allclose(rate[30:-30], 30.0)
+def parts(signal, phase):
+    """A breakdown with these two parts."""
+    return ResidualBreakdown(signal=signal, phase=phase, band_hz=[], depth_mm=[], time_s=[])
 
 
-def test_phases_are_those_of_the_motion():
-    masks = phases(trial(turns(), speed=-1.0))
-    time = trial(turns())["time_s"]
-    assert masks["turning"][(time > 1.15) & (time < 1.45)].all()
-    assert masks["holding"][(time > 2) & (time < 4.5)].all()
-    assert masks["reversal"][(time > 5.2) & (time < 6.8)].all()
-    assert not masks["reversal"][time < 4.8].any()
-    assert masks["translating"].all()
-    assert masks["retracting"].all()
+def test_the_words_name_the_largest_signal_and_phase_of_the_numbers(found):
+    tip, reversal = found.signal["tip_angle_deg"], found.phase["reversal"]
+    assert tip == max(found.signal.values())
+    assert reversal == max(found.phase.values())
+    expected = f"largest in tip_angle_deg ({tip:.2f} σ) and after a reversal ({reversal:.2f} σ)"
+    assert found.largest == expected
+    held = parts({"base_torque_n_mm": 3.0, "tip_angle_deg": 2.0}, {"turning": 1.0, "holding": 4.0})
+    assert held.largest == "largest in base_torque_n_mm (3.00 σ) and while holding (4.00 σ)"
+
+
+def test_without_phases_the_words_name_the_signal_alone():
+    assert parts({"tip_angle_deg": 2.0}, {}).largest == "largest in tip_angle_deg (2.00 σ)"
+    assert parts({}, {}).largest == "nowhere"

@@ -1,0 +1,52 @@
+"""The structure of the residual: its spectrum and its autocorrelation, beside those of white noise."""
+
+from collections.abc import Mapping
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from diagnosis.report.figures.style import LABELS, PREDICTIONS
+from diagnosis.residuals.residual_shape import ResidualShape
+from diagnosis.result import Diagnosis
+
+
+def draw_memory(found: Diagnosis) -> Figure:
+    """Spectrum and autocorrelation of the residual of each sensor, with what white noise has."""
+    told = found.assessment
+    shapes = {"nominal": told.shape, "explained": told.shape_after}
+    sensors = list(told.breakdown.signal)
+    figure, axes = plt.subplots(
+        len(sensors), 2, figsize=(13, 2.9 * len(sensors)), layout="constrained", squeeze=False
+    )
+    for row, sensor in zip(axes, sensors, strict=True):
+        _draw_spectrum(row[0], sensor, shapes)
+        _draw_autocorrelation(row[1], sensor, shapes)
+        for axis in row:
+            axis.minorticks_off()  # they take half of the time
+    if axes[0, 0].get_lines():
+        axes[0, 0].legend(fontsize=7)
+    return figure
+
+
+def _draw_spectrum(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape]) -> None:
+    for name, shape in shapes.items():
+        if sensor in shape.spectrum:
+            hertz, power = np.transpose(shape.spectrum[sensor].power_per_hz)
+            axis.loglog(hertz, power, color=PREDICTIONS[name], label=name)
+            white = shape.spectrum[sensor].white_per_hz
+            axis.axhline(white, color="k", lw=1, label="white noise" if name == "explained" else None)
+    axis.set_title(f"{LABELS[sensor]}: spectrum of the residual", fontsize=9, loc="left")
+    axis.set(xlabel="frequency, Hz", ylabel="σ² / Hz")
+
+
+def _draw_autocorrelation(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape]) -> None:
+    for name, shape in shapes.items():
+        if sensor in shape.autocorrelation:
+            own = shape.autocorrelation[sensor]
+            axis.semilogx(*np.transpose(own.by_lag_s), color=PREDICTIONS[name])
+            if name == "explained":
+                axis.axhspan(-own.white_limit, own.white_limit, color="0.85", zorder=0)
+    axis.set_title(f"{LABELS[sensor]}: autocorrelation of the residual", fontsize=9, loc="left")
+    axis.set(xlabel="lag, s", ylim=(-1.05, 1.05))

@@ -1,0 +1,1 @@
+"""What is left of readings when predictions are taken off: by part, in frequency and along time."""

@@ -1,0 +1,49 @@
+"""Residuals along the motion, in pictures."""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from diagnosis.log.trial import Trial
+from diagnosis.report.figures.along_motion import draw_along_motion
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    yield
+    plt.close("all")
+
+
+def drawn(axis):
+    """Lines with their labels, without the guides."""
+    return [line for line in axis.get_lines() if line.get_marker() == "o"]
+
+
+def test_each_sensor_is_shown_against_angle_reversal_and_rate(dry):
+    axes = draw_along_motion(dry.found).axes
+    assert len(axes) == 6
+    labels = [line.get_label() for line in drawn(axes[0])]
+    assert labels == ["nominal, forward", "nominal, back", "explained, forward", "explained, back"]
+    assert [len(drawn(axis)) for axis in axes] == [4, 2, 2] * 2
+
+
+def test_after_a_reversal_the_root_mean_square_falls_to_the_floor(dry):
+    nominal, explained = (line.get_ydata() for line in drawn(draw_along_motion(dry.found).axes[1]))
+    assert np.max(nominal) > 2
+    # Parts of 20 samples at least: 16 % each.
+    np.testing.assert_allclose(explained, 1.0, atol=4 * 0.16)
+
+
+def test_dry_friction_that_the_nominal_model_lacks_has_the_sign_of_the_motion(dry):
+    """Torque is too large forward and too small back, at the same angle."""
+    forward, back = drawn(draw_along_motion(dry.found).axes[0])[:2]
+    assert np.mean(forward.get_ydata()) > 1
+    assert np.mean(back.get_ydata()) < -1
+
+
+def test_one_sensor_has_one_row(dry):
+    trials = [Trial(name=t.name, table=t.table.drop(columns="tip_angle_deg")) for t in dry.log.trials]
+    alone = replace(dry.found, log=replace(dry.log, trials=tuple(trials)))
+    assert len(draw_along_motion(alone).axes) == 3

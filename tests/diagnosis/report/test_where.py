@@ -1,0 +1,32 @@
+"""The section that shows where the gap is."""
+
+import matplotlib.pyplot as plt
+import pytest
+
+from diagnosis.report import where
+from diagnosis.report.sentences import largest_parts, leading
+from diagnosis.report.where import where_section
+
+PICTURES = ("draw_breakdown", "draw_loops", "draw_along_motion", "draw_memory")
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    for name in PICTURES:
+        monkeypatch.setattr(where, name, lambda _: plt.figure())
+
+
+def test_every_picture_has_a_heading_a_sentence_and_words_for_who_cannot_see_it(dry, undrawn):
+    parts = where_section(dry.found)
+    pictures = [i for i, part in enumerate(parts) if part.startswith("<img")]
+    assert len(pictures) == len(PICTURES)
+    for i in pictures:
+        assert parts[i - 2].startswith("<h")
+        assert parts[i - 1].startswith("<p>")
+        assert 'alt=""' not in parts[i]
+
+
+def test_the_sentences_are_those_of_the_screen(dry, undrawn):
+    page = "".join(where_section(dry.found))
+    assert largest_parts(dry.found) in page
+    assert leading(dry.found) in page
