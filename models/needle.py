@@ -63,6 +63,14 @@ class Needle(Record):
         """Half of the diameter, mm."""
         return self.diameter_mm / 2
 
+    def shear_stress_mpa(self, torque_n_mm: float) -> float:
+        """Largest shear stress in the round shaft, at its surface: 16 T / (pi d^3), MPa."""
+        return 16 * torque_n_mm / (math.pi * self.diameter_mm**3)
+
+    def torque_n_mm_at(self, shear_stress_mpa: float) -> float:
+        """The torque of a shear stress at the surface, N mm."""
+        return shear_stress_mpa * math.pi * self.diameter_mm**3 / 16
+
 
 # Section II-A: solid Nitinol wire. Its G is the paper's own measurement.
 NITINOL = Needle(name="nitinol-0.59", diameter_mm=0.59, shear_modulus_gpa=27.2, density_g_cm3=6.45)

@@ -37,6 +37,12 @@ def test_mass_per_length_is_density_times_cross_section():
     assert NITINOL.radius_mm == 0.295
 
 
+def test_shear_stress_is_torque_times_radius_over_the_polar_moment():
+    stress = NITINOL.shear_stress_mpa(2.0)
+    assert stress == pytest.approx(2.0 * NITINOL.radius_mm / NITINOL.polar_moment_mm4)
+    assert NITINOL.torque_n_mm_at(stress) == pytest.approx(2.0)
+
+
 def test_an_unknown_needle_is_answered_with_the_known_ones():
     with pytest.raises(UnknownName, match="steel-1.27"):
         needle_named("gold")
