@@ -28,6 +28,7 @@ ROOMS_OF_VALIDATION = ("rig", "logs", "score")
 # Inside a package the direction is one too: of its folders, each imports only these.
 MAY_IMPORT_INSIDE = {
     "sim.kernel": {"sim.kernel"},
+    "sim.loop": {"sim.loop"},
     "sim.recording": {"sim", "sim.kernel", "sim.recording"},
     "studies.crosscheck": {"studies.crosscheck"},
     "studies.control": {"studies.control", "studies.crosscheck"},
