@@ -2,6 +2,9 @@
 
 from enum import StrEnum
 
+from pydantic import model_validator
+
+from models.errors import InvalidValue
 from models.needle import NonNegative, Positive
 from models.record import Record
 
@@ -23,3 +26,18 @@ class Drive(Record):
     """Total play between drive shaft and needle."""
     sheath_friction_n_mm_per_mm: NonNegative = 0.0
     """Dry torque per mm of free shaft."""
+    rotor_inertia_kg_m2: NonNegative = 0.0
+    """Of motor and gear, as felt at the needle's base."""
+    torque_limit_n_mm: Positive | None = None
+    """Most torque that a motor of kind torque gives, either way; None: unlimited."""
+
+    @model_validator(mode="after")
+    def _limit_has_a_motor(self) -> "Drive":
+        if self.torque_limit_n_mm is not None and self.kind is not DriveKind.TORQUE:
+            raise InvalidValue(
+                "drive.torque_limit_n_mm",
+                self.torque_limit_n_mm,
+                "nothing, because drive.kind is angle: its servo holds any torque",
+                "take drive.kind: torque",
+            )
+        return self

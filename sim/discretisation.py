@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from models.errors import InvalidValue
 from models.record import Record
@@ -20,7 +20,8 @@ class Arrangement(StrEnum):
     CHAIN = "chain"
     """Each element turns on its neighbour: joint springs are the torsion."""
     SIBLINGS = "siblings"
-    """Every element turns on the carriage: diagonal inertia, cheaper beyond n = 16."""
+    """Every element turns on the carriage: diagonal inertia, cheaper beyond n = 16. MuJoCo has
+    no joint between neighbours then; the callback adds the springs that the model lists."""
 
 
 class Mesh(StrEnum):
@@ -61,8 +62,21 @@ class Discretisation(Record):
     step_s: Annotated[float, Field(gt=0, le=0.1)] = 0.01
     presliding_deg: Annotated[float, Field(gt=0, le=5)] = 0.1
     """Angle at which a dry element slips."""
+    order: Annotated[int, Field(ge=1, le=2)] = 2
+    """Of the step: 2, or 1 for MuJoCo's own step, to which only the tissue's torque is added."""
     arrangement: Arrangement = Arrangement.CHAIN
     slip: SlipRate = SlipRate.MATERIAL_DERIVATIVE
+
+    @model_validator(mode="after")
+    def _springs_are_mujocos_own(self) -> "Discretisation":
+        if self.order == 1 and self.arrangement is not Arrangement.CHAIN:
+            raise InvalidValue(
+                "discretisation.arrangement",
+                self.arrangement.value,
+                "'chain' for a step of order 1, because siblings have no joint springs between them",
+                "take arrangement: chain, or order: 2",
+            )
+        return self
 
 
 def node_positions_mm(

@@ -5,6 +5,8 @@ node is a body with the mass and inertia of the shaft half way to its neighbours
 drawn as a capsule, and turns about x. Torsion between nodes a apart is the joint
 stiffness kappa / a. The servo of the base is a joint spring with a motor of the
 same gear, and so is the carriage's: both hold in any viewer, without a callback.
+Inertia, stiffness, servos and time step stand here and nowhere else: the callback
+reads them from the compiled model.
 
 The inputs (`ctrl`) are, in order: drive (rad or N m), carriage (m), inserted
 length (m), axial speed (m/s), torque at the tip (N m, positive resists).
@@ -83,7 +85,8 @@ class Setup:
         if self.discretisation.arrangement is Arrangement.CHAIN:
             return None
         law = law_table(self.needle, self.drive, self.tissue, rows=self.rows)
-        inertia = (self.needle.mass_kg_per_m, self.needle.rotary_inertia_kg_m)
+        rotor = (self.drive.rotor_inertia_kg_m2, self.drive.torque_limit_n_mm)
+        inertia = (self.needle.mass_kg_per_m, self.needle.rotary_inertia_kg_m, *rotor)
         nodes, stretching = self._mesh()
         radius = self.needle.radius_mm
         return (self.discretisation, self.drive.kind, inertia, radius, len(law), stretching, *nodes)
@@ -152,6 +155,7 @@ def renumbered(model: mujoco.MjModel, setup: Setup) -> mujoco.MjModel:
     changed = copy.copy(model)
     changed.numeric("needle").data[:] = header(setup, rows=len(law))
     changed.numeric("needle_law").data[:] = law.ravel()
+    changed.numeric("needle_springs").data[:] = springs_n_m_per_rad(setup)
     changed.joint("twist_0").stiffness[0] = setup.servo_n_m_per_rad
     if setup.drive.kind is DriveKind.ANGLE:
         changed.actuator("drive").gear[0] = setup.servo_n_m_per_rad
@@ -181,11 +185,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_MAGIC] = memory_map.MAGIC
     head[memory_map.H_ELEMENTS] = setup.nodes_mm.size - 1
     head[memory_map.H_ROWS] = rows
-    head[memory_map.H_KAPPA] = setup.needle.rigidity_n_mm2 * units.N_MM2
-    head[memory_map.H_ETA] = setup.needle.rotary_inertia_kg_m
-    angle_driven = setup.drive.kind is DriveKind.ANGLE
-    head[memory_map.H_DRIVE] = memory_map.DRIVE_ANGLE if angle_driven else memory_map.DRIVE_TORQUE
-    head[memory_map.H_SERVO] = setup.servo_n_m_per_rad
+    head[memory_map.H_ORDER] = setup.discretisation.order
     head[memory_map.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
     head[memory_map.H_PRESLIDING] = setup.discretisation.presliding_deg * units.DEG
     head[memory_map.H_RADIUS] = setup.needle.radius_mm * units.MM
@@ -193,19 +193,27 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_STRETCHING] = setup.stretching
     head[memory_map.H_FREE_REF] = setup.free_mm * units.MM
     head[memory_map.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
-    head[memory_map.H_MASS] = _mass_kg(setup) + _CARRIAGE_MASS
-    head[memory_map.H_RAIL] = _rail_n_per_m(setup)
     return head
+
+
+def springs_n_m_per_rad(setup: Setup) -> Array:
+    """Torsional stiffness kappa / a of every element at the start, (n,)."""
+    rigidity = setup.needle.rigidity_n_mm2 * units.N_MM2
+    stiffness: Array = rigidity / (np.diff(setup.nodes_mm) * units.MM)
+    return stiffness
 
 
 def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
     law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
     nodes = setup.nodes_mm * units.MM
-    for name, values in (
-        ("needle", header(setup, rows=len(law))),
-        ("needle_mesh", nodes),
-        ("needle_law", law.ravel()),
-    ):
+    fields = {
+        "needle": header(setup, rows=len(law)),
+        "needle_mesh": nodes,
+        "needle_law": law.ravel(),
+    }
+    if setup.discretisation.arrangement is Arrangement.SIBLINGS:
+        fields["needle_springs"] = springs_n_m_per_rad(setup)
+    for name, values in fields.items():
         spec.add_numeric(name=name, data=values, size=values.size)
     spec.nuserdata = memory_map.userdata(nodes.size - 1, len(law))
 
@@ -223,7 +231,7 @@ def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
     rail.stiffness = [_rail_n_per_m(setup), 0, 0]
     nodes, needle = setup.nodes_mm * units.MM, setup.needle
     chain = setup.discretisation.arrangement is Arrangement.CHAIN
-    rigidity, radius = needle.rigidity_n_mm2 * units.N_MM2, needle.radius_mm * units.MM
+    springs, radius = springs_n_m_per_rad(setup), needle.radius_mm * units.MM
     parent, origin = carriage, 0.0
     for i, x in enumerate(nodes):
         back = 0.5 * (x - nodes[i - 1]) if i > 0 else 0.0
@@ -236,6 +244,8 @@ def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
                 f"elements whose inertia is at least {_LEAST_INERTIA} kg m^2, not {inertia:.1e}",
                 "take fewer elements, or a thicker needle",
             )
+        if i == 0:
+            inertia += setup.drive.rotor_inertia_kg_m2
         mass = needle.mass_kg_per_m * (back + ahead)
         across = mass * (3 * radius**2 + (back + ahead) ** 2) / 12
         body = parent.add_body(
@@ -247,7 +257,7 @@ def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
             explicitinertial=True,
         )
         joint = body.add_joint(name=f"twist_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0])
-        torsion = rigidity / (2 * back) if i > 0 and chain else 0.0
+        torsion = springs[i - 1] if i > 0 and chain else 0.0
         joint.stiffness = [setup.servo_n_m_per_rad if i == 0 else torsion, 0, 0]
         body.add_geom(
             name=f"shaft_{i}",
@@ -277,3 +287,7 @@ def _add_actuators(spec: mujoco.MjSpec, setup: Setup, tip: str) -> None:
     ):
         actuator = spec.add_actuator(name=name, target=target, trntype=kind)
         actuator.gear[: len(gear)] = gear
+    if setup.drive.torque_limit_n_mm is not None:
+        most = setup.drive.torque_limit_n_mm * units.N_MM
+        motor = spec.actuator("drive")
+        motor.forcelimited, motor.forcerange = True, [-most, most]

@@ -96,12 +96,17 @@ def add_linear(w: Workspace, g: float, with_matrix: bool) -> None:
 @inlined
 def drive_torque(w: Workspace, frame: Frame, drive: float) -> tuple[float, float]:
     """Torque of the drive on the first node, N m, and minus its slope."""
-    if not frame.angle_driven:
+    if frame.servo == 0.0:
         return drive, 0.0
     miss = drive - w.theta[0] - frame.g * w.omega[0]
-    slack = min(max(miss, -frame.backlash), frame.backlash)
     engaged = abs(miss) >= frame.backlash
-    return frame.servo * (miss - slack), frame.g * frame.servo if engaged else 0.0
+    return frame.servo * (miss - slack(miss, frame.backlash)), frame.g * frame.servo if engaged else 0.0
+
+
+@inlined
+def slack(miss: float, backlash: float) -> float:
+    """How much of the play is taken up, rad, where the drive is ahead of the needle by `miss`."""
+    return min(max(miss, -backlash), backlash)
 
 
 @compiled

@@ -1,14 +1,10 @@
 """The compiled callbacks: MuJoCo's passive force and the sensors that show it.
 
-What MuJoCo computes: the inertia of the chain, its joint springs, the motors, the
-solution of its own implicit step, and the new state. What the callback computes:
-the end of the step of needle and tissue together (sim.kernel.step), and from it
-the joint torques with which MuJoCo's own step lands there:
-
-    passive = M a + K q_end - motor,    a = ((q_end - q) / h - qvel) / h,
-
-where K are the joints' springs, which MuJoCo's integrator evaluates at the end of
-the step. In the mean over the step these torques are the tissue's.
+Who computes what: MuJoCo's model holds the needle, and MuJoCo steps it. The callback
+finds the end of the step of needle and tissue together (sim.kernel.step) and adds to
+`qfrc_passive` the torque of the tissue there, and what lifts MuJoCo's first-order step
+to second order, apart from each other (sim.kernel.torques). In first-order mode the
+tissue's torque is all that it adds.
 
 The state of the tissue at the start and at the end of a step are kept apart in
 `userdata`, and the end becomes the start only when time has moved on: so that
@@ -31,8 +27,10 @@ from numba.extending import intrinsic
 from sim.kernel import memory_map
 from sim.kernel.assemble import is_linear
 from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.shaft import Needle, Shaft, motor_of, read_nodes, read_springs
 from sim.kernel.step import advance
 from sim.kernel.struct_offsets import read_struct_offsets
+from sim.kernel.torques import landing_force, landing_torque, to_joints
 
 _SOURCES = Path(__file__).parent
 _STAGE = int(mujoco.mjtStage.mjSTAGE_ACC)
@@ -53,65 +51,26 @@ def _pointer_to(kind: Any) -> Any:
 
 _numbers = _pointer_to(types.float64)
 _addresses = _pointer_to(types.intp)
+_flags = _pointer_to(types.boolean)
 _block: Any = njit(memory_map.block)
+_torques: Any = njit(memory_map.torques)
 _scratch: Any = njit(memory_map.scratch)
 
 
 @inlined
 def _userdata(n: int, rows: int) -> int:
     """memory_map.userdata, for compiled code."""
-    return memory_map.CLOCK + 2 * _block(n, rows) + _scratch(n, rows)
+    return memory_map.CLOCK + 2 * _block(n, rows) + _torques(n) + _scratch(n, rows)
 
 
 @inlined
-def _torques(
-    head: Array,
-    mesh: Array,
-    h: float,
-    qpos: Array,
-    qvel: Array,
-    theta: Array,
-    end: Array,
-    ctrl: Array,
-    passive: Array,
-) -> None:
-    """Add to `passive` what makes MuJoCo's own step end at the angles `end`."""
-    n = int(head[memory_map.H_ELEMENTS])
-    chain = head[memory_map.H_CHAIN] != 0.0
-    rail = ((ctrl[memory_map.U_CARRIAGE] - qpos[0]) / h - qvel[0]) / h
-    passive[0] += head[memory_map.H_MASS] * rail
-    rate = 0.0
-    for i in range(n + 1):  # for the chain: absolute rates, kept in theta's place
-        rate = qvel[i + 1] + (rate if chain else 0.0)
-        theta[i] = ((end[i] - theta[i]) / h - rate) / h
-    inertial = 0.0
-    for i in range(n, -1, -1):
-        left = mesh[i] - mesh[i - 1] if i > 0 else 0.0
-        right = mesh[i + 1] - mesh[i] if i < n else 0.0
-        inertia = head[memory_map.H_ETA] * 0.5 * (left + right)
-        inertial = inertia * theta[i] + (inertial if chain else 0.0)
-        torque = inertial
-        if i == 0:
-            angle_driven = head[memory_map.H_DRIVE] == memory_map.DRIVE_ANGLE
-            torque += (
-                head[memory_map.H_SERVO] * (end[0] - ctrl[memory_map.U_DRIVE])
-                if angle_driven
-                else -ctrl[memory_map.U_DRIVE]
-            )
-        elif chain:
-            torque += head[memory_map.H_KAPPA] / left * (end[i] - end[i - 1])
-        if chain or i == n:
-            torque += ctrl[memory_map.U_TIP]
-        passive[i + 1] += torque
-
-
-@inlined
-def _prime(head: Array, theta: Array, ctrl: Array, now: Array) -> None:
+def _prime(shaft: Shaft, theta: Array, ctrl: Array, now: Array) -> None:
     """Before the first step: everything at rest, as the inputs and angles stand."""
     now[:] = 0.0
     now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS] = ctrl
-    if head[memory_map.H_DRIVE] == memory_map.DRIVE_ANGLE:
-        now[memory_map.B_INPUTS + memory_map.U_DRIVE] = theta[0]
+    gain = shaft.motor.gear * shaft.motor.gain
+    if shaft.servo > 0.0 and gain != 0.0:  # the drive shaft starts where the needle is
+        now[memory_map.B_INPUTS + memory_map.U_DRIVE] = theta[0] * shaft.servo / gain
     now[memory_map.B_ANGLES : memory_map.B_ANGLES + theta.size] = theta
 
 
@@ -124,8 +83,70 @@ def _remembers(law: Array) -> bool:
 
 
 @compiled
+def _begin(
+    law: Array, shaft: Shaft, time: float, theta: Array, ctrl: Array, clock: Array, now: Array, nxt: Array
+) -> None:
+    """Make the end of the last step the start of this one, if time has moved on."""
+    n = theta.size - 1
+    if clock[memory_map.D_PRIMED] == 0.0:
+        _prime(shaft, theta, ctrl, now)
+        clock[memory_map.D_PRIMED] = 1.0
+    elif time > clock[memory_map.D_TIME]:
+        # Rows that are viscous alone remember nothing at their sites.
+        kept = now.size if _remembers(law) else memory_map.B_ANGLES + 2 * (n + 1)
+        now[:kept] = nxt[:kept]
+        for i in range(n + 1):
+            now[memory_map.O_LANDING] = max(
+                now[memory_map.O_LANDING], abs(theta[i] - now[memory_map.B_ANGLES + i])
+            )
+    clock[memory_map.D_TIME] = time
+
+
+@compiled
+def _add_torques(
+    head: Array,
+    shaft: Shaft,
+    h: float,
+    theta: Array,
+    rates: Array,
+    nxt: Array,
+    ctrl: Array,
+    torques: Array,
+    passive: Array,
+) -> None:
+    """Add the torques to the hinges, and show the largest correction among them."""
+    n = theta.size - 1
+    chain = head[memory_map.H_CHAIN] != 0.0
+    tissue, other = torques[memory_map.T_TISSUE], torques[memory_map.T_OTHER]
+    correction = torques[memory_map.T_CORRECTION]
+    to_joints(chain, tissue)
+    largest = 0.0
+    if head[memory_map.H_ORDER] == 1.0:
+        correction[:] = 0.0
+    else:
+        end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
+        landing_torque(chain, shaft, h, theta, rates, end, ctrl, correction)
+        for i in range(n + 1):
+            correction[i] -= tissue[i] + other[i]
+            largest = max(largest, abs(correction[i]))
+    nxt[memory_map.O_CORRECTION] = largest
+    for i in range(n + 1):
+        passive[memory_map.FIRST_JOINT + i] += tissue[i] + other[i] + correction[i]
+
+
+@inlined
+def _absolute(chain: bool, joints: Array, out: Array) -> None:
+    """Angles or rates of the nodes from those of the hinges."""
+    total = 0.0
+    for i in range(out.size):
+        total = joints[memory_map.FIRST_JOINT + i] + (total if chain else 0.0)
+        out[i] = total
+
+
+@compiled
 def step_needle(
     numeric: Array,
+    needle: Needle,
     h: float,
     time: float,
     qpos: Array,
@@ -137,44 +158,42 @@ def step_needle(
     """What the passive callback does, on arrays."""
     head = numeric[: memory_map.HEADER]
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    chain = head[memory_map.H_CHAIN] != 0.0
     mesh = numeric[memory_map.HEADER : memory_map.HEADER + n + 1]
-    law = numeric[
-        memory_map.HEADER + n + 1 : memory_map.HEADER + n + 1 + rows * memory_map.COLUMNS
-    ].reshape(rows, memory_map.COLUMNS)
-    size = _block(n, rows)
+    beyond = memory_map.HEADER + n + 1 + rows * memory_map.COLUMNS
+    law = numeric[memory_map.HEADER + n + 1 : beyond].reshape(rows, memory_map.COLUMNS)
+    size, m = _block(n, rows), n + 1
     now = userdata[memory_map.CLOCK : memory_map.CLOCK + size]
     nxt = userdata[memory_map.CLOCK + size : memory_map.CLOCK + 2 * size]
-    theta = userdata[memory_map.CLOCK + 2 * size : memory_map.CLOCK + 2 * size + n + 1]
-    scratch = userdata[memory_map.CLOCK + 2 * size + n + 1 :]
-    angle = 0.0
-    for i in range(n + 1):
-        angle = qpos[i + 1] + (angle if head[memory_map.H_CHAIN] != 0.0 else 0.0)
-        theta[i] = angle
-    if userdata[memory_map.D_PRIMED] == 0.0:
-        _prime(head, theta, ctrl, now)
-        userdata[memory_map.D_PRIMED] = 1.0
-    elif time > userdata[memory_map.D_TIME]:
-        # Rows that are viscous alone remember nothing at their sites.
-        kept = size if _remembers(law) else memory_map.B_ANGLES + 2 * (n + 1)
-        now[:kept] = nxt[:kept]
-        for i in range(n + 1):
-            now[memory_map.O_LANDING] = max(
-                now[memory_map.O_LANDING], abs(theta[i] - now[memory_map.B_ANGLES + i])
-            )
-    userdata[memory_map.D_TIME] = time
-    advance(head, mesh, law, h, theta, now, nxt, ctrl, scratch)
-    nxt[memory_map.O_LANDING] = now[memory_map.O_LANDING]
-    _torques(
-        head,
-        mesh,
-        h,
-        qpos,
-        qvel,
-        theta,
-        nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1],
-        ctrl,
-        passive,
+    at = memory_map.CLOCK + 2 * size
+    torques = userdata[at : at + _torques(n)].reshape(memory_map.TORQUES, m)
+    at += _torques(n)
+    theta, rates = userdata[at : at + m], userdata[at + m : at + 2 * m]
+    inertia, spring = userdata[at + 2 * m : at + 3 * m], userdata[at + 3 * m : at + 4 * m - 1]
+    scratch = userdata[at + 4 * m :]
+    read_nodes(needle.body_inertia, needle.body_iquat, inertia)
+    read_springs(chain, needle.jnt_stiffness, numeric[beyond:], spring)
+    shaft = Shaft(
+        inertia,
+        spring,
+        needle.jnt_stiffness[memory_map.FIRST_JOINT],
+        motor_of(needle, memory_map.U_DRIVE, 0),
+        motor_of(needle, memory_map.U_TIP, memory_map.ABOUT_X),
+        needle.mass,
+        needle.jnt_stiffness[0],
+        motor_of(needle, memory_map.U_CARRIAGE, 0),
     )
+    _absolute(chain, qpos, theta)
+    _absolute(chain, qvel, rates)
+    _begin(law, shaft, time, theta, ctrl, userdata[: memory_map.CLOCK], now, nxt)
+    second_order = head[memory_map.H_ORDER] != 1.0
+    # MuJoCo's rates are means over a step; the method's own are those at its end.
+    own = now[memory_map.B_ANGLES + m : memory_map.B_ANGLES + 2 * m] if second_order else rates
+    advance(head, mesh, law, shaft, h, theta, own, now, nxt, ctrl, torques, scratch)
+    nxt[memory_map.O_LANDING] = now[memory_map.O_LANDING]
+    _add_torques(head, shaft, h, theta, rates, nxt, ctrl, torques, passive)
+    if second_order:
+        passive[0] += landing_force(shaft, h, qpos[0], qvel[0], ctrl[memory_map.U_CARRIAGE])
 
 
 def _sources_digest() -> int:
@@ -194,6 +213,12 @@ def _compile() -> tuple[Any, Any]:
     offsets, build = read_struct_offsets(), _sources_digest()
     count_at, numeric_at = offsets.model["nnumeric"], offsets.model["numeric_data"]
     step_at, time_at = offsets.model["timestep"], offsets.data["time"]
+    size_at = offsets.model["nnumericdata"]
+    inertia_at, quat_at = offsets.model["body_inertia"], offsets.model["body_iquat"]
+    mass_at, stiffness_at = offsets.model["body_subtreemass"], offsets.model["jnt_stiffness"]
+    gear_at, gain_at = offsets.model["actuator_gear"], offsets.model["actuator_gainprm"]
+    limited_at = offsets.model["actuator_forcelimited"]
+    range_at = offsets.model["actuator_forcerange"]
     qpos_at, qvel_at, ctrl_at = (offsets.data[name] for name in ("qpos", "qvel", "ctrl"))
     passive_at, user_at = offsets.data["qfrc_passive"], offsets.data["userdata"]
     sensors_at = offsets.data["sensordata"]
@@ -207,8 +232,20 @@ def _compile() -> tuple[Any, Any]:
         if head[memory_map.H_MAGIC] != memory_map.MAGIC:
             return
         n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+        bodies = memory_map.FIRST_BODY + n + 1
+        needle = Needle(
+            carray(_numbers(_addresses(model + inertia_at)[0]), (bodies, 3)),
+            carray(_numbers(_addresses(model + quat_at)[0]), (bodies, 4)),
+            _numbers(_addresses(model + mass_at)[0])[memory_map.FIRST_BODY - 1],
+            carray(_numbers(_addresses(model + stiffness_at)[0]), n + 2),
+            carray(_numbers(_addresses(model + gear_at)[0]), (memory_map.INPUTS, 6)),
+            carray(_numbers(_addresses(model + gain_at)[0]), (memory_map.INPUTS, mujoco.mjNGAIN)),
+            carray(_flags(_addresses(model + limited_at)[0]), memory_map.INPUTS),
+            carray(_numbers(_addresses(model + range_at)[0]), (memory_map.INPUTS, 2)),
+        )
         step_needle(
-            carray(_numbers(start), memory_map.HEADER + n + 1 + rows * memory_map.COLUMNS),
+            carray(_numbers(start), _addresses(model + size_at)[0]),
+            needle,
             _numbers(model + step_at)[0],
             _numbers(data + time_at)[0],
             carray(_numbers(_addresses(data + qpos_at)[0]), n + 2),

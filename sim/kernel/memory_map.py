@@ -1,22 +1,24 @@
 """The memory map: where a needle and its tissue lie in a MuJoCo model and its data.
 
-Everything that a simulation depends on lives in its `mjModel` (three `numeric`
-fields) and everything that it remembers lives in `mjData.userdata`, so that a
-batch can run different tissues side by side and a saved state restores exactly.
-All values are SI. This module is the only owner of the positions below; the
-compiled kernel and the Python side both import them.
+Everything that a simulation depends on lives in its `mjModel`: the needle in its
+bodies, joints and actuators, the tissue in `numeric` fields. Everything that it
+remembers lives in `mjData.userdata`, so that a batch can run different tissues side
+by side and a saved state restores exactly. All values are SI. This module is the only
+owner of the positions below; the compiled kernel and the Python side both import them.
 """
 
+# --- where the needle is among the model's bodies and joints (the world is body 0) ---
+FIRST_BODY = 2  # of the shaft; body 1 is the carriage
+FIRST_JOINT = 1  # of the shaft; joint 0 is the carriage's
+ABOUT_X = 3  # place of a site actuator's gear about the axis of the needle
+
 # --- numeric "needle": one header ------------------------------------------------
-MAGIC = 590_272.0  # marks a model as ours: other models pass the callback untouched
+MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untouched
 (
     H_MAGIC,
     H_ELEMENTS,  # n
     H_ROWS,  # rows of the law table
-    H_KAPPA,  # torsional rigidity JG, N m^2
-    H_ETA,  # rotary inertia per length, rho J, kg m
-    H_DRIVE,  # DRIVE_TORQUE or DRIVE_ANGLE
-    H_SERVO,  # stiffness between drive shaft and needle, N m / rad
+    H_ORDER,  # of the step: 1 (MuJoCo's own) or 2
     H_BACKLASH,  # half of the play between drive shaft and needle, rad
     H_PRESLIDING,  # angle at which a dry element slips, rad
     H_RADIUS,  # m
@@ -24,12 +26,8 @@ MAGIC = 590_272.0  # marks a model as ours: other models pass the callback untou
     H_STRETCHING,  # elements that share the free length (0: all are fixed to the needle)
     H_FREE_REF,  # free length at carriage position 0, m
     H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
-    H_MASS,  # of everything that the carriage moves, kg
-    H_RAIL,  # stiffness of the carriage's servo, N / m
     HEADER,
-) = range(17)
-
-DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
+) = range(12)
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
 
@@ -58,6 +56,8 @@ DRIVE_TORQUE, DRIVE_ANGLE = 0.0, 1.0
     COLUMNS,
 ) = range(20)
 
+# --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------
+
 # --- ctrl -------------------------------------------------------------------------
 U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, INPUTS = range(6)
 
@@ -75,13 +75,20 @@ Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
     O_WORK,  # done by the drive so far, J
     O_DISSIPATED,  # by friction so far, J
     O_TISSUE_ENERGY,  # stored in twisted tissue, J
+    O_SHAFT_ENERGY,  # stored in the twisted shaft, J
+    O_SHAFT_TORQUE,  # largest that an element of the shaft carries, N m
+    O_CORRECTION,  # largest torque that lifts MuJoCo's step to second order, N m
     O_FAILED,  # stages so far whose iteration did not converge
     O_ITERATIONS,  # of the last step
     O_LANDING,  # largest distance between MuJoCo's step and the wanted state, rad
     OUTPUTS,
-) = range(12)
+) = range(15)
 
-# --- userdata: a clock, the state at the start of the step, at its end, and scratch ---
+# --- torques that the callback added in the last step, one row each (n + 1 joints) ---
+T_TISSUE, T_OTHER, T_CORRECTION, TORQUES = range(4)
+
+# --- userdata: a clock, the state at the start of the step, at its end, the torques,
+# and scratch ---
 D_PRIMED, D_TIME, CLOCK = range(3)
 
 
@@ -90,14 +97,20 @@ def block(elements: int, rows: int) -> int:
     return OUTPUTS + INPUTS + 2 * (elements + 1) + SITE * 2 * elements * rows
 
 
+def torques(elements: int) -> int:
+    """Values of the torques that the callback added: `TORQUES` rows of a value per joint."""
+    return TORQUES * (elements + 1)
+
+
 def scratch(elements: int, rows: int) -> int:
-    """Values of working memory that one step needs: see `sim.kernel.workspace`."""
-    return 16 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
+    """Values of working memory that one step needs: angles, rates, inertia and springs of the
+    shaft, then `sim.kernel.workspace`."""
+    return 19 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 
 def userdata(elements: int, rows: int) -> int:
     """Values of `mjData.userdata`: the state, then working memory (never read back)."""
-    return CLOCK + 2 * block(elements, rows) + scratch(elements, rows)
+    return CLOCK + 2 * block(elements, rows) + torques(elements) + scratch(elements, rows)
 
 
 B_OUTPUTS = 0
@@ -113,6 +126,9 @@ OUTPUT_SENSORS = (
     "work",
     "dissipated",
     "tissue_energy",
+    "shaft_energy",
+    "shaft_torque",
+    "correction",
     "failed",
     "iterations",
     "landing",

@@ -93,7 +93,7 @@ def newton(
             factorise(w.lower, w.diagonal, w.upper)
         change, size, force = _take_step(w)
         search = Search(force, 0.0, force, 1.0, 0.0, 1.0)
-        if not math.isfinite(change):
+        if not math.isfinite(change + force):  # of NaN, `max` keeps the other
             return False, iteration + 1, recoverable, stored
         if not nonlinear or change <= _TOLERANCE * size:
             return True, iteration + 1, recoverable, stored

@@ -1,15 +1,16 @@
-"""One step of needle and tissue together: second order, L-stable, sticking truly.
+"""One step of needle and tissue together, of second order or of MuJoCo's own first.
 
-Alexander's two-stage singly diagonally implicit Runge-Kutta method, with
-gamma = 1 - 1/sqrt(2): L-stable, second order, stiffly accurate. A stage of length
+Second order: Alexander's two-stage singly diagonally implicit Runge-Kutta method, with
+gamma = 1 - 1/sqrt(2): L-stable, stiffly accurate. First order: backward Euler, one stage
+of gamma = 1, which is what MuJoCo's `discrete` integrator does. A stage of length
 g = gamma h solves for the rates w of the nodes
 
     I (w - w*) / g + K (theta* + g w) + sum over sites of N f(N' w) = drive - tip,
 
-a tridiagonal system, by Newton's method. Everything that is remembered (angles,
-rates, presliding, tissue twist) enters the second stage as
-y* = y0 + (1/gamma - 1)(y1 - y0). Inputs run straight from one end of the step to
-the other; lengths and speed are those of its middle.
+a tridiagonal system, by Newton's method; I, K and the servo in `drive` are those of the
+MuJoCo model (sim.kernel.shaft). Everything that is remembered (angles, rates, presliding,
+tissue twist) enters the second stage as y* = y0 + (1/gamma - 1)(y1 - y0). Inputs run
+straight from one end of the step to the other; lengths and speed are those of its middle.
 """
 
 import math
@@ -20,11 +21,14 @@ from sim.kernel.assemble import (
     add_viscous,
     drive_torque,
     is_linear,
+    slack,
     twist_of,
 )
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.newton import newton
+from sim.kernel.shaft import Shaft, drive_input, motor_force
+from sim.kernel.torques import set_other
 from sim.kernel.workspace import Frame, Workspace, divide
 
 GAMMA = 1.0 - math.sqrt(0.5)
@@ -36,8 +40,9 @@ def _prepare(
     head: Array,
     mesh: Array,
     law: Array,
+    shaft: Shaft,
     theta: Array,
-    now: Array,
+    rates: Array,
     before: Array,
     w: Workspace,
     frame: Frame,
@@ -48,16 +53,15 @@ def _prepare(
     """Fill in what the step starts from; returns whether iteration is needed."""
     n = w.omega.size - 1
     place_nodes(head, mesh, free, w.x)
-    half = 0.5 * head[memory_map.H_ETA] / frame.g
-    w.inertia[0] = half * (w.x[1] - w.x[0])
-    w.inertia[n] = half * (w.x[n] - w.x[n - 1])
-    for i in range(1, n):
-        w.inertia[i] = half * (w.x[i + 1] - w.x[i - 1])
+    stretching = int(head[memory_map.H_STRETCHING])
     for i in range(n):
-        w.spring[i] = head[memory_map.H_KAPPA] / (w.x[i + 1] - w.x[i])
+        w.spring[i] = shaft.spring[i]
+        if i < stretching:  # torsion falls as the length of the element grows
+            w.spring[i] *= head[memory_map.H_FREE_REF] / free
     for i in range(n + 1):
+        w.inertia[i] = shaft.inertia[i] / frame.g
         w.theta[i] = theta[i]
-        w.rest[i] = w.omega[i] = now[memory_map.B_ANGLES + n + 1 + i]
+        w.rest[i] = w.omega[i] = rates[i]
         w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
     nonlinear = head[memory_map.H_BACKLASH] > 0.0
     for r in range(law.shape[0]):
@@ -73,15 +77,14 @@ def _prepare(
 
 @inlined
 def _second_stage(
-    law: Array, theta: Array, now: Array, before: Array, w: Workspace, frame: Frame
+    law: Array, theta: Array, rates: Array, before: Array, w: Workspace, frame: Frame
 ) -> None:
     """Carry everything that is remembered into the second stage."""
     n = w.omega.size - 1
     for i in range(n + 1):
         reached = w.theta[i] + frame.g * w.omega[i]
         w.theta[i] = theta[i] + _CARRY * (reached - theta[i])
-        rate = now[memory_map.B_ANGLES + n + 1 + i]
-        w.rest[i] = rate + _CARRY * (w.omega[i] - rate)
+        w.rest[i] = rates[i] + _CARRY * (w.omega[i] - rates[i])
     for r in range(law.shape[0]):
         if is_linear(law[r]):
             continue
@@ -105,11 +108,14 @@ def _carry_site(w: Workspace, r: int, e: int, k: int, before: Array, limit: floa
 
 
 @inlined
-def _friction(w: Workspace, frame: Frame, drive: float, tip_torque: float) -> tuple[float, float, float]:
+def _friction(
+    w: Workspace, frame: Frame, drive: float, tip_torque: float, weight: float, tissue: Array
+) -> tuple[float, float, float]:
     """Torque of all friction on the shaft, its power, and the drive's torque.
 
     By balance, so that the sums hold to rounding: what inertia and torsion do not
-    take of the external torques is friction.
+    take of the external torques is friction. `tissue` gains what it does to every node,
+    times the weight of the stage.
     """
     n = w.omega.size - 1
     torque, _ = drive_torque(w, frame, drive)
@@ -119,6 +125,7 @@ def _friction(w: Workspace, frame: Frame, drive: float, tip_torque: float) -> tu
         share = arriving - leaving - w.inertia[i] * (w.omega[i] - w.rest[i])
         friction += share
         power += share * w.omega[i]
+        tissue[i] -= weight * share
         arriving = leaving
     return torque, friction, power
 
@@ -128,23 +135,28 @@ def advance(
     head: Array,
     mesh: Array,
     law: Array,
+    shaft: Shaft,
     h: float,
     theta: Array,
+    rates: Array,
     now: Array,
     nxt: Array,
     ctrl: Array,
+    torques: Array,
     scratch: Array,
 ) -> None:
     """Advance needle and tissue by h.
 
     Args:
-      head, mesh, law: the model's three numeric fields; law is (rows, columns).
+      head, mesh, law: the model's numeric fields; law is (rows, columns).
+      shaft: the model's needle.
       h: step, s.
-      theta: angles of the nodes at the start, rad, (n + 1).
+      theta, rates: of the nodes at the start, rad and rad/s, (n + 1).
       now: state block at the start (sim.kernel.memory_map); MuJoCo owns its angles.
       nxt: state block that receives the end.
       ctrl: inputs at the end of the step.
-      scratch: working memory (sim.kernel.memory_map.scratch).
+      torques: (TORQUES, n + 1), receives tissue, per node, and other, per joint.
+      scratch: working memory (sim.kernel.workspace).
     """
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     first = memory_map.B_ANGLES + 2 * (n + 1)
@@ -156,41 +168,54 @@ def advance(
     )
     inserted = 0.5 * (past[memory_map.U_INSERTED] + ctrl[memory_map.U_INSERTED])
     speed = 0.5 * (past[memory_map.U_SPEED] + ctrl[memory_map.U_SPEED])
+    stages = 1 if head[memory_map.H_ORDER] == 1.0 else 2
+    gamma = 1.0 if stages == 1 else GAMMA
     frame = Frame(
-        GAMMA * h,
+        gamma * h,
         speed / head[memory_map.H_RADIUS],
         head[memory_map.H_ADVECTION] * speed,
         head[memory_map.H_PRESLIDING],
-        head[memory_map.H_SERVO],
+        shaft.servo,
         head[memory_map.H_BACKLASH],
-        head[memory_map.H_DRIVE] == memory_map.DRIVE_ANGLE,
     )
-    tip_loaded = past[memory_map.U_TIP] != 0.0 or ctrl[memory_map.U_TIP] != 0.0
+    drive_was, drive_is = (
+        drive_input(shaft, past[memory_map.U_DRIVE]),
+        drive_input(shaft, ctrl[memory_map.U_DRIVE]),
+    )
+    tip_was, tip_is = (
+        -motor_force(shaft.tip, past[memory_map.U_TIP]),
+        -motor_force(shaft.tip, ctrl[memory_map.U_TIP]),
+    )
+    tip_loaded = tip_was != 0.0 or tip_is != 0.0
     for r in range(rows):
         tip_loaded |= law[r, memory_map.L_POINT] * law[r, memory_map.L_TOP_INSERTED] != 0.0
-    nonlinear = _prepare(head, mesh, law, theta, now, before, w, frame, free, inserted, tip_loaded)
+    nonlinear = _prepare(
+        head, mesh, law, shaft, theta, rates, before, w, frame, free, inserted, tip_loaded
+    )
+    tissue = torques[memory_map.T_TISSUE]
+    for i in range(n + 1):
+        tissue[i] = 0.0
     work, dissipated, failed, iterations = 0.0, 0.0, 0, 0
-    torque, friction, stored = 0.0, 0.0, 0.0
-    for stage in range(2):
-        reach, share = (GAMMA, h - frame.g) if stage == 0 else (1.0, frame.g)
-        drive = past[memory_map.U_DRIVE] + reach * (ctrl[memory_map.U_DRIVE] - past[memory_map.U_DRIVE])
-        tip_torque = past[memory_map.U_TIP] + reach * (ctrl[memory_map.U_TIP] - past[memory_map.U_TIP])
+    torque, friction, stored, drive = 0.0, 0.0, 0.0, 0.0
+    for stage in range(stages):
+        last = stage == stages - 1
+        reach = 1.0 if last else gamma
+        share = frame.g if last else h - frame.g
+        drive = drive_was + reach * (drive_is - drive_was)
+        tip_torque = tip_was + reach * (tip_is - tip_was)
         if stage == 1:
-            _second_stage(law, theta, now, before, w, frame)
+            _second_stage(law, theta, rates, before, w, frame)
         again = stage == 1 and not nonlinear and frame.drift == 0.0
         solved, count, recoverable, stored = newton(law, w, frame, drive, tip_torque, nonlinear, again)
-        torque, friction, power = _friction(w, frame, drive, tip_torque)
-        shaft = (
-            (ctrl[memory_map.U_DRIVE] - past[memory_map.U_DRIVE]) / h
-            if frame.angle_driven
-            else w.omega[0]
-        )
-        work += share * (torque * shaft - tip_torque * w.omega[n])
+        torque, friction, power = _friction(w, frame, drive, tip_torque, share / h, tissue)
+        turning = (drive_is - drive_was) / h if shaft.servo > 0.0 else w.omega[0]
+        work += share * (torque * turning - tip_torque * w.omega[n])
         dissipated += share * (power - recoverable)
         failed += 0 if solved else 1
         iterations += count
+    end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
     for i in range(n + 1):
-        nxt[memory_map.B_ANGLES + i] = w.theta[i] + frame.g * w.omega[i]
+        end[i] = w.theta[i] + frame.g * w.omega[i]
         nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]
     for r in range(rows):
         if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
@@ -202,15 +227,31 @@ def advance(
             and head[memory_map.H_STRETCHING] == 0.0
         ):
             advect_tissue(h * speed, w.x, w.loads[r], w.end[r])
+    chain = head[memory_map.H_CHAIN] != 0.0
+    taken_up = slack(drive - end[0], frame.backlash)
+    set_other(chain, shaft, w.spring, taken_up, end, torques[memory_map.T_OTHER])
     for j in range(memory_map.INPUTS):
         nxt[memory_map.B_INPUTS + j] = ctrl[j]
     nxt[memory_map.O_BASE_TORQUE] = torque
-    nxt[memory_map.O_BASE_ANGLE] = nxt[memory_map.B_ANGLES]
-    nxt[memory_map.O_TIP_ANGLE] = nxt[memory_map.B_ANGLES + n]
+    nxt[memory_map.O_BASE_ANGLE] = end[0]
+    nxt[memory_map.O_TIP_ANGLE] = end[n]
     nxt[memory_map.O_FRICTION] = friction
-    nxt[memory_map.O_TIP_TORQUE] = ctrl[memory_map.U_TIP]
+    nxt[memory_map.O_TIP_TORQUE] = tip_is
     nxt[memory_map.O_WORK] = now[memory_map.O_WORK] + work
     nxt[memory_map.O_DISSIPATED] = now[memory_map.O_DISSIPATED] + dissipated
     nxt[memory_map.O_TISSUE_ENERGY] = stored
     nxt[memory_map.O_FAILED] = now[memory_map.O_FAILED] + failed
     nxt[memory_map.O_ITERATIONS] = iterations
+    _show_shaft(w, end, nxt)
+
+
+@inlined
+def _show_shaft(w: Workspace, end: Array, nxt: Array) -> None:
+    """Energy that the shaft stores, and the largest torque that one of its elements carries."""
+    energy, largest = 0.0, 0.0
+    for e in range(end.size - 1):
+        twist = end[e + 1] - end[e]
+        energy += 0.5 * w.spring[e] * twist * twist
+        largest = max(largest, abs(w.spring[e] * twist))
+    nxt[memory_map.O_SHAFT_ENERGY] = energy
+    nxt[memory_map.O_SHAFT_TORQUE] = largest

@@ -32,7 +32,20 @@ _SCALARS = {
 }
 
 # Reflected on by the start-up check: pointers whose addresses Python also knows.
-_MODEL_FIELDS = ("numeric_data", "numeric_adr", "jnt_stiffness", "sensor_adr")
+_MODEL_FIELDS = (
+    "numeric_data",
+    "numeric_adr",
+    "body_inertia",
+    "body_iquat",
+    "body_subtreemass",
+    "jnt_stiffness",
+    "actuator_gear",
+    "actuator_gainprm",
+    "actuator_forcelimited",
+    "actuator_forcerange",
+    "sensor_adr",
+)
+_SIZES = ("nnumeric", "nnumericdata", "nv")
 _DATA_FIELDS = ("qpos", "qvel", "ctrl", "userdata", "qfrc_passive", "sensordata")
 
 
@@ -56,7 +69,7 @@ def read_struct_offsets() -> StructOffsets:
       EnvironmentMismatch: the declarations do not describe the loaded library.
     """
     model_type, data_type = _struct("mjModel"), _struct("mjData")
-    model = {name: _offset(model_type, name) for name in (*_MODEL_FIELDS, "nnumeric", "nv")}
+    model = {name: _offset(model_type, name) for name in (*_MODEL_FIELDS, *_SIZES)}
     model["timestep"] = _offset(model_type, "opt") + _offset(_struct("mjOption"), "timestep")
     data = {name: _offset(data_type, name) for name in (*_DATA_FIELDS, "time")}
     offsets = StructOffsets(model=model, data=data)
@@ -118,11 +131,13 @@ def _check(computed: StructOffsets) -> None:
     time = ctypes.c_double.from_address(data._address + computed.data["time"]).value
     step = ctypes.c_double.from_address(model._address + computed.model["timestep"]).value
     count = ctypes.c_int64.from_address(model._address + computed.model["nnumeric"]).value
+    values = ctypes.c_int64.from_address(model._address + computed.model["nnumericdata"]).value
     dofs = ctypes.c_int64.from_address(model._address + computed.model["nv"]).value
     scalars: tuple[tuple[str, float, float], ...] = (
         ("time", time, 4.5),
         ("timestep", step, 0.0123),
         ("nnumeric", count, 1),
+        ("nnumericdata", values, 2),
         ("nv", dofs, 1),
     )
     for name, value, expected in scalars:

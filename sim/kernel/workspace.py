@@ -39,9 +39,8 @@ class Frame(NamedTuple):
     axial: float  # axial speed over the radius, rad/s
     drift: float  # speed of the shaft against the mesh, m/s
     yield_angle: float  # presliding angle, rad
-    servo: float  # stiffness of the drive, N m / rad
+    servo: float  # stiffness of the drive, N m / rad; 0: it gives torque
     backlash: float  # half of the play, rad
-    angle_driven: bool
 
 
 @inlined
