@@ -20,6 +20,7 @@ from sim.discretisation import Mesh
 from sim.kernel import memory_map
 from sim.loop.hardware import LoopHardware
 from sim.loop.measurement import CHANNELS, Measurement, MeasurementNoise, SensorReadings
+from sim.loop.servo_loop import ServoLoop
 from sim.loop.shaft import CommandedShaft
 from sim.schedule import Schedule
 from sim.simulation import Run, compile_model, controls, initial_data
@@ -46,7 +47,8 @@ class ClosedLoopRun:
     """A run under control.
 
     Attributes:
-      run: as of `sim.simulation.simulate`; its drive is the angle of the drive shaft.
+      run: as of `sim.simulation.simulate`; its drive is what acted on the needle: the angle of the
+        drive shaft, deg, or the torque of the motor, N mm.
       reference_deg: of the tip, (N,).
       command_deg: of the base, received from the controller at each sample, (N,).
       measured: what the sensors showed, by the names of `sim.loop.measurement.CHANNELS`, (N,) each.
@@ -118,10 +120,17 @@ class _Loop:
         self._data = initial_data(self._model, setup, self._ctrl[0])
         self._chain = self._model.numeric("needle").data[memory_map.H_CHAIN] != 0
         self._sensors = SensorReadings(hardware.sensors, noise, samples=self.samples, step_s=step_s)
-        self._shaft = CommandedShaft(hardware, step_s=step_s)
+        self._driven_by_angle = setup.drive.kind is DriveKind.ANGLE
+        self._drive: CommandedShaft | ServoLoop = (
+            CommandedShaft(hardware, step_s=step_s)
+            if self._driven_by_angle
+            else ServoLoop(hardware, setup.drive, step_s=step_s)
+        )
         self._outputs = np.zeros((self.samples, memory_map.OUTPUTS))
         self._angles = np.zeros((self.samples, self._model.nq - 1))
-        self._shaft_deg = np.zeros(self.samples)
+        self._acting = np.zeros(self.samples)
+        self._first_mm, self._stretching = float(np.diff(setup.nodes_mm[:2])[0]), setup.stretching
+        self._bias_n_mm = hardware.sensors.torque_bias_n_mm
         # A controller may retract beside the schedule: the lengths follow what it does.
         self._advance_mm = np.zeros(self.samples)
         self._free_mm = self.scheduled.free_mm.copy()
@@ -136,31 +145,51 @@ class _Loop:
         self._angles[i] = np.cumsum(joints) if self._chain else joints
 
     def measurement(self, i: int) -> Measurement:
-        """The sensors at sample i; the base angle is that of the drive shaft."""
-        torque = self._outputs[i, memory_map.O_BASE_TORQUE] / units.N_MM
+        """The sensors at sample i."""
         tip = self._outputs[i, memory_map.O_TIP_ANGLE] / units.DEG
-        shown = self._sensors.read(i, (float(self._shaft_deg[i]), float(torque), float(tip)))
-        self.measured[i] = shown
+        self.measured[i] = self._sensors.read(i, (self._shaft_deg(i), self._torque_n_mm(i), float(tip)))
+        base_deg, torque_n_mm, tip_deg = self.measured[i].tolist()
         return Measurement(
             time_s=float(self.scheduled.time_s[i]),
-            base_deg=shown[0],
-            torque_n_mm=shown[1],
-            tip_deg=shown[2],
+            base_deg=base_deg,
+            torque_n_mm=torque_n_mm,
+            tip_deg=tip_deg,
             inserted_mm=float(self._inserted_mm[i]),
             free_mm=float(self._free_mm[i]),
         )
+
+    def _shaft_deg(self, i: int) -> float:
+        """Angle of the drive shaft: with a torque drive, of the needle's base, which it carries."""
+        if self._driven_by_angle:
+            return float(self._acting[i])
+        return float(self._outputs[i, memory_map.O_BASE_ANGLE]) / units.DEG
+
+    def _torque_n_mm(self, i: int) -> float:
+        """Torque that the needle takes: with a torque drive, of its first element (the rotor takes
+        a share of the motor's)."""
+        if self._driven_by_angle:
+            return float(self._outputs[i, memory_map.O_BASE_TORQUE]) / units.N_MM
+        grown = float(self._free_mm[i]) / self.setup.free_mm if self._stretching else 1.0
+        twist_rad = float(self._angles[i, 0] - self._angles[i, 1])
+        return self.setup.needle.rigidity_n_mm2 * twist_rad / (self._first_mm * grown)
 
     def command(self, i: int, base_deg: float, advance_mm: float) -> None:
         """Give the drive and the carriage the command of sample i: they act in the next step."""
         self.command_deg[i] = base_deg
         if i + 1 == self.samples:
             return
-        self._turn(i + 1, self._shaft.follow(base_deg))
+        self._act(i, base_deg)
         self._advance(i + 1, advance_mm)
 
-    def _turn(self, i: int, shaft_deg: float) -> None:
-        self._shaft_deg[i] = shaft_deg
-        self._ctrl[i, memory_map.U_DRIVE] = shaft_deg * units.DEG
+    def _act(self, i: int, command_deg: float) -> None:
+        if isinstance(self._drive, CommandedShaft):
+            acting, scale = self._drive.follow(command_deg), units.DEG
+        else:
+            shaft, taken = self._shaft_deg(i), self._torque_n_mm(i)
+            acting = self._drive.motor_torque_n_mm(command_deg, shaft, taken + self._bias_n_mm)
+            scale = units.N_MM
+        self._acting[i + 1] = acting
+        self._ctrl[i + 1, memory_map.U_DRIVE] = acting * scale
 
     def _advance(self, i: int, advance_mm: float) -> None:
         self._advance_mm[i] = advance_mm
@@ -175,7 +204,7 @@ class _Loop:
     def run(self, *, keep_shape: bool) -> Run:
         """Everything that happened."""
         lengths = {"free_mm": self._free_mm, "inserted_mm": self._inserted_mm}
-        inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._shaft_deg})
+        inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._acting})
         angles = self._angles if keep_shape else None
         return Run(setup=self.setup, inputs=inputs, outputs=self._outputs, angles_rad=angles)
 

@@ -84,7 +84,14 @@ def _remembers(law: Array) -> bool:
 
 @compiled
 def _begin(
-    law: Array, shaft: Shaft, time: float, theta: Array, ctrl: Array, clock: Array, now: Array, nxt: Array
+    law: Array,
+    shaft: Shaft,
+    time: float,
+    theta: Array,
+    ctrl: Array,
+    clock: Array,
+    now: Array,
+    nxt: Array,
 ) -> None:
     """Make the end of the last step the start of this one, if time has moved on."""
     n = theta.size - 1
