@@ -8,7 +8,7 @@ Dry friction holds a lag that no waiting removes. The base therefore
    (reversal has to unwind the shaft from the base on), so the tip stays and the
    torque that a later slip could release is halved;
 3. asks for a short retraction and reinsertion where the lag can be wound no further
-   (winding or torque at their limit): sliding axially frees a shaft (Section II-B3).
+   (winding at its limit, or torque for `rest_s`): sliding axially frees a shaft (Section II-B3).
 
 In viscous tissue nothing is held, and 2 and 3 do not arise.
 """
@@ -41,7 +41,8 @@ class FrictionAware:
       winding_per_s: rate of winding on, over the tip error.
       dead_band_deg: error of the tip that is good enough.
       most_winding_deg: how far beyond the compensator's law the base may wind.
-      rest_s: time for which the tip has to stay within the dead band before the base unwinds.
+      rest_s: time for which the tip has to stay within the dead band before the base unwinds,
+        or the torque at its limit before the needle is retracted.
       retract_mm: length of a retraction; 0: never ask for one.
 
     Raises:
@@ -82,7 +83,7 @@ class FrictionAware:
         """Forget winding and phase."""
         self._base.reset()
         self.phase = Phase.WINDING
-        self._wound_deg = 0.0
+        self._wound_deg = self._at_limit_s = 0.0
         self._rest_deg = 0.0
         self._reference_deg = math.nan
         self._time_s = self._since_s = math.nan
@@ -104,7 +105,7 @@ class FrictionAware:
         return self._rest(error_deg, sample, estimate)
 
     def _enter(self, phase: Phase, sample: Sample) -> None:
-        self.phase, self._since_s = phase, sample.time_s
+        self.phase, self._since_s, self._at_limit_s = phase, sample.time_s, 0.0
 
     def _wind(
         self, reference_deg: float, error_deg: float, dt: float, sample: Sample, estimate: Estimate
@@ -119,7 +120,8 @@ class FrictionAware:
         command = self._base.toward(
             reference_deg + self.gain * error_deg + self._wound_deg, sample, estimate.status
         )
-        spent = command.torque_limited or abs(self._wound_deg) >= self.most_winding_deg
+        self._at_limit_s = self._at_limit_s + dt if command.torque_limited else 0.0
+        spent = self._at_limit_s >= self.rest_s or abs(self._wound_deg) >= self.most_winding_deg
         if spent and self.retract_mm > 0:
             self._enter(Phase.RETRACTING, sample)
         return command

@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 from studies.control.report import ControlStudy
 from studies.control.steering import approach_plane, steered_insertions
-from studies.control.tables import robustness, tables_iv_v
+from studies.control.robustness import robustness
+from studies.control.tables import tables_iv_v
 
 PLANAR_SPEEDS_MM_S = (5.0, 7.5, 10.0)
 STAGES = ("Tables IV and V", "robustness", "steered insertions", "the planar controller")

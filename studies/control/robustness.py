@@ -1,0 +1,150 @@
+"""The step response on rigs that differ from what the controllers were designed for.
+
+A plant differs in the tissue, in the needle, or in the hardware of the loop; the last have all
+of it. Delays and servo are known to the predictive controllers, as a rig's builder knows
+them; everything else is known to none.
+"""
+
+import math
+from dataclasses import replace
+
+from controllers.prediction import LoopTiming
+from models.materials import MATERIALS
+from models.needle import NITINOL
+from models.servo import Servo
+from models.tissue import Interface, Layer, Tissue
+from sim.closed_loop import MeasurementNoise
+from sim.loop.hardware import LoopHardware, Sensors
+from studies.control.comparison import StepResponse, compare_on
+from studies.control.step_response import DAMPING, DESIGN, NOISE, Plant
+from studies.control.tip_controllers import ControllerDesign
+
+ROBUST_CONTROLLERS = (
+    "base_only_at_limit",
+    "base_only",
+    "feedforward",
+    "adaptive",
+    "unbiased",
+    "feedback",
+    "lqr",
+    "least_time",
+    "friction_aware",
+    "predictive",
+    "predictive_unbiased",
+)
+_DELAY_S, _LATENCY_S = 0.04, 0.01
+_SERVO = Servo(natural_frequency_hz=10.0)
+_DRY_N_MM_PER_MM = 0.006  # 0.6 N mm over 10 cm
+_ENCODER_DEG, _BIAS_N_MM = 0.36, 0.1
+_LOUD = replace(NOISE, torque_n_mm=10 * NOISE.torque_n_mm)
+
+
+def unmodelled_tissues() -> dict[str, Tissue]:
+    """Tissues that differ from the viscous one that the estimator assumes."""
+    return {
+        tissue.name: tissue
+        for tissue in (
+            Tissue.uniform(name="damping x 1.5", viscous_n_mm_s_per_mm=1.5 * DAMPING),
+            Tissue.uniform(name="damping x 0.5", viscous_n_mm_s_per_mm=0.5 * DAMPING),
+            MATERIALS["soft-plastisol"],
+            _layered("deep layer 4 x"),
+            Tissue.uniform(
+                name="dry friction", viscous_n_mm_s_per_mm=DAMPING, kinetic_n_mm_per_mm=_DRY_N_MM_PER_MM
+            ),
+        )
+    }
+
+
+def _layered(name: str, factor: float = 1.0, dry_n_mm_per_mm: float = 0.0) -> Tissue:
+    """Half the depth four times as viscous as the other half, the mean as assumed times a factor."""
+    shallow = factor * 2.0 / (1.0 + 4.0) * DAMPING
+    interfaces = [
+        Interface(viscous_n_mm_s_per_mm=viscous, kinetic_n_mm_per_mm=dry_n_mm_per_mm)
+        for viscous in (shallow, 4 * shallow)
+    ]
+    return Tissue(
+        name=name, layers=(Layer(interface=interfaces[0], fraction=0.5), Layer(interface=interfaces[1]))
+    )
+
+
+def _late(**sensors: float) -> LoopHardware:
+    delays = dict.fromkeys(("base_delay_s", "torque_delay_s", "tip_delay_s"), _DELAY_S)
+    return LoopHardware(sensors=Sensors(**delays, **sensors))
+
+
+def _known(hardware: LoopHardware) -> LoopTiming:
+    """Delays and servo of the hardware, as its builder knows them."""
+    return LoopTiming(
+        measurement_delay_s=hardware.sensors.base_delay_s,
+        command_latency_s=hardware.command_latency_s,
+        servo=hardware.servo,
+    )
+
+
+def plants() -> dict[str, Plant]:
+    """Every rig, by name; the first is the one that the controllers were designed for."""
+    servo = LoopHardware(command_latency_s=_LATENCY_S, servo=_SERVO)
+    biased = LoopHardware(sensors=Sensors(torque_bias_n_mm=_BIAS_N_MM))
+    coarse = LoopHardware(sensors=Sensors(base_step_deg=_ENCODER_DEG))
+    all_hardware = _late(torque_bias_n_mm=_BIAS_N_MM, base_step_deg=_ENCODER_DEG).but(
+        command_latency_s=_LATENCY_S, servo=_SERVO
+    )
+    soft_shaft = NITINOL.but(shear_modulus_gpa=0.8 * NITINOL.shear_modulus_gpa)
+    stiff_shaft = NITINOL.but(shear_modulus_gpa=1.2 * NITINOL.shear_modulus_gpa)
+    every_tissue = _layered("layers x 1.5", 1.5)
+    rigs = (
+        Plant(name="as designed"),
+        *(Plant(name=name, tissue=tissue) for name, tissue in unmodelled_tissues().items()),
+        Plant(name="stiffness x 0.8", needle=soft_shaft),
+        Plant(name="stiffness x 1.2", needle=stiff_shaft),
+        Plant(name="torque bias 0.1 N mm", hardware=biased),
+        Plant(name="delay 40 ms", hardware=_late()),
+        Plant(name="encoder 0.36 deg", hardware=coarse),
+        Plant(name="torque noise x 10", noise=_LOUD),
+        Plant(name="servo 10 Hz, 10 ms", hardware=servo),
+        Plant(
+            name="all, no dry friction",
+            tissue=every_tissue,
+            needle=soft_shaft,
+            hardware=all_hardware,
+            noise=_LOUD,
+        ),
+        Plant(
+            name="all of it",
+            tissue=_layered("layers x 1.5, dry", 1.5, _DRY_N_MM_PER_MM),
+            needle=soft_shaft,
+            hardware=all_hardware,
+            noise=_LOUD,
+        ),
+    )
+    return {rig.name: replace(rig, design=_informed(rig)) for rig in rigs}
+
+
+def _informed(plant: Plant) -> ControllerDesign:
+    """The design of somebody who knows delays, servo, encoder and the noise of his sensors."""
+    noise = plant.noise or MeasurementNoise()
+    rounding = plant.hardware.sensors.base_step_deg / math.sqrt(12)
+    return replace(
+        DESIGN,
+        timing=_known(plant.hardware),
+        base_noise_deg=max(DESIGN.base_noise_deg, rounding),
+        torque_noise_n_mm=max(DESIGN.torque_noise_n_mm, noise.torque_n_mm),
+    )
+
+
+def robustness(
+    depth_cm: float = 10.0,
+    free_mm: float = 50.0,
+    *,
+    rigs: tuple[str, ...] | None = None,
+    controllers: tuple[str, ...] = ROBUST_CONTROLLERS,
+) -> list[StepResponse]:
+    """Every controller on every rig, or on those that are named."""
+    known = plants()
+    return [
+        response
+        for name in rigs or tuple(known)
+        for response in compare_on(
+            known[name], depth_cm=depth_cm, free_mm=free_mm, controllers=controllers
+        )
+    ]
