@@ -10,11 +10,13 @@ shaft turns at u / (beta l). An extended Kalman filter on
 corrects all of them together. log beta and b drift as random walks, so that a change of
 tissue, or of the sensor's zero, is followed.
 
-**Bias.** In viscous tissue it is observable: a base at rest needs no torque, so that a torque
-that is shown while nothing turns is bias (0.1 N mm would turn 10 cm in plastisol by 3.3 deg a
-second). In dry friction it is not: friction holds a true torque at rest, which this filter
-would take for bias. What it can know there is the bias at the start, when the shaft is
-untwisted; `bias_drift` says how far it may go from that. A spread of 0 trusts the sensor.
+**Bias.** Before the base first turns, the shaft is untwisted and carries no torque: whatever is shown
+then is bias and noise, and with a drift of 0 this is all that is made of it, as one zeroes a
+sensor. With a drift the bias stays a state of the filter. In viscous tissue it is observable: a
+base at rest needs no torque, so that a torque which is shown while nothing turns is bias (0.1 N mm
+would turn 10 cm in plastisol by 3.3 deg a second). Where tissue holds a true torque at rest, in
+dry friction for ever and in soft tissue until it has crept back, it is not observable: the filter
+then takes that torque for bias, and loses the lag that it holds.
 """
 
 import math
@@ -33,6 +35,7 @@ Array = NDArray[np.float64]
 _RAD = math.pi / 180.0
 _ONE, _NONE = np.ones(1), np.zeros(1)
 _DAMPING, _BIAS = -2, -1  # places in the state
+_FIRST_TURN_DEG = 1.0  # of the base: until then the shaft counts as untwisted
 
 
 class AdaptiveEstimator(FeedforwardEstimator):
@@ -48,7 +51,8 @@ class AdaptiveEstimator(FeedforwardEstimator):
       drift_per_s: random walk of log beta, per square root of a second.
       turn_noise_deg: unmodelled motion of the mean angle, deg per square root of a second.
       bias_spread_n_mm: of the torque's zero before the first sample, one standard deviation.
-      bias_drift_n_mm: its random walk, N mm per square root of a second.
+      bias_drift_n_mm: its random walk, N mm per square root of a second; 0: the bias is learnt until
+        the base first turns, and kept.
 
     Raises:
       InvalidValue: a noise is not positive, or a spread of the bias is negative.
@@ -102,21 +106,28 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._covariance = np.zeros((n, n))
         self._covariance[_DAMPING, _DAMPING] = self._spread**2
         self._covariance[_BIAS, _BIAS] = self._bias_var
+        self._untwisted, self._start_deg = self._bias_var > 0, math.nan
 
     def update(self, sample: Sample) -> Estimate:
         """Take one sample, whose torque is freed of the bias as far as that is known."""
-        if self._last is None and sample.usable() and self._bias_var > 0:
-            self._weigh_untwisted(sample)
-        return super().update(self._unbiased(sample))
+        if self._untwisted and sample.usable():
+            self._weigh(sample)
+        return super().update(replace(sample, torque_n_mm=sample.torque_n_mm - self.torque_bias_n_mm))
 
-    def _unbiased(self, sample: Sample) -> Sample:
-        return replace(sample, torque_n_mm=sample.torque_n_mm - self.torque_bias_n_mm)
-
-    def _weigh_untwisted(self, sample: Sample) -> None:
-        """An untwisted shaft carries no torque: the first sample shows bias and noise."""
-        gain = self._bias_var / (self._bias_var + self._torque_var)
-        self.torque_bias_n_mm = gain * sample.torque_n_mm
-        self._covariance[_BIAS, _BIAS] = (1 - gain) * self._bias_var
+    def _weigh(self, sample: Sample) -> None:
+        """The torque of an untwisted shaft is bias and noise; the base's first turn ends it."""
+        if math.isnan(self._start_deg):
+            self._start_deg = sample.base_deg
+        self._untwisted = abs(sample.base_deg - self._start_deg) < _FIRST_TURN_DEG
+        if self._untwisted:
+            variance = self._covariance[_BIAS, _BIAS]
+            gain = variance / (variance + self._torque_var)
+            self.torque_bias_n_mm += gain * (sample.torque_n_mm - self.torque_bias_n_mm)
+            self._covariance[_BIAS, :] *= 1 - gain
+            self._covariance[:, _BIAS] *= 1 - gain
+            self._covariance[_BIAS, _BIAS] = (1 - gain) * variance
+        elif self._bias_drift == 0:
+            self._covariance[_BIAS, :] = self._covariance[:, _BIAS] = 0.0
 
     def _advance(self, last: Sample, now: Sample) -> None:
         if self._mean_rad is None:

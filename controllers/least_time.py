@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from controllers.laws import Compensator
+from controllers.limits import LimitedBase, MotorLimits
 from controllers.modal_lag import BaseModes
 from controllers.regulator import Regulator
-from controllers.limits import LimitedBase, MotorLimits
 from controllers.signals import Command, Estimate, Sample, Status
 from models.drive import DriveKind
 from models.errors import InvalidValue

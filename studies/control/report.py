@@ -17,8 +17,9 @@ from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.files import refuse_existing, write_text, writing
 from studies.control import steering, tables
+from studies.control.comparison import StepResponse, as_row
 from studies.control.steering import PlaneApproach, SteeredInsertion
-from studies.control.tables import StepResponse
+from studies.control.step_response import turn
 from studies.crosscheck.poles import closed_form_needle
 
 FILES = (
@@ -47,7 +48,7 @@ class ControlStudy:
             "format": "needle-control/1",
             "table_iv": [_iv(o) for o in self.tables],
             "table_v": [_v(o) for o in self.tables],
-            "robustness": [_plain(tables.as_row(o)) for o in self.robustness],
+            "robustness": [_plain(as_row(o)) for o in self.robustness],
             "steered_mm": {s.name: s.out_of_plane_mm for s in self.steered},
             "steered_published_mm": steering.PUBLISHED_MM,
             "planar_mm": {
@@ -72,7 +73,9 @@ def _iv(o: StepResponse) -> dict[str, Any]:
             "controller": o.controller,
             "settle_s": o.settle_s,
             "better_percent": o.settle_better,
+            "better_than_same_limits_percent": o.settle_better_same_limits,
             "overshoot_deg": o.overshoot_deg,
+            "shear_stress_mpa": o.shear_stress_mpa,
             "published_s": o.published_settle_s,
             "ratio": o.settle_s / o.published_settle_s,
         }
@@ -87,6 +90,7 @@ def _v(o: StepResponse) -> dict[str, Any]:
             "controller": o.controller,
             "integral_deg_s": o.integral_deg_s,
             "better_percent": o.integral_better,
+            "better_than_same_limits_percent": o.integral_better_same_limits,
             "published_deg_s": o.published_integral_deg_s,
             "ratio": o.integral_deg_s / o.published_integral_deg_s,
         }
@@ -111,7 +115,7 @@ def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> li
     refuse_existing(paths, force=force)
     write_text(paths[0], json.dumps(study.as_json(), indent=1, allow_nan=False), force=force)
     for path, responses in ((paths[1], study.tables), (paths[2], study.robustness)):
-        rows = pd.DataFrame([tables.as_row(o) for o in responses])
+        rows = pd.DataFrame([as_row(o) for o in responses])
         write_text(path, rows.to_csv(index=False), force=force)
     for path, draw in zip(paths[3:], (_draw_turns, _draw_steered, _draw_planes), strict=True):
         figure = draw(study)
@@ -127,7 +131,7 @@ def _draw_turns(study: ControlStudy) -> Figure:
     for column, depth in enumerate(tables.DEPTHS_CM):
         for name in _SHOWN:
             tissue = tissue_named("viscous-plastisol")
-            run = tables.turn(name, depth_cm=depth, free_mm=50.0, tissue=tissue).run
+            run = turn(name, depth_cm=depth, free_mm=50.0, tissue=tissue).run
             shown = run.time_s < (2.0 if depth < 20 else 4.0)
             axes[0, column].plot(run.time_s[shown], run.inputs.drive[shown], lw=1, label=name)
             axes[1, column].plot(run.time_s[shown], run.tip_deg[shown], lw=1.2, label=name)

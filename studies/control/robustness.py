@@ -8,7 +8,9 @@ them; everything else is known to none.
 import math
 from dataclasses import replace
 
+from controllers.limits import SUPERELASTIC_SHEAR_MPA, MotorLimits, ShaftLimits
 from controllers.prediction import LoopTiming
+from models.drive import Drive, DriveKind
 from models.materials import MATERIALS
 from models.needle import NITINOL
 from models.servo import Servo
@@ -25,17 +27,29 @@ ROBUST_CONTROLLERS = (
     "feedforward",
     "adaptive",
     "unbiased",
+    "bias_tracking",
     "feedback",
     "lqr",
     "least_time",
     "friction_aware",
+    "friction_aware_feedback",
     "predictive",
     "predictive_unbiased",
+    "predictive_feedback",
 )
+WITH_TIMING = ("base_only_at_limit", "base_only", "predictive")
+"""Baselines, and a controller whose design rests on the loop's delays."""
 _DELAY_S, _LATENCY_S = 0.04, 0.01
 _SERVO = Servo(natural_frequency_hz=10.0)
 _DRY_N_MM_PER_MM = 0.006  # 0.6 N mm over 10 cm
 _ENCODER_DEG, _BIAS_N_MM = 0.36, 0.1
+# A motor of 100 g cm^2 behind a gear of 1 to 1.6, as felt at the needle.
+_MOTOR = Drive(kind=DriveKind.TORQUE, rotor_inertia_kg_m2=2.5e-5, torque_limit_n_mm=60.0)
+_GENTLE = MotorLimits(
+    shaft=ShaftLimits(
+        needle=NITINOL, damping_n_mm_s_per_mm=DAMPING, shear_stress_mpa=SUPERELASTIC_SHEAR_MPA
+    )
+)
 _LOUD = replace(NOISE, torque_n_mm=10 * NOISE.torque_n_mm)
 
 
@@ -102,6 +116,8 @@ def plants() -> dict[str, Plant]:
         Plant(name="encoder 0.36 deg", hardware=coarse),
         Plant(name="torque noise x 10", noise=_LOUD),
         Plant(name="servo 10 Hz, 10 ms", hardware=servo),
+        Plant(name="motor 10 Hz, 10 ms, 60 N mm", hardware=servo, drive=_MOTOR),
+        Plant(name="shear stress below 230 MPa", design=replace(DESIGN, limits=_GENTLE)),
         Plant(
             name="all, no dry friction",
             tissue=every_tissue,
@@ -125,11 +141,23 @@ def _informed(plant: Plant) -> ControllerDesign:
     noise = plant.noise or MeasurementNoise()
     rounding = plant.hardware.sensors.base_step_deg / math.sqrt(12)
     return replace(
-        DESIGN,
+        plant.design,
         timing=_known(plant.hardware),
-        base_noise_deg=max(DESIGN.base_noise_deg, rounding),
-        torque_noise_n_mm=max(DESIGN.torque_noise_n_mm, noise.torque_n_mm),
+        base_noise_deg=max(plant.design.base_noise_deg, rounding),
+        torque_noise_n_mm=max(plant.design.torque_noise_n_mm, noise.torque_n_mm),
     )
+
+
+def misjudged_delays() -> dict[str, Plant]:
+    """The rig whose sensors are late, for controllers that are wrong about it."""
+    late = plants()["delay 40 ms"]
+    return {
+        name: replace(late, name=name, design=replace(late.design, timing=timing))
+        for name, timing in (
+            (f"delay 40 ms, {1e3 * assumed:.0f} ms assumed", LoopTiming(measurement_delay_s=assumed))
+            for assumed in (0.02, 0.06, 0.08)
+        )
+    }
 
 
 def robustness(
@@ -140,11 +168,10 @@ def robustness(
     controllers: tuple[str, ...] = ROBUST_CONTROLLERS,
 ) -> list[StepResponse]:
     """Every controller on every rig, or on those that are named."""
-    known = plants()
-    return [
-        response
-        for name in rigs or tuple(known)
-        for response in compare_on(
-            known[name], depth_cm=depth_cm, free_mm=free_mm, controllers=controllers
-        )
-    ]
+    known, misjudged = plants(), misjudged_delays()
+    made = []
+    for name in rigs or (*known, *misjudged):
+        rig = known.get(name) or misjudged[name]
+        chosen = controllers if name in known else WITH_TIMING
+        made += compare_on(rig, depth_cm=depth_cm, free_mm=free_mm, controllers=chosen)
+    return made

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from models import published, units
-from models.drive import DriveKind
+from models.drive import Drive, DriveKind
 from models.materials import MATERIALS, slope_per_mm
 from models.needle import NITINOL, Needle
 from models.tissue import Tissue
@@ -40,13 +40,14 @@ class Plant:
     """A rig that a controller meets: it may differ from what the controller was designed for.
 
     Attributes:
-      needle, tissue, hardware, noise: what is simulated.
+      needle, tissue, drive, hardware, noise: what is simulated.
       design: of the controllers on this rig.
     """
 
     name: str
     tissue: Tissue = MATERIALS["viscous-plastisol"]
     needle: Needle = NITINOL
+    drive: Drive = Drive()  # noqa: RUF009 - frozen
     hardware: LoopHardware = LoopHardware()  # noqa: RUF009 - frozen
     noise: MeasurementNoise | None = NOISE
     design: ControllerDesign = DESIGN
@@ -80,6 +81,7 @@ def step_on(
     setup = Setup(
         needle=plant.needle,
         tissue=plant.tissue,
+        drive=plant.drive,
         discretisation=Discretisation(step_s=_STEP_S),
         free_mm=free_mm,
         inserted_mm=10 * depth_cm,

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 from studies.control.report import ControlStudy
-from studies.control.steering import approach_plane, steered_insertions
 from studies.control.robustness import robustness
+from studies.control.steering import approach_plane, steered_insertions
 from studies.control.tables import tables_iv_v
 
 PLANAR_SPEEDS_MM_S = (5.0, 7.5, 10.0)

@@ -4,6 +4,8 @@ from models.materials import MATERIALS
 from studies.control.comparison import StepResponse, compare
 from studies.control.step_response import DESIGN
 
+__all__ = ["CONTROLLERS", "DEPTHS_CM", "DESIGN", "FREE_MM", "tables_iv_v"]
+
 DEPTHS_CM = (5.0, 10.0, 20.0)
 FREE_MM = (0.0, 50.0)
 CONTROLLERS = (

@@ -142,16 +142,20 @@ def _base_only(design: ControllerDesign) -> TipController:
     return TipController(BaseOnly(design.limits.but(rate_deg_s=rate)), None)
 
 
-def _feedback(design: ControllerDesign) -> TipController:
-    observer = LuenbergerEstimator(
+def _observer(design: ControllerDesign) -> LuenbergerEstimator:
+    return LuenbergerEstimator(
         design.needle, damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm, order=design.order
     )
-    return TipController(
-        Compensator(design.limits, gain=COMPENSATOR_GAIN), observer, uses_tip_sensor=True
-    )
 
 
-def _identifying(design: ControllerDesign, *, bias_spread_n_mm: float = 0.0) -> AdaptiveEstimator:
+def _feedback(design: ControllerDesign) -> TipController:
+    law = Compensator(design.limits, gain=COMPENSATOR_GAIN)
+    return TipController(law, _observer(design), uses_tip_sensor=True)
+
+
+def _identifying(
+    design: ControllerDesign, *, bias_spread_n_mm: float = 0.0, bias_drift_n_mm: float = 0.0
+) -> AdaptiveEstimator:
     return AdaptiveEstimator(
         design.needle,
         damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm,
@@ -159,7 +163,7 @@ def _identifying(design: ControllerDesign, *, bias_spread_n_mm: float = 0.0) -> 
         base_noise_deg=design.base_noise_deg,
         torque_noise_n_mm=design.torque_noise_n_mm,
         bias_spread_n_mm=bias_spread_n_mm,
-        bias_drift_n_mm=_BIAS_DRIFT_N_MM if bias_spread_n_mm else 0.0,
+        bias_drift_n_mm=bias_drift_n_mm,
     )
 
 
@@ -169,6 +173,13 @@ def _adaptive(design: ControllerDesign) -> TipController:
 
 def _unbiased(design: ControllerDesign) -> TipController:
     estimator = _identifying(design, bias_spread_n_mm=design.bias_spread_n_mm)
+    return TipController(Compensator(design.limits, gain=COMPENSATOR_GAIN), estimator)
+
+
+def _bias_tracking(design: ControllerDesign) -> TipController:
+    estimator = _identifying(
+        design, bias_spread_n_mm=design.bias_spread_n_mm, bias_drift_n_mm=_BIAS_DRIFT_N_MM
+    )
     return TipController(Compensator(design.limits, gain=COMPENSATOR_GAIN), estimator)
 
 
@@ -188,6 +199,14 @@ def _predictive(design: ControllerDesign) -> TipController:
 def _predictive_unbiased(design: ControllerDesign) -> TipController:
     estimator = _identifying(design, bias_spread_n_mm=design.bias_spread_n_mm)
     return TipController(_predictive_law(design), estimator)
+
+
+def _predictive_feedback(design: ControllerDesign) -> TipController:
+    return TipController(_predictive_law(design), _observer(design), uses_tip_sensor=True)
+
+
+def _friction_aware_feedback(design: ControllerDesign) -> TipController:
+    return TipController(FrictionAware(design.limits), _observer(design), uses_tip_sensor=True)
 
 
 def _lqr(design: ControllerDesign) -> TipController:
@@ -214,9 +233,12 @@ TIP_CONTROLLERS: dict[str, Callable[[ControllerDesign], TipController]] = {
     "lqr": _lqr,
     "least_time": _least_time,
     "unbiased": _unbiased,
+    "bias_tracking": _bias_tracking,
     "predictive": _predictive,
     "predictive_unbiased": _predictive_unbiased,
+    "predictive_feedback": _predictive_feedback,
     "friction_aware": lambda d: TipController(FrictionAware(d.limits), _feedforward(d)),
+    "friction_aware_feedback": _friction_aware_feedback,
 }
 
 
