@@ -34,7 +34,7 @@ class StepResponse:
 
     Attributes:
       plant: the rig, by its name.
-      settle_s: NaN where the tip does not settle within 9 s.
+      settle_s: NaN where the tip does not settle while the reference is held.
       settle_better, integral_better: improvement on base_only, %.
       published_settle_s, published_integral_deg_s: of the paper, where it has them.
       shear_stress_mpa: largest in the shaft.

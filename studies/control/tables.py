@@ -2,9 +2,9 @@
 
 from models.materials import MATERIALS
 from studies.control.comparison import StepResponse, compare
-from studies.control.step_response import DESIGN
+from studies.control.step_response import DAMPING, DESIGN
 
-__all__ = ["CONTROLLERS", "DEPTHS_CM", "DESIGN", "FREE_MM", "tables_iv_v"]
+__all__ = ["CONTROLLERS", "DAMPING", "DEPTHS_CM", "DESIGN", "FREE_MM", "tables_iv_v"]
 
 DEPTHS_CM = (5.0, 10.0, 20.0)
 FREE_MM = (0.0, 50.0)
