@@ -5,8 +5,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from models.errors import InvalidValue
 from sim.experiment import perform
 from sim.files import refuse_existing, write_text
+from sim.model_file import read_model
 from sim.paper_protocols import PROTOCOLS, protocol_named
 from sim.protocol import Protocol, read_protocol
 from sim.recording.picture import draw
@@ -20,6 +22,8 @@ ENDINGS = (".csv", ".parquet", ".png", ".rrd")
 _MJCF_NOTE = """<!--
   needle-torsion: {name}. SI units; the shaft lies along x.
   Opens in MuJoCo's viewer: turn the base with the control "drive", advance with "carriage".
+  The needle is this file's: change joint stiffness, body inertia, actuators or the time step,
+  then run it with the option "model" of `needle insert`, beside the same protocol.
   The tissue is not in this file's physics: its law is in the custom numeric fields, and
   acts only where the library's passive callback is installed.
 -->
@@ -32,11 +36,21 @@ def run(
     *,
     controller: str | None,
     mjcf: Path | None,
+    model: Path | None,
     force: bool,
     console: Console,
 ) -> int:
-    """Simulate a protocol by name or YAML file, in closed loop if a controller is named."""
+    """Simulate a protocol by name or YAML file, in closed loop if a controller is named.
+
+    Args:
+      mjcf: where to write the model; model: the one to run, if not the protocol's own.
+
+    Raises:
+      InvalidValue: `model` together with `mjcf` or `controller`.
+    """
     protocol = find(name)
+    if model and (mjcf or controller):
+        raise InvalidValue("--model", str(model), "neither --mjcf nor --controller beside it")
     paths = output_paths(folder, protocol)
     refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
     if mjcf:
@@ -44,7 +58,10 @@ def run(
         write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
         console.print(f"model      {mjcf}", highlight=False)
     with console.status(f"simulating {protocol.name}"):
-        recording = perform_closed_loop(protocol, controller) if controller else perform(protocol)
+        if controller:
+            recording = perform_closed_loop(protocol, controller)
+        else:
+            recording = perform(protocol, read_model(model, protocol.setup()) if model else None)
     for path in write(recording, folder, protocol, force=force):
         console.print(f"wrote      {path}", highlight=False)
     console.print(summary(protocol, recording))

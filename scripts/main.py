@@ -37,6 +37,9 @@ def parser() -> argparse.ArgumentParser:
         help="control the tip: the protocol's base angle becomes the reference of the tip angle",
     )
     insert.add_argument("--mjcf", type=Path, metavar="FILE", help="write the model for MuJoCo's viewer")
+    insert.add_argument(
+        "--model", type=Path, metavar="FILE", help="run a changed model that --mjcf wrote"
+    )
     _add_output(insert, default=Path("out/insert"))
 
     commands.add_parser("protocols", help="list the protocols that are known by name")
@@ -130,6 +133,7 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 args.out,
                 controller=args.controller,
                 mjcf=args.mjcf,
+                model=args.model,
                 force=args.force,
                 console=console,
             )

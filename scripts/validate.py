@@ -9,6 +9,7 @@ from rich.table import Table
 
 from sim.files import refuse_existing
 from studies.crosscheck.findings import Findings
+from studies.crosscheck.poles import SOURCES
 from studies.crosscheck.report import FILES, cross_check, write_report
 
 _AGREES = 0.02  # figures within 2 % of each other need no explanation
@@ -53,21 +54,22 @@ def _number(value: float, shape: str) -> str:
 
 
 def poles_table(findings: Findings) -> Table:
-    """Measured against closed form, one row per case."""
+    """Measured poles and their error against the closed form: a section per source, a row per case."""
     table = Table(
-        "length, mm",
-        "free, mm",
-        "drive",
-        "poles identified from MuJoCo, rad/s",
-        "worst error, %",
+        *("length\nmm", "free\nmm", "drive", "poles identified from MuJoCo, rad/s"),
+        "worst\nerror %",
         title="Slowest four poles",
     )
-    cases = groupby(findings.poles, key=lambda p: (p.length_mm, p.free_mm, p.drive))
-    for (length, free, drive), group in cases:
-        poles = list(group)
-        shown = "  ".join(f"{p.measured:9.3f}" for p in poles)
-        worst = max(p.error for p in poles)
-        table.add_row(f"{length:g}", f"{free:g}", drive, shown, f"{100 * worst:.3f}")
+    for source, of_source in groupby(findings.poles, key=lambda p: p.source):
+        table.add_section()
+        bound = 100 * SOURCES[source].bound
+        table.add_row("", "", "", f"[bold]{source.words}[/]", f"<= {bound:.2g}")
+        cases = groupby(of_source, key=lambda p: (p.length_mm, p.free_mm, p.drive))
+        for (length, free, drive), group in cases:
+            poles = list(group)
+            shown = " ".join(f"{p.measured:9.3f}" for p in poles)
+            worst = max(p.error for p in poles)
+            table.add_row(f"{length:g}", f"{free:g}", drive, shown, f"{100 * worst:.3f}")
     return table
 
 

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import mujoco
 import numpy as np
 
 from models.errors import InvalidValue
@@ -13,16 +14,20 @@ from sim.simulation import Run, simulate
 _SECOND_ORDER = 4.0 / 3.0  # error of a step h from the difference to h / 2
 
 
-def perform(protocol: Protocol) -> Recording:
+def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recording:
     """Simulate a protocol and record everything.
+
+    Args:
+      model: of the protocol, with other numbers (`sim.model_file`); None: as the protocol says.
 
     Raises:
       InvalidValue: the step causes more error than the protocol allows.
       SimulationFailed: see `sim.simulation.simulate`.
     """
-    run = simulate([protocol.setup()], protocol.schedule(), keep_shape=True)[0]
+    models = None if model is None else [model]
+    run = simulate([protocol.setup()], protocol.schedule(), models=models, keep_shape=True)[0]
     parameters: dict[str, Any] = {"protocol": protocol.name, "description": protocol.description}
-    if protocol.accuracy_deg is not None:
+    if protocol.accuracy_deg is not None and model is None:
         parameters["tip_error_deg"] = _checked_error_deg(protocol, run)
     return record(run, parameters)
 

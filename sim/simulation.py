@@ -78,6 +78,35 @@ def prepare_processes() -> None:
     install()
 
 
+@dataclass(frozen=True, kw_only=True)
+class PassiveTorques:
+    """What the callback added to `qfrc_passive` in the last step, N m, (n + 1,) hinges each.
+
+    Attributes:
+      tissue: of the tissue on the shaft; in the mean over a step of second order.
+      other: of what the model's joints cannot hold: play of the drive, an element whose length
+        changes, springs of siblings; 0 without them.
+      correction: what lifts MuJoCo's first-order step to second order; 0 for a step of order 1.
+    """
+
+    tissue: Array
+    other: Array
+    correction: Array
+
+
+def passive_torques(model: mujoco.MjModel, data: mujoco.MjData) -> PassiveTorques:
+    """The torques of the last `mj_step` or `mj_forward`, apart from each other."""
+    head = model.numeric("needle").data
+    n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    at = memory_map.CLOCK + 2 * memory_map.block(n, rows)
+    torques = data.userdata[at : at + memory_map.torques(n)].reshape(memory_map.TORQUES, n + 1).copy()
+    return PassiveTorques(
+        tissue=torques[memory_map.T_TISSUE],
+        other=torques[memory_map.T_OTHER],
+        correction=torques[memory_map.T_CORRECTION],
+    )
+
+
 def compile_model(setup: Setup) -> mujoco.MjModel:
     """The compiled model, with the tissue callback installed."""
     install()
@@ -129,13 +158,20 @@ def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjD
 
 
 def simulate(
-    setups: Sequence[Setup], inputs: Schedule, *, keep_shape: bool = False, threads: int = 1
+    setups: Sequence[Setup],
+    inputs: Schedule,
+    *,
+    models: Sequence[mujoco.MjModel] | None = None,
+    keep_shape: bool = False,
+    threads: int = 1,
 ) -> list[Run]:
     """Run needles of one model size side by side through the same inputs.
 
     Args:
       setups: differ in anything but number of nodes, rows and step.
       inputs: sampled at any times; resampled to the step.
+      models: of the set-ups, where their numbers were changed after they were compiled: their
+        stiffness, inertia, servos and time step are what is simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
 
@@ -143,7 +179,8 @@ def simulate(
       InvalidValue: the setups differ in elements or rows of the law table.
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
-    models = [_model(setup) for setup in setups]
+    models = [_model(setup) for setup in setups] if models is None else list(models)
+    install()
     first = models[0]
     for model in models:
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):
@@ -153,7 +190,7 @@ def simulate(
                 f"the same number of elements and rows in every set-up, {first.nq, first.nuserdata}",
                 "set `rows` to the largest number of rows",
             )
-    stepped = inputs.at_steps(setups[0].discretisation.step_s)
+    stepped = inputs.at_steps(first.opt.timestep)
     ctrl = np.stack([controls(stepped, setup) for setup in setups])
     batch = Batch(first, len(setups), threads)
     batch.set_models(models)
@@ -174,6 +211,8 @@ def simulate(
 
 def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Array]) -> Run:
     outputs = np.vstack([_at_rest(start, setup), raw["sensordata"]])
+    if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:
+        _centre_inertia(outputs)
     if not np.isfinite(outputs).all():
         bad = inputs.time_s[np.flatnonzero(~np.isfinite(outputs).all(axis=1))[0]]
         raise SimulationFailed(
@@ -185,7 +224,7 @@ def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Ar
         raise SimulationFailed(
             f"expected MuJoCo's step to end within {_LANDING_TOLERANCE_RAD:.0e} rad of the angles "
             f"that the callback computed, found {landing:.1e} rad; remove any other passive "
-            "callback, and do not change the model after it was compiled"
+            "callback, and change nothing in the model but its stiffness, inertia, servos and step"
         )
     if "qpos" not in raw:
         return Run(setup=setup, inputs=inputs, outputs=outputs)
@@ -199,6 +238,15 @@ def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Ar
         angles_rad=angles,
         tissue_rad=_tissue(start, raw["userdata"]),
     )
+
+
+def _centre_inertia(outputs: Array) -> None:
+    """The inertia's share of the base torque at each sample, in place.
+
+    A step knows it about its start; what belongs to a sample is known in the step that follows.
+    """
+    inertia = outputs[:, memory_map.O_INERTIA]
+    outputs[:-1, memory_map.O_BASE_TORQUE] += inertia[1:] - inertia[:-1]
 
 
 def _at_rest(start: mujoco.MjData, setup: Setup) -> Array:

@@ -1,10 +1,12 @@
 """The console command, as a person runs it."""
 
+import io
 import json
 from pathlib import Path
 
 import mujoco
 import pytest
+from rich.console import Console
 
 from scripts.main import main
 
@@ -20,6 +22,25 @@ def test_insert_writes_everything_it_names(tmp_path, capsys):
         assert (tmp_path / f"fig5-5cm{ending}").stat().st_size > 1000
         assert f"fig5-5cm{ending}" in said
     assert mujoco.MjModel.from_xml_path(str(model)).nq > 10
+
+
+def test_insert_runs_a_model_that_was_changed_in_its_file(tmp_path):
+    model, ours, theirs = tmp_path / "needle.xml", tmp_path / "ours", tmp_path / "theirs"
+    command = ["insert", "--protocol", "fig5-5cm"]
+    assert main([*command, "--out", str(ours), "--mjcf", str(model)]) == 0
+    text = model.read_text()
+    assert text.count('timestep="0.01"') == 1
+    model.write_text(text.replace('timestep="0.01"', 'timestep="0.02"'))
+    assert main([*command, "--out", str(theirs), "--model", str(model)]) == 0
+    rows = [len((folder / "fig5-5cm.csv").read_text().splitlines()) for folder in (ours, theirs)]
+    assert rows[1] - 2 == pytest.approx((rows[0] - 2) / 2, abs=1)
+
+
+@pytest.mark.parametrize("beside", [["--mjcf", "other.xml"], ["--controller", "feedforward"]])
+def test_a_changed_model_is_refused_beside_another_choice(tmp_path, capsys, beside):
+    command = ["insert", "--protocol", "fig5-5cm", "--out", str(tmp_path), "--model", "needle.xml"]
+    assert main([*command, *beside]) == 2
+    assert "--model" in capsys.readouterr().err + capsys.readouterr().out
 
 
 def test_insert_takes_a_file(tmp_path):
@@ -55,12 +76,40 @@ def test_bad_input_is_one_clear_line_and_exit_2(arguments, capsys, tmp_path, mon
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_validate_writes_the_contract(tmp_path):
     assert main(["validate", "--out", str(tmp_path / "v")]) == 0
     content = json.loads((tmp_path / "v" / "validate.json").read_text())
     assert content["passed"] is True
-    assert len(content["poles"]) == 48
+    for source in ("second_order", "native"):
+        assert sum(p["source"] == source for p in content["poles"]) == 48
     assert {p["drive"] for p in content["poles"]} == {"torque", "angle"}
+
+
+def test_the_poles_fit_in_80_columns_in_a_section_per_source():
+    from scripts import validate
+    from studies.crosscheck.findings import Findings, Pole, PoleSource
+
+    case = {
+        "length_mm": 200.0,
+        "free_mm": 50.0,
+        "drive": "torque",
+        "closed_form": -1186.0,
+        "bound": 0.005,
+    }
+    found = [
+        Pole(**case, mode=mode, measured=-1186.601, closed_form=-1186.0, source=source, bound=0.005)
+        for source in (PoleSource.SECOND_ORDER, PoleSource.NATIVE)
+        for mode in (1, 2, 3, 4)
+    ]
+    console = Console(width=80, file=io.StringIO())
+    console.print(validate.poles_table(Findings(poles=found)))
+    lines = console.file.getvalue().splitlines()
+    assert sum("-1186.601 -1186.601 -1186.601 -1186.601" in line for line in lines) == 2
+    assert [word for line in lines for word in ("second order", "native") if word in line] == [
+        "second order",
+        "native",
+    ]
 
 
 def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):
@@ -81,7 +130,7 @@ def test_protocols_lists_the_names(capsys):
 def test_an_interrupted_run_says_so(monkeypatch, capsys, tmp_path):
     from scripts import insert
 
-    def interrupted(_):
+    def interrupted(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(insert, "perform", interrupted)

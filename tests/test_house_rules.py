@@ -27,7 +27,8 @@ MAY_IMPORT = {
 ROOMS_OF_VALIDATION = ("rig", "logs", "score")
 # Inside a package the direction is one too: of its folders, each imports only these.
 MAY_IMPORT_INSIDE = {
-    "sim.kernel": {"sim.kernel"},
+    "sim.kernel": {"sim.kernel", "sim.kernel.stage"},
+    "sim.kernel.stage": {"sim.kernel", "sim.kernel.stage"},
     "sim.loop": {"sim.loop"},
     "sim.recording": {"sim", "sim.kernel", "sim.recording"},
     "studies.crosscheck": {"studies.crosscheck"},

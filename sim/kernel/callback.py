@@ -25,12 +25,12 @@ from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
 from sim.kernel import memory_map
-from sim.kernel.assemble import is_linear
 from sim.kernel.compiled import Array, compiled, inlined
-from sim.kernel.shaft import Needle, Shaft, motor_of, read_nodes, read_springs
+from sim.kernel.shaft import ModelArrays, Shaft, motor_of, read_nodes, read_springs
+from sim.kernel.stage.assemble import is_linear
 from sim.kernel.step import advance
 from sim.kernel.struct_offsets import read_struct_offsets
-from sim.kernel.torques import landing_force, landing_torque, to_joints
+from sim.kernel.torques import inertia_torque, landing_force, landing_torque, to_joints
 
 _SOURCES = Path(__file__).parent
 _STAGE = int(mujoco.mjtStage.mjSTAGE_ACC)
@@ -128,9 +128,15 @@ def _add_torques(
     correction = torques[memory_map.T_CORRECTION]
     to_joints(chain, tissue)
     largest = 0.0
+    nxt[memory_map.O_INERTIA] = inertia_torque(shaft, h, theta, rates, nxt)
     if head[memory_map.H_ORDER] == 1.0:
         correction[:] = 0.0
     else:
+        if shaft.servo > 0.0:
+            # The last stage's own torque of a stiff servo rings where inertia counts.
+            nxt[memory_map.O_BASE_TORQUE] = (
+                nxt[memory_map.O_FRICTION] + nxt[memory_map.O_TIP_TORQUE] + nxt[memory_map.O_INERTIA]
+            )
         end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
         landing_torque(chain, shaft, h, theta, rates, end, ctrl, correction)
         for i in range(n + 1):
@@ -153,7 +159,7 @@ def _absolute(chain: bool, joints: Array, out: Array) -> None:
 @compiled
 def step_needle(
     numeric: Array,
-    needle: Needle,
+    needle: ModelArrays,
     h: float,
     time: float,
     qpos: Array,
@@ -206,7 +212,7 @@ def step_needle(
 def _sources_digest() -> int:
     """Changes whenever a source of the compiled code does: part of the cache key."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for source in sorted(_SOURCES.glob("*.py")):
+    for source in sorted(_SOURCES.rglob("*.py")):
         digest.update(source.read_bytes())
     return int.from_bytes(digest.digest()[:6], "big")
 
@@ -240,7 +246,7 @@ def _compile() -> tuple[Any, Any]:
             return
         n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
         bodies = memory_map.FIRST_BODY + n + 1
-        needle = Needle(
+        needle = ModelArrays(
             carray(_numbers(_addresses(model + inertia_at)[0]), (bodies, 3)),
             carray(_numbers(_addresses(model + quat_at)[0]), (bodies, 4)),
             _numbers(_addresses(model + mass_at)[0])[memory_map.FIRST_BODY - 1],

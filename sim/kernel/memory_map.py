@@ -78,11 +78,12 @@ Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
     O_SHAFT_ENERGY,  # stored in the twisted shaft, J
     O_SHAFT_TORQUE,  # largest that an element of the shaft carries, N m
     O_CORRECTION,  # largest torque that lifts MuJoCo's step to second order, N m
+    O_INERTIA,  # torque that the inertia of the shaft takes, about the start of the step, N m
     O_FAILED,  # stages so far whose iteration did not converge
     O_ITERATIONS,  # of the last step
     O_LANDING,  # largest distance between MuJoCo's step and the wanted state, rad
     OUTPUTS,
-) = range(15)
+) = range(16)
 
 # --- torques that the callback added in the last step, one row each (n + 1 joints) ---
 T_TISSUE, T_OTHER, T_CORRECTION, TORQUES = range(4)
@@ -104,7 +105,7 @@ def torques(elements: int) -> int:
 
 def scratch(elements: int, rows: int) -> int:
     """Values of working memory that one step needs: angles, rates, inertia and springs of the
-    shaft, then `sim.kernel.workspace`."""
+    shaft, then `sim.kernel.stage.workspace`."""
     return 19 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 
@@ -129,6 +130,7 @@ OUTPUT_SENSORS = (
     "shaft_energy",
     "shaft_torque",
     "correction",
+    "inertia",
     "failed",
     "iterations",
     "landing",

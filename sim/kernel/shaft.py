@@ -22,7 +22,7 @@ from sim.kernel import memory_map
 from sim.kernel.compiled import Array, inlined
 
 
-class Needle(NamedTuple):
+class ModelArrays(NamedTuple):
     """The arrays of `mjModel` that hold the needle, as MuJoCo names them."""
 
     body_inertia: np.ndarray  # (bodies, 3) principal moments
@@ -59,7 +59,7 @@ class Shaft(NamedTuple):
 
 
 @inlined
-def motor_of(needle: Needle, actuator: int, axis: int) -> Motor:
+def motor_of(needle: ModelArrays, actuator: int, axis: int) -> Motor:
     """An actuator of the model; `axis` is the place of its gear: 0 for a joint."""
     return Motor(
         needle.actuator_gear[actuator, axis],

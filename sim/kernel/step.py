@@ -17,19 +17,19 @@ import math
 
 from sim.kernel import memory_map
 from sim.kernel.advection import advect_tissue, forget_uncovered
-from sim.kernel.assemble import (
+from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.mesh import cover, place_nodes
+from sim.kernel.shaft import Shaft, drive_input, motor_force
+from sim.kernel.stage.assemble import (
     add_viscous,
     drive_torque,
     is_linear,
     slack,
     twist_of,
 )
-from sim.kernel.compiled import Array, compiled, inlined
-from sim.kernel.mesh import cover, place_nodes
-from sim.kernel.newton import newton
-from sim.kernel.shaft import Shaft, drive_input, motor_force
+from sim.kernel.stage.newton import newton
+from sim.kernel.stage.workspace import Frame, Workspace, divide
 from sim.kernel.torques import set_other
-from sim.kernel.workspace import Frame, Workspace, divide
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
@@ -156,7 +156,7 @@ def advance(
       nxt: state block that receives the end.
       ctrl: inputs at the end of the step.
       torques: (TORQUES, n + 1), receives tissue, per node, and other, per joint.
-      scratch: working memory (sim.kernel.workspace).
+      scratch: working memory (sim.kernel.stage.workspace).
     """
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     first = memory_map.B_ANGLES + 2 * (n + 1)

@@ -79,3 +79,20 @@ def landing_force(shaft: Shaft, h: float, place: float, speed: float, ctrl: floa
     """The same for the carriage, which is to end where its input says, N."""
     acceleration = ((ctrl - place) / h - speed) / h
     return shaft.mass * acceleration + shaft.rail * ctrl - motor_force(shaft.rail_motor, ctrl)
+
+
+@inlined
+def inertia_torque(shaft: Shaft, h: float, theta: Array, rates: Array, state: Array) -> float:
+    """Torque that the shaft's inertia takes, N m.
+
+    From the mean rate of the last step (MuJoCo's) to that of this one, and so about the start
+    of this step.
+
+    Args:
+      state: block with the angles at the end of this step.
+    """
+    total = 0.0
+    for i in range(theta.size):
+        end = state[memory_map.B_ANGLES + i]
+        total += shaft.inertia[i] * ((end - theta[i]) / h - rates[i]) / h
+    return total

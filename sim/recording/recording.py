@@ -26,6 +26,7 @@ from sim.simulation import Run
 Array = NDArray[np.float64]
 
 FORMAT = "needle-recording/1"
+_NUMBERED = re.compile(r"(shaft|tissue)_\d{3}_")
 _UNITS = {
     "_s": "s",
     "_deg": "deg",
@@ -33,6 +34,7 @@ _UNITS = {
     "_n_mm": "N mm",
     "_mm_s": "mm/s",
     "_mj": "mJ",
+    "_mpa": "MPa",
     "_count": "-",
 }
 
@@ -62,9 +64,13 @@ class Recording:
     def __getitem__(self, name: str) -> Array:
         """A signal by name, (N,)."""
         if name not in self.table.columns:
-            known = ", ".join(c for c in self.table.columns if not c.startswith(("shaft_", "tissue_")))
-            raise InvalidValue("signal", name, f"one of {known}")
+            raise InvalidValue("signal", name, f"one of {', '.join(self.names)}")
         return np.asarray(self.table[name], float)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the signals that are not numbered along the shaft."""
+        return [str(c) for c in self.table.columns if not _NUMBERED.match(str(c))]
 
     def group(self, prefix: str) -> Array:
         """Numbered signals `prefix_000_...`, (N, count)."""
@@ -145,6 +151,13 @@ def record(run: Run, parameters: dict[str, Any] | None = None) -> Recording:
         "dissipated_mj": outputs[:, memory_map.O_DISSIPATED] * 1e3,
         "tissue_energy_mj": outputs[:, memory_map.O_TISSUE_ENERGY] * 1e3,
         "unconverged_count": outputs[:, memory_map.O_FAILED],
+        "torsion_energy_mj": outputs[:, memory_map.O_SHAFT_ENERGY] * 1e3,
+        "shear_stress_mpa": run.setup.needle.shear_stress_mpa(1.0)
+        * outputs[:, memory_map.O_SHAFT_TORQUE]
+        / units.N_MM,
+        "correction_n_mm": outputs[:, memory_map.O_CORRECTION] / units.N_MM,
+        "newton_iterations_count": outputs[:, memory_map.O_ITERATIONS],
+        "landing_error_deg": outputs[:, memory_map.O_LANDING] / units.DEG,
     }
     if run.angles_rad is not None:
         degrees = run.angles_rad / units.DEG

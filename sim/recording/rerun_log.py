@@ -37,10 +37,13 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "tip_angle_deg": ("tip", [214, 39, 40]),
         "estimate_tip_deg": ("tip, estimated", [255, 127, 14]),
         "wanted_tip_deg": ("tip, wanted", [44, 160, 44]),
+        "closed_form_tip_deg": ("tip, closed form", [44, 160, 44]),
+        "native_tip_deg": ("tip, native needle", [148, 103, 189]),
     },
     "torque": {
         "base_torque_n_mm": ("base torque", [31, 119, 180]),
         "friction_n_mm": ("friction of the tissue", [148, 103, 189]),
+        "tip_torque_n_mm": ("torque at the tip", [214, 39, 40]),
     },
     "limits": {
         "rate_limited_count": ("at the motor's rate", [188, 189, 34]),
@@ -50,6 +53,19 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "inserted_mm": ("inserted", [140, 86, 75]),
         "free_mm": ("free", [127, 127, 127]),
     },
+    "speed": {"speed_mm_s": ("into the tissue", [140, 86, 75])},
+    "energy": {
+        "drive_work_mj": ("work of the drive", [31, 119, 180]),
+        "dissipated_mj": ("dissipated", [148, 103, 189]),
+        "torsion_energy_mj": ("stored in the shaft", [140, 86, 75]),
+        "tissue_energy_mj": ("stored in the tissue", [44, 160, 44]),
+    },
+    "stress": {"shear_stress_mpa": ("largest in the shaft", [214, 39, 40])},
+    "solver": {
+        "newton_iterations_count": ("iterations of the step", [31, 119, 180]),
+        "unconverged_count": ("stages that did not converge, so far", [214, 39, 40]),
+    },
+    "correction": {"correction_n_mm": ("correction to second order", [127, 127, 127])},
 }
 
 
@@ -97,11 +113,21 @@ def blueprint(recording: Recording) -> Any:
     if "rate_limited_count" in recording.table:
         plots.append(rrb.TimeSeriesView(origin="/limits", name="Limits reached"))
         plots.append(rrb.TimeSeriesView(origin="/estimate", name="Modes of the estimator, deg"))
+    checks = [
+        rrb.TimeSeriesView(origin="/energy", name="Energy, mJ"),
+        rrb.TimeSeriesView(origin="/stress", name="Shear stress, MPa"),
+        rrb.TimeSeriesView(origin="/speed", name="Speed, mm/s"),
+        rrb.TimeSeriesView(origin="/correction", name="Correction to second order, N mm"),
+        rrb.TimeSeriesView(origin="/solver", name="Solver"),
+    ]
     text = rrb.TextDocumentView(origin="/about", name="About")
     return rrb.Blueprint(
         rrb.Horizontal(
             rrb.Vertical(*left, row_shares=[2] + [1] * (len(left) - 1)),
-            rrb.Vertical(*plots),
+            rrb.Tabs(
+                rrb.Vertical(*plots, name="Motion"),
+                rrb.Vertical(*checks, name="Energy, stress, solver"),
+            ),
             text,
             column_shares=[3, 4, 2],
         ),
@@ -133,8 +159,7 @@ def _log_text(stream: rr.RecordingStream, recording: Recording, results: Sequenc
     lines += [str(recording.parameters.get("description", "")), ""]
     lines += [f"- {line}" for line in results]
     lines += ["", "## Signals", ""]
-    shown = [c for c in recording.table.columns if not c.startswith(("shaft_", "tissue_"))]
-    lines += [f"- `{name}`, {unit_of(name)}" for name in shown]
+    lines += [f"- `{name}`, {unit_of(name)}" for name in recording.names]
     text = json.dumps(recording.parameters, indent=1)
     lines += ["", "## Parameters", "", "```json", text, "```"]
     stream.log("about", rr.TextDocument("\n".join(lines), media_type="text/markdown"), static=True)

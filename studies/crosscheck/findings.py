@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import asdict, dataclass, field
+from enum import StrEnum
 from typing import Any
 
 
@@ -51,9 +52,29 @@ class Comparison:
         return self.ours / self.published if self.published else float("nan")
 
 
+class PoleSource(StrEnum):
+    """Which needle in MuJoCo a pole was measured from."""
+
+    SECOND_ORDER = "second_order"
+    """Ours, with the step that is corrected to second order: the default."""
+    FIRST_ORDER = "first_order"
+    """Ours, with MuJoCo's own step, to which only the tissue's torque is added."""
+    NATIVE = "native"
+    """MuJoCo's own springs and dampers, without a callback."""
+
+    @property
+    def words(self) -> str:
+        """As text."""
+        return self.value.replace("_", " ")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Pole:
-    """A pole measured from MuJoCo beside its closed form, rad/s."""
+    """A pole measured from MuJoCo beside its closed form, rad/s.
+
+    Attributes:
+      bound: relative error that its source may have.
+    """
 
     length_mm: float
     free_mm: float
@@ -61,6 +82,8 @@ class Pole:
     mode: int
     measured: float
     closed_form: float
+    source: PoleSource
+    bound: float
 
     @property
     def error(self) -> float:

@@ -1,11 +1,12 @@
-"""Poles identified from MuJoCo's own steps.
+"""Poles of MuJoCo's needles, by source, beside those of the continuous needle.
 
-Every node in turn is twisted by a small angle and let go; MuJoCo steps them all.
-The map from one set of angles to the next is X_{k+1} X_k^{-1}; its eigenvalues are
-exp(p h). Nothing here knows the matrices of the chain.
+A source is a needle and the method of its steps: ours in second order, ours with MuJoCo's
+first-order step, and one of MuJoCo's own springs and dampers. Each has a bound of its own.
 """
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -19,7 +20,14 @@ from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
 from sim.simulation import compile_model
 from sim.spec import Setup
-from studies.crosscheck.findings import Check, Pole
+from studies.crosscheck import native_needle
+from studies.crosscheck.findings import Check, Pole, PoleSource
+from studies.crosscheck.identification import (
+    PoleOfMultiplier,
+    pole_of_backward_euler,
+    pole_of_exact_step,
+    slow_poles_rad_s,
+)
 
 Array = NDArray[np.float64]
 
@@ -29,48 +37,55 @@ COUNT = 4
 BOUND = 0.005
 _DAMPING = 0.01725  # N mm s / rad / mm, Table II
 _TWIST_RAD = 0.1
-_SETTLING = 2  # steps before the map is read: inertia forgets that it was at rest
-# Fraction of the fastest wanted pole's time constant that a step takes. The method's
-# own error is then 0.04 (0.02)^2, two orders below the bound.
+# Fraction of the fastest wanted pole's time constant that a step takes. The second-order
+# method's own error is then 0.04 (0.02)^2, two orders below the bound.
 _RESOLUTION = 0.02
+# No error of backward Euler's step is left: long steps, in which the free end's inertia settles.
+_NATIVE_RESOLUTION = 0.5
 
 
-def measure(setup: Setup, count: int) -> Array:
-    """The slowest `count` poles other than 0, rad/s, slowest first."""
-    rough = _poles_at(setup, 1e-3 * (setup.inserted_mm / 200.0) ** 2)[:count]
-    return _poles_at(setup, _RESOLUTION / abs(float(rough[-1])))[:count]
+def measure(setup: Setup, count: int, *, pole_of: PoleOfMultiplier = pole_of_exact_step) -> Array:
+    """The slowest `count` poles of our needle other than 0, rad/s, slowest first.
+
+    Args:
+      pole_of: how the method of the step makes eigenvalues of poles.
+    """
+    return slow_poles_rad_s(
+        lambda step_s, steps: _released(setup, step_s, steps),
+        pole_of,
+        count=count,
+        resolution=_RESOLUTION,
+        guess_s=_guess_s(setup.inserted_mm),
+    )
 
 
-def _poles_at(setup: Setup, step_s: float) -> Array:
-    fine = setup.discretisation.but(step_s=step_s)
-    setup = Setup(**{**_fields(setup), "discretisation": fine})
-    model = compile_model(setup)
-    shapes = _released(model, setup)
-    step = np.linalg.solve(shapes[-2].T, shapes[-1].T).T
-    multipliers = np.linalg.eigvals(step)
-    real = np.sort(multipliers.real[(np.abs(multipliers.imag) < 1e-9) & (multipliers.real > 1e-3)])[::-1]
-    poles: Array = np.log(real) / step_s
-    return poles[poles < -1e-6 / step_s]
+def measure_native(rig: InsertedNeedle, count: int, *, elements: int = native_needle.ELEMENTS) -> Array:
+    """The slowest `count` poles of the needle without a callback other than 0, rad/s, slowest first."""
+    return slow_poles_rad_s(
+        lambda step_s, steps: native_needle.released(rig, step_s=step_s, steps=steps, elements=elements),
+        pole_of_backward_euler,
+        count=count,
+        resolution=_NATIVE_RESOLUTION,
+        guess_s=_guess_s(rig.inserted_mm),
+    )
 
 
-def _fields(setup: Setup) -> dict[str, object]:
-    return {name: getattr(setup, name) for name in setup.__dataclass_fields__}
+def _guess_s(length_mm: float) -> float:
+    """A step near which the slowest poles are found: they go as 1 / length^2."""
+    return 1e-3 * (length_mm / 200.0) ** 2
 
 
-def _released(model: mujoco.MjModel, setup: Setup) -> Array:
-    """Angles after each step, (steps, nodes, releases): column j had node j twisted."""
+def _released(setup: Setup, step_s: float, steps: int) -> Array:
+    """Angles after each step, (steps, nodes, releases): column j had node j twisted and let go."""
+    model = compile_model(replace(setup, discretisation=setup.discretisation.but(step_s=step_s)))
     nodes = model.nq - 1
     batch = Batch(model, nodes, 1)
     batch.reset(stage=int(mujoco.mjtStage.mjSTAGE_NONE))
-    for j in range(nodes):
-        angles = np.zeros(nodes)
-        angles[j] = _TWIST_RAD
-        batch.qpos[j, 1:] = np.diff(angles, prepend=0.0)
-    ctrl = np.zeros(model.nu)
-    ctrl[model.actuator("inserted").id] = setup.inserted_mm * 1e-3
+    batch.qpos[:, 1:] = np.diff(_TWIST_RAD * np.eye(nodes), prepend=0.0)
+    ctrl = np.zeros((nodes, steps, model.nu))
     # The servo holds the base where it is: at 0, also for the release of the base.
-    steps = _SETTLING + 2
-    qpos = batch.rollout(steps, np.broadcast_to(ctrl, (nodes, steps, model.nu)))["qpos"]
+    ctrl[:, :, model.actuator("inserted").id] = setup.inserted_mm * 1e-3
+    qpos = batch.rollout(steps, ctrl)["qpos"]
     return np.cumsum(qpos[:, :, 1:], axis=2).transpose(1, 2, 0)
 
 
@@ -98,38 +113,84 @@ def chain(length_mm: float, free_mm: float, kind: DriveKind, **discretisation: i
     )
 
 
+@dataclass(frozen=True, kw_only=True)
+class PoleMeasurement:
+    """How the poles of one source are measured, and how far off they may be.
+
+    Attributes:
+      measure: length, mm; free length, mm; drive -> the slowest `COUNT` poles, rad/s.
+      bound: relative error of any of them.
+      why: where the bound comes from.
+    """
+
+    measure: Callable[[float, float, DriveKind], Array]
+    bound: float
+    why: str
+
+
+SOURCES = {
+    PoleSource.SECOND_ORDER: PoleMeasurement(
+        measure=lambda *case: measure(chain(*case), COUNT),
+        bound=BOUND,
+        why="0.5 % at the default discretisation",
+    ),
+    PoleSource.FIRST_ORDER: PoleMeasurement(
+        measure=lambda *case: measure(chain(*case, order=1), COUNT),
+        bound=BOUND + _RESOLUTION / 2,
+        why="0.5 % of the elements, and h |p| / 2 of the step: h |p| = 0.02 for the fourth pole",
+    ),
+    PoleSource.NATIVE: PoleMeasurement(
+        measure=lambda *case: measure_native(closed_form_needle(*case), COUNT),
+        bound=native_needle.pole_bound(COUNT),
+        why=f"lumped: (4 pi / 2n)^2 / 3 with n = {native_needle.ELEMENTS}; none of the step",
+    ),
+}
+
+
 def compare_poles(lengths_mm: tuple[float, ...] = LENGTHS_MM) -> list[Pole]:
-    """The slowest four poles at the default discretisation, in every case."""
-    poles = []
-    for length in lengths_mm:
-        for free in FREE_MM:
-            for kind in DriveKind:
-                expected = closed_form_needle(length, free, kind).poles_with_inertia_rad_s(COUNT + 1)
-                expected = expected[expected < 0][:COUNT]
-                measured = measure(chain(length, free, kind), COUNT)
-                poles += [
-                    Pole(
-                        length_mm=length,
-                        free_mm=free,
-                        drive=kind.value,
-                        mode=k + 1,
-                        measured=float(measured[k]),
-                        closed_form=float(expected[k]),
-                    )
-                    for k in range(COUNT)
-                ]
-    return poles
+    """The slowest four poles of every source, in every case."""
+    return [
+        Pole(
+            source=source,
+            length_mm=length,
+            free_mm=free,
+            drive=kind.value,
+            mode=k + 1,
+            measured=float(measured),
+            closed_form=float(expected),
+            bound=how.bound,
+        )
+        for source, how in SOURCES.items()
+        for length in lengths_mm
+        for free in FREE_MM
+        for kind in DriveKind
+        for k, (measured, expected) in enumerate(
+            zip(how.measure(length, free, kind), expected_poles(length, free, kind), strict=True)
+        )
+    ]
 
 
-def check_poles(poles: list[Pole]) -> Check:
-    """The worst pole."""
+def expected_poles(length_mm: float, free_mm: float, kind: DriveKind) -> Array:
+    """The slowest `COUNT` poles of the closed form other than 0, rad/s."""
+    poles = closed_form_needle(length_mm, free_mm, kind).poles_with_inertia_rad_s(COUNT + 1)
+    return poles[poles < 0][:COUNT]
+
+
+def check_poles(poles: list[Pole]) -> list[Check]:
+    """The worst pole of every source."""
+    by_source = {source: [pole for pole in poles if pole.source is source] for source in SOURCES}
+    return [_check_worst(source, found) for source, found in by_source.items() if found]
+
+
+def _check_worst(source: PoleSource, poles: list[Pole]) -> Check:
     worst = max(poles, key=lambda pole: pole.error)
+    of = "" if source is PoleSource.SECOND_ORDER else f", {source.words}"
     return Check(
-        name=f"worst pole: mode {worst.mode}, {worst.length_mm:g} mm, {worst.drive} driven",
+        name=f"worst pole{of}: mode {worst.mode}, {worst.length_mm:g} mm, {worst.drive} driven",
         value=worst.error,
         unit="-",
-        high=BOUND,
-        why="0.5 % at the default discretisation",
+        high=SOURCES[source].bound,
+        why=SOURCES[source].why,
     )
 
 
@@ -154,8 +215,7 @@ def order_in_elements() -> list[Check]:
 
 def _order(kind: DriveKind) -> float:
     length = LENGTHS_MM[-1]
-    exact = closed_form_needle(length, 0.0, kind).poles_with_inertia_rad_s(COUNT + 1)
-    expected = exact[exact < 0][COUNT - 1]
+    expected = expected_poles(length, 0.0, kind)[-1]
     coarse, fine = (
         abs(measure(chain(length, 0.0, kind, elements=n), COUNT)[COUNT - 1] / expected - 1)
         for n in (8, 16)

@@ -1,7 +1,8 @@
-"""The cross-check as files: `validate.json`, CSV tables and a picture."""
+"""The cross-check as files: `validate.json`, CSV tables, a picture and recordings."""
 
 import json
 from dataclasses import asdict
+from itertools import groupby
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -10,11 +11,18 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from sim.files import refuse_existing, write_text, writing
-from sim.simulation import simulate
-from studies.crosscheck import motion, paper, poles
-from studies.crosscheck.findings import Findings
+from studies.crosscheck import motion, paper, poles, recordings, turn
+from studies.crosscheck.findings import Findings, PoleSource
 
-FILES = ("validate.json", "poles.csv", "checks.csv", "published.csv", "validate.png")
+FILES = (
+    *("validate.json", "poles.csv", "checks.csv", "published.csv", "validate.png"),
+    *recordings.NAMES,
+)
+_COLOURS = {
+    PoleSource.SECOND_ORDER: "tab:red",
+    PoleSource.FIRST_ORDER: "tab:orange",
+    PoleSource.NATIVE: "tab:purple",
+}
 
 
 def cross_check() -> Findings:
@@ -23,10 +31,11 @@ def cross_check() -> Findings:
     return Findings(
         poles=measured,
         checks=[
-            poles.check_poles(measured),
+            *poles.check_poles(measured),
             *poles.order_in_elements(),
-            motion.order_in_step(),
-            *motion.check_fast_turn(),
+            *motion.order_in_step(),
+            *turn.check_fast_turn(),
+            motion.check_first_order_turn(),
             motion.check_arrangements(),
             *motion.check_steady_twist(),
             *motion.check_balances(),
@@ -52,6 +61,7 @@ def write_report(findings: Findings, folder: Path, *, force: bool = False) -> li
     for path, rows in zip(paths[1:4], tables, strict=True):
         write_text(path, pd.DataFrame(rows).to_csv(index=False), force=force)
     _draw(findings, paths[4], force=force)
+    recordings.write_recordings(folder, force=force)
     return paths
 
 
@@ -67,26 +77,34 @@ def _draw(findings: Findings, path: Path, *, force: bool) -> None:
 
 
 def _draw_poles(axis: Axes, findings: Findings) -> None:
-    for (length, free, drive), group in pd.DataFrame(
-        [asdict(p) | {"error": p.error} for p in findings.poles]
-    ).groupby(["length_mm", "free_mm", "drive"]):
-        label = f"{length:g} mm, {free:g} free, {drive}"
-        axis.plot(group["mode"], 100 * group["error"], "o-", ms=4, lw=1, label=label)
-    axis.axhline(100 * poles.BOUND, color="k", ls="--", lw=1)
+    """Errors of every case, one colour per source."""
+    for source, of_source in groupby(findings.poles, key=lambda p: p.source):
+        colour = _COLOURS[source]
+        for _, case in groupby(of_source, key=lambda p: (p.length_mm, p.free_mm, p.drive)):
+            errors = [100 * p.error for p in case]
+            axis.plot(range(1, len(errors) + 1), errors, "o-", ms=3, lw=0.7, color=colour)
+        bound = 100 * poles.SOURCES[source].bound
+        axis.axhline(bound, color=colour, ls="--", lw=1, label=f"{source.words}, bound")
     axis.set(xlabel="mode", ylabel="error, %", yscale="log", xticks=range(1, poles.COUNT + 1))
-    axis.set_title("Poles measured from MuJoCo: error (dashed: bound)")
-    axis.legend(fontsize=6, ncols=2)
+    axis.set_title("Poles measured from MuJoCo: error, one line per case")
+    axis.legend(loc="lower right")
 
 
 def _draw_turn(axis: Axes) -> None:
-    run = simulate([motion.viscous_setup()], motion.fast_turn())[0]
+    """The base and three tips; the tips' differences are too small to see, and have an inset."""
+    shown = turn.turned(turn.FREE_MM[0])
+    run, native, exact = shown.run, shown.native_tip_deg, shown.exact_tip_deg
     axis.plot(run.time_s, run.inputs.drive, color="0.5", label="base")
-    axis.plot(
-        run.time_s, motion.exact_tip_deg(run), color="tab:green", lw=4, alpha=0.4, label="closed form"
-    )
+    axis.plot(run.time_s, exact, color="tab:green", lw=4, alpha=0.4, label="tip, closed form")
     axis.plot(run.time_s, run.tip_deg, color="tab:red", lw=1, label="tip, MuJoCo")
+    axis.plot(run.time_s, native, color="tab:purple", ls=":", label="tip, native needle")
     axis.set(xlabel="time, s", ylabel="angle, deg", title="Fast turn of a needle 20 cm deep")
-    axis.legend()
+    axis.legend(loc="upper right", bbox_to_anchor=(1, 0.85))
+    inset = axis.inset_axes((0.45, 0.12, 0.52, 0.3))
+    inset.plot(run.time_s, run.tip_deg - exact, color="tab:red", lw=1)
+    inset.plot(run.time_s, native - exact, color="tab:purple", ls=":")
+    inset.set_title("minus closed form, deg", fontsize=8)
+    inset.tick_params(labelsize=7)
 
 
 def _draw_steps(axis: Axes) -> None:

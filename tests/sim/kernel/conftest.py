@@ -13,7 +13,7 @@ import sim
 import sim.kernel
 from models import units
 from sim.law_table import law_table
-from sim.spec import header
+from sim.spec import header, needle_spec
 
 
 @pytest.fixture(scope="session")
@@ -25,8 +25,9 @@ def interpreted():
     numba.config.DISABLE_JIT = True
     try:
         package = importlib.import_module("sim.kernel")
-        names = [m.name for m in pkgutil.iter_modules(package.__path__) if m.name != "callback"]
-        return SimpleNamespace(**{n: importlib.import_module(f"sim.kernel.{n}") for n in names})
+        found = [m.name for m in pkgutil.walk_packages(package.__path__, "sim.kernel.") if not m.ispkg]
+        names = [name for name in found if not name.endswith(".callback")]
+        return SimpleNamespace(**{n.rpartition(".")[2]: importlib.import_module(n) for n in names})
     finally:
         numba.config.DISABLE_JIT = False
         for name in [name for name in sys.modules if name.startswith("sim.kernel")]:
@@ -36,7 +37,43 @@ def interpreted():
 
 
 @pytest.fixture(scope="session")
-def at_stage(interpreted):
+def shaft_of(interpreted):
+    """`Shaft` of a set-up, as `sim.kernel.shaft` reads it from the compiled model."""
+
+    def read(setup):
+        shaft, model = interpreted.shaft, needle_spec(setup).compile()
+        chain = bool(model.numeric("needle").data[interpreted.memory_map.H_CHAIN])
+        siblings = None if chain else model.numeric("needle_springs").data
+        needle = shaft.ModelArrays(
+            model.body_inertia,
+            model.body_iquat,
+            model.body_subtreemass[1],
+            model.jnt_stiffness,
+            model.actuator_gear,
+            model.actuator_gainprm,
+            model.actuator_forcelimited,
+            model.actuator_forcerange,
+        )
+        inertia, spring = np.zeros(setup.nodes_mm.size), np.zeros(setup.nodes_mm.size - 1)
+        shaft.read_nodes(needle.body_inertia, needle.body_iquat, inertia)
+        shaft.read_springs(chain, needle.jnt_stiffness, siblings, spring)
+        places = interpreted.memory_map
+        return shaft.Shaft(
+            inertia,
+            spring,
+            needle.jnt_stiffness[places.FIRST_JOINT],
+            shaft.motor_of(needle, places.U_DRIVE, 0),
+            shaft.motor_of(needle, places.U_TIP, places.ABOUT_X),
+            needle.mass,
+            needle.jnt_stiffness[0],
+            shaft.motor_of(needle, places.U_CARRIAGE, 0),
+        )
+
+    return read
+
+
+@pytest.fixture(scope="session")
+def at_stage(interpreted, shaft_of):
     """The first stage of a step of a set-up, prepared in the interpreter: law, workspace, frame."""
 
     def prepared(setup, *, turn_deg=10.0, speed_m_s=0.0, seed=0):
@@ -47,23 +84,20 @@ def at_stage(interpreted):
         state = np.zeros((rows, n, 2, places.SITE))
         memory = np.zeros(places.scratch(n, rows))
         w = interpreted.workspace.divide(memory, n, rows, state.copy())
-        now = np.zeros(places.block(n, rows))
         # angles that fall towards the tip, and unequal rates
         theta = np.radians(turn_deg) * np.linspace(1.0, 0.4, n + 1)
-        now[places.B_ANGLES + n + 1 : places.B_ANGLES + 2 * (n + 1)] = np.random.default_rng(
-            seed
-        ).normal(0.0, 0.3, n + 1)
+        rates = np.random.default_rng(seed).normal(0.0, 0.3, n + 1)
+        shaft = shaft_of(setup)
         frame = interpreted.workspace.Frame(
             step.GAMMA * setup.discretisation.step_s,
             speed_m_s / head[places.H_RADIUS],
             head[places.H_ADVECTION] * speed_m_s,
             head[places.H_PRESLIDING],
-            head[places.H_SERVO],
+            shaft.servo,
             head[places.H_BACKLASH],
-            head[places.H_DRIVE] == places.DRIVE_ANGLE,
         )
         lengths = (setup.free_mm * units.MM, setup.inserted_mm * units.MM)
-        step._prepare(head, mesh, law, theta, now, state, w, frame, *lengths, False)
+        step._prepare(head, mesh, law, shaft, theta, rates, state, w, frame, *lengths, False)
         return SimpleNamespace(law=law, w=w, frame=frame, head=head)
 
     return prepared

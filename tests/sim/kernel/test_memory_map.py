@@ -6,7 +6,8 @@ from sim.kernel import memory_map
 
 
 @pytest.mark.parametrize(
-    ("prefix", "size"), [("H_", "HEADER"), ("L_", "COLUMNS"), ("U_", "INPUTS"), ("O_", "OUTPUTS")]
+    ("prefix", "size"),
+    [("H_", "HEADER"), ("L_", "COLUMNS"), ("U_", "INPUTS"), ("O_", "OUTPUTS"), ("T_", "TORQUES")],
 )
 def test_every_field_of_a_block_has_a_place_of_its_own(prefix, size):
     names = [name for name in vars(memory_map) if name.startswith(prefix)]
@@ -27,9 +28,10 @@ def test_every_output_has_a_sensor_whose_name_stands_at_its_place():
 
 
 @pytest.mark.parametrize(("elements", "rows"), [(2, 1), (2, 3), (16, 1), (16, 3)])
-def test_the_memory_of_a_model_holds_clock_two_states_and_workspace(elements, rows):
+def test_the_memory_of_a_model_holds_clock_two_states_torques_and_workspace(elements, rows):
     sites = 2 * elements * rows
     state = memory_map.B_ANGLES + 2 * (elements + 1) + memory_map.SITE * sites
     assert memory_map.block(elements, rows) == state
-    total = memory_map.CLOCK + 2 * state + memory_map.scratch(elements, rows)
+    torques = 3 * (elements + 1)  # tissue, other, correction of every hinge
+    total = memory_map.CLOCK + 2 * state + torques + memory_map.scratch(elements, rows)
     assert memory_map.userdata(elements, rows) == total

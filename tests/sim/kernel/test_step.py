@@ -56,7 +56,7 @@ def run():
     return setup, ctrl, np.array(states)
 
 
-def by_the_interpreter(interpreted, setup, ctrl):
+def by_the_interpreter(interpreted, shaft, setup, ctrl):
     """The same steps by `sim.kernel.step` in the interpreter, without MuJoCo."""
     places = interpreted.memory_map
     law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
@@ -64,21 +64,21 @@ def by_the_interpreter(interpreted, setup, ctrl):
     n, size = mesh.size - 1, places.block(mesh.size - 1, len(law))
     now, nxt = np.zeros(size), np.zeros(size)
     now[places.B_INPUTS : places.B_INPUTS + places.INPUTS] = ctrl[0]
-    scratch, angles = (
-        np.zeros(places.scratch(n, len(law))),
-        slice(places.B_ANGLES, places.B_ANGLES + n + 1),
-    )
+    scratch, torques = np.zeros(places.scratch(n, len(law))), np.zeros((places.TORQUES, n + 1))
+    angles = slice(places.B_ANGLES, places.B_ANGLES + n + 1)
+    rates = slice(places.B_ANGLES + n + 1, places.B_ANGLES + 2 * (n + 1))
     states = []
     for u in ctrl[1:]:
-        interpreted.step.advance(head, mesh, law, 0.01, now[angles].copy(), now, nxt, u, scratch)
+        start = (now[angles].copy(), now[rates].copy())
+        interpreted.step.advance(head, mesh, law, shaft, 0.01, *start, now, nxt, u, torques, scratch)
         states.append(np.concatenate([nxt[angles], nxt[: places.OUTPUTS]]))
         now[:] = nxt
     return np.array(states)
 
 
-def test_the_compiled_step_in_mujoco_lands_where_its_source_says(interpreted, run):
+def test_the_compiled_step_in_mujoco_lands_where_its_source_says(interpreted, shaft_of, run):
     setup, ctrl, compiled = run
-    source = by_the_interpreter(interpreted, setup, ctrl)
+    source = by_the_interpreter(interpreted, shaft_of(setup), setup, ctrl)
     n = setup.nodes_mm.size
     # Newton's method stops within 1e-10 rad/s: 1e-12 rad a step, 2e-11 over 20.
     assert np.abs(source[:, :n] - compiled[:, :n]).max() < 2e-11
@@ -87,10 +87,10 @@ def test_the_compiled_step_in_mujoco_lands_where_its_source_says(interpreted, ru
     assert np.ptp(source[:, torque]) > 1e-5  # N m: something happened
 
 
-def test_a_stage_that_differs_by_a_thousandth_would_be_seen(interpreted, run, monkeypatch):
+def test_a_stage_that_differs_by_a_thousandth_would_be_seen(interpreted, shaft_of, run, monkeypatch):
     """Negative control."""
     setup, ctrl, compiled = run
     monkeypatch.setattr(interpreted.step, "GAMMA", 1.001 * interpreted.step.GAMMA)
-    source = by_the_interpreter(interpreted, setup, ctrl)
+    source = by_the_interpreter(interpreted, shaft_of(setup), setup, ctrl)
     n = setup.nodes_mm.size
     assert np.abs(source[:, :n] - compiled[:, :n]).max() > 1e-7

@@ -1,10 +1,11 @@
 """Checks, comparisons and poles, and their plain values."""
 
+import json
 import math
 
 import pytest
 
-from studies.crosscheck.findings import Check, Comparison, Findings, Pole
+from studies.crosscheck.findings import Check, Comparison, Findings, Pole, PoleSource
 
 
 def test_a_check_fails_outside_its_bounds_and_on_nan():
@@ -34,6 +35,24 @@ def test_a_ratio_to_nothing_does_not_exist_and_is_null_in_json():
     assert Findings(comparisons=[nothing]).as_json()["comparisons"][0]["ratio"] is None
 
 
+POLE = Pole(
+    length_mm=50,
+    free_mm=0,
+    drive="angle",
+    mode=1,
+    measured=-1.006,
+    closed_form=-1.0,
+    source=PoleSource.FIRST_ORDER,
+    bound=0.015,
+)
+
+
 def test_the_error_of_a_pole_is_relative():
-    pole = Pole(length_mm=50, free_mm=0, drive="angle", mode=1, measured=-1.006, closed_form=-1.0)
-    assert pole.error == pytest.approx(0.006)
+    assert POLE.error == pytest.approx(0.006)
+
+
+def test_every_pole_says_its_source_as_a_plain_word():
+    assert (
+        json.loads(json.dumps(Findings(poles=[POLE]).as_json()))["poles"][0]["source"] == "first_order"
+    )
+    assert [source.words for source in PoleSource] == ["second order", "first order", "native"]

@@ -11,13 +11,13 @@ from studies.crosscheck import motion
 @pytest.mark.parametrize(
     "checks",
     [
-        motion.check_fast_turn,
         lambda: [motion.check_arrangements()],
-        lambda: [motion.order_in_step()],
+        motion.order_in_step,
+        lambda: [motion.check_first_order_turn()],
         motion.check_steady_twist,
         motion.check_balances,
     ],
-    ids=["fast turn", "arrangements", "order", "steady twist", "balances"],
+    ids=["arrangements", "order", "first order", "steady twist", "balances"],
 )
 def test_the_needle_passes(checks):
     for check in checks():

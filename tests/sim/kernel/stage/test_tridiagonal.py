@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.kernel import tridiagonal  # compiled: two loops
+from sim.kernel.stage import tridiagonal  # compiled: two loops
 
 
 def system(n, seed):

@@ -1,6 +1,6 @@
 """The matrix of a stage is the derivative of its residual, term by term.
 
-`sim.kernel.assemble` in the interpreter: the same source, nothing to compile.
+`sim.kernel.stage.assemble` in the interpreter: the same source, nothing to compile.
 """
 
 import numpy as np

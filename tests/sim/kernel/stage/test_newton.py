@@ -1,6 +1,6 @@
 """Newton's method on one stage: balanced where it stops, in one iteration where that is exact.
 
-`sim.kernel.newton` in the interpreter: the same source, nothing to compile.
+`sim.kernel.stage.newton` in the interpreter: the same source, nothing to compile.
 """
 
 import numpy as np
@@ -77,3 +77,9 @@ def test_an_infinite_step_is_reported_and_not_iterated_on(interpreted, at_stage)
     with np.errstate(invalid="ignore"):
         converged, iterations, *_ = solve(interpreted, stage, nonlinear=True, drive=float("inf"))
     assert (converged, iterations) == (False, 1)
+
+
+@pytest.mark.parametrize(("tissue", "nonlinear"), [(VISCOUS, False), (DRY, True)])
+def test_a_drive_that_is_no_number_does_not_count_as_converged(interpreted, at_stage, tissue, nonlinear):
+    converged, *_ = solve(interpreted, at_stage(setup(tissue)), nonlinear=nonlinear, drive=np.nan)
+    assert not converged

@@ -10,16 +10,16 @@ import math
 from typing import NamedTuple
 
 from sim.kernel import memory_map
-from sim.kernel.assemble import (
+from sim.kernel.compiled import Array, inlined
+from sim.kernel.stage.assemble import (
     add_linear,
     add_row,
     add_viscous_advection,
     drive_torque,
     is_linear,
 )
-from sim.kernel.compiled import Array, inlined
-from sim.kernel.tridiagonal import factorise, substitute
-from sim.kernel.workspace import Frame, Workspace
+from sim.kernel.stage.tridiagonal import factorise, substitute
+from sim.kernel.stage.workspace import Frame, Workspace
 
 _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
 _BALANCE = 1e-12  # force over stiffness that is as good as none, as a rate

@@ -12,7 +12,7 @@ from sim.kernel import memory_map
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
-from sim.kernel.workspace import Frame, Workspace
+from sim.kernel.stage.workspace import Frame, Workspace
 
 # A place is the end of the shaft if it lies within this fraction of the last element.
 _AT_END = 0.01

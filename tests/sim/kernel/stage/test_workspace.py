@@ -6,8 +6,8 @@ import pytest
 
 @pytest.mark.parametrize(("n", "rows"), [(2, 1), (16, 3)])
 def test_the_arrays_are_views_that_share_no_value(interpreted, n, rows):
-    """`sim.kernel.workspace` in the interpreter."""
-    size = interpreted.memory_map.scratch(n, rows) - (n + 1)  # the callback keeps n + 1 for itself
+    """`sim.kernel.stage.workspace` in the interpreter."""
+    size = interpreted.memory_map.scratch(n, rows) - 4 * (n + 1)  # angles, rates, inertia, springs
     memory, end = np.zeros(size), np.zeros((rows, n, 2, interpreted.memory_map.SITE))
     workspace = interpreted.workspace.divide(memory, n, rows, end)
     for array in workspace:
