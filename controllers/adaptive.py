@@ -94,6 +94,8 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._turn_var = (turn_noise_deg * _RAD) ** 2
         super().__init__(needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order)
         self._row = np.concatenate([_ONE, self.twist.sign, _NONE, _NONE])
+        self._jacobian = np.eye(self._row.size)
+        self._jacobian_diagonal = np.einsum("ii->i", self._jacobian)  # a view
         # All modes count at the base: what truncation drops of them is pi^2/6 - sum 1/k^2.
         self._tail = 2 / np.pi**2 * (np.pi**2 / 6 - float((1.0 / self.twist.k**2).sum()))
 
@@ -112,6 +114,8 @@ class AdaptiveEstimator(FeedforwardEstimator):
         """Take one sample, whose torque is freed of the bias as far as that is known."""
         if self._untwisted and sample.usable():
             self._weigh(sample)
+        if self._bias_var == 0:
+            return super().update(sample)
         return super().update(replace(sample, torque_n_mm=sample.torque_n_mm - self.torque_bias_n_mm))
 
     def _weigh(self, sample: Sample) -> None:
@@ -150,10 +154,12 @@ class AdaptiveEstimator(FeedforwardEstimator):
         # d / d log beta of a step is minus the step; the bias acts as a torque.
         decay = np.exp(self.twist.poles(depth, self.damping) * dt)
         per_torque = dt / (self.damping * depth)
-        jacobian = np.diag(np.concatenate([_ONE, decay, _ONE, _ONE]))
-        jacobian[:_DAMPING, _DAMPING] = np.concatenate([[-turned], before - self._p])
+        jacobian = self._jacobian
+        self._jacobian_diagonal[1:_DAMPING] = decay
+        jacobian[0, _DAMPING] = -turned
+        jacobian[1:_DAMPING, _DAMPING] = before - self._p
         jacobian[0, _BIAS] = -per_torque
-        jacobian[1:_DAMPING, _BIAS] = -2 * per_torque * self.twist.sign
+        jacobian[1:_DAMPING, _BIAS] = (-2 * per_torque) * self.twist.sign
         self._covariance = jacobian @ self._covariance @ jacobian.T
         self._covariance[0, 0] += self._turn_var * dt
         self._covariance[_DAMPING, _DAMPING] += self._drift**2 * dt

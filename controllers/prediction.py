@@ -104,15 +104,17 @@ class Predictor:
           lag_modes_rad: as the late measurement gives them.
           base_deg: the shaft, as the encoder showed it with that measurement.
         """
-        times, shaft = (np.array(column) for column in zip(*self._ahead, strict=True))
-        arrival = times[-1]
+        arrival, angle = self._ahead[-1]
         seen = arrival - self.timing.command_latency_s - self.timing.measurement_delay_s
+        if seen >= arrival:
+            return PredictedState(base_deg, float(self._state[1]), lag_modes_rad)
+        times, shaft = np.array(self._ahead).T
         at_seen = float(np.interp(seen, times, shaft))
         inside = times > seen
         times = np.concatenate([[seen], times[inside]])
         shaft = np.concatenate([[at_seen], shaft[inside]])
         decay = np.exp(np.outer(modes.poles, arrival - times))
-        rates = np.diff(shaft) / np.diff(times) * _RAD
+        rates = (shaft[1:] - shaft[:-1]) / (times[1:] - times[:-1]) * _RAD
         driven = (decay[:, :-1] - decay[:, 1:]) @ rates
         lag = decay[:, 0] * lag_modes_rad - modes.participation / modes.poles * driven
-        return PredictedState(float(shaft[-1]) + base_deg - at_seen, float(self._state[1]), lag)
+        return PredictedState(angle + base_deg - at_seen, float(self._state[1]), lag)
