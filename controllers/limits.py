@@ -1,20 +1,22 @@
 """Limits of the motor and of the shaft, and the saturation of base commands to them.
 
-A turn of the base by du within a sample of length h twists the free shaft f and that part of
-the inserted shaft which the turn can reach in h; the rest has not moved yet. With D = kappa / beta,
-the diffusivity of (9) without inertia, a ramp over h reaches sqrt(pi D h) / 2, so that the torque
-that is to be expected is
+A turn of the base by du within a time h twists the free shaft f and that part of the inserted
+shaft which the turn can reach in h; the rest has not moved yet. With D = kappa / beta, the
+diffusivity of (9) without inertia, a ramp over h reaches sqrt(pi D h) / 2, so that the torque that is
+to be expected is
 
     T + k du,     k = kappa / (f + sqrt(pi D h) / 2),
 
-which errs on the safe side: the torque T of before has begun to decay. The command goes no
-further than the du at which it is at the limit.
+which errs on the safe side: the torque T of before has begun to decay. du is the turn that the
+measured torque does not show yet: the one of this sample, and where torque is shown late, all that
+was commanded meanwhile. The command goes no further than where this is at the limit.
 """
 
 import math
+from collections import deque
 
 from controllers.signals import Command, Estimate, Sample, Status
-from models.needle import Needle, Positive
+from models.needle import Needle, NonNegative, Positive
 from models.record import Record
 
 _RAD = math.pi / 180.0
@@ -30,16 +32,18 @@ class ShaftLimits(Record):
     needle: Needle
     damping_n_mm_s_per_mm: Positive
     shear_stress_mpa: Positive
+    lateness_s: NonNegative = 0.0
+    """From a command to a sample that shows its torque, beside the sample itself."""
 
     @property
     def torque_n_mm(self) -> float:
         """The torque at which the shaft's surface has this stress."""
         return self.needle.torque_n_mm_at(self.shear_stress_mpa)
 
-    def stiffness_n_mm_per_deg(self, free_mm: float, sample_s: float) -> float:
-        """k of the module's docstring."""
+    def stiffness_n_mm_per_deg(self, free_mm: float, turn_s: float) -> float:
+        """k of the module's docstring, for a turn of some duration."""
         kappa = self.needle.rigidity_n_mm2
-        reach_mm = 0.5 * math.sqrt(math.pi * kappa / self.damping_n_mm_s_per_mm * sample_s)
+        reach_mm = 0.5 * math.sqrt(math.pi * kappa / self.damping_n_mm_s_per_mm * turn_s)
         return kappa / (free_mm + reach_mm) * _RAD
 
 
@@ -79,6 +83,7 @@ class LimitedBase:
         """Forget the last command: the next starts from the measured base."""
         self._base_deg = math.nan
         self._time_s = math.nan
+        self._sent: deque[tuple[float, float]] = deque()
 
     @property
     def base_deg(self) -> float:
@@ -106,6 +111,8 @@ class LimitedBase:
         change = min(max(change, -reach), reach)
         allowed = self._within_torque(change, sample, passed_s)
         self._base_deg += allowed
+        if self.limits.shaft is not None:
+            self._sent.append((sample.time_s, self._base_deg))
         return Command(self._base_deg, rate_limited, allowed != change, advance_mm, status)
 
     def _within_torque(self, change_deg: float, sample: Sample, passed_s: float) -> float:
@@ -120,8 +127,15 @@ class LimitedBase:
             return change_deg
         side = math.copysign(1.0, change_deg)
         spare_n_mm = shaft.torque_n_mm - side * sample.torque_n_mm
-        most = spare_n_mm / shaft.stiffness_n_mm_per_deg(sample.free_mm, passed_s)
+        stiffness = shaft.stiffness_n_mm_per_deg(sample.free_mm, passed_s + shaft.lateness_s)
+        most = spare_n_mm / stiffness - side * self._unseen_deg(sample.time_s - shaft.lateness_s)
         return side * min(abs(change_deg), max(most, 0.0))
+
+    def _unseen_deg(self, seen_s: float) -> float:
+        """What was commanded after a time."""
+        while len(self._sent) > 1 and self._sent[1][0] <= seen_s:
+            self._sent.popleft()
+        return self._base_deg - self._sent[0][1] if self._sent else 0.0
 
 
 def rigid_needle_estimate(sample: Sample) -> Estimate:

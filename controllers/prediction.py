@@ -43,6 +43,12 @@ class LoopTiming(Record):
     servo: Servo | None = None
     """None: the shaft is where it was commanded to be one sample later."""
 
+    @property
+    def lateness_s(self) -> float:
+        """From a command to the reading of what it has done."""
+        lag_s = self.servo.lag_s if self.servo else 0.0
+        return self.measurement_delay_s + self.command_latency_s + lag_s
+
 
 @dataclass(frozen=True, slots=True)
 class PredictedState:

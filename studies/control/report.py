@@ -30,7 +30,7 @@ FILES = (
     "steered.png",
     "planar.png",
 )
-_SHOWN = ("base_only", "feedforward", "feedback", "lqr", "least_time")
+_SHOWN = ("base_only", "base_only_at_limit", "feedforward", "feedback", "lqr", "least_time")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -101,6 +101,8 @@ def plants() -> dict[str, Plant]:
     servo = LoopHardware(command_latency_s=_LATENCY_S, servo=_SERVO)
     biased = LoopHardware(sensors=Sensors(torque_bias_n_mm=_BIAS_N_MM))
     coarse = LoopHardware(sensors=Sensors(base_step_deg=_ENCODER_DEG))
+    late_servo = _late().but(command_latency_s=_LATENCY_S, servo=_SERVO)
+    gentle = replace(DESIGN, limits=_GENTLE)
     all_hardware = _late(torque_bias_n_mm=_BIAS_N_MM, base_step_deg=_ENCODER_DEG).but(
         command_latency_s=_LATENCY_S, servo=_SERVO
     )
@@ -118,7 +120,8 @@ def plants() -> dict[str, Plant]:
         Plant(name="torque noise x 10", noise=_LOUD),
         Plant(name="servo 10 Hz, 10 ms", hardware=servo),
         Plant(name="motor 10 Hz, 10 ms", hardware=servo, drive=_MOTOR),
-        Plant(name="shear below 230 MPa", design=replace(DESIGN, limits=_GENTLE)),
+        Plant(name="shear below 230 MPa", design=gentle),
+        Plant(name="shear, 40 ms, 10 Hz", hardware=late_servo, design=gentle),
         Plant(
             name="all, no dry friction",
             tissue=every_tissue,
@@ -140,10 +143,14 @@ def plants() -> dict[str, Plant]:
 def _informed(plant: Plant) -> ControllerDesign:
     """The design of somebody who knows delays, servo, encoder and the noise of his sensors."""
     noise = plant.noise or MeasurementNoise()
+    timing, limits = _known(plant.hardware), plant.design.limits
+    if limits.shaft is not None:
+        limits = limits.but(shaft=limits.shaft.but(lateness_s=timing.lateness_s))
     rounding = plant.hardware.sensors.base_step_deg / math.sqrt(12)
     return replace(
         plant.design,
-        timing=_known(plant.hardware),
+        timing=timing,
+        limits=limits,
         base_noise_deg=max(plant.design.base_noise_deg, rounding),
         torque_noise_n_mm=max(plant.design.torque_noise_n_mm, noise.torque_n_mm),
     )

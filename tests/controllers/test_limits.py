@@ -89,6 +89,21 @@ def test_a_turn_ends_where_the_shear_stress_would_pass_its_limit():
     assert (back.base_deg, back.torque_limited) == (pushed.base_deg - 3.0, False)
 
 
+def test_what_was_commanded_but_is_not_shown_yet_counts_as_torque_to_come():
+    """The sensor shows nothing for 40 ms: the base goes no further than the limit over k."""
+    late = GENTLE.but(lateness_s=0.04)
+    base = LimitedBase(MotorLimits(shaft=late))
+    commands = [base.toward(90.0, sample(0.002 * i), Status.OK) for i in range(20)]
+    most = late.torque_n_mm / late.stiffness_n_mm_per_deg(50.0, 0.042)
+    assert commands[-1].base_deg == pytest.approx(most)
+    assert commands[-1].torque_limited
+    # As soon as the torque of the first commands is known to be none, they no longer count.
+    assert base.toward(90.0, sample(0.06), Status.OK).base_deg > 1.3 * most
+    # Negative control: a limit that takes the torque for what it is now goes on.
+    prompt = LimitedBase(MotorLimits(shaft=GENTLE))
+    assert [prompt.toward(90.0, sample(0.002 * i), Status.OK) for i in range(20)][-1].base_deg > most
+
+
 def test_the_weaker_of_motor_and_shaft_limits_the_torque():
     assert MotorLimits(torque_n_mm=2.0, shaft=GENTLE).most_torque_n_mm == 2.0
     limited = MotorLimits(shaft=GENTLE).most_torque_n_mm

@@ -82,6 +82,13 @@ def test_reset_forgets_the_commands_in_flight():
     assert predictor.predict(MODES, np.zeros(COUNT), 7.0).shaft_deg == 7.0
 
 
+def test_a_loop_is_late_by_delay_latency_and_the_lag_of_its_servo():
+    servo = Servo(natural_frequency_hz=10)
+    timing = LoopTiming(measurement_delay_s=0.04, command_latency_s=0.01, servo=servo)
+    assert timing.lateness_s == pytest.approx(0.05 + 1.4 / (20 * np.pi))
+    assert LoopTiming().lateness_s == 0.0
+
+
 def test_an_impossible_delay_is_refused_by_its_name():
     with pytest.raises(InvalidValue, match="measurement_delay_s"):
         LoopTiming(measurement_delay_s=-0.01)

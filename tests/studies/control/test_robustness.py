@@ -114,6 +114,13 @@ def test_a_shaft_with_a_limit_keeps_it(controller):
     assert free > 300
 
 
+@pytest.mark.parametrize("controller", ["feedforward", "predictive", "least_time"])
+def test_a_shaft_keeps_its_limit_behind_late_sensors_and_a_servo_too(controller):
+    rig = "shear, 40 ms, 10 Hz"
+    run = step_on(RIGS[rig], controller, depth_cm=10, free_mm=50, hold_s=0.6).run
+    assert 150 < largest_shear_stress_mpa(run) < 230
+
+
 def test_only_friction_aware_control_settles_with_everything_wrong_at_once():
     assert math.isnan(response("all of it", "feedback", hold_s=4.0)[0])
     assert response("all of it", "friction_aware_feedback", hold_s=4.0)[0] < 3.0
