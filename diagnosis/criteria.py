@@ -125,6 +125,16 @@ GAP_SIDE_SAMPLES = 12
 after the gap are not used: by then the needle has mostly relaxed. Set on blind logs of seeds 1 and 2."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
+TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)
+"""Physical: half the range of the torque on rigs for which the library's bounds are written. Beyond,
+bounds follow the measured torque instead of the nominal stiffness."""
+FASTEST_NEEDLE_RAD_S = 20.0
+"""Physical: needles are turned by at most 10 rad/s; bounds on rates grow for rigs that turn faster."""
+INERTIA_COUNTS_SIGMA = 0.05
+"""Torque of inertia over the noise of the torque from which the motion of the base is interpolated by a
+spline. Derived: a twentieth of sigma adds 0.1 % to a gap; the paper's needle is at 0.001 and below."""
+INERTIA_LOST_SIGMA = 0.5
+"""Part of that torque that samples half as frequent would lose, from which a warning is given."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
-from diagnosis.assessment.contributions import strongest_first
 from diagnosis.assessment.identifiability import testable_effects
+from diagnosis.effects import library_of
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.nuisance import nuisance_of
@@ -20,10 +20,12 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
+from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import SearchState, search
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
@@ -98,7 +100,8 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg)
-    problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared))
+    library = library_of(scale_of(prepared))
+    problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
     return NominalReplay(problem=problem, predictions=predictions)
 
 

@@ -6,12 +6,14 @@ Section V uses R = 61 mm for its prebent tip)
 
     dp/ds = t,    dt/ds = (cos theta n + sin theta b) / R.
 
-Each step is an exact rotation, so the frame stays orthonormal.
+At one roll the tip moves along a circle, and a step is that circle's arc: exact, whatever
+its length, and the frame stays orthonormal.
 """
+
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation
 
 from models.errors import InvalidValue
 
@@ -37,33 +39,30 @@ class BevelTip:
             raise InvalidValue("radius_mm", radius_mm, "a finite length above 0 mm")
         self.radius_mm = radius_mm
         self.position_mm = np.array(position_mm, float)
-        self.frame = Rotation.identity()  # columns: t, n, b
+        self.frame = np.eye(3)  # columns: t, n, b
 
     def advance(self, length_mm: float, roll_rad: float) -> None:
         """Move by a length with the tip at a roll; negative lengths retrace the arc."""
-        half = self._turned(0.5 * length_mm, roll_rad)
-        self.position_mm = self.position_mm + length_mm * self._chord(length_mm) * half.as_matrix()[:, 0]
-        self.frame = self._turned(length_mm, roll_rad)
-
-    def _turned(self, length_mm: float, roll_rad: float) -> Rotation:
-        axis = np.array([0.0, -np.sin(roll_rad), np.cos(roll_rad)])
-        return self.frame * Rotation.from_rotvec(axis * length_mm / self.radius_mm)
-
-    def _chord(self, length_mm: float) -> float:
-        """Chord over arc: the step along the middle direction that ends on the circle."""
-        return float(np.sinc(0.5 * length_mm / self.radius_mm / np.pi))
+        angle = length_mm / self.radius_mm
+        ahead, (toward, onward) = self.tangent, self.pointing(roll_rad)
+        rise = 2.0 * math.sin(0.5 * angle) ** 2  # 1 - cos, without cancellation
+        self.position_mm = self.position_mm + self.radius_mm * (math.sin(angle) * ahead + rise * toward)
+        turned = math.cos(angle) * toward - math.sin(angle) * ahead
+        self.frame[:, 0] = math.cos(angle) * ahead + math.sin(angle) * toward
+        self.frame[:, 1] = math.cos(roll_rad) * turned - math.sin(roll_rad) * onward
+        self.frame[:, 2] = math.sin(roll_rad) * turned + math.cos(roll_rad) * onward
 
     @property
     def tangent(self) -> Array:
         """Direction of travel, (3,)."""
-        direction: Array = self.frame.as_matrix()[:, 0]
+        direction: Array = self.frame[:, 0].copy()
         return direction
 
     def pointing(self, roll_rad: float) -> tuple[Array, Array]:
         """Where the bevel pulls at a roll, and the direction in which more roll moves it."""
-        _, n, b = self.frame.as_matrix().T
-        toward = np.cos(roll_rad) * n + np.sin(roll_rad) * b
-        onward = -np.sin(roll_rad) * n + np.cos(roll_rad) * b
+        _, n, b = self.frame.T
+        toward = math.cos(roll_rad) * n + math.sin(roll_rad) * b
+        onward = -math.sin(roll_rad) * n + math.cos(roll_rad) * b
         return toward, onward
 
 

@@ -20,7 +20,7 @@ NonNegative = Annotated[float, Field(ge=0)]
 class Needle(Record):
     """Material and shape of a needle, and the torques that are its own.
 
-    The last four fields are zero for the straight, bare shaft of the paper.
+    The last five fields are zero for the straight, bare shaft of the paper.
     """
 
     name: str = "custom"
@@ -36,6 +36,8 @@ class Needle(Record):
     curvature_phase_deg: float = 0.0
     load_coefficient: NonNegative = 0.0
     """Dry torque at the tip over the torque that the tip carries."""
+    tip_inertia_kg_m2: NonNegative = 0.0
+    """Of what is fixed to the tip, about the axis."""
 
     @property
     def polar_moment_mm4(self) -> float:

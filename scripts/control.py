@@ -1,10 +1,8 @@
 """`needle control`: Tables IV and V, robustness, steered insertions, the planar controller."""
 
-import math
 from pathlib import Path
 
 from rich.console import Console
-from rich.table import Table
 
 from scripts.control_tables import (
     failures_table,
@@ -12,18 +10,19 @@ from scripts.control_tables import (
     robustness_tables,
     settling_table,
 )
+from scripts.steering_tables import steering_tables
 from sim.files import refuse_existing
 from sim.recording.rerun_log import log_recording
-from studies.control import steering
 from studies.control.closed_loop_recording import record_closed_loop
 from studies.control.recordings import stems, step_recordings
 from studies.control.report import FILES, ControlStudy, hankel, write_study
+from studies.control.steering.steered_insertions import STEERED, SteeredInsertion, TurnOrder
 from studies.control.study import run_study
 
 
 def run(folder: Path, *, force: bool, console: Console) -> int:
     """Run everything, print the tables and write the study."""
-    recordings = {name: folder / f"steered_{name}.rrd" for name in steering.STEERED[2:]}
+    recordings = _recordings(folder)
     steps = {stem: folder / f"{stem}.rrd" for stem in stems()}
     written = [*(folder / name for name in FILES), *recordings.values(), *steps.values()]
     refuse_existing(written, force=force)
@@ -31,12 +30,9 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
         study = run_study(lambda stage: status.update(f"simulating closed loops: {stage}"))
     show(study, console)
     paths = write_study(study, folder, force=force)
-    for one in study.steered:
-        if one.controlled is not None:
-            about = {"protocol": f"steered, {one.name}", "description": "four half turns over 7 cm"}
-            result = f"largest deviation from the plane: {one.out_of_plane_mm:.2f} mm"
-            recording = record_closed_loop(one.controlled, about)
-            log_recording(recording, recordings[one.name], results=[result], force=force)
+    for order, insertions in study.steering.steered.items():
+        for one in insertions:
+            _record(one, order, recordings, force=force)
     for step in step_recordings(study.tables, study.robustness):
         log_recording(step.make(), steps[step.stem], results=step.results, force=force)
     console.print(f"wrote      {len(steps)} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd")
@@ -45,32 +41,42 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     return 0
 
 
+def _recordings(folder: Path) -> dict[tuple[TurnOrder, str], Path]:
+    """Files of the steered insertions; those as in the paper carry the controller's name alone."""
+    prefix = {TurnOrder.TO_AND_FRO: "", TurnOrder.WINDING: "winding_"}
+    return {
+        (order, name): folder / f"steered_{prefix[order]}{name}.rrd"
+        for order in TurnOrder
+        for name in STEERED[2:]
+    }
+
+
+def _record(
+    one: SteeredInsertion,
+    order: TurnOrder,
+    recordings: dict[tuple[TurnOrder, str], Path],
+    *,
+    force: bool,
+) -> None:
+    """Write one insertion as a recording; a baseline has none."""
+    if one.controlled is None:
+        return
+    turns = " ".join(f"{roll:g}" for roll in order.rolls_deg)
+    about = {"protocol": f"steered, {one.name}", "description": f"rolls of {turns} deg over 7 cm"}
+    result = f"largest deviation from the plane: {one.out_of_plane_mm:.2f} mm"
+    recording = record_closed_loop(one.controlled, about)
+    log_recording(recording, recordings[order, one.name], results=[result], force=force)
+
+
 def show(study: ControlStudy, console: Console) -> None:
     """Print every table."""
     console.print(settling_table(study.tables))
     console.print(integral_table(study.tables))
     ratios = ", ".join(f"{x:.2g}" for x in hankel())
     console.print(f"Hankel singular values of torque to tip at 20 cm, over the largest: {ratios}")
-    for table in (*robustness_tables(study.robustness), failures_table(study.robustness)):
+    for table in (
+        *robustness_tables(study.robustness),
+        failures_table(study.robustness),
+        *steering_tables(study.steering),
+    ):
         console.print(table)
-    console.print(_steered(study))
-    console.print(_planes(study))
-
-
-def _steered(study: ControlStudy) -> Table:
-    table = Table(
-        "insertion", "deviation from the plane, mm", "paper, mm", title="Steered insertions, Fig. 12"
-    )
-    for one in study.steered:
-        printed = steering.PUBLISHED_MM.get(one.name)
-        table.add_row(one.name, f"{one.out_of_plane_mm:.2f}", f"{printed:g}" if printed else "")
-    return table
-
-
-def _planes(study: ControlStudy) -> Table:
-    title = "Planar controller: travel until within 0.5 mm of the plane, mm"
-    table = Table("case", *(f"{speed:g} mm/s" for speed in study.planes), title=title)
-    for i, name in enumerate(steering.PLANAR_CASES):
-        travels = [approaches[i].converged_mm() for approaches in study.planes.values()]
-        table.add_row(name, *("never" if math.isnan(t) else f"{t:.0f}" for t in travels))
-    return table

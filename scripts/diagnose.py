@@ -1,7 +1,9 @@
 """`needle diagnose`: what a rig has that its nominal model lacks."""
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -12,7 +14,7 @@ from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
-from diagnosis.report.sentences import headline, largest_residual
+from diagnosis.report.sentences import headline, largest_residual, nearest
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.result import Diagnosis
@@ -45,12 +47,16 @@ def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, 
 def _summary(found: Diagnosis, console: Console) -> None:
     told = found.assessment
     console.print(f"[bold]{escape(headline(found))}[/]", highlight=False)
+    if sentence := nearest(found):
+        console.print(escape(sentence), highlight=False)
     for warning in found.warnings:
         console.print(f"warning: {escape(warning)}", highlight=False)
     console.print(_breakdown_table(found))
     console.print(escape(largest_residual(found)), highlight=False)
     if found.verdict.effects:
-        console.print(_parameter_table(found))
+        console.print(_parameter_table(as_json(found)["parameters"], "What explains it"))
+    elif found.assessment.nearest.effects:
+        console.print(_parameter_table(as_json(found)["nearest"]["parameters"], "What comes nearest"))
     console.print(_ranking_table(found))
     if told.detection_limits and not found.verdict.effects:
         console.print(_limits_table(found))
@@ -72,9 +78,9 @@ def _breakdown_table(found: Diagnosis) -> Table:
     return table
 
 
-def _parameter_table(found: Diagnosis) -> Table:
-    table = Table("effect", "parameter", "value", "95 % interval", "unit", title="What explains it")
-    for effect, values in as_json(found)["parameters"].items():
+def _parameter_table(parameters: Mapping[str, Any], title: str) -> Table:
+    table = Table("effect", "parameter", "value", "95 % interval", "unit", title=title)
+    for effect, values in parameters.items():
         for name, p in values.items():
             interval = f"{p['low']:.4g} .. {p['high']:.4g}"
             table.add_row(effect, name, f"{p['value']:.4g}", interval, p["unit"])

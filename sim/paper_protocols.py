@@ -101,15 +101,15 @@ def stiction(how: str) -> Protocol:
 
 
 def insertion() -> Protocol:
-    """An insertion from the surface: 7 cm at 5 mm/s, half a turn after each of 4 cm."""
+    """Figs. 11, 12: 7 cm at 5 mm/s from the surface, half a turn to or fro after each of 4 cm."""
     advance = [Segment(duration_s=2.0, advance_mm=10.0)]
-    for _ in range(4):
-        advance.append(Segment(duration_s=_QUICK_S, turn_deg=180, advance_mm=5 * _QUICK_S))
+    for turn_deg in (180, -180, 180, -180):
+        advance.append(Segment(duration_s=_QUICK_S, turn_deg=turn_deg, advance_mm=5 * _QUICK_S))
         advance.append(Segment(duration_s=2 - _QUICK_S, advance_mm=5 * (2 - _QUICK_S)))
     advance.append(Segment(duration_s=4.0, advance_mm=20.0))
     return Protocol(
         name="insertion",
-        description="7 cm into soft plastisol at 5 mm/s, with four half turns on the way",
+        description="7 cm into soft plastisol at 5 mm/s, with four half turns, to and fro, on the way",
         tissue="soft-plastisol",
         # The tissue reaches the first centimetres element by element: take small ones.
         discretisation=Discretisation(elements=48),

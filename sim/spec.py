@@ -86,7 +86,8 @@ class Setup:
             return None
         law = law_table(self.needle, self.drive, self.tissue, rows=self.rows)
         rotor = (self.drive.rotor_inertia_kg_m2, self.drive.torque_limit_n_mm)
-        inertia = (self.needle.mass_kg_per_m, self.needle.rotary_inertia_kg_m, *rotor)
+        own = (self.needle.rotary_inertia_kg_m, self.needle.tip_inertia_kg_m2)
+        inertia = (self.needle.mass_kg_per_m, *own, *rotor)
         nodes, stretching = self._mesh()
         radius = self.needle.radius_mm
         return (self.discretisation, self.drive.kind, inertia, radius, len(law), stretching, *nodes)
@@ -244,8 +245,8 @@ def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
                 f"elements whose inertia is at least {_LEAST_INERTIA} kg m^2, not {inertia:.1e}",
                 "take fewer elements, or a thicker needle",
             )
-        if i == 0:
-            inertia += setup.drive.rotor_inertia_kg_m2
+        inertia += setup.drive.rotor_inertia_kg_m2 if i == 0 else 0.0
+        inertia += needle.tip_inertia_kg_m2 if i + 1 == nodes.size else 0.0
         mass = needle.mass_kg_per_m * (back + ahead)
         across = mass * (3 * radius**2 + (back + ahead) ** 2) / 12
         body = parent.add_body(

@@ -25,7 +25,20 @@ ROOMS = (
 """From the ground up: a room imports those before it."""
 MOST_MODULES = 12
 # Units that a name may end in, and words for what has none.
-UNITS = ("_mm", "_deg", "_s", "_hz", "_gpa", "_cm3", "_rad", "_n_mm", "_mm2", "_kg_m", "_mm_s")
+UNITS = (
+    "_mm",
+    "_deg",
+    "_percent",
+    "_s",
+    "_hz",
+    "_gpa",
+    "_cm3",
+    "_rad",
+    "_n_mm",
+    "_mm2",
+    "_kg_m",
+    *("_mm_s", "_sigma"),
+)
 PER = ("_per_",)
 DIMENSIONLESS = (
     *("scale", "share", "ratio", "fraction", "exponent", "coefficient", "probability", "factor"),

@@ -32,7 +32,8 @@ MAY_IMPORT_INSIDE = {
     "sim.loop": {"sim.loop"},
     "sim.recording": {"sim", "sim.kernel", "sim.recording"},
     "studies.crosscheck": {"studies.crosscheck"},
-    "studies.control": {"studies.control", "studies.crosscheck"},
+    "controllers.steering": {"controllers", "controllers.steering"},
+    "studies.control": {"studies.control", "studies.control.steering", "studies.crosscheck"},
     "studies.published": {
         *("studies.published", "studies.control", "studies.crosscheck"),
         *(f"studies.published.{room}" for room in ("experiments", "fitting", "selection", "report")),

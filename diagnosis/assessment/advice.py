@@ -39,9 +39,7 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
 
 
 def _look_closer(left: ResidualBreakdown) -> str:
-    phase = max(left.phase, key=lambda k: left.phase[k], default="")
-    signal = max(left.signal, key=lambda k: left.signal[k], default="")
     return (
-        f"no effect of the library explains the residual, which is largest in {signal} while {phase}: "
+        f"no effect of the library explains the residual, which is largest {left.worst_part}: "
         "repeat that phase alone, at two depths and two rates, to see what it depends on"
     )

@@ -11,6 +11,7 @@ from diagnosis.assessment.detection_limits import detection_limits
 from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, intervals
+from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.assessment.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.problem import FitProblem
@@ -18,6 +19,7 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay, residuals
 from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict
 from diagnosis.workers import Failure, Task, Workers, attempt
 from sim.simulation import SimulationFailed
@@ -31,6 +33,7 @@ class Assessment:
 
     Attributes:
       gap: before and after, on held-out trials.
+      nearest: the best that was tried, whatever the verdict.
       breakdown: of the residual of the nominal rig.
       breakdown_after: of what the best explanation leaves.
       parameters: by effect that was accepted.
@@ -43,6 +46,7 @@ class Assessment:
     """
 
     gap: GapReduction
+    nearest: Nearest
     breakdown: ResidualBreakdown
     breakdown_after: ResidualBreakdown
     parameters: dict[str, dict[str, Interval]]
@@ -83,9 +87,12 @@ def assess(
     left = residual_breakdown(log, explained, problem.noise)
     after, lost = _held_out(problem, verdict.best)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
-    own = intervals(problem, best, change)
+    own = intervals(problem, best, change, left=_above_noise(verdict.best))
+    gap = gap_reduction(nominal_residuals(problem, nominal), after)
+    named = verdict.effects or strongest_first(problem, verdict.best)
     return Assessment(
-        gap=gap_reduction(nominal_residuals(problem, nominal), after),
+        gap=gap,
+        nearest=nearest_of(verdict.best, named, own, gap),
         breakdown=residual_breakdown(log, at_samples(problem, nominal), problem.noise),
         breakdown_after=left,
         parameters={e: p for e, p in own.items() if e in verdict.effects},
@@ -94,8 +101,13 @@ def assess(
         next_experiment=advise(coarse, verdict, left),
         numerical_error=error,
         explained=explained,
-        warnings=(*numerical_warnings(error), *lost),
+        warnings=(*problem.log.warnings, *numerical_warnings(error), *lost),
     )
+
+
+def _above_noise(best: Candidate) -> float:
+    """By how much an explanation leaves more than noise, slow parts included; 1 at the floor."""
+    return 1.0 if best.floor.reached else max(1.0, best.floor.gap, best.floor.slow)
 
 
 def _further_effects(

@@ -14,9 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diagnosis.criteria import DETECTION_SIGMA, SCATTER, SECOND_LEAVES, SIMPLE_LEAD
-from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
-from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
 from diagnosis.selection.complexity import complexity_penalty
@@ -58,9 +56,9 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
       SimulationFailed: the effect cannot be simulated.
     """
     projection = Projection(base, name)
-    parameterization = parameterization_of((*base.names, name), coarse.nuisance)
+    parameterization = coarse.parameterization((*base.names, name))
     asked = math.sqrt(_asked(best, base, name)) + DETECTION_SIGMA
-    parameters, share = LIBRARY[name].parameters, 1.0
+    parameters, share = coarse.library[name].parameters, 1.0
     for _ in range(_ROUNDS):
         values = [p.towards_neutral(p.start[0], share) for p in parameters]
         if share > 1 and not all(p.low <= v <= p.high for p, v in zip(parameters, values, strict=True)):

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from diagnosis.fitting.fit import Fit, fit_effects
-from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.screening import screen
 from diagnosis.workers import Failure, Task, Workers
@@ -20,7 +19,7 @@ def on_decimated(coarse: FitProblem, best: Fit) -> Fit:
     Raises:
       SimulationFailed: it cannot be simulated so coarsely.
     """
-    start = parameterization_of(best.names, coarse.nuisance).joined(best.parts)
+    start = coarse.parameterization(best.names).joined(best.parts)
     return fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
 
 

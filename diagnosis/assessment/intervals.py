@@ -38,19 +38,24 @@ class Interval:
 
 
 def intervals(
-    problem: FitProblem, fit: Fit, change: Sequence[Mapping[str, Array]]
+    problem: FitProblem,
+    fit: Fit,
+    change: Sequence[Mapping[str, Array]],
+    *,
+    left: float = 1.0,
 ) -> dict[str, dict[str, Interval]]:
     """By effect and parameter, nuisance included.
 
     Args:
       change: of the prediction with a finer replay, / sigma, by trial and sensor.
+      left: by how much the residual is above the noise; noise is taken to be as much larger.
     """
     if fit.x.size == 0:
         return {}
     inverse = np.asarray(np.linalg.pinv(information(fit)), float)
     again = _shifts(problem, fit, inverse)
     finer = _answer(fit, inverse, [np.concatenate([*c.values(), _NOTHING]) for c in change])
-    spread = np.sqrt(np.diag(inverse) + np.mean(again**2, axis=0) + finer**2)
+    spread = np.sqrt(left**2 * np.diag(inverse) + np.mean(again**2, axis=0) + finer**2)
     parameterization = fit.parameterization
     low, high = parameterization.bounds()
     ends = [np.clip(fit.x + s * INTERVAL_Z * spread, low, high) for s in (-1, 1)]

@@ -45,6 +45,13 @@ class ResidualBreakdown:
         name, begin, end, gap = max(self.time_s, key=lambda stretch: stretch[-1])
         return f"{name}, {begin:.0f}–{end:.0f} s", gap
 
+    @property
+    def worst_part(self) -> str:
+        """The signal and the phase with the largest residual, in words."""
+        signal = max(self.signal, key=lambda k: self.signal[k], default="")
+        phase = max(self.phase, key=lambda k: self.phase[k], default="")
+        return f"in {signal} while {phase}" if phase else f"in {signal}"
+
 
 def base_rate(time_s: Array, base_deg: Array) -> Array:
     """Rate of the base, deg/s, (N,), from angles averaged over 0.2 s."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -47,6 +47,23 @@ class Parameter:
     period: float = 0.0
     reported: bool = True
     neutral: float | None = 0.0
+
+    def scaled(self, *, torque: float, rate: float) -> "Parameter":
+        """The same for a rig whose torques and rates are so many times larger."""
+        factor = torque if "N mm" in self.unit else rate if self.unit == "rad/s" else 1.0
+        if factor == 1.0:
+            return self
+        return replace(
+            self,
+            low=self.low * factor,
+            high=self.high * factor,
+            start=tuple(value * factor for value in self.start),
+            scale=self.scale * factor,
+        )
+
+    def reaching(self, value: float) -> "Parameter":
+        """The same with a highest value of at least this."""
+        return self if value <= self.high else replace(self, high=value)
 
     def to_fit(self, value: float) -> float:
         """The coordinate of a value that a fit moves in."""

@@ -86,7 +86,7 @@ def fit_effects(
     Raises:
       SimulationFailed: the rig cannot be simulated where the fit starts, or close to where it is.
     """
-    parameterization = parameterization_of(names, problem.nuisance)
+    parameterization = problem.parameterization(names)
     objective = Objective(problem, parameterization)
     if not parameterization.parameters:
         return nominal_fit(

@@ -92,10 +92,14 @@ class Parameterization:
         )
 
 
-def parameterization_of(names: Sequence[str], nuisance: Sequence[Effect] = ()) -> Parameterization:
+def parameterization_of(
+    names: Sequence[str],
+    nuisance: Sequence[Effect] = (),
+    library: Mapping[str, Effect] = LIBRARY,
+) -> Parameterization:
     """Of a set of effects by name; nuisance among them is theirs."""
     others = tuple(e for e in nuisance if e.name not in names)
-    return Parameterization(effects=tuple(LIBRARY[n] for n in names), nuisance=others)
+    return Parameterization(effects=tuple(library[n] for n in names), nuisance=others)
 
 
 def starts(effect: Effect) -> list[Array]:

@@ -1,12 +1,14 @@
 """What a fit rests on: a prepared log, its noise, what is left open, how finely it is replayed."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect
+from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
@@ -22,12 +24,18 @@ class FitProblem:
 
     Attributes:
       nuisance: what every fit leaves open.
+      library: effects with bounds and starts for a rig of this size.
     """
 
     log: PreparedLog
     noise: Noise
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
+    library: Mapping[str, Effect] = field(default_factory=lambda: LIBRARY)
+
+    def parameterization(self, names: Sequence[str]) -> Parameterization:
+        """Of a set of effects, with what every fit leaves open."""
+        return parameterization_of(names, self.nuisance, self.library)
 
     def residuals(self, rigs: Sequence[RigParameters]) -> list[list[Array]]:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.

@@ -22,6 +22,15 @@ class NominalTissue(Record):
     damping_n_mm_s_per_mm: Positive
 
 
+class NominalInertia(Record):
+    """Inertia beside that of the shaft, about its axis."""
+
+    base_kg_m2: NonNegative = 0.0
+    """Between the torque sensor and the shaft."""
+    tip_kg_m2: NonNegative = 0.0
+    """Fixed to the tip."""
+
+
 class SensorNoise(Record):
     """One standard deviation of each sensor, as claimed."""
 
@@ -50,6 +59,7 @@ class NominalRig(Record):
     format: Literal["rig-log/1"]
     needle: NominalNeedle
     tissue: NominalTissue
+    inertia: NominalInertia = NominalInertia()
     sensors: SensorNoise
     trials: tuple[TrialEntry, ...] = Field(min_length=1)
 

@@ -11,7 +11,13 @@ from typing import Any
 import yaml
 
 from diagnosis.criteria import NOMINAL_RANGE, YAML_MOST_BYTES, YAML_MOST_LEVELS
-from diagnosis.log.nominal_rig import NominalNeedle, NominalRig, NominalTissue, SensorNoise
+from diagnosis.log.nominal_rig import (
+    NominalInertia,
+    NominalNeedle,
+    NominalRig,
+    NominalTissue,
+    SensorNoise,
+)
 from diagnosis.log.trial import UnusableLog
 from diagnosis.log.unit_hints import look_alike
 from models.errors import InvalidValue
@@ -21,6 +27,7 @@ _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _SECTIONS: dict[str, type[Record]] = {
     "needle": NominalNeedle,
     "tissue": NominalTissue,
+    "inertia": NominalInertia,
     "sensors": SensorNoise,
 }
 

@@ -1,11 +1,15 @@
 """From a log to what can be replayed: gaps are filled, and the motion of the base is found."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.base_smoothing import smooth_base
 from diagnosis.prepare.gap_filling import fill_gaps
+from diagnosis.prepare.inertia import inertia_torque
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import base_noise_deg
 
@@ -15,8 +19,23 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
     filled = [fill_gaps(trial) for trial in log.trials]
     sigma_deg = base_noise_deg(log.rig, filled)
     each = zip(log.trials, filled, strict=True)
-    trials = tuple(_prepared(trial, rows, sigma_deg) for trial, rows in each)
+    trials = tuple(_with_inertia(_prepared(trial, rows, sigma_deg), log.rig) for trial, rows in each)
     return PreparedLog(rig=log.rig, trials=trials), sigma_deg
+
+
+def _with_inertia(trial: PreparedTrial, rig: NominalRig) -> PreparedTrial:
+    """The trial with the share of inertia in its torque, if it measured any."""
+    if not trial.has("base_torque_n_mm"):
+        return trial
+    length_mm = float(np.max(trial.free_mm + trial.inserted_mm))
+    found = inertia_torque(
+        rig,
+        trial.time_s,
+        trial.base_motion_deg,
+        length_mm,
+        rig.sensors.base_torque_noise_n_mm,
+    )
+    return replace(trial, inertia=found)
 
 
 def _prepared(trial: Trial, filled: Trial, sigma_deg: float) -> PreparedTrial:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -29,6 +30,7 @@ class PreparedTrial:
       tip_torque_n_mm: known torque at the tip; None: none.
       readings: by sensor, in the unit of its name; NaN where it gave nothing.
       logged: rows that are samples of the log; the others fill its gaps.
+      inertia: the share of inertia in its base torque.
     """
 
     name: str
@@ -40,6 +42,7 @@ class PreparedTrial:
     tip_torque_n_mm: Array | None
     readings: Mapping[str, Array]
     logged: Mask
+    inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
@@ -50,13 +53,20 @@ class PreparedTrial:
     def schedule(self) -> Schedule:
         """What was done to the needle."""
         torque = self.tip_torque_n_mm
+        time, motion = self.time_s, self.base_motion_deg
+        if self.inertia.counts:
+            time, motion = smooth_motion(time, motion)
+
+        def at(values: Array) -> Array:
+            return values if time is self.time_s else np.interp(time, self.time_s, values)
+
         return Schedule(
-            time_s=self.time_s,
-            drive=self.base_motion_deg,
-            free_mm=self.free_mm,
-            inserted_mm=_steadied(self.inserted_mm),
-            speed_mm_s=self.speed_mm_s,
-            tip_torque_n_mm=np.zeros(0) if torque is None else np.nan_to_num(torque),
+            time_s=time,
+            drive=motion,
+            free_mm=at(self.free_mm),
+            inserted_mm=at(_steadied(self.inserted_mm)),
+            speed_mm_s=at(self.speed_mm_s),
+            tip_torque_n_mm=np.zeros(0) if torque is None else at(np.nan_to_num(torque)),
         )
 
     @cached_property
@@ -75,6 +85,12 @@ class PreparedLog:
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Trials whose samples are too rare for what they have to carry."""
+        each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
+        return tuple(warning for warning in each if warning)
 
 
 def _steadied(depth_mm: Array) -> Array:

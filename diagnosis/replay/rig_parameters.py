@@ -76,6 +76,7 @@ class RigParameters:
             curvature_n_mm_per_mm=self.curvature_n_mm_per_mm,
             curvature_phase_deg=self.curvature_phase_deg,
             load_coefficient=self.load_coefficient,
+            tip_inertia_kg_m2=rig.inertia.tip_kg_m2,
         )
 
     def tissue(self, rig: NominalRig) -> Tissue:
@@ -105,9 +106,10 @@ class RigParameters:
             time_constant_s=self.tissue_time_constant_s,
         )
 
-    def drive(self) -> Drive:
+    def drive(self, rig: NominalRig) -> Drive:
         """Chuck and sheath."""
         return Drive(
+            rotor_inertia_kg_m2=rig.inertia.base_kg_m2,
             stiffness_n_mm_per_rad=self.base_stiffness_n_mm_per_rad or None,
             backlash_deg=self.backlash_deg,
             sheath_friction_n_mm_per_mm=self.sheath_friction_n_mm_per_mm,
@@ -125,7 +127,7 @@ class RigParameters:
         return Setup(
             needle=self.needle(rig, shaft),
             tissue=self.tissue(rig),
-            drive=self.drive(),
+            drive=self.drive(rig),
             discretisation=Discretisation(
                 step_s=step_s,
                 # A mesh that goes with the needle has the free length in it as well.

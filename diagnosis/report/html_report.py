@@ -10,6 +10,7 @@ from diagnosis.report.figures import draw_breakdown, draw_ranking, draw_trials
 from diagnosis.report.sentences import (
     headline,
     largest_residual,
+    nearest,
     reduction,
     replay_quality,
     with_one_more,
@@ -35,6 +36,10 @@ _TRIALS = (
     "Grey: measured. Below each signal: measured minus predicted, in σ; in the grey band lie 95 % of "
     "the samples if nothing but noise is left."
 )
+_NEAREST = (
+    "This is not an explanation: something else is at work as well, or instead. Its intervals are wide "
+    "enough for what it leaves, but they assume that the rest is like noise."
+)
 _SEARCH = "Which stage made, kept or dropped which explanation, and why."
 
 
@@ -44,6 +49,7 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
         *_where(found),
+        *_nearest(found, report),
         *_which(found, report),
         html.heading("How much is explained"),
         html.paragraph(reduction(found)),
@@ -68,6 +74,23 @@ def _where(found: Diagnosis) -> list[str]:
         html.paragraph(_BREAKDOWN),
         html.picture(draw_breakdown(found), alt),
         html.paragraph(f"{largest_residual(found)}."),
+    ]
+
+
+def _nearest(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:
+    """What comes nearest, where nothing explains the log."""
+    sentence = nearest(found)
+    if not sentence:
+        return []
+    return [
+        html.heading("What comes nearest"),
+        html.paragraph(f"{sentence}."),
+        *(
+            [parameter_table(report["nearest"]["parameters"])]
+            if found.assessment.nearest.effects
+            else []
+        ),
+        html.paragraph(_NEAREST),
     ]
 
 

@@ -1,9 +1,12 @@
 """`report.json`: gap-report/1, the contract with other programs (docs/gap-report.md)."""
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
 from diagnosis.assessment.identifiability import unidentifiable
+from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.nearest import Nearest
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.result import Diagnosis
@@ -22,11 +25,9 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "effects": list(verdict.effects),
         "confusable": [list(names) for names in verdict.confusable],
         "ranking": [{"effect": n, "probability": p} for n, p in verdict.ranking],
-        "parameters": {
-            effect: {name: asdict(interval) for name, interval in own.items()}
-            for effect, own in told.parameters.items()
-        },
+        "parameters": _parameters(told.parameters),
         "gap": {**asdict(told.gap), "noise": 1.0},
+        "nearest": _nearest(told.nearest),
         "where": _where(diagnosis),
         "next_experiment": told.next_experiment,
         "floor": _floor(verdict.best),
@@ -38,6 +39,24 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "noise": dict(diagnosis.noise.sigma),
         "search": [_entry(entry) for entry in diagnosis.record],
         "warnings": list(diagnosis.warnings),
+    }
+
+
+def _parameters(by_effect: Mapping[str, Mapping[str, Interval]]) -> dict[str, Any]:
+    return {
+        effect: {name: asdict(interval) for name, interval in own.items()}
+        for effect, own in by_effect.items()
+    }
+
+
+def _nearest(nearest: Nearest) -> dict[str, Any]:
+    """The best that was tried, whatever the verdict."""
+    return {
+        "effects": list(nearest.effects),
+        "parameters": _parameters(nearest.parameters),
+        "gap_after": nearest.gap_after,
+        "power_explained_percent": nearest.power_explained_percent,
+        "at_bound": list(nearest.at_bound),
     }
 
 

@@ -28,6 +28,27 @@ def headline(found: Diagnosis) -> str:
             )
 
 
+def nearest(found: Diagnosis) -> str:
+    """What comes nearest to an explanation of an unknown log, in one sentence; else empty."""
+    near, gap = found.assessment.nearest, found.assessment.gap
+    if found.verdict.kind is not VerdictKind.UNKNOWN:
+        return ""
+    if not near.effects:
+        return "Nearest: nothing that was tried improves on the nominal model"
+    values = [
+        f"{name} {interval.value:.3g} {interval.unit}".removesuffix(" -")
+        for own in near.parameters.values()
+        for name, interval in own.items()
+    ]
+    bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
+    return (
+        f"Nearest: {titles(near.effects)} ({', '.join(values)}) explain "
+        f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
+        f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is largest "
+        f"{found.assessment.breakdown_after.worst_part}{bound}"
+    )
+
+
 def titles(effects: Sequence[str]) -> str:
     """Effects in plain words."""
     return " and ".join(LIBRARY[name].title for name in effects)

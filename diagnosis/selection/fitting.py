@@ -8,7 +8,6 @@ import numpy as np
 from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.record import RecordEntry, dropped, failed, made, not_fitted
@@ -77,7 +76,7 @@ def fit_each_alone(
     stage: str, problem: FitProblem, whole: Candidate, names: Iterable[str], workers: Workers
 ) -> Made:
     """Each of what a candidate names alone, from where that is."""
-    starts = [(n, parameterization_of((n,), problem.nuisance).joined(whole.fit.parts)) for n in names]
+    starts = [(n, problem.parameterization((n,)).joined(whole.fit.parts)) for n in names]
     return fit_all(stage, [(problem, (n,), start) for n, start in starts], workers)
 
 

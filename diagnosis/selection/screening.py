@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
-from diagnosis.fitting.parameterization import parameterization_of, starts
+from diagnosis.fitting.parameterization import starts
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
 
@@ -45,8 +44,8 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
     Raises:
       SimulationFailed: the effect cannot be simulated at its starts.
     """
-    effect = LIBRARY[name]
-    parameterization = parameterization_of((*base.names, name), problem.nuisance)
+    effect = problem.library[name]
+    parameterization = problem.parameterization((*base.names, name))
     # What the nuisance has found already costs no more than its prior to name.
     found = [base.parts[name]] if name in base.parts else []
     own = [*found, *starts(effect)[:most_starts]]

@@ -23,7 +23,6 @@ from diagnosis.criteria import (
     WORTH_FITTING,
 )
 from diagnosis.fitting.fit import Fit, fit_effects
-from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import Checked, check
@@ -159,7 +158,7 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     best = state.best
     if best.named == best.names:
         return state
-    start = parameterization_of(best.named, state.problem.nuisance).joined(best.fit.parts)
+    start = state.problem.parameterization(best.named).joined(best.fit.parts)
     return state.adding(fit_all("scatter of the best", [(state.problem, best.named, start)], workers))
 
 

@@ -7,18 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from models.drive import DriveKind
 from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.files import refuse_existing, write_text, writing
-from studies.control import steering, tables
+from studies.control import tables
 from studies.control.comparison import StepResponse, as_row
-from studies.control.steering import PlaneApproach, SteeredInsertion
+from studies.control.steering.steering_figures import draw_planes, draw_steered
+from studies.control.steering.steering_report import steering_json
+from studies.control.steering.steering_study import SteeringStudy
 from studies.control.step_response import turn
 from studies.crosscheck.poles import closed_form_needle
 
@@ -39,8 +39,7 @@ class ControlStudy:
 
     tables: list[StepResponse]
     robustness: list[StepResponse]
-    steered: list[SteeredInsertion]
-    planes: dict[float, list[PlaneApproach]]
+    steering: SteeringStudy
 
     def as_json(self) -> dict[str, Any]:
         """`table_iv`, `table_v`, `steered_mm` and the rest, in plain values."""
@@ -49,12 +48,7 @@ class ControlStudy:
             "table_iv": [_iv(o) for o in self.tables],
             "table_v": [_v(o) for o in self.tables],
             "robustness": [_plain(as_row(o)) for o in self.robustness],
-            "steered_mm": {s.name: s.out_of_plane_mm for s in self.steered},
-            "steered_published_mm": steering.PUBLISHED_MM,
-            "planar_mm": {
-                f"{speed:g} mm/s": {p.name: _or_none(p.converged_mm()) for p in approaches}
-                for speed, approaches in self.planes.items()
-            },
+            **steering_json(self.steering),
             "hankel_ratios": hankel(),
         }
 
@@ -117,8 +111,8 @@ def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> li
     for path, responses in ((paths[1], study.tables), (paths[2], study.robustness)):
         rows = pd.DataFrame([as_row(o) for o in responses])
         write_text(path, rows.to_csv(index=False), force=force)
-    for path, draw in zip(paths[3:], (_draw_turns, _draw_steered, _draw_planes), strict=True):
-        figure = draw(study)
+    figures = (_draw_turns(study), draw_steered(study.steering), draw_planes(study.steering))
+    for path, figure in zip(paths[3:], figures, strict=True):
         with writing(path, force=force) as part:
             figure.savefig(part, dpi=120, format="png")
         plt.close(figure)
@@ -142,34 +136,3 @@ def _draw_turns(study: ControlStudy) -> Figure:
     axes[1, 0].set(ylabel="tip, deg (grey: within 3 deg)")
     axes[1, 2].legend(fontsize=8)
     return figure
-
-
-def _draw_steered(study: ControlStudy) -> Figure:
-    """Like Figs. 11 and 12: paths from above, and height over the plane."""
-    figure, axes = plt.subplots(1, 2, figsize=(13, 5), layout="constrained")
-    for one in study.steered:
-        x, y, z = one.path_mm.T
-        axes[0].plot(x, y, label=one.name)
-        axes[1].plot(x, z, label=f"{one.name}: {one.out_of_plane_mm:.2f} mm")
-    axes[0].set(xlabel="x, mm", ylabel="y, mm", title="From above", aspect="equal")
-    axes[1].set(xlabel="x, mm", ylabel="height over the plane, mm", title="Out of the plane")
-    axes[1].legend(fontsize=8)
-    return figure
-
-
-def _draw_planes(study: ControlStudy) -> Figure:
-    count = len(study.planes)
-    figure, axes = plt.subplots(1, count, figsize=(5 * count, 4.2), layout="constrained", squeeze=False)
-    for axis, (speed, approaches) in zip(axes[0], study.planes.items(), strict=True):
-        _draw_plane(axis, speed, approaches)
-    return figure
-
-
-def _draw_plane(axis: Axes, speed: float, approaches: list[PlaneApproach]) -> None:
-    for one in approaches:
-        axis.plot(one.travelled_mm, one.height_mm, label=f"{one.name}: {one.converged_mm():.0f} mm")
-    limit = 1.2 * float(np.abs(approaches[0].height_mm).max())
-    axis.axhspan(-0.5, 0.5, color="0.9", zorder=0)
-    axis.set(xlabel="travelled, mm", ylabel="height over the plane, mm", ylim=(-limit, limit))
-    axis.set_title(f"Planar controller at {speed:g} mm/s")
-    axis.legend(fontsize=7, title="within 0.5 mm after", title_fontsize=7)

@@ -4,15 +4,14 @@ from collections.abc import Callable
 
 from studies.control.report import ControlStudy
 from studies.control.robustness import robustness
-from studies.control.steering import approach_plane, steered_insertions
+from studies.control.steering.steering_study import STEERING_STAGES, run_steering
 from studies.control.tables import tables_iv_v
 
-PLANAR_SPEEDS_MM_S = (5.0, 7.5, 10.0)
-STAGES = ("Tables IV and V", "robustness", "steered insertions", "the planar controller")
+STAGES = ("Tables IV and V", "robustness", *STEERING_STAGES)
 
 
 def run_study(progress: Callable[[str], None] = lambda stage: None) -> ControlStudy:
-    """Run everything; about a minute.
+    """Run everything; about two minutes.
 
     Args:
       progress: called with the name of each stage as it begins.
@@ -21,8 +20,5 @@ def run_study(progress: Callable[[str], None] = lambda stage: None) -> ControlSt
     iv_v = tables_iv_v()
     progress(STAGES[1])
     robust = robustness()
-    progress(STAGES[2])
-    steered = steered_insertions()
-    progress(STAGES[3])
-    planes = {speed: approach_plane(speed_mm_s=speed) for speed in PLANAR_SPEEDS_MM_S}
-    return ControlStudy(tables=iv_v, robustness=robust, steered=steered, planes=planes)
+    steering = run_steering(progress)
+    return ControlStudy(tables=iv_v, robustness=robust, steering=steering)

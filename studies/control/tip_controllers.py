@@ -66,6 +66,13 @@ class TipController:
         self.advance_mm = self._command.advance_mm
         return self._command.base_deg
 
+    def reset(self) -> None:
+        """Law and estimator as before the first sample."""
+        self.law.reset()
+        if self.estimator is not None:
+            self.estimator.reset()
+        self._command, self._estimate, self.advance_mm = Command(0.0), Estimate(0.0), 0.0
+
     @property
     def estimated_tip_deg(self) -> float:
         """The last estimate of the tip, deg."""

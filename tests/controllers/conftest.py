@@ -12,5 +12,5 @@ def fast_turn():
 
 @pytest.fixture(scope="session")
 def insertion():
-    """From the surface to 7 cm, with four half turns."""
+    """From the surface to 7 cm, with four half turns, to and fro."""
     return viscous_run("insertion", step_s=0.005)

@@ -18,6 +18,7 @@ KEYS = {
     "ranking",
     "parameters",
     "gap",
+    "nearest",
     "where",
     "next_experiment",
     "floor",

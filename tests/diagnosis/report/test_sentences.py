@@ -7,6 +7,7 @@ import pytest
 from diagnosis.report.sentences import (
     headline,
     largest_residual,
+    nearest,
     reduction,
     replay_quality,
     titles,
@@ -46,6 +47,14 @@ TWO = ("tip_drag", "torque_bias")
 )
 def test_every_verdict_has_its_headline(dry, verdict, said):
     assert said in headline(concluding(dry.found, **verdict))
+
+
+def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
+    assert nearest(dry.found) == ""
+    said = nearest(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()))
+    assert said.startswith("Nearest: dry (Coulomb) friction along the shaft (level 0.00")
+    assert "% of the power of the gap" in said
+    assert "what is left is largest in " in said
 
 
 def test_sets_that_fit_alike_are_told_in_words(dry):

@@ -79,11 +79,10 @@ def test_every_candidate_was_made_by_a_stage_of_the_record(undisturbed):
 
 
 @pytest.mark.slow
-def test_an_effect_that_cannot_be_simulated_is_recorded_and_changes_nothing_else(
-    dry_start, undisturbed, monkeypatch
-):
-    monkeypatch.setitem(LIBRARY, "tip_drag", replace(LIBRARY["tip_drag"], apply=failing))
-    found = search(dry_start, Workers())
+def test_an_effect_that_cannot_be_simulated_is_recorded_and_changes_nothing_else(dry_start, undisturbed):
+    library = {**LIBRARY, "tip_drag": replace(LIBRARY["tip_drag"], apply=failing)}
+    lame = {name: replace(getattr(dry_start, name), library=library) for name in ("problem", "coarse")}
+    found = search(replace(dry_start, **lame), Workers())
     lost = [e for e in found.record if e.decision is Decision.FAILED]
     assert lost
     assert all("tip_drag" in e.effects for e in lost)

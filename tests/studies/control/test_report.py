@@ -10,14 +10,14 @@ import pytest
 from models.drive import DriveKind
 from models.errors import OutputExists
 from models.materials import tissue_named
-from studies.control import report, steering
+from studies.control import report
 from studies.control.comparison import compare
 from studies.control.report import FILES, ControlStudy, hankel, write_study
 from studies.crosscheck.poles import closed_form_needle
 
 
 @pytest.fixture(scope="module")
-def small():
+def small(small_steering):
     responses = compare(
         tissue_named("viscous-plastisol"),
         depth_cm=5.0,
@@ -25,12 +25,7 @@ def small():
         controllers=("base_only", "feedforward"),
         hold_s=2.0,
     )
-    return ControlStudy(
-        tables=responses,
-        robustness=responses,
-        steered=steering.steered_insertions(controllers=()),
-        planes={10.0: steering.approach_plane(cases=("its own simulation",), travel_mm=20.0)},
-    )
+    return ControlStudy(tables=responses, robustness=responses, steering=small_steering)
 
 
 def test_every_file_is_written_and_says_the_same(small, tmp_path, monkeypatch):
@@ -50,7 +45,7 @@ def test_every_file_is_written_and_says_the_same(small, tmp_path, monkeypatch):
 def test_what_does_not_exist_is_null_and_not_nan(small):
     content = small.as_json()
     never = content["planar_mm"]["10 mm/s"]["its own simulation"]
-    assert math.isnan(small.planes[10.0][0].converged_mm())
+    assert math.isnan(small.steering.known_pose[10.0][0].converged_mm())
     assert never is None
 
 

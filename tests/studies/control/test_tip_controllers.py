@@ -66,3 +66,15 @@ def test_a_design_can_be_wrong_by_factors():
     assert wrong.needle.rigidity_n_mm2 == pytest.approx(1.2 * DESIGN.needle.rigidity_n_mm2)
     assert wrong.damping_n_mm_s_per_mm == pytest.approx(0.5 * DESIGN.damping_n_mm_s_per_mm)
     assert wrong.limits == DESIGN.limits
+
+
+@pytest.mark.parametrize("name", ["base_only", "feedforward", "lqr"])
+def test_a_controller_that_was_reset_acts_as_a_new_one(name):
+    def bases(controller):
+        return [controller(measured(0.01 * i, torque_n_mm=0.2 * i), 90.0) for i in range(20)]
+
+    used, new = tip_controller_named(name, DESIGN), tip_controller_named(name, DESIGN)
+    first = bases(used)
+    used.reset()
+    assert used.estimated_tip_deg == 0.0
+    assert bases(used) == bases(new) == first

@@ -1,25 +1,43 @@
 """Keeping the tip in a plane by rolling it: after Kallem and Cowan (2009), ref. [8].
 
 With height z over the plane, direction of travel t, the bevel's pull d and e = t x d,
-per length travelled (curvature k = 1/R)
+per length travelled (curvature k = 1/R, roll theta)
 
-    z' = t_z,    z'' = k d_z,    z''' = k (theta' e_z - k t_z)
+    z' = t_z,    t_z' = k d_z,    d_z' = theta' e_z - k t_z
 
-so the roll rate  theta' = ((-k0 z - k1 z' - k2 z'') / k + k t_z) / e_z  makes z a
-linear third-order system with all poles at -1 / settling length. The controller
-knows z and t from images, and d only through the estimated roll.
+In pitch beta and roll gamma against the plane t_z = sin beta, d_z = cos beta sin gamma
+and e_z = cos beta cos gamma, so that beta' = k sin gamma and gamma' = theta' - k tan beta
+cos gamma: the three-state system of ref. [8]. The roll rate
+
+    theta' = ((-k0 z - k1 t_z - k2 k d_z) / k + k t_z) / e_z
+
+makes z a linear third-order system with all poles at -1 / settling length (feedback
+linearisation). Insertion speed drops out: a person may set it.
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from models.errors import InvalidValue
 
-Array = NDArray[np.float64]
-
 _LEAST_FACING = 0.3  # of e_z: beyond it the plane cannot be steered by roll
+
+
+@dataclass(frozen=True, slots=True)
+class PlanarState:
+    """Where the tip is and points, relative to the plane.
+
+    Attributes:
+      height_mm: z.
+      slope, pull, facing: t_z, d_z and e_z; together a unit vector.
+    """
+
+    height_mm: float
+    slope: float
+    pull: float
+    facing: float
 
 
 class PlanarController:
@@ -49,14 +67,9 @@ class PlanarController:
         self.gains = np.array([p**3, 3 * p**2, 3 * p])
         self.most = most_roll_rad_per_mm
 
-    def roll_rate(self, height_mm: float, tangent: Array, pull: Array, onward: Array) -> float:
-        """Roll per length, rad/mm.
-
-        Args:
-          height_mm: z.
-          tangent, pull, onward: t, d and e with the estimated roll, (3,) each.
-        """
-        wanted = -float(self.gains @ [height_mm, tangent[2], self.curvature * pull[2]])
-        facing = math.copysign(max(abs(onward[2]), _LEAST_FACING), onward[2] or 1.0)
-        rate = (wanted / self.curvature + self.curvature * tangent[2]) / facing
+    def roll_rate(self, tip: PlanarState) -> float:
+        """Roll per length, rad/mm, for the tip as it is known."""
+        wanted = -float(self.gains @ [tip.height_mm, tip.slope, self.curvature * tip.pull])
+        facing = math.copysign(max(abs(tip.facing), _LEAST_FACING), tip.facing or 1.0)
+        rate = (wanted / self.curvature + self.curvature * tip.slope) / facing
         return float(min(max(rate, -self.most), self.most))

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, problem_of
 
-from diagnosis.assessment.contributions import strongest_first
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
+from diagnosis.selection.contributions import strongest_first
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ def _contribution(problem: FitProblem, best: Candidate, name: str) -> float:
     fit = best.fit
     kept = [e.name for e in fit.parameterization.all if e.name != name]
     nuisance = [e for e in fit.parameterization.nuisance if e.name != name]
-    without = parameterization_of([n for n in best.names if n != name], nuisance)
+    without = parameterization_of([n for n in best.names if n != name], nuisance, problem.library)
     rig = without.rig(without.joined({n: fit.parts[n] for n in kept}))
     runs = problem.residuals([rig])
     each = zip(runs, best.fit.by_trial, strict=True)

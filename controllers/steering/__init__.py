@@ -1,0 +1,1 @@
+"""Steering a bevel tip by its roll: the planar controller; pose and torsion together."""

@@ -1,0 +1,36 @@
+"""What a camera's noise makes of the planar controller: median and range over its seeds."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from studies.control.steering.planar_study import PlaneApproach
+from studies.control.steering.seed_spread import Spread
+
+SETTLED_MM = 100.0  # travel after which the height counts as the one that is held
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanarSpread:
+    """One case at one speed, over the seeds.
+
+    Attributes:
+      converged_mm: travel until the tip stays within 0.5 mm of the plane.
+      never: seeds in which it does not.
+      rms_mm: height after 100 mm of travel.
+    """
+
+    converged_mm: Spread
+    never: int
+    rms_mm: Spread
+
+    @classmethod
+    def of(cls, approaches: Sequence[PlaneApproach]) -> "PlanarSpread":
+        """Of the approaches of every seed."""
+        travels = [approach.converged_mm() for approach in approaches]
+        return cls(
+            converged_mm=Spread.of(travels),
+            never=int(np.isnan(travels).sum()),
+            rms_mm=Spread.of([approach.rms_mm(SETTLED_MM) for approach in approaches]),
+        )

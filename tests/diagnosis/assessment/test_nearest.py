@@ -1,0 +1,39 @@
+"""The nearest explanation: what it explains, and what stopped at a bound."""
+
+from dataclasses import replace
+
+import pytest
+from diagnosis_fixtures import scored
+
+from diagnosis.assessment.gap_reduction import GapReduction
+from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.nearest import nearest_of
+from diagnosis.fitting.fit_status import FitStatus, Termination
+
+LEVEL = Interval(value=1.0, low=0.9, high=1.1, unit="N mm / mm")
+PARAMETERS = {"coulomb_friction": {"level": LEVEL}, "damping_error": {"scale": LEVEL}}
+
+
+def gap(before, after):
+    return GapReduction(before=before, after=after, shrink=0.0, shrink_low=0.0, shrink_high=0.0)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "percent"),
+    [(11.0, 1.0, 100.0), (11.0, 11.0, 0.0), (3.0, 2.0, 62.5), (11.0, 12.0, 0.0), (0.9, 0.9, 0.0)],
+)
+def test_power_explained_is_that_beyond_noise(before, after, percent):
+    best = scored(("coulomb_friction",), 0.0)
+    near = nearest_of(best, ("coulomb_friction",), PARAMETERS, gap(before, after))
+    assert near.power_explained_percent == pytest.approx(percent)
+    assert near.gap_after == after
+
+
+def test_it_tells_the_parameters_of_its_effects_and_what_stopped_at_a_bound():
+    best = scored(("coulomb_friction",), 0.0)
+    held = ("coulomb_friction.level", "damping_error.scale")
+    status = FitStatus(termination=Termination.STEP, message="", at_bound=held)
+    best = replace(best, fit=replace(best.fit, status=status))
+    near = nearest_of(best, ("coulomb_friction",), PARAMETERS, gap(5.0, 2.0))
+    assert near.parameters == {"coulomb_friction": {"level": LEVEL}}
+    assert near.at_bound == ("coulomb_friction.level",)
