@@ -15,7 +15,7 @@ from sim.closed_loop import ClosedLoopRun
 from studies.control.step_response import (
     DESIGN,
     HOLD_S,
-    Plant,
+    ControlPlant,
     final_error_deg,
     largest_shear_stress_mpa,
     response_metrics,
@@ -83,7 +83,7 @@ class StepResponse:
 
 
 def compare_on(
-    plant: Plant,
+    plant: ControlPlant,
     *,
     depth_cm: float,
     free_mm: float,
@@ -114,12 +114,12 @@ def compare(
     hold_s: float = HOLD_S,
 ) -> list[StepResponse]:
     """Every controller in one tissue, with ideal hardware."""
-    plant = Plant(name=tissue.name, tissue=tissue, needle=design.needle, design=design)
+    plant = ControlPlant(name=tissue.name, tissue=tissue, needle=design.needle, design=design)
     return compare_on(plant, depth_cm=depth_cm, free_mm=free_mm, controllers=controllers, hold_s=hold_s)
 
 
 def _measured(
-    plant: Plant, controller: str, depth_cm: float, free_mm: float, made: ClosedLoopRun
+    plant: ControlPlant, controller: str, depth_cm: float, free_mm: float, made: ClosedLoopRun
 ) -> StepResponse:
     settle, integral, overshoot, base = response_metrics(made.run)
     return StepResponse(
@@ -167,7 +167,7 @@ def better_percent(value: float, baseline: float) -> float:
     return -100.0 if math.isnan(value) else 100.0 * (1.0 - value / baseline)
 
 
-def _printed(plant: Plant, table: Any, depth_cm: float, controller: str) -> float:
+def _printed(plant: ControlPlant, table: Any, depth_cm: float, controller: str) -> float:
     paper_rig = plant.name == "viscous-plastisol"
     if not paper_rig or controller not in _PUBLISHED or depth_cm not in table:
         return math.nan

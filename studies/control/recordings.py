@@ -9,7 +9,7 @@ from sim.recording.recording import Recording
 from studies.control.closed_loop_recording import record_closed_loop
 from studies.control.comparison import SAME_LIMITS, SLOW_BASELINE, StepResponse
 from studies.control.robustness import plants
-from studies.control.step_response import Plant, step_on
+from studies.control.step_response import ControlPlant, step_on
 from studies.control.tables import CONTROLLERS
 
 DEPTH_CM, FREE_MM = 10.0, 50.0
@@ -37,7 +37,7 @@ def step_recordings(
     """The turns of Tables IV and V at 10 cm, 50 mm free; then best and worst on each rig."""
     at_10_cm = [r for r in tables if (r.depth_cm, r.free_mm) == (DEPTH_CM, FREE_MM)]
     made = [
-        _recorded(f"turn_{r.controller}", r, Plant(name=r.plant), _SHOWN_S)
+        _recorded(f"turn_{r.controller}", r, ControlPlant(name=r.plant), _SHOWN_S)
         for r in at_10_cm
         if r.controller in CONTROLLERS
     ]
@@ -65,7 +65,7 @@ def _slug(name: str) -> str:
     return re.sub(r"[^a-z0-9.]+", "-", name.lower()).strip("-")
 
 
-def _recorded(stem: str, response: StepResponse, plant: Plant, hold_s: float) -> StepRecording:
+def _recorded(stem: str, response: StepResponse, plant: ControlPlant, hold_s: float) -> StepRecording:
     def make() -> Recording:
         controlled = step_on(
             plant,

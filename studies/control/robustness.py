@@ -18,7 +18,7 @@ from models.tissue import Interface, Layer, Tissue
 from sim.closed_loop import MeasurementNoise
 from sim.loop.hardware import LoopHardware, Sensors
 from studies.control.comparison import StepResponse, compare_on
-from studies.control.step_response import DAMPING, DESIGN, NOISE, Plant
+from studies.control.step_response import DAMPING, DESIGN, NOISE, ControlPlant
 from studies.control.tip_controllers import ControllerDesign
 
 ROBUST_CONTROLLERS = (
@@ -96,7 +96,7 @@ def _known(hardware: LoopHardware) -> LoopTiming:
     )
 
 
-def plants() -> dict[str, Plant]:
+def plants() -> dict[str, ControlPlant]:
     """Every rig, by name; the first is the one that the controllers were designed for."""
     servo = LoopHardware(command_latency_s=_LATENCY_S, servo=_SERVO)
     biased = LoopHardware(sensors=Sensors(torque_bias_n_mm=_BIAS_N_MM))
@@ -110,26 +110,26 @@ def plants() -> dict[str, Plant]:
     stiff_shaft = NITINOL.but(shear_modulus_gpa=1.2 * NITINOL.shear_modulus_gpa)
     every_tissue = _layered("layers x 1.5", 1.5)
     rigs = (
-        Plant(name="as designed"),
-        *(Plant(name=name, tissue=tissue) for name, tissue in unmodelled_tissues().items()),
-        Plant(name="stiffness x 0.8", needle=soft_shaft),
-        Plant(name="stiffness x 1.2", needle=stiff_shaft),
-        Plant(name="torque bias 0.1 N mm", hardware=biased),
-        Plant(name="delay 40 ms", hardware=_late()),
-        Plant(name="encoder 0.36 deg", hardware=coarse),
-        Plant(name="torque noise x 10", noise=_LOUD),
-        Plant(name="servo 10 Hz, 10 ms", hardware=servo),
-        Plant(name="motor 10 Hz, 10 ms", hardware=servo, drive=_MOTOR),
-        Plant(name="shear below 230 MPa", design=gentle),
-        Plant(name="shear, 40 ms, 10 Hz", hardware=late_servo, design=gentle),
-        Plant(
+        ControlPlant(name="as designed"),
+        *(ControlPlant(name=name, tissue=tissue) for name, tissue in unmodelled_tissues().items()),
+        ControlPlant(name="stiffness x 0.8", needle=soft_shaft),
+        ControlPlant(name="stiffness x 1.2", needle=stiff_shaft),
+        ControlPlant(name="torque bias 0.1 N mm", hardware=biased),
+        ControlPlant(name="delay 40 ms", hardware=_late()),
+        ControlPlant(name="encoder 0.36 deg", hardware=coarse),
+        ControlPlant(name="torque noise x 10", noise=_LOUD),
+        ControlPlant(name="servo 10 Hz, 10 ms", hardware=servo),
+        ControlPlant(name="motor 10 Hz, 10 ms", hardware=servo, drive=_MOTOR),
+        ControlPlant(name="shear below 230 MPa", design=gentle),
+        ControlPlant(name="shear, 40 ms, 10 Hz", hardware=late_servo, design=gentle),
+        ControlPlant(
             name="all, no dry friction",
             tissue=every_tissue,
             needle=soft_shaft,
             hardware=all_hardware,
             noise=_LOUD,
         ),
-        Plant(
+        ControlPlant(
             name="all of it",
             tissue=_layered("layers x 1.5, dry", 1.5, _DRY_N_MM_PER_MM),
             needle=soft_shaft,
@@ -140,7 +140,7 @@ def plants() -> dict[str, Plant]:
     return {rig.name: replace(rig, design=_informed(rig)) for rig in rigs}
 
 
-def _informed(plant: Plant) -> ControllerDesign:
+def _informed(plant: ControlPlant) -> ControllerDesign:
     """The design of somebody who knows delays, servo, encoder and the noise of his sensors."""
     noise = plant.noise or MeasurementNoise()
     timing, limits = _known(plant.hardware), plant.design.limits
@@ -156,7 +156,7 @@ def _informed(plant: Plant) -> ControllerDesign:
     )
 
 
-def misjudged_delays() -> dict[str, Plant]:
+def misjudged_delays() -> dict[str, ControlPlant]:
     """The rig whose sensors are late, for controllers that are wrong about it."""
     late = plants()["delay 40 ms"]
     return {

@@ -36,7 +36,7 @@ NOISE = MeasurementNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=1)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plant:
+class ControlPlant:
     """A rig that a controller meets: it may differ from what the controller was designed for.
 
     Attributes:
@@ -68,7 +68,7 @@ def step_reference(
 
 
 def step_on(
-    plant: Plant,
+    plant: ControlPlant,
     controller: str,
     *,
     depth_cm: float,
@@ -109,7 +109,9 @@ def turn(
     hold_s: float = HOLD_S,
 ) -> ClosedLoopRun:
     """One step of the reference on a rig with ideal hardware."""
-    plant = Plant(name=tissue.name, tissue=tissue, needle=design.needle, noise=noise, design=design)
+    plant = ControlPlant(
+        name=tissue.name, tissue=tissue, needle=design.needle, noise=noise, design=design
+    )
     return step_on(plant, controller, depth_cm=depth_cm, free_mm=free_mm, hold_s=hold_s)
 
 

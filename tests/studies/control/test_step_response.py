@@ -16,7 +16,7 @@ from sim.kernel import memory_map
 from sim.loop.hardware import LoopHardware
 from studies.control.step_response import (
     DAMPING,
-    Plant,
+    ControlPlant,
     final_error_deg,
     largest_shear_stress_mpa,
     response_metrics,
@@ -95,7 +95,7 @@ def test_a_motor_under_a_servo_turns_the_tip_as_the_filtered_command_does():
     motor = Drive(kind="torque", rotor_inertia_kg_m2=2.5e-5)
     tips = [
         step_on(
-            Plant(name="", drive=drive, hardware=hardware, noise=None),
+            ControlPlant(name="", drive=drive, hardware=hardware, noise=None),
             "feedforward",
             depth_cm=10,
             free_mm=50,
