@@ -13,7 +13,7 @@ from studies.control.step_response import ControlPlant, step_on
 from studies.control.tables import CONTROLLERS
 
 DEPTH_CM, FREE_MM = 10.0, 50.0
-_SHOWN_S, _ROBUST_SHOWN_S = 2.5, 4.0
+_SHOWN_S, _ROBUST_SHOWN_S = 2.0, 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
