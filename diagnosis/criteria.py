@@ -44,6 +44,20 @@ MOST_BYTES_PER_ROW = 250
 """Rows of one trial at least, of all trials together at most (hours at 100 Hz), bytes per row."""
 LONGEST_SAMPLE_S = 5.0
 """Physical: a needle relaxes within seconds; rarer samples tell nothing, and may be in milliseconds."""
+SHORTEST_SAMPLE_S = 1e-5
+"""Physical: nobody reads an encoder of a needle more than 100 000 times a second: another unit."""
+LEAST_DEPTH_MM = 1.0
+"""Derived: READING_RANGE ends at 1000 mm, so that all lengths in metres are below this."""
+SHORTEST_SHAFT_DIAMETERS = 3.0
+"""Physical: a shaft is longer, unless in metres (and below 3000 diameters); needles have 50 to 500."""
+LENGTH_JUMP_MM, LENGTH_HOLD_S = 5.0, 1.0
+"""Physical: what a length may change by between two samples, beside its travel in so long a hold."""
+WRAP_PERIODS_DEG = (360.0, 180.0)
+WRAP_REMAINDER = 1 / 6
+WRAP_MOTION_SIGMA = 6.0
+WRAP_FLICKERS = 3
+"""A wrap of an angle: its periods; share of one by which motion may change the jump; standard deviations
+by which the motion on both sides is certain; returns in a row that are no lone spike."""
 NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
@@ -62,12 +76,13 @@ SATURATED_NEAR_SIGMA = 1.5
 SATURATED_BESIDE = 10
 """Samples at an end of the range; their share of those within 1.5 sigma of it; samples lost beside."""
 BELIEVED_SCATTER = 0.2
-"""Times the claim: a sensor that scatters less is filtered or simulated, and repeats prove nothing."""
+"""Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
+in rad, 1000 in N m), which is told; and repeats prove nothing."""
 SPIKE_SIGMA = 20.0
 SPIKE_SHARE = 0.2
 """A lone sample so far off its neighbours, which agree within this share of its jump."""
 
-# Consistency: columns that no passive needle can have produced together (log/consistency.py)
+# Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
 LARGE_TURN_DEG = 20.0
 """Physical: smaller motions are not judged; noise and play of a rig are far below."""
@@ -89,9 +104,25 @@ NOISE_RATIO = (0.5, 2.0)
 BACKWARD_TRAVEL_MM, BACKWARD_SHARE = 5.0, 0.2
 """Physical: depth that changes by more, against the speed, to within this share of it."""
 TORQUE_OVER_TWIST = 5.0
-"""Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2."""
+"""Physical: torque over what twists the nominal shaft; friction near the chuck gives up to about 2.
+Where the tip is not measured, over what the swing of the base does: 1.43 at most in 94 logs."""
 
-# Plausibility: what is used with a warning (log/plausibility.py)
+# Scales: what is in another unit than the rig's own (log/checks/)
+
+TORQUE_UNDER_NOMINAL = 1 / 8
+"""Torque over the least that a motion asks of the nominal needle: 0.34 and more in 94 logs of rigs with
+and without unmodelled effects. Angles in rad with torque in N m leave 1/17 of it, N m alone 1/1000."""
+SCALE_SIGMA = 10.0
+"""Claimed noise of the torque that this least has to exceed before it is judged."""
+LAG_UNDER_NOMINAL, LAG_OVER_NOMINAL = 1 / 12, 100.0
+"""Lag of the needle over the nominal one, between minutes (1/60) or milliseconds (1000) and what a rig
+may be: damping that is off, delays and friction make it late, hardly anything early."""
+LAG_UNEXPLAINED = 0.1
+LAG_DISTINCT = 3.0
+"""Share of variance that the lag may leave, and times that (or 1 %) that lags near the nominal leave:
+1.05 times at most in the same 94 logs."""
+
+# Plausibility: what is used with a warning (log/checks/plausibility.py)
 
 PAUSE_STEPS, PAUSE_STEPS_UNEVEN = 10.0, 30.0
 UNEVEN_QUARTILES = 1.5
@@ -137,6 +168,10 @@ INERTIA_LOST_SIGMA = 0.5
 """Part of that torque that samples half as frequent would lose, from which a warning is given."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
+
+LEAST_GAP = 0.7
+"""Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
+unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
 # Noise floor (fitting/noise_floor.py, fitting/noise_reestimation.py)
 

@@ -16,6 +16,7 @@ from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepare import prepare
@@ -99,7 +100,8 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     """
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
-    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg)
+    told = far_claims(log.trials, log.rig.sensors.by_column())
+    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
     library = library_of(scale_of(prepared))
     problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
     return NominalReplay(problem=problem, predictions=predictions)

@@ -30,6 +30,7 @@ from scipy.optimize import brentq, newton
 from models.drive import DriveKind
 from models.errors import InvalidValue
 from models.needle import Needle
+from models.relaxation import relaxing_modes
 
 Array = NDArray[np.float64]
 
@@ -151,16 +152,8 @@ class InsertedNeedle:
         if self.drive is not DriveKind.ANGLE:
             raise InvalidValue("drive", self.drive.value, "'angle'", "use control.forced_response")
         t, u = np.asarray(time_s, float), np.asarray(drive_rad, float)
-        if np.any(np.diff(t) <= 0):
-            raise InvalidValue("time_s", t, "strictly increasing times")
-        poles, a = self.poles_rad_s(count), self.participation(count)
+        c = relaxing_modes(t, u, self.poles_rad_s(count), self.participation(count))
         wavenumbers = self.wavenumbers_per_mm(count)
-        c = np.zeros((t.size, count))
-        for i in range(1, t.size):
-            dt = t[i] - t[i - 1]
-            decay = np.exp(poles * dt)
-            rate = (u[i] - u[i - 1]) / dt
-            c[i] = decay * c[i - 1] - a * rate * (decay - 1) / poles
         shapes = np.sin(wavenumbers * self.inserted_mm) * wavenumbers
         torque = -self.needle.rigidity_n_mm2 * c @ shapes
         return Response(time_s=t, tip_rad=u + c.sum(axis=1), base_torque_n_mm=torque, modes_rad=c)

@@ -39,11 +39,20 @@ TWIST_TEST_ANGLE = PublishedFigure(value=90.0, unit="deg", source="Section II-A"
 
 SIMTEST_TORQUE = PublishedFigure(value=1.0, unit="N mm", source="Section II-D")
 SIMTEST_LAG = PublishedFigure(value=50.0, unit="deg", source="Section II-D", note="nearly")
+FIG_3_PLASTISOL_LAG = PublishedFigure(
+    value=10.0, unit="deg", source="Fig. 3", note="about; soft and hard, after the slow turn"
+)
 CHICKEN_LAG = PublishedFigure(value=3.0, unit="deg", source="Fig. 3")
 PODDER_TORQUE = PublishedFigure(value=7.0, unit="N mm", source="Section II-D")
 PODDER_LAG = PublishedFigure(value=11.0, unit="deg", source="Section II-D", note="about")
 REVERSAL_LEAD = PublishedFigure(
     value=20.0, unit="deg", source="Fig. 4", note="almost; tip rotation before the base overtakes it"
+)
+FIG_5_SETTLING = PublishedFigure(
+    value=2.0, unit="s", source="Fig. 5", note="nearly; the depth is not said, 20 cm is its deepest"
+)
+SETTLED_WITHIN = PublishedFigure(
+    value=3.0, unit="deg", source="Section IV-B", note="of the final base angle"
 )
 
 # Table II: depth, cm -> torque.
@@ -84,3 +93,10 @@ FIG_8_INTEGRAL_HARD = PublishedFigure(value=48.6, unit="s deg", source="Section 
 # Tables IV and V: depth, cm -> (base only, feedforward, feedback).
 TABLE_IV_SETTLE_S = MappingProxyType({5.0: (0.67, 0.46, 0.36), 10.0: (1.02, 0.51, 0.41)})
 TABLE_V_INTEGRAL_DEG_S = MappingProxyType({5.0: (27.0, 17.2, 15.3), 10.0: (37.2, 19.0, 16.6)})
+
+FIG_12_BASE_ONLY = PublishedFigure(
+    value=12.0, unit="mm", source="Fig. 12", note="out of the plane, four half turns, base alone"
+)
+FIG_12_COMPENSATED = PublishedFigure(
+    value=4.0, unit="mm", source="Fig. 12", note="the same half turns with feedforward compensation"
+)

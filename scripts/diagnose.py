@@ -29,6 +29,8 @@ def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, 
     if folder:
         refuse_existing(output_paths(log, folder), force=force)
     shown = Console(stderr=True)
+    for warning in log.warnings:
+        shown.print(f"warning: {escape(warning)}", highlight=False)
     with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
         task = bar.add_task("replaying the nominal rig", total=1.0)
         found = diagnose(

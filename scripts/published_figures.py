@@ -11,6 +11,7 @@ from sim.files import refuse_existing
 from studies.published.material_study import MaterialStudy
 from studies.published.report.contents import as_json
 from studies.published.report.files import output_paths, write_report
+from studies.published.report.insertion_tables import insertion_sentences, insertion_table
 from studies.published.report.limitations import limitations
 from studies.published.report.sentences import next_experiment, verdict_sentence
 from studies.published.report.tables import (
@@ -20,13 +21,14 @@ from studies.published.report.tables import (
     figure_table,
     mechanism_table,
     proposed_table,
+    text_ranking_table,
     text_table,
 )
 from studies.published.study import PublishedStudy, run_published_study
 
 
 def run(folder: Path | None, *, json_only: bool, force: bool, console: Console) -> int:
-    """Diagnose Tables II, IV and V; prints a summary, or `paper.json`.
+    """Diagnose Tables II, IV and V, and Figs. 3, 5, 11 and 12; prints a summary, or `paper.json`.
 
     Args:
       folder: where `paper.json` and `paper.html` go; None: nowhere.
@@ -59,6 +61,12 @@ def _run_with_progress() -> PublishedStudy:
 def _show(study: PublishedStudy, console: Console) -> None:
     for material in (study.plastisol, study.gelatin):
         _show_material(material, console)
+    nearest = text_ranking_table(study.plastisol)
+    console.print(_table(nearest, "Fits to the tables that come nearest to the figures in the text"))
+    title = "Steered insertions, half turns to and fro (*: both deviations within 2 σ)"
+    console.print(_table(insertion_table(study.insertions), title))
+    for line in insertion_sentences(study.insertions):
+        console.print(f"- {line}", highlight=False)
     console.print(_table(proposed_table(study), "Experiments that would separate the explanations"))
     title = "Turns with the torsion compensator (simulated: gains and motor are our own)"
     console.print(_table(compensator_table(study), title))

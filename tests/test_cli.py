@@ -94,8 +94,6 @@ def test_the_poles_fit_in_80_columns_in_a_section_per_source():
         "length_mm": 200.0,
         "free_mm": 50.0,
         "drive": "torque",
-        "closed_form": -1186.0,
-        "bound": 0.005,
     }
     found = [
         Pole(**case, mode=mode, measured=-1186.601, closed_form=-1186.0, source=source, bound=0.005)

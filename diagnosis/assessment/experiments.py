@@ -1,6 +1,8 @@
 """Runs that a rig can do, as its log shows: depths, free lengths, axial speeds and rates of turning.
 
-One whose log never slides may still be able to: such runs say that they ask for it.
+A rig whose trials are all equally deep and never slide is taken to have no axis: its runs differ in
+rate, amplitude, reversals and rests alone, and those that slide are kept apart. One that has an axis but
+never slid may be able to: such runs say that they ask for it.
 """
 
 from collections.abc import Iterator
@@ -10,13 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.residual_breakdown import base_rate
+from diagnosis.criteria import SAME_DEPTH_MM, SLIDING_MM_S
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 
 Array = NDArray[np.float64]
 
+Motion = tuple[Array, Array]
+"""Time, s, and angle of the base, deg, (N,) each."""
+
 SAMPLE_S = 0.04
 _REST_S = 0.5
 _SLOW_MM_S = 1.0
+_SLOW_DEG_S = 5.0
+_FASTEST_AT_LEAST_DEG_S = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,27 +35,21 @@ class Experiment:
     trial: PreparedTrial
 
 
+def has_axis(log: PreparedLog) -> bool:
+    """Whether a log shows that its rig can move the needle along: it slides, or depths differ."""
+    depths = np.concatenate([trial.inserted_mm for trial in log.trials])
+    slides = any(np.abs(trial.speed_mm_s).max() > SLIDING_MM_S for trial in log.trials)
+    return slides or bool(np.ptp(depths) >= SAME_DEPTH_MM)
+
+
 def experiments(log: PreparedLog) -> Iterator[Experiment]:
-    """Turns, staircases, slow ramps and oscillations, at rest and sliding, at two depths."""
-    rates = np.concatenate(
-        [np.abs(base_rate(trial.time_s, trial.base_motion_deg)) for trial in log.trials]
-    )
-    fast, slow = max(float(np.quantile(rates, 0.99)), 10.0), 5.0
-    depths = sorted({round(float(np.median(trial.inserted_mm)), 1) for trial in log.trials})
-    free = float(np.median(np.concatenate([trial.free_mm for trial in log.trials])))
+    """Runs that the rig can do: turns at rest, and with an axis sliding and at two depths as well."""
+    motions, depths, free = _motions(_fast_deg_s(log)), _depths_mm(log), _free_mm(log)
+    if not has_axis(log):
+        for words, (time, angle) in (motions | _rotary_motions()).items():
+            yield Experiment(words=words, trial=_trial(time, angle, depths[0], free, 0.0))
+        return
     speed_seen = max(float(np.abs(trial.speed_mm_s).max()) for trial in log.trials)
-    motions = {
-        f"turn by 90 deg at {fast:.0f} deg/s, hold, turn back by 45 deg": _ramps(
-            fast, (90.0, 45.0, 45.0)
-        ),
-        f"turn by 360 deg at {fast:.0f} deg/s, hold, turn back": _ramps(fast, (360.0, 360.0, 0.0)),
-        f"turn by 30 deg at {slow:.0f} deg/s, hold, turn back": _ramps(slow, (30.0, 30.0, 0.0)),
-        f"small steps of 2 deg at {fast:.0f} deg/s, up and down": _ramps(
-            fast, (2.0, 4.0, 6.0, 4.0, 2.0, 0.0)
-        ),
-        "oscillate by 20 deg at 0.5 Hz": _sine(20.0, 0.5),
-        "oscillate by 5 deg at 2 Hz": _sine(5.0, 2.0),
-    }
     for depth in dict.fromkeys((depths[0], depths[-1])):
         for speed, able in (
             (0.0, ""),
@@ -59,7 +61,66 @@ def experiments(log: PreparedLog) -> Iterator[Experiment]:
                 yield Experiment(words=words + where, trial=_trial(time, angle, depth, free, -speed))
 
 
-def _ramps(rate: float, corners: tuple[float, ...]) -> tuple[Array, Array]:
+def sliding_experiments(log: PreparedLog) -> Iterator[Experiment]:
+    """Runs that a rig without an axis cannot do: for what no turn of its base can tell."""
+    depth, free = _depths_mm(log)[0], _free_mm(log)
+    for words, (time, angle) in _motions(_fast_deg_s(log)).items():
+        yield Experiment(
+            words=f"{words}, sliding out at {_SLOW_MM_S:g} mm/s",
+            trial=_trial(time, angle, depth, free, -_SLOW_MM_S),
+        )
+
+
+def _fast_deg_s(log: PreparedLog) -> float:
+    """Rate at which the base turns in its fastest hundredth."""
+    each = [np.abs(base_rate(trial.time_s, trial.base_motion_deg)) for trial in log.trials]
+    return max(float(np.quantile(np.concatenate(each), 0.99)), _FASTEST_AT_LEAST_DEG_S)
+
+
+def _depths_mm(log: PreparedLog) -> list[float]:
+    return sorted({round(float(np.median(trial.inserted_mm)), 1) for trial in log.trials})
+
+
+def _free_mm(log: PreparedLog) -> float:
+    return float(np.median(np.concatenate([trial.free_mm for trial in log.trials])))
+
+
+def _motions(fast: float) -> dict[str, Motion]:
+    """Turns, staircases, slow ramps and oscillations of the base, by their words.
+
+    Args:
+      fast: rate, deg/s.
+    """
+    return {
+        f"turn by 90 deg at {fast:.0f} deg/s, hold, turn back by 45 deg": _ramps(
+            fast, (90.0, 45.0, 45.0)
+        ),
+        f"turn by 360 deg at {fast:.0f} deg/s, hold, turn back": _ramps(fast, (360.0, 360.0, 0.0)),
+        f"turn by 30 deg at {_SLOW_DEG_S:.0f} deg/s, hold, turn back": _ramps(
+            _SLOW_DEG_S, (30.0, 30.0, 0.0)
+        ),
+        f"small steps of 2 deg at {fast:.0f} deg/s, up and down": _ramps(
+            fast, (2.0, 4.0, 6.0, 4.0, 2.0, 0.0)
+        ),
+        "oscillate by 20 deg at 0.5 Hz": _sine(20.0, 0.5),
+        "oscillate by 5 deg at 2 Hz": _sine(5.0, 2.0),
+    }
+
+
+def _rotary_motions() -> dict[str, Motion]:
+    """What a rig without an axis can vary further: rate, amplitude, rests and reversals."""
+    rest = (90.0,) * 10
+    return {
+        f"turn by 90 deg at {_SLOW_DEG_S:.0f} deg/s, hold, turn back by 45 deg": _ramps(
+            _SLOW_DEG_S, (90.0, 45.0, 45.0)
+        ),
+        "turn by 90 deg at 30 deg/s, rest for 20 s, turn back": _ramps(30.0, (*rest, 0.0)),
+        "reverse every 10 deg at 10 deg/s, without a rest": _sawtooth(10.0, 10.0),
+        "oscillate by 90 deg at 0.2 Hz": _sine(90.0, 0.2),
+    }
+
+
+def _ramps(rate: float, corners: tuple[float, ...]) -> Motion:
     """Time and angle of turns at a rate, with a hold of two seconds after each."""
     time, angle = [0.0, _REST_S], [0.0, 0.0]
     for corner in corners:
@@ -70,7 +131,14 @@ def _ramps(rate: float, corners: tuple[float, ...]) -> tuple[Array, Array]:
     return even, np.interp(even, time, angle)
 
 
-def _sine(amplitude: float, hertz: float) -> tuple[Array, Array]:
+def _sawtooth(amplitude: float, rate: float) -> Motion:
+    """To and fro between 0 and an angle, without a hold, for ten seconds."""
+    time = np.arange(0.0, 10.0, SAMPLE_S)
+    turned = rate * np.maximum(time - _REST_S, 0.0)
+    return time, amplitude - np.abs(turned % (2 * amplitude) - amplitude)
+
+
+def _sine(amplitude: float, hertz: float) -> Motion:
     time = np.arange(0.0, 10.0, SAMPLE_S)
     running = np.maximum(time - _REST_S, 0.0)
     return time, amplitude * np.sin(2 * np.pi * hertz * running)

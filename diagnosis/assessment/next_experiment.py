@@ -1,8 +1,7 @@
 """The run that would best tell two explanations apart, found by simulating candidates.
 
 A rig can do what its log shows that it can: depths, free lengths, axial speeds and
-rates of turning are taken from there. One whose log never slides may still be able
-to: such runs say that they ask for it. Each candidate run is predicted by both
+rates of turning are taken from there (experiments.py). Each candidate run is predicted by both
 explanations; their difference d over the noise, less what either could take back by
 moving its parameters within what the log leaves open, is the expected separation
 

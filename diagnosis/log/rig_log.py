@@ -7,9 +7,15 @@ with a warning, or set aside with one. The files themselves are only ever read.
 from dataclasses import dataclass
 from pathlib import Path
 
-from diagnosis.log.consistency import refuse_contradictions
+from diagnosis.log.checks.angle_wraps import refuse_wraps
+from diagnosis.log.checks.consistency import refuse_contradictions
+from diagnosis.log.checks.lengths import refuse_impossible_lengths
+from diagnosis.log.checks.noise_claims import far_claims
+from diagnosis.log.checks.plausibility import plausibility_warnings
+from diagnosis.log.checks.repeated_trials import refuse_repeated_trials
+from diagnosis.log.checks.time_scale import lag_warnings
+from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.log.plausibility import plausibility_warnings
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.sensor_faults import without_faults
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
@@ -41,14 +47,24 @@ def read_rig_log(folder: Path) -> RigLog:
     refuse_too_large(paths)
     trials, warnings = [], []
     for path in paths:
-        trial, found = without_faults(read_trial(path), noise)
+        read = read_trial(path)
+        refuse_wraps(path, read)
+        refuse_impossible_lengths(path, read, rig.needle.diameter_mm)
+        trial, found = without_faults(read, noise)
         refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)
         warnings += found
         trials.append(trial)
+    refuse_repeated_trials(paths, trials)
     if not any(trial.has(sensor) for trial in trials for sensor in SENSORS):
         raise UnusableLog(
             f"{folder}: expected readings of {' or '.join(SENSORS)} in one trial at least, found none "
             f"that can be used; add the column; {'; '.join(warnings)[:400]}"
         )
-    warnings += plausibility_warnings(trials, noise, rig.rigidity_n_mm2)
+    damping = rig.tissue.damping_n_mm_s_per_mm
+    warnings += [
+        *far_claims(trials, noise).values(),
+        *torque_warnings(trials, noise, rig.rigidity_n_mm2, damping),
+        *lag_warnings(trials, rig.rigidity_n_mm2, damping),
+        *plausibility_warnings(trials, noise),
+    ]
     return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings))

@@ -41,6 +41,12 @@ class Trial:
         """Whether the trial measured this at all."""
         return sensor in self._measured
 
+    @property
+    def tip_is_loaded(self) -> bool:
+        """Whether a known torque acts at the tip, which may then turn by itself."""
+        torque = "tip_torque_n_mm"
+        return self.has(torque) and bool(np.nanmax(np.abs(self[torque])) > 0)
+
     @cached_property
     def _columns(self) -> dict[str, Array]:
         return {str(name): np.asarray(self.table[name], float) for name in self.table}

@@ -18,6 +18,7 @@ from diagnosis.criteria import (
     MOST_BYTES_PER_ROW,
     MOST_ROWS,
     READING_RANGE,
+    SHORTEST_SAMPLE_S,
 )
 from diagnosis.log.trial import COLUMNS, OPTIONAL, REQUIRED, Trial, UnusableLog
 from diagnosis.log.unit_hints import look_alike
@@ -176,6 +177,12 @@ def _check_time(path: Path, time_s: Array) -> None:
         raise UnusableLog(
             f"{path}, line {row + 2}, column 'time_s': expected a time after {time_s[row - 1]:.9g} "
             f"of the line above, found {time_s[row]:.9g}; {fix}"
+        )
+    if np.median(steps) < SHORTEST_SAMPLE_S:
+        raise UnusableLog(
+            f"{path}, column 'time_s': expected samples at least {SHORTEST_SAMPLE_S:g} s apart, found "
+            f"{np.median(steps):.3g} s; bring the times to seconds: multiply them by what their unit "
+            "is of one"
         )
     if np.median(steps) > LONGEST_SAMPLE_S:
         raise UnusableLog(

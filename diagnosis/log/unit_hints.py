@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 
-from diagnosis.criteria import NAME_LIKENESS
+from diagnosis.criteria import NAME_LIKENESS, NOISE_RATIO
 
 # How many of the format's unit one of these is. `mN m`, `mNm` and `mn_m` are all "mnm" here.
 _ANGLES = {"deg": 1, "degree": 1, "degrees": 1, "rad": 57.29578, "radian": 57.29578}
@@ -38,7 +38,25 @@ _UNITS: dict[str, dict[str, float]] = {
     "base_torque_noise_n_mm": _TORQUES,
     "base_angle_noise_deg": _ANGLES,
 }
+# Units that a log may be in as a whole, as they are written.
+_WHOLE: dict[str, dict[str, float]] = {
+    "deg": {"rad": 57.29578, "mrad": 0.05729578, "revolutions": 360},
+    "n_mm": {"N m": 1000, "N cm": 10, "mN mm": 1e-3},
+}
 _ANY_UNIT = {unit for units in _UNITS.values() for unit in units}
+
+
+@dataclass(frozen=True, kw_only=True)
+class OtherUnit:
+    """A unit that a column may be in, and how many of its own unit one is."""
+
+    name: str
+    factor: float
+
+    @property
+    def fix(self) -> str:
+        """What to do, as an instruction."""
+        return f"multiply it by {self.factor:.6g}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +93,14 @@ def look_alike(found: Iterable[str], wanted: str, known: Iterable[str]) -> LookA
         and all(_compared(one.found, rival).likeness <= one.likeness for rival in rivals)
     ]
     return max(own, key=lambda one: one.likeness, default=None)
+
+
+def unit_off_by(column: str, factor: float) -> OtherUnit | None:
+    """The unit in which the readings of a column would be smaller by about this factor."""
+    low, high = NOISE_RATIO
+    units = _WHOLE["deg"] if column.endswith("_deg") else _WHOLE["n_mm"]
+    near = [OtherUnit(name=name, factor=own) for name, own in units.items() if low < factor / own < high]
+    return near[0] if near else None
 
 
 def _compared(found: str, wanted: str) -> LookAlike:

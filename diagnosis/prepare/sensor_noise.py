@@ -4,13 +4,13 @@ Claims are good to about 15 %. Where the data scatter by less than half or more 
 is claimed, the data are believed, with a warning.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import NOISE_RATIO
+from diagnosis.criteria import LEAST_DIFFERENCES, LEAST_GAP, NOISE_RATIO
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
@@ -34,28 +34,55 @@ class Noise:
 
 
 def estimate_noise(
-    rig: NominalRig, residuals: Mapping[str, Sequence[Array]], base_sigma_deg: float
+    rig: NominalRig,
+    residuals: Mapping[str, Sequence[Array]],
+    base_sigma_deg: float,
+    told: Collection[str] = (),
 ) -> Noise:
     """Noise of a log.
 
     Args:
       residuals: measured minus nominal, by sensor and trial.
       base_sigma_deg: of the base's encoder.
+      told: columns whose claim has been doubted before.
     """
-    sigma, warnings = {BASE: base_sigma_deg}, []
+    claims = rig.sensors.by_column()
+    sigma, warnings = (
+        {BASE: base_sigma_deg},
+        {BASE: _scatters_otherwise(BASE, base_sigma_deg, claims[BASE])},
+    )
     for sensor in SENSORS:
-        claimed = rig.sensors.by_column()[sensor]
         found = white_noise(residuals.get(sensor, ()), order=_ORDER)
         if not np.isfinite(found) or found <= 0:
-            sigma[sensor] = claimed or _UNKNOWN
-            continue
+            found = claims[sensor] or _UNKNOWN
         sigma[sensor] = found
-        if claimed > 0 and not _agrees(found, claimed):
-            warnings.append(
-                f"{sensor}: the readings scatter by {found:.3g}, rig.yaml claims {claimed:.3g}; "
-                "the readings are believed: correct rig.yaml, or look for a fast disturbance"
-            )
-    return Noise(sigma=sigma, warnings=tuple(warnings))
+        warnings[sensor] = _scatters_otherwise(sensor, found, claims[sensor]) or _below_noise(
+            sensor, residuals.get(sensor, ()), found
+        )
+    said = tuple(warning for column, warning in warnings.items() if warning and column not in told)
+    return Noise(sigma=sigma, warnings=said)
+
+
+def _scatters_otherwise(column: str, found: float, claimed: float) -> str:
+    if claimed <= 0 or _agrees(found, claimed):
+        return ""
+    return (
+        f"{column}: the readings scatter by {found:.3g}, rig.yaml claims {claimed:.3g}; "
+        "the readings are believed: correct rig.yaml, or look for a fast disturbance"
+    )
+
+
+def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
+    """Noise alone leaves a residual of 1 sigma; far less is left where all of it is in another unit."""
+    left = np.concatenate([part[np.isfinite(part)] for part in residuals]) if residuals else np.zeros(0)
+    gap = float(np.sqrt(np.mean(left**2))) / sigma if left.size >= LEAST_DIFFERENCES else 1.0
+    if gap >= LEAST_GAP:
+        return ""
+    return (
+        f"{sensor}: the nominal rig misses the readings by {gap:.2g} of their noise ({sigma:.3g}), and "
+        f"noise alone makes 1; check the units of {sensor} and {BASE} (rad: multiply by 57.2958; N m: "
+        "by 1000), and the claimed noise in rig.yaml"
+    )
 
 
 def base_noise_deg(rig: NominalRig, trials: Sequence[Trial]) -> float:

@@ -39,7 +39,8 @@ def compare_all() -> list[Comparison]:
     ]
 
 
-def _compare(item: str, figure: published.PublishedFigure, ours: float, note: str = "") -> Comparison:
+def compare(item: str, figure: published.PublishedFigure, ours: float, note: str = "") -> Comparison:
+    """A published figure beside ours; without a note of our own, with the paper's."""
     return Comparison(
         item=item,
         published=figure.value,
@@ -59,8 +60,8 @@ def needle_constants() -> list[Comparison]:
         twist_deg=published.TWIST_TEST_ANGLE.value,
     )
     return [
-        _compare("polar moment J", published.POLAR_MOMENT, NITINOL.polar_moment_mm4),
-        _compare("shear modulus G", published.NEEDLE_SHEAR_MODULUS, modulus, "from the twist test"),
+        compare("polar moment J", published.POLAR_MOMENT, NITINOL.polar_moment_mm4),
+        compare("shear modulus G", published.NEEDLE_SHEAR_MODULUS, modulus, "from the twist test"),
     ]
 
 
@@ -76,8 +77,8 @@ def lags() -> list[Comparison]:
         inserted_mm=50,
     )
     return [
-        _compare("eq. (2), SimTest lag", published.SIMTEST_LAG, simtest),
-        _compare("eq. (2), Podder lag, 1.27 mm Nitinol", published.PODDER_LAG, podder),
+        compare("eq. (2), SimTest lag", published.SIMTEST_LAG, simtest),
+        compare("eq. (2), Podder lag, 1.27 mm Nitinol", published.PODDER_LAG, podder),
     ]
 
 
@@ -87,9 +88,9 @@ def table_ii() -> list[Comparison]:
     gelatin = dict(published.STATIC_TORQUE_GELATIN_N_MM)
     plastisol = dict(published.DAMPING_PLASTISOL_N_MM_S)
     return [
-        _compare("b at 200 mm, line through Table II", published.DAMPING_200_MM, damping * 200),
-        _compare("R^2 of Table II, gelatin", published.TABLE_II_R2_GELATIN, _r2(gelatin)),
-        _compare("R^2 of Table II, plastisol", published.TABLE_II_R2_PLASTISOL, _r2(plastisol)),
+        compare("b at 200 mm, line through Table II", published.DAMPING_200_MM, damping * 200),
+        compare("R^2 of Table II, gelatin", published.TABLE_II_R2_GELATIN, _r2(gelatin)),
+        compare("R^2 of Table II, plastisol", published.TABLE_II_R2_PLASTISOL, _r2(plastisol)),
     ]
 
 
@@ -148,7 +149,7 @@ def _slowest(system: object, count: int) -> Array:
 
 def tissue_constants() -> list[Comparison]:
     """k_t of (29)."""
-    return [_compare("k_t per mm", published.TISSUE_SPRING, tissue_stiffness_n_mm_per_rad_per_mm())]
+    return [compare("k_t per mm", published.TISSUE_SPRING, tissue_stiffness_n_mm_per_rad_per_mm())]
 
 
 def settling_s(time_s: Array, error_deg: Array, within_deg: float = SETTLED_DEG) -> float:
@@ -170,7 +171,7 @@ def integral_deg_s(time_s: Array, error_deg: Array, over_s: float = INTEGRAL_S) 
 def figure_4() -> list[Comparison]:
     """The lead of the tip after reversal: gelatin's elasticity is not stated."""
     return [
-        _compare(
+        compare(
             f"Fig. 4, 10 cm: tip turns back before the base overtakes it, {name}",
             published.REVERSAL_LEAD,
             reversal_lead_deg(tissue),
@@ -197,9 +198,9 @@ def figure_8() -> list[Comparison]:
         settled = settling_s(run.time_s, error)
         late = "" if np.isfinite(settled) else "; does not settle to 3 deg within 8.3 s"
         rows += [
-            _compare(f"Fig. 8, {kind}: within 3 deg", settle, settled, note + late),
+            compare(f"Fig. 8, {kind}: within 3 deg", settle, settled, note + late),
             *(
-                _compare(f"Fig. 8, {kind}: integral over 2 s, {reading}", integral, value, note)
+                compare(f"Fig. 8, {kind}: integral over 2 s, {reading}", integral, value, note)
                 for reading, value in (
                     ("behind the base", integral_deg_s(run.time_s, run.inputs.drive - run.tip_deg)),
                     ("short of 90 deg", integral_deg_s(run.time_s, error)),

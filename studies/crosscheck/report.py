@@ -11,8 +11,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from sim.files import refuse_existing, write_text, writing
-from studies.crosscheck import motion, paper, poles, recordings, turn
+from studies.crosscheck import motion, paper, paper_text, poles, recordings, turn
 from studies.crosscheck.findings import Findings, PoleSource
+from studies.crosscheck.linear import linear_checks
 
 FILES = (
     *("validate.json", "poles.csv", "checks.csv", "published.csv", "validate.png"),
@@ -39,8 +40,9 @@ def cross_check() -> Findings:
             motion.check_arrangements(),
             *motion.check_steady_twist(),
             *motion.check_balances(),
+            *linear_checks(),
         ],
-        comparisons=paper.compare_all(),
+        comparisons=[*paper.compare_all(), *paper_text.compare_text()],
     )
 
 

@@ -28,5 +28,5 @@ def study_gelatin(hypotheses: HypothesisSet, replay: FigureReplay) -> MaterialSt
         fits=tuple(fits),
         unattainable={},
         verdict=verdict,
-        text=compare_with_text(TEXT_FIGURES_GELATIN, as_stated[0], verdict, replay),
+        text=compare_with_text(TEXT_FIGURES_GELATIN, as_stated[0], fits, verdict, replay),
     )

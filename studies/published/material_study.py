@@ -1,10 +1,12 @@
 """One material: its figures, what was fitted to them, and what that allows to be concluded."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from models.materials import tissue_stiffness_n_mm_per_rad_per_mm, tissue_time_constant_s
 from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.experiments.replay import FigureReplay
+from studies.published.experiments.rig import PublishedRig
 from studies.published.fitting.fit import FigureFit
 from studies.published.selection.attainability import Unattainable
 from studies.published.selection.verdict import FigureVerdict
@@ -12,16 +14,24 @@ from studies.published.selection.verdict import FigureVerdict
 
 @dataclass(frozen=True, kw_only=True)
 class TextComparison:
-    """A figure that the text gives in words, beside what the stated rig and the leading fits predict.
+    """A figure that the text gives in words, beside what the stated rig and every fit predict.
 
     Attributes:
       stated: by the first stated rig, in the figure's unit.
+      yielding: by the same rig in tissue with the spring and damper of Section IV-A2.
       predicted: by each leading fit, in the verdict's order.
+      by_fit: by every fit, in the order of the study's fits.
     """
 
     figure: MeasuredFigure
     stated: float
+    yielding: float
     predicted: tuple[float, ...]
+    by_fit: tuple[float, ...]
+
+    def residual(self, value: float) -> float:
+        """A predicted value minus the published one, in standard deviations."""
+        return (value - self.figure.value) / self.figure.sigma
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,12 +67,34 @@ class MaterialStudy:
 
 
 def compare_with_text(
-    figures: Sequence[MeasuredFigure], stated: FigureFit, verdict: FigureVerdict, replay: FigureReplay
+    figures: Sequence[MeasuredFigure],
+    stated: FigureFit,
+    fits: Sequence[FigureFit],
+    verdict: FigureVerdict,
+    replay: FigureReplay,
 ) -> tuple[TextComparison, ...]:
-    """Figures of the text beside the stated rig and the leading fits."""
-    fits = (stated, *verdict.leading)
-    predicted = replay(figures, [f.hypothesis.rig(f.x) for f in fits])
+    """Figures of the text beside the stated rig, also with tissue that yields, and the fits."""
+    rig = stated.hypothesis.base
+    shown = [f.hypothesis.rig(f.x) for f in (*verdict.leading, *fits)]
+    predicted = replay(figures, [rig, _yielding(rig), *shown])
+    count = 2 + len(verdict.leading)
     return tuple(
-        TextComparison(figure=figure, stated=float(row[0]), predicted=tuple(map(float, row[1:])))
+        TextComparison(
+            figure=figure,
+            stated=float(row[0]),
+            yielding=float(row[1]),
+            predicted=tuple(map(float, row[2:count])),
+            by_fit=tuple(map(float, row[count:])),
+        )
         for figure, row in zip(figures, predicted, strict=True)
     )
+
+
+def _yielding(rig: PublishedRig) -> PublishedRig:
+    """The rig in tissue with the elasticity and creep that Section IV-A2 states."""
+    model = replace(
+        rig.model,
+        tissue_stiffness_n_mm_per_rad_per_mm=tissue_stiffness_n_mm_per_rad_per_mm(),
+        tissue_time_constant_s=tissue_time_constant_s(),
+    )
+    return replace(rig, model=model)

@@ -46,7 +46,7 @@ def study_plastisol(
         fits=fits,
         unattainable=limits,
         verdict=verdict,
-        text=compare_with_text(TEXT_FIGURES_PLASTISOL, as_stated[0], verdict, replay),
+        text=compare_with_text(TEXT_FIGURES_PLASTISOL, as_stated[0], fits, verdict, replay),
     )
 
 

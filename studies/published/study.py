@@ -6,13 +6,18 @@ from dataclasses import dataclass
 from studies.published.compensator import CompensatorFigure, compensator_figures
 from studies.published.experiments.replay import FigureReplay
 from studies.published.fitting.fit import FigureFit
+from studies.published.fitting.insertion_hypotheses import (
+    ALL_INSERTION_HYPOTHESES,
+    InsertionHypothesis,
+)
 from studies.published.gelatin_study import study_gelatin
+from studies.published.insertion_study import InsertionStudy, study_insertions
 from studies.published.material_study import MaterialStudy
 from studies.published.plastisol_study import Progress, study_plastisol
 from studies.published.selection.discrimination import ProposedExperiment, proposed_experiments
 from studies.published.selection.hypothesis_set import ALL_HYPOTHESES, HypothesisSet
 
-_PLASTISOL_BEGINS, _PLASTISOL_ENDS = 0.05, 0.93  # shares of the time
+_PLASTISOL_BEGINS, _PLASTISOL_ENDS, _INSERTIONS_BEGIN = 0.05, 0.65, 0.7  # shares of the time
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +25,7 @@ class PublishedStudy:
     """Everything that was found.
 
     Attributes:
+      insertions: Figs. 11 and 12 under hypotheses of their own.
       compensator: the figures that judge nothing, beside ours.
       proposed: experiments with plastisol, by how many hypotheses they separate.
       warnings: of fits whose simulation did not converge.
@@ -27,6 +33,7 @@ class PublishedStudy:
 
     plastisol: MaterialStudy
     gelatin: MaterialStudy
+    insertions: InsertionStudy
     compensator: tuple[CompensatorFigure, ...]
     proposed: tuple[ProposedExperiment, ...]
     warnings: tuple[str, ...]
@@ -36,13 +43,15 @@ def run_published_study(
     progress: Progress = lambda what, share: None,
     *,
     hypotheses: HypothesisSet = ALL_HYPOTHESES,
+    insertions: Sequence[InsertionHypothesis] = ALL_INSERTION_HYPOTHESES,
     compensator: Callable[[], tuple[CompensatorFigure, ...]] = compensator_figures,
 ) -> PublishedStudy:
-    """Run everything; about a minute on one core.
+    """Run everything; about a minute and a half on one core.
 
     Args:
       progress: called with what begins and the share that is done.
       hypotheses: to be fitted.
+      insertions: hypotheses on the steered insertions.
       compensator: gives the figures of the compensator.
 
     Raises:
@@ -59,10 +68,13 @@ def run_published_study(
         ),
     )
     progress("the compensator's columns", _PLASTISOL_ENDS)
+    turns = compensator()
+    progress("steered insertions", _INSERTIONS_BEGIN)
     return PublishedStudy(
         plastisol=plastisol,
         gelatin=gelatin,
-        compensator=compensator(),
+        insertions=study_insertions(replay, plastisol.verdict.accepted, hypotheses=insertions),
+        compensator=turns,
         proposed=tuple(proposed_experiments(plastisol.verdict.accepted, replay)),
         warnings=_not_converged((*gelatin.fits, *plastisol.fits), replay),
     )

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from analytic_log import change_trial, write_log
 
 from diagnosis.log.trial import SENSORS
 from diagnosis.pipeline import replay_nominal
@@ -100,3 +101,49 @@ def test_the_table_of_replay_has_a_row_for_each_trial(dry):
     rows = [len(trial.table) for trial in dry.log.trials]
     assert list(table.columns[0].cells) == [*(t.name for t in dry.log.trials), "all"]
     assert list(table.columns[1].cells) == [str(n) for n in (*rows, sum(rows))]
+
+
+@pytest.fixture
+def replay_of(tmp_path, monkeypatch, capsys, wide):
+    """Replays the analytic log with a change of both trials; exit code and what is said."""
+    log = write_log(tmp_path / "log")
+
+    def replay(change):
+        monkeypatch.setattr(replaying, "write", lambda *_, **__: None)  # its files take a second
+        for name in ("turns.csv", "slides.csv"):
+            change_trial(log, lambda t: change(t).iloc[:300], name)
+        code = main(["replay", str(log), "--out", str(tmp_path / "out")])
+        return code, "".join(capsys.readouterr())
+
+    return replay
+
+
+def test_replay_names_columns_in_radians_and_newton_metres_once(replay_of):
+    rad = {name: np.pi / 180 for name in ("base_angle_deg", "tip_angle_deg")}
+    factors = rad | {"base_torque_n_mm": 1e-3}
+    code, said = replay_of(lambda t: t.assign(**{name: f * t[name] for name, f in factors.items()}))
+    assert code == 0
+    for column in factors:
+        assert len(re.findall(rf"warning: turns\.csv, slides\.csv: {column} scatters by", said)) == 1
+        assert f"{column}: the readings scatter" not in said
+
+
+def test_replay_refuses_an_angle_that_wraps(replay_of):
+    code, said = replay_of(lambda t: t.assign(base_angle_deg=(t["base_angle_deg"] + 45) % 180 - 90))
+    assert code == 2
+    assert "base_angle_deg wraps" in said
+    assert "numpy.unwrap(values, period=180)" in said
+
+
+def test_diagnose_tells_warnings_of_the_log_before_anything_is_simulated(tmp_path, monkeypatch, capsys):
+    log = write_log(tmp_path / "log")
+    change_trial(log, lambda t: t.assign(tip_angle_deg=np.radians(t["tip_angle_deg"])))
+
+    def simulated(*_, **__):
+        raise RuntimeError("simulated")
+
+    monkeypatch.setattr(command, "diagnose", simulated)
+    with pytest.raises(RuntimeError, match="simulated"):
+        main(["diagnose", str(log)])
+    said = " ".join(capsys.readouterr().err.split())
+    assert "warning: turns.csv: tip_angle_deg scatters by" in said

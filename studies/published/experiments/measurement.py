@@ -32,6 +32,8 @@ class Quantity(StrEnum):
     """Lag after the retraction over lag before it."""
     SETTLING = "settling"
     """Time until the tip stays within 3 deg of 90 deg, s."""
+    ERROR_LEFT = "error left"
+    """90 deg minus the tip when the observation of a quick turn ends, deg."""
     INTEGRAL = "integral"
     """Of 90 deg minus the tip, over 2 s, signed, s deg."""
 

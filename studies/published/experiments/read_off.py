@@ -27,6 +27,7 @@ def read_off(experiment: TurnExperiment, run: Run, rig: PublishedRig) -> Quantit
 def _of_quick_turn(time_s: Array, error_deg: Array) -> Quantities:
     return {
         Quantity.SETTLING: interpolated_settling_s(time_s, error_deg),
+        Quantity.ERROR_LEFT: float(error_deg[-1]),
         Quantity.INTEGRAL: integral_deg_s(time_s, error_deg, INTEGRAL_S),
     }
 

@@ -3,11 +3,15 @@
 import math
 from typing import Any
 
+from models import published
 from studies.published.compensator import CompensatorFigure
 from studies.published.criteria import RELATIVE_SIGMA
 from studies.published.experiments.measurement import MeasuredFigure
+from studies.published.experiments.text_figures import TEXT_FIGURES_PLASTISOL
 from studies.published.fitting.fit import FigureFit
+from studies.published.insertion_study import InsertionStudy
 from studies.published.material_study import MaterialStudy, TextComparison
+from studies.published.report.insertion_tables import insertion_sentences
 from studies.published.report.limitations import limitations
 from studies.published.report.sentences import next_experiment, verdict_sentence
 from studies.published.report.values import fitted_values
@@ -36,6 +40,7 @@ def as_json(study: PublishedStudy) -> dict[str, Any]:
         "table_v_damping_share": [
             _quick_damping(f.hypothesis.base.free_mm) for f in study.plastisol.stated
         ],
+        "insertions": _insertions(study.insertions),
         "compensator": [_compensator(c) for c in study.compensator],
         "next_experiments": [_proposed(p) for p in study.proposed],
         "next_experiment": next_experiment(study),
@@ -95,6 +100,7 @@ def _fit(fit: FigureFit, study: MaterialStudy) -> dict[str, Any]:
         "left_out_missed_spreads": [float(z) for z in fit.left_out],
         "still_open": [f.name for f in unresolved(fit)],
         "cannot_close": [f.name for f in study.unattainable.get(fit.hypothesis, ())],
+        "in_words": {c.figure.name: c.by_fit[study.fits.index(fit)] for c in study.text},
     }
 
 
@@ -104,6 +110,7 @@ def _text(comparison: TextComparison) -> dict[str, Any]:
         "published": comparison.figure.value,
         "unit": comparison.figure.unit,
         "stated": comparison.stated,
+        "stated_yielding_tissue": comparison.yielding,
         "accepted": list(comparison.predicted),
     }
 
@@ -111,6 +118,31 @@ def _text(comparison: TextComparison) -> dict[str, Any]:
 def _quick_damping(free_mm: float) -> dict[str, float]:
     found = quick_damping(free_mm)
     return {"free_mm": found.free_mm, "value": found.ratio, "spread": found.sigma}
+
+
+def _insertions(study: InsertionStudy) -> dict[str, Any]:
+    published_mm = (published.FIG_12_BASE_ONLY.value, published.FIG_12_COMPENSATED.value)
+    return {
+        "published_mm": dict(zip(("base_only", "compensated"), published_mm, strict=True)),
+        "half_turns": "to and fro",
+        "stated_one_way_mm": dict(zip(("base_only", "compensated"), study.one_way_mm, strict=True)),
+        "sentences": insertion_sentences(study),
+        "hypotheses": [
+            {
+                "name": p.hypothesis.name,
+                "basis": p.hypothesis.basis,
+                "value": _finite(p.value),
+                "unit": p.hypothesis.parameter.unit if p.hypothesis.parameter else "",
+                "base_only_mm": p.alone_mm,
+                "compensated_mm": p.compensated_mm,
+                "rms_residual": p.rms_residual,
+                "meets_both": p.meets_both,
+                "in_words": {f.name: v for f, v in zip(TEXT_FIGURES_PLASTISOL, p.text, strict=True)},
+                "worse_than_stated": list(study.worsened(p)),
+            }
+            for p in study.predictions
+        ],
+    }
 
 
 def _compensator(figure: CompensatorFigure) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from diagnosis.report.html_parts import bullets, document, heading, paragraph, picture, table, warnings
 from studies.published.material_study import MaterialStudy
+from studies.published.report.insertion_tables import insertion_sentences, insertion_table
 from studies.published.report.limitations import limitations
 from studies.published.report.pictures import draw_fits, draw_quick_turns, draw_residuals
 from studies.published.report.sentences import next_experiment, verdict_sentence
@@ -11,6 +12,7 @@ from studies.published.report.tables import (
     figure_table,
     mechanism_table,
     proposed_table,
+    text_ranking_table,
     text_table,
 )
 from studies.published.study import PublishedStudy
@@ -20,6 +22,7 @@ _SIGMA = (
     "for its columns, rounding and 5 % for Tables IV and V."
 )
 _COMPENSATOR = "The paper states neither the compensator's gains nor its motor; those here are our own."
+_NEAREST = "Fits to the tables that come nearest to these figures, which none of them used:"
 _RESIDUALS_ALT = (
     "Bars: simulated minus published over σ for the {count} figures of {material}, by the stated model "
     "and the leading explanations. The stated model is up to {largest:.0f} σ off; 2 σ are shaded."
@@ -49,6 +52,11 @@ def page(study: PublishedStudy) -> str:
             *_mechanisms(plastisol),
             heading("Figures in the paper's text"),
             _table(text_table(plastisol)),
+            paragraph(_NEAREST),
+            _table(text_ranking_table(plastisol)),
+            heading("Steered insertions"),
+            bullets(insertion_sentences(study.insertions)),
+            _table(insertion_table(study.insertions)),
             heading("Experiments that would separate the explanations"),
             paragraph(next_experiment(study)),
             _table(proposed_table(study)),

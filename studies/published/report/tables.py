@@ -3,8 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from studies.published.experiments.measurement import MeasuredFigure
-from studies.published.fitting.fit import FigureFit
+from studies.published.fitting.fit import FigureFit, rms
 from studies.published.material_study import MaterialStudy
 from studies.published.report.values import fitted_values, names_in_words, percent, value_text
 from studies.published.selection.twist_constraint import contradiction
@@ -12,6 +14,7 @@ from studies.published.selection.verdict import unresolved
 from studies.published.study import PublishedStudy
 
 _MOST_PAIRS = 12
+_MOST_RANKED = 10
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,14 +128,44 @@ def text_table(study: MaterialStudy) -> TextTable:
     fits = study.verdict.leading
     names = [names_in_words(f.hypothesis.names) + _free_length(f, study, before=", ") for f in fits]
     return TextTable(
-        head=("figure", "in the text", "stated", *names),
+        head=("figure", "in the text", "stated", "stated, tissue yields", *names),
         rows=tuple(
             (
                 comparison.figure.name,
                 f"about {comparison.figure.value:g} {comparison.figure.unit}",
-                *(value_text(comparison.figure, v) for v in (comparison.stated, *comparison.predicted)),
+                *(
+                    value_text(comparison.figure, v)
+                    for v in (comparison.stated, comparison.yielding, *comparison.predicted)
+                ),
             )
             for comparison in study.text
+        ),
+    )
+
+
+def text_ranking_table(study: MaterialStudy) -> TextTable:
+    """The mechanisms whose fits to the tables come nearest to the text's figures, nearest first."""
+    misses = [
+        rms(np.array([c.residual(c.by_fit[i]) for c in study.text])) for i in range(len(study.fits))
+    ]
+    nearest = sorted(range(len(study.fits)), key=misses.__getitem__)[:_MOST_RANKED]
+    return TextTable(
+        head=(
+            "mechanism",
+            "free length",
+            *(f"{c.figure.name} ({c.figure.value:g} {c.figure.unit})" for c in study.text),
+            "rms of these / σ",
+            "rms of the tables / σ",
+        ),
+        rows=tuple(
+            (
+                _starred(study.fits[i], study),
+                _free_length(study.fits[i], study),
+                *(value_text(c.figure, c.by_fit[i]) for c in study.text),
+                f"{misses[i]:.1f}",
+                f"{study.fits[i].rms_residual:.2f}",
+            )
+            for i in nearest
         ),
     )
 

@@ -25,6 +25,11 @@ def value_text(measurement: TurnMeasurement, value: float) -> str:
     return f"{value:.3g}"
 
 
+def deviation_text(value_mm: float) -> str:
+    """A deviation in mm, to a tenth."""
+    return f"{value_mm:.1f} mm"
+
+
 def percent(share: float, digits: int = 0) -> str:
     """A share in percent, with the sign."""
     return f"{100 * share:.{digits}f} %"

@@ -42,9 +42,37 @@ def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypat
     assert advise(PROBLEM, UNDECIDED, LEFT).startswith(said)
 
 
+@pytest.mark.parametrize(
+    ("sliding", "said"),
+    [
+        (7.5, "no turn of the base alone would tell tip_drag from entry_friction; if the rig can slide"),
+        (1.0, "no run that this rig can do would tell"),
+    ],
+)
+def test_sliding_is_asked_of_a_rig_without_an_axis_only_where_no_turn_tells(monkeypatch, sliding, said):
+    def best(problem, one, other, feasible):
+        run = next(iter(feasible))
+        return Proposal(experiment=run, separation=sliding if "sliding" in run.words else 0.1)
+
+    monkeypatch.setattr(advice, "best_experiment", best)
+    found = advise(PROBLEM, UNDECIDED, LEFT)
+    assert found.startswith(said)
+    assert "deep" not in found
+
+
 def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
-    assert "largest in tip_angle_deg while holding" in advise(PROBLEM, unknown, LEFT)
+    slides = PreparedLog(rig=RIG, trials=(prepared(trial(turns(2.0), speed=-1.0)),))
+    said = advise(SimpleNamespace(log=slides), unknown, LEFT)
+    assert "largest in tip_angle_deg while holding" in said
+    assert "at two depths and two rates" in said
+
+
+def test_a_rig_without_depth_gets_no_advice_about_depths():
+    said = advise(PROBLEM, replace(UNDECIDED, kind=VerdictKind.UNKNOWN), LEFT)
+    assert "largest in tip_angle_deg while holding" in said
+    assert "at two rates and two amplitudes, with reversals and with rests" in said
+    assert "depth" not in said
 
 
 def test_where_nothing_is_left_to_tell_apart_nothing_is_said():

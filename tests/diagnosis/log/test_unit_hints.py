@@ -5,7 +5,7 @@ from analytic_log import change_trial, refusal, renamed
 
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import COLUMNS
-from diagnosis.log.unit_hints import look_alike
+from diagnosis.log.unit_hints import look_alike, unit_off_by
 
 NAMES = [
     ("tip_angle_deg", "tip_angle_rad", "multiply it by 57.2958 and rename it"),
@@ -46,3 +46,19 @@ def test_a_look_alike_belongs_to_the_name_that_it_is_most_like():
     assert found is not None
     assert found.factor == 1000
     assert look_alike(["tip_torque_nm"], "base_torque_n_mm", COLUMNS) is None
+
+
+@pytest.mark.parametrize(
+    ("column", "factor", "unit"),
+    [
+        ("tip_angle_deg", 60.0, "rad"),
+        ("base_angle_deg", 0.05, "mrad"),
+        ("base_torque_n_mm", 900.0, "N m"),
+        ("base_torque_n_mm", 11.0, "N cm"),
+        ("tip_angle_deg", 1000.0, None),
+        ("base_torque_n_mm", 100.0, None),
+    ],
+)
+def test_a_factor_tells_a_unit_within_half_and_twice(column, factor, unit):
+    found = unit_off_by(column, factor)
+    assert (found.name if found else None) == unit

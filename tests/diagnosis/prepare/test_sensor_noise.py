@@ -57,3 +57,29 @@ def test_the_quietest_trial_tells_the_encoders_noise():
     rng = np.random.default_rng(3)
     loud, quiet = (trial(turns() + rng.normal(0, s * BASE, turns().size)) for s in (9.0, 4.0))
     assert base_noise_deg(RIG, [loud, quiet]) == pytest.approx(4 * BASE, rel=0.16)
+
+
+def test_a_residual_far_below_its_noise_names_the_units():
+    """Readings in N m with few digits: most differences are 0, so that the claim stands."""
+    coarse = np.repeat([0.0, 1e-4, 0.0, 2e-4], 500)
+    found = {"base_torque_n_mm": [coarse]}
+    noise = estimate_noise(RIG, found, BASE)
+    assert noise["base_torque_n_mm"] == TORQUE
+    (warning,) = noise.warnings
+    # rms of 0, 1, 0, 2 in 1e-4 N mm, over 0.01.
+    assert warning.startswith(
+        "base_torque_n_mm: the nominal rig misses the readings by 0.011 of their noise"
+    )
+    assert "check the units of base_torque_n_mm and base_angle_deg" in warning
+
+
+def test_an_encoder_that_scatters_otherwise_is_told():
+    (warning,) = estimate_noise(RIG, residuals(), 5 * BASE).warnings
+    assert "base_angle_deg: the readings scatter by 0.1, rig.yaml claims 0.02" in warning
+
+
+def test_what_was_told_when_the_log_was_read_is_not_told_again():
+    claims = RIG.sensors.but(tip_angle_noise_deg=40 * TIP)
+    rig = RIG.but(sensors=claims)
+    assert len(estimate_noise(rig, residuals(), BASE).warnings) == 1
+    assert estimate_noise(rig, residuals(), BASE, told=["tip_angle_deg"]).warnings == ()

@@ -12,6 +12,7 @@ from studies.published.experiments.replay import FigureReplay
 from studies.published.experiments.rig import WITH_FREE_LENGTH, WITHOUT_FREE_LENGTH, PublishedRig
 from studies.published.fitting.fitter import FigureFitter
 from studies.published.fitting.hypothesis import of_gelatin, of_plastisol
+from studies.published.fitting.insertion_hypotheses import ALL_INSERTION_HYPOTHESES
 from studies.published.selection.hypothesis_set import HypothesisSet
 from studies.published.study import run_published_study
 
@@ -27,6 +28,11 @@ FEW_HYPOTHESES = HypothesisSet(
     pairs=lambda alone: [of_plastisol(WITHOUT_FREE_LENGTH, "base_servo", "shear_thinning")],
     gelatin=(of_gelatin("coulomb_friction"), of_gelatin("torque_bias")),
 )
+FEW_INSERTIONS = [
+    h
+    for h in ALL_INSERTION_HYPOTHESES
+    if h.name in ("stated", "no friction at all", "larger damping") or "330 mm" in h.basis
+]
 
 
 @pytest.fixture(scope="session")
@@ -41,6 +47,7 @@ def study(progress):
     return run_published_study(
         lambda what, share: progress.append((what, share)),
         hypotheses=FEW_HYPOTHESES,
+        insertions=FEW_INSERTIONS,
         compensator=lambda: (COMPENSATOR,),
     )
 

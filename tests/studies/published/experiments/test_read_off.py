@@ -41,6 +41,7 @@ def test_a_quick_turn_is_judged_by_what_its_sensor_shows():
     # 2 deg over 2 s; within the band of 3 deg.
     assert biased[Quantity.INTEGRAL] == pytest.approx(4.0)
     assert biased[Quantity.SETTLING] == 0.0
+    assert (exact[Quantity.ERROR_LEFT], biased[Quantity.ERROR_LEFT]) == (0.0, 2.0)
 
 
 def test_a_held_turn_shows_damping_lag_and_the_torque_that_is_held():

@@ -44,6 +44,7 @@ def test_the_keys_are_those_of_the_format(contents):
         "limits",
         "sets_that_pass_by_spread",
         "table_v_damping_share",
+        "insertions",
         "compensator",
         "next_experiments",
         "next_experiment",
@@ -74,6 +75,19 @@ def test_the_keys_are_those_of_the_format(contents):
         "left_out_missed_spreads",
         "still_open",
         "cannot_close",
+        "in_words",
+    ]
+    assert list(contents["insertions"]["hypotheses"][0]) == [
+        "name",
+        "basis",
+        "value",
+        "unit",
+        "base_only_mm",
+        "compensated_mm",
+        "rms_residual",
+        "meets_both",
+        "in_words",
+        "worse_than_stated",
     ]
     assert list(contents["next_experiments"][0]) == [
         "experiment",
@@ -84,3 +98,15 @@ def test_the_keys_are_those_of_the_format(contents):
         "predicted",
         "tells_apart",
     ]
+
+
+def test_the_insertions_stand_beside_12_and_4_mm(contents):
+    found = contents["insertions"]
+    assert found["published_mm"] == {"base_only": 12.0, "compensated": 4.0}
+    by_name = {h["name"]: h for h in found["hypotheses"]}
+    # The numbers of docs/published-figures.md.
+    assert by_name["stated"]["base_only_mm"] == pytest.approx(6.5, abs=0.05)
+    assert by_name["stated"]["compensated_mm"] == pytest.approx(1.9, abs=0.06)
+    assert by_name["larger damping"]["value"] == pytest.approx(3.25, abs=0.02)
+    assert by_name["larger damping"]["worse_than_stated"][0] == "Fig. 3, lag, 10 cm"
+    assert by_name["longer shaft"]["meets_both"]

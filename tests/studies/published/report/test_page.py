@@ -30,4 +30,4 @@ def test_every_picture_says_what_it_shows(html):
 def test_both_materials_have_their_tables(html):
     assert html.index("Table IV, settling, 5 cm") < html.index("Gelatin")
     assert html.index("Table II, held torque, 2.5 cm") > html.index("Gelatin")
-    assert html.count("<table>") == 8
+    assert html.count("<table>") == 10

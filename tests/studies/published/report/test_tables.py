@@ -8,12 +8,13 @@ from studies.published.report.tables import (
     figure_table,
     mechanism_table,
     proposed_table,
+    text_ranking_table,
     text_table,
 )
 
 
 def test_every_table_has_as_many_cells_in_each_row_as_columns(study):
-    tables = [proposed_table(study), compensator_table(study)]
+    tables = [proposed_table(study), compensator_table(study), text_ranking_table(study.plastisol)]
     for material in (study.plastisol, study.gelatin):
         tables += [
             make(material) for make in (figure_table, mechanism_table, accepted_table, text_table)
@@ -48,3 +49,11 @@ def test_the_compensators_figures_are_printed_with_their_ratio(study):
     assert compensator_table(study).rows == (
         ("Table IV, feedback, 5 cm", "no free length", "0.5 s", "0.25", "0.50"),
     )
+
+
+def test_fits_are_ranked_by_the_figures_that_none_of_them_used(study):
+    table = text_ranking_table(study.plastisol)
+    misses = [float(row[-2]) for row in table.rows]
+    assert misses == sorted(misses)
+    assert len(table.rows) == len(study.plastisol.fits)
+    assert {row[0] for row in table.rows} == {"base_servo", "base_servo and shear_thinning *"}

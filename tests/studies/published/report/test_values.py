@@ -2,6 +2,7 @@
 
 from studies.published.experiments.figures import plastisol
 from studies.published.report.values import (
+    deviation_text,
     fitted_values,
     names_in_words,
     percent,
@@ -21,6 +22,7 @@ def test_sets_of_mechanisms_and_shares_are_said_in_words(study):
     assert names_in_words(()) == "nothing"
     assert names_in_words(("a", "b")) == "a and b"
     assert (percent(0.056, 1), percent(0.3)) == ("5.6 %", "30 %")
+    assert deviation_text(6.507) == "6.5 mm"
     (alone,) = study.plastisol.singles()
     assert with_free_length(alone) == "base_servo (no free length)"
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from analytic_log import (
     CORNERS,
-    STEP_S,
     TIP,
     TURNS,
     behind,
@@ -18,9 +17,9 @@ from analytic_log import (
     table,
 )
 
-from diagnosis.log.consistency import misfit
+from diagnosis.log.checks.consistency import refuse_contradictions
 from diagnosis.log.rig_log import read_rig_log
-from diagnosis.log.trial import UnusableLog
+from diagnosis.log.trial import Trial, UnusableLog
 
 CONTRADICTIONS = [
     (
@@ -80,9 +79,6 @@ LEGITIMATE = {
     "a slow sensor that is held": TURNS.assign(
         tip_angle_deg=TURNS["tip_angle_deg"].iloc[np.arange(1200) // 30 * 30].to_numpy()
     ),
-    "a smooth sensor": TURNS.assign(
-        tip_angle_deg=TURNS["tip_angle_deg"].rolling(40, min_periods=1).mean().round(1)
-    ),
     "empty cells": TURNS.assign(tip_angle_deg=TURNS["tip_angle_deg"].where(TURNS.index % 3 == 0)),
     "seconds of the day": TURNS.assign(time_s=1.7e9 + TURNS["time_s"]),
     "a pulse of the base": TURNS.assign(
@@ -92,6 +88,17 @@ LEGITIMATE = {
 }
 
 
+def test_angles_in_radians_are_not_taken_for_swapped(log):
+    """Their torque is far beyond the twist, and would fit the tip's place."""
+    strong = TURNS.assign(
+        base_angle_deg=np.radians(TURNS["base_angle_deg"]),
+        tip_angle_deg=np.radians(TURNS["tip_angle_deg"]),
+        base_torque_n_mm=20 * TURNS["base_torque_n_mm"],
+    )
+    strong.to_csv(log / "turns.csv", index=False)
+    assert any("angles in rad" in warning for warning in read_rig_log(log).warnings)
+
+
 @pytest.mark.parametrize("what", LEGITIMATE)
 def test_what_a_rig_may_well_do_raises_no_alarm(log, what):
     """Negative controls of every check."""
@@ -99,10 +106,11 @@ def test_what_a_rig_may_well_do_raises_no_alarm(log, what):
     assert read_rig_log(log).warnings == ()
 
 
-def test_a_lagging_copy_is_explained_by_a_gain_above_zero_only():
-    base = TURNS["base_angle_deg"].to_numpy()
-    tip = TURNS["tip_angle_deg"].to_numpy()
-    same, opposite = misfit(base, tip, STEP_S)
-    assert same < 0.02
-    assert opposite > 0.6
-    assert misfit(base, -tip, STEP_S) == pytest.approx((opposite, same))
+def test_a_tip_that_is_driven_may_turn_against_the_base(log):
+    (rig, trial) = (read_rig_log(log).rig, read_rig_log(log).trials[0])
+    backwards = trial.table.assign(tip_angle_deg=-trial.table["tip_angle_deg"])
+    claims = (rig.sensors.by_column(), rig.rigidity_n_mm2)
+    with pytest.raises(UnusableLog, match="opposite way"):
+        refuse_contradictions(log, Trial(name="turns.csv", table=backwards), *claims)
+    driven = backwards.assign(tip_torque_n_mm=0.5)
+    refuse_contradictions(log, Trial(name="turns.csv", table=driven), *claims)

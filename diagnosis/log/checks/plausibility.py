@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     COMMON_PAUSES,
-    LEAST_FREE_SHAFT_MM,
-    LENGTH_SLACK,
-    LENGTH_SLACK_MM,
+    LARGE_TURN_DEG,
     PAUSE_STEPS,
     PAUSE_STEPS_UNEVEN,
     REST_SAMPLES,
@@ -22,41 +20,29 @@ from diagnosis.criteria import (
     TIP_QUIET,
     TIP_TURNS_AT_LEAST,
     TIP_TURNS_AT_MOST,
-    TORQUE_OVER_TWIST,
     TURN_LEAST_DEG,
     TURN_LEAST_SIGMA,
     UNEVEN_QUARTILES,
 )
+from diagnosis.log.checks.lengths import length_warnings
+from diagnosis.log.checks.wording import listed
 from diagnosis.log.sensor_faults import lines, quantum, scatter
 from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]
 
+_ANGLES = ("base_angle_deg", "tip_angle_deg")
 
-def plausibility_warnings(
-    trials: Sequence[Trial], noise: Mapping[str, float], rigidity_n_mm2: float
-) -> list[str]:
-    """Warnings about usable trials, given claimed noise by column and nominal rigidity."""
-    found = _too_much_torque(trials, rigidity_n_mm2)
+
+def plausibility_warnings(trials: Sequence[Trial], noise: Mapping[str, float]) -> list[str]:
+    """Warnings about usable trials, given claimed noise by column."""
+    found = []
     for trial in trials:
-        found += [*_gaps(trial), *_lengths(trial), *_other_angle_units(trial, noise)]
+        found += [*_gaps(trial), *length_warnings(trial), *_other_angle_units(trial, noise)]
     for name, claim in noise.items():
         having = [trial for trial in trials if trial.has(name)]
         found += [*_coarse(name, having, claim), *_free_of_noise(name, having, claim)]
     return [*found, *_absent(trials), *_not_at_rest(trials, noise)]
-
-
-def torque_over_twist(
-    base_angle_deg: Array, tip_angle_deg: Array, torque_n_mm: Array, stiffness_n_mm_per_rad: float
-) -> float:
-    """The largest torque over what the largest twist gives a spring of that stiffness."""
-    twist = np.nanmax(np.abs(np.radians(base_angle_deg - tip_angle_deg)), initial=1e-9)
-    return float(np.nanquantile(np.abs(torque_n_mm), 0.99) / (stiffness_n_mm_per_rad * twist))
-
-
-def stiffest_n_mm_per_rad(trial: Trial, rigidity_n_mm2: float) -> float:
-    """Torsional stiffness of the shaft that is free at least: tissue holds the rest."""
-    return rigidity_n_mm2 / max(float(trial["free_mm"].min()), LEAST_FREE_SHAFT_MM)
 
 
 def _gaps(trial: Trial) -> list[str]:
@@ -74,67 +60,21 @@ def _gaps(trial: Trial) -> list[str]:
     ]
 
 
-def _lengths(trial: Trial) -> list[str]:
-    """Free length and axial speed: the one shrinks by what the other goes in."""
-    travel = travelled_mm(trial)
-    shrunk = trial["free_mm"][0] - trial["free_mm"]
-    slack = LENGTH_SLACK_MM + LENGTH_SLACK * max(np.ptp(travel), np.ptp(shrunk))
-    if np.abs(shrunk - travel).max() <= slack:
-        return []
-    opposite = np.abs(shrunk + travel).max() <= slack
-    fix = "speed_mm_s seems to have the wrong sign" if opposite else "check units and zero of both"
-    end = int(np.argmax(np.abs(travel) + np.abs(shrunk)))
-    return [
-        f"{trial.name}: free_mm and speed_mm_s disagree: by line {end + 2} speed_mm_s adds up to "
-        f"{travel[end]:.3g} mm into the tissue, and free_mm has changed by {-shrunk[end]:.3g} mm "
-        f"instead of {-travel[end]:.3g}; {fix}; both are used as they are"
-    ]
-
-
-def travelled_mm(trial: Trial) -> Array:
-    """Axial travel into the tissue since the start, from the speed, mm."""
-    speed = trial["speed_mm_s"]
-    parts = np.diff(trial["time_s"]) * (speed[1:] + speed[:-1]) / 2
-    return np.concatenate(([0.0], np.cumsum(parts)))
-
-
-def _too_much_torque(trials: Sequence[Trial], rigidity_n_mm2: float) -> list[str]:
-    both = [trial for trial in trials if all(trial.has(sensor) for sensor in SENSORS)]
-    ratios = {
-        trial.name: torque_over_twist(
-            trial["base_angle_deg"],
-            trial["tip_angle_deg"],
-            trial["base_torque_n_mm"],
-            stiffest_n_mm_per_rad(trial, rigidity_n_mm2),
-        )
-        for trial in both
-    }
-    high = {name: ratio for name, ratio in ratios.items() if ratio > TORQUE_OVER_TWIST}
-    if not high:
-        return []
-    worst = max(high, key=lambda name: high[name])
-    return [
-        f"{_listed(high)}: base_torque_n_mm is up to {high[worst]:.3g} times what twists the nominal "
-        f"needle from base_angle_deg to tip_angle_deg ({worst}); check units and order of the three, "
-        "and diameter_mm and shear_modulus_gpa in rig.yaml"
-    ]
-
-
 def _other_angle_units(trial: Trial, noise: Mapping[str, float]) -> list[str]:
     """The tip turns as the base does in other units: far more, or far less, noise and all."""
-    turned = float(np.ptp(trial["base_angle_deg"]))
-    if not trial.has("tip_angle_deg") or turned < max(
-        TURN_LEAST_DEG, TURN_LEAST_SIGMA * noise["base_angle_deg"]
-    ):
+    if not trial.has("tip_angle_deg") or trial.tip_is_loaded:
         return []
-    tip = trial["tip_angle_deg"]
-    ratio = float(np.nanmax(tip) - np.nanmin(tip)) / turned
-    quiet = scatter(tip) < TIP_QUIET * noise["tip_angle_deg"]
+    base, tip = (float(np.nanmax(a) - np.nanmin(a)) for a in map(trial.__getitem__, _ANGLES))
+    turns = base >= max(TURN_LEAST_DEG, TURN_LEAST_SIGMA * noise["base_angle_deg"])
+    if not turns and tip < max(LARGE_TURN_DEG, TURN_LEAST_SIGMA * noise["tip_angle_deg"]):
+        return []
+    ratio = tip / max(base, 1e-9)
+    quiet = scatter(trial["tip_angle_deg"]) < TIP_QUIET * noise["tip_angle_deg"]
     if TIP_TURNS_AT_LEAST < ratio < TIP_TURNS_AT_MOST or (ratio < 1 and not quiet):
         return []
     return [
-        f"{trial.name}: tip_angle_deg turns {ratio:.3g} times as far as base_angle_deg; "
-        "is one of the two in radians? then multiply it by 57.2958"
+        f"{trial.name}: tip_angle_deg turns {ratio:.3g} times as far as base_angle_deg; check the unit "
+        f"of {_ANGLES[ratio < 1]} (radians: multiply it by 57.2958)"
     ]
 
 
@@ -160,7 +100,7 @@ def _absent(trials: Sequence[Trial]) -> list[str]:
     for sensor in SENSORS:
         without = [trial.name for trial in trials if not trial.has(sensor)]
         if 0 < len(without) < len(trials):
-            found.append(f"{_listed(without)}: no reading of {sensor}; the other signals are used there")
+            found.append(f"{listed(without)}: no reading of {sensor}; the other signals are used there")
     return found
 
 
@@ -176,7 +116,7 @@ def _not_at_rest(trials: Sequence[Trial], noise: Mapping[str, float]) -> list[st
         if off:
             first = next(iter(off))
             warnings.append(
-                f"{_listed(off)}: {sensor} starts away from {meant} (by {off[first]:.3g} in {first}); "
+                f"{listed(off)}: {sensor} starts away from {meant} (by {off[first]:.3g} in {first}); "
                 "a trial should start untwisted and at rest, but an offset of the sensor looks the same"
             )
     return warnings
@@ -193,9 +133,3 @@ def _offset(trial: Trial, sensor: str, noise: Mapping[str, float]) -> float:
     if read.size == 0 or not one > 0 or abs(read.mean()) <= REST_SIGMA * one / np.sqrt(read.size):
         return 0.0
     return float(read.mean())
-
-
-def _listed(names: Mapping[str, float] | Sequence[str]) -> str:
-    shown = list(names)[:4]
-    more = len(names) - len(shown)
-    return ", ".join(shown) + (f" and {more} more" if more else "")

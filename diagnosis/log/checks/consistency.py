@@ -7,13 +7,11 @@ friction, play, delays and gains of a real rig are far from them.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from diagnosis.criteria import (
     BACKWARD_SHARE,
@@ -29,30 +27,13 @@ from diagnosis.criteria import (
     UNEXPLAINED_OPPOSITE,
     UNEXPLAINED_SAME,
 )
-from diagnosis.log.plausibility import stiffest_n_mm_per_rad, torque_over_twist, travelled_mm
+from diagnosis.log.checks.binned_trial import BinnedTrial, binned, misfit
+from diagnosis.log.checks.torque_scale import stiffest_n_mm_per_rad, torque_over_twist
+from diagnosis.log.checks.travel import travelled_mm
 from diagnosis.log.sensor_faults import scatter
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 
 Array = NDArray[np.float64]
-
-_BINS = 1500
-_LAGS_S = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
-_DELAYS_S = (0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
-
-
-@dataclass(frozen=True, kw_only=True)
-class BinnedTrial:
-    """A trial in equal bins of time.
-
-    Attributes:
-      base_angle_deg, tip_angle_deg, base_torque_n_mm: means of the bins; empty if not measured.
-      bin_s: length of a bin.
-    """
-
-    base_angle_deg: Array
-    tip_angle_deg: Array
-    base_torque_n_mm: Array
-    bin_s: float
 
 
 def refuse_contradictions(
@@ -71,60 +52,14 @@ def refuse_contradictions(
     """
     _refuse_swapped_noise(path, trial, noise)
     _refuse_swapped_lengths(path, trial)
-    if trial.has("tip_torque_n_mm") and np.nanmax(np.abs(trial["tip_torque_n_mm"])) > 0:
+    if trial.tip_is_loaded:
         return  # the tip may be driven as well
-    turning = _binned(trial)
+    turning = binned(trial)
     if turning.tip_angle_deg.size and turning.base_torque_n_mm.size:
         _refuse_swapped_torque(path, turning, stiffest_n_mm_per_rad(trial, rigidity_n_mm2))
     _refuse_swapped_angles(path, turning)
     _refuse_opposite_angles(path, turning)
     _refuse_negative_work(path, turning)
-
-
-def misfit(driving: Array, following: Array, bin_s: float) -> tuple[float, float]:
-    """Shares of a signal's variance that lagging copies of another leave unexplained.
-
-    The copies pass a delay and a first-order lag; the better of several is taken,
-    once with gains above 0, once with gains below.
-    """
-    least = {True: 1.0, False: 1.0}
-    wanted = following - following.mean()
-    for lag_s in _LAGS_S:
-        gain = 1 - np.exp(-bin_s / lag_s) if lag_s else 1.0
-        lagged = lfilter([gain], [1, gain - 1], driving - driving[0])
-        for delay_s in _DELAYS_S:
-            shift = min(round(delay_s / bin_s), lagged.size)
-            copy = np.concatenate((np.zeros(shift), lagged[: lagged.size - shift]))
-            copy -= copy.mean()
-            product, size = copy @ wanted, (copy @ copy) * (wanted @ wanted)
-            if size > 0:
-                same = bool(product > 0)
-                least[same] = min(least[same], 1 - product**2 / size)
-    return float(least[True]), float(least[False])
-
-
-def _binned(trial: Trial) -> BinnedTrial:
-    time = trial["time_s"]
-    count = min(_BINS, time.size // 2)
-    bin_s = float(time[-1] - time[0]) / count
-    index = np.minimum(((time - time[0]) / bin_s).astype(int), count - 1)
-
-    def means(column: str) -> Array:
-        if not trial.has(column):
-            return np.zeros(0)
-        values = trial[column]
-        good = np.isfinite(values)
-        number = np.bincount(index[good], minlength=count)
-        filled = np.flatnonzero(number)
-        sums = np.bincount(index[good], values[good], count)[filled]
-        return np.interp(np.arange(count), filled, sums / number[filled])
-
-    return BinnedTrial(
-        base_angle_deg=means("base_angle_deg"),
-        tip_angle_deg=means("tip_angle_deg"),
-        base_torque_n_mm=means("base_torque_n_mm"),
-        bin_s=bin_s,
-    )
 
 
 def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) -> None:
@@ -157,6 +92,8 @@ def _refuse_swapped_torque(path: Path, turning: BinnedTrial, stiffness_n_mm_per_
         return
     orders = {"tip_angle_deg": (base, torque, tip), "base_angle_deg": (torque, tip, base)}
     for name, (base, tip, torque) in orders.items():
+        if np.ptp(base) < LARGE_TURN_DEG:
+            continue  # angles in radians, not places
         plausible = torque_over_twist(base, tip, torque, stiffness_n_mm_per_rad) < TORQUE_OVER_TWIST / 2
         if plausible and _correlation(torque, base - tip) > TWIST_CORRELATION:
             _swapped(path, name, "base_torque_n_mm", "only then does the twist give the torque")

@@ -1,0 +1,1 @@
+"""What a log is checked for once it has been read: signs, units, lengths, repeats."""

@@ -1,0 +1,93 @@
+"""Angles that start again where a turn ends: +-180 deg (360), or +-90 deg of a sensor that cannot
+tell the two ends of an axis apart (180).
+
+At a wrap the reading jumps by a period against the direction in which it moves, before and after;
+or, while it holds at the end of the range, to and fro. No motion of a needle does that: a slip
+goes on in its own direction, and a turn from one hold to another has no motion at its ends.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import (
+    GAP_STEPS,
+    WRAP_FLICKERS,
+    WRAP_MOTION_SIGMA,
+    WRAP_PERIODS_DEG,
+    WRAP_REMAINDER,
+)
+from diagnosis.log.sensor_faults import lines
+from diagnosis.log.trial import Trial, UnusableLog
+from diagnosis.log.white_noise import white_noise
+
+Array = NDArray[np.float64]
+Rows = NDArray[np.intp]
+
+_ANGLES = ("base_angle_deg", "tip_angle_deg")
+_WINDOWS = (4, 8, 20)  # samples of each half before and after a jump
+
+
+def refuse_wraps(path: Path, trial: Trial) -> None:
+    """Refuse an angle that wraps.
+
+    Raises:
+      UnusableLog: names file, column, lines, and how to unwrap it.
+    """
+    for column in (name for name in _ANGLES if trial.has(name)):
+        for period in WRAP_PERIODS_DEG:
+            rows = wraps(trial["time_s"], trial[column], period)
+            if rows.any():
+                raise UnusableLog(
+                    f"{path}: {column} wraps: it jumps by {period:g} deg against its own motion, "
+                    f"{lines(rows)}; expected an angle that counts on; unwrap it: "
+                    f"numpy.unwrap(values, period={period:g})"
+                )
+
+
+def wraps(time_s: Array, values_deg: Array, period_deg: float) -> NDArray[np.bool_]:
+    """Rows at which an angle has wrapped, (N,); none unless some jump is a wrap for certain."""
+    rows = np.zeros(values_deg.size, bool)
+    finite = np.flatnonzero(np.isfinite(values_deg))
+    read, steps = values_deg[finite], np.diff(time_s[finite])
+    if read.size < 2:
+        return rows
+    jump = np.diff(read)
+    near = np.abs(np.abs(jump) - period_deg) < WRAP_REMAINDER * period_deg
+    at = np.flatnonzero(near & (steps <= GAP_STEPS * np.median(steps)))
+    if at.size and (_moves_on(read, jump, at, period_deg) or _flickers(jump, at)):
+        rows[finite[at + 1]] = True
+    return rows
+
+
+def _moves_on(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:
+    """At one jump at least the angle moves against it, before and after."""
+    unwrapped = np.unwrap(read, period=period_deg)
+    noise = np.nan_to_num(white_noise([unwrapped], order=2))
+    for i in at.tolist():
+        for half in _WINDOWS:
+            before, after = (
+                unwrapped[max(i + 1 - 2 * half, 0) : i + 1],
+                unwrapped[i + 1 : i + 1 + 2 * half],
+            )
+            if min(before.size, after.size) < 2 * half:
+                continue
+            moved = -np.sign(jump[i]) * np.array([_advance(before), _advance(after)])
+            if moved.min() > WRAP_MOTION_SIGMA * noise * np.sqrt(2 / half):
+                return True
+    return False
+
+
+def _advance(values: Array) -> float:
+    """Mean of the second half less mean of the first."""
+    half = values.size // 2
+    return float(values[half:].mean() - values[:half].mean())
+
+
+def _flickers(jump: Array, at: Rows) -> bool:
+    """To and fro between the ends of the range again and again, each within a few samples."""
+    signs, beside = np.sign(jump[at]), np.diff(at) <= min(_WINDOWS)
+    back = beside & (signs[1:] == -signs[:-1])
+    in_a_row = np.convolve(back, np.ones(WRAP_FLICKERS), "valid") if back.size >= WRAP_FLICKERS else back
+    return bool((in_a_row >= WRAP_FLICKERS).any())
