@@ -16,7 +16,7 @@ from sim.closed_loop import Measurement
 from sim.discretisation import Discretisation
 from sim.experiment import perform
 from sim.paper_protocols import protocol_named
-from studies.control.tables import DAMPING
+from studies.control.step_response import DAMPING
 from studies.control.tip_controllers import TIP_CONTROLLERS, ControllerDesign, tip_controller_named
 
 BOUND_US = 50.0

@@ -1,17 +1,26 @@
-"""An estimator that identifies the damping from base angle and base torque.
+"""An estimator that identifies damping and torque bias from base angle and base torque.
 
-With the torque given, how fast the base turns tells the damping: the mean of the
+With the torque u given, how fast the base turns tells the damping: the mean of the
 shaft turns at u / (beta l). An extended Kalman filter on
 
-    state  (r = q_0 / 2, p_1 .. p_{n-1}, log beta)
-    dr/dt = u / (beta l) - (dl/dt) / l * (stretching),    dp/dt as in controllers.twist
+    state     (r = q_0 / 2, p_1 .. p_{n-1}, log beta, b),     u = measured torque - b
+    dynamics  dr/dt = u / (beta l) - (dl/dt) / l * (stretching),   dp/dt as in controllers.twist
     measured  base - u f / kappa - tail = r + sum (-1)^k p_k
 
-corrects modes and damping together. log beta drifts as a random walk, so that a
-change of tissue is followed.
+corrects all of them together. log beta and b drift as random walks, so that a change of
+tissue, or of the sensor's zero, is followed.
+
+**Bias.** Before the base first turns, the shaft is untwisted and carries no torque: whatever is shown
+then is bias and noise, and with a drift of 0 this is all that is made of it, as one zeroes a
+sensor. With a drift the bias stays a state of the filter. In viscous tissue it is observable: a
+base at rest needs no torque, so that a torque which is shown while nothing turns is bias (0.1 N mm
+would turn 10 cm in plastisol by 3.3 deg a second). Where tissue holds a true torque at rest, in
+dry friction for ever and in soft tissue until it has crept back, it is not observable: the filter
+then takes that torque for bias, and loses the lag that it holds.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,10 +34,12 @@ Array = NDArray[np.float64]
 
 _RAD = math.pi / 180.0
 _ONE, _NONE = np.ones(1), np.zeros(1)
+_DAMPING, _BIAS = -2, -1  # places in the state
+_FIRST_TURN_DEG = 1.0  # of the base: until then the shaft counts as untwisted
 
 
 class AdaptiveEstimator(FeedforwardEstimator):
-    """The feedforward estimator that identifies the damping online.
+    """The feedforward estimator that identifies the damping, and a torque bias, online.
 
     Args:
       needle: the shaft.
@@ -39,9 +50,12 @@ class AdaptiveEstimator(FeedforwardEstimator):
       guess_spread: relative uncertainty of the first guess (natural log).
       drift_per_s: random walk of log beta, per square root of a second.
       turn_noise_deg: unmodelled motion of the mean angle, deg per square root of a second.
+      bias_spread_n_mm: of the torque's zero before the first sample, one standard deviation.
+      bias_drift_n_mm: its random walk, N mm per square root of a second; 0: the bias is learnt until
+        the base first turns, and kept.
 
     Raises:
-      InvalidValue: a noise is not positive.
+      InvalidValue: a noise is not positive, or a spread of the bias is negative.
     """
 
     def __init__(
@@ -55,6 +69,8 @@ class AdaptiveEstimator(FeedforwardEstimator):
         guess_spread: float = 0.7,
         drift_per_s: float = 0.02,
         turn_noise_deg: float = 0.3,
+        bias_spread_n_mm: float = 0.0,
+        bias_drift_n_mm: float = 0.0,
     ) -> None:
         for name, value in (
             ("base_noise_deg", base_noise_deg),
@@ -65,23 +81,57 @@ class AdaptiveEstimator(FeedforwardEstimator):
         ):
             if not (math.isfinite(value) and value > 0):
                 raise InvalidValue(name, value, "a finite number above 0")
+        for name, value in (
+            ("bias_spread_n_mm", bias_spread_n_mm),
+            ("bias_drift_n_mm", bias_drift_n_mm),
+        ):
+            if not (math.isfinite(value) and value >= 0):
+                raise InvalidValue(name, value, "a finite number of at least 0")
+        self._bias_var, self._bias_drift = bias_spread_n_mm**2, bias_drift_n_mm
         self._guess = damping_n_mm_s_per_mm
         self._base_var, self._torque_var = (base_noise_deg * _RAD) ** 2, torque_noise_n_mm**2
         self._spread, self._drift = guess_spread, drift_per_s
         self._turn_var = (turn_noise_deg * _RAD) ** 2
         super().__init__(needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order)
-        self._row = np.concatenate([_ONE, self.twist.sign, _NONE])
+        self._row = np.concatenate([_ONE, self.twist.sign, _NONE, _NONE])
+        self._jacobian = np.eye(self._row.size)
+        self._jacobian_diagonal = np.einsum("ii->i", self._jacobian)  # a view
         # All modes count at the base: what truncation drops of them is pi^2/6 - sum 1/k^2.
         self._tail = 2 / np.pi**2 * (np.pi**2 / 6 - float((1.0 / self.twist.k**2).sum()))
 
     def reset(self) -> None:
-        """Untwisted, with the first guess of the damping."""
+        """Untwisted, with the first guess of the damping and no bias."""
         super().reset()
-        self.damping = self._guess
-        n = self.twist.k.size + 2
+        self.damping, self.torque_bias_n_mm = self._guess, 0.0
+        n = self.twist.k.size + 3
         self._mean_rad: float | None = None
         self._covariance = np.zeros((n, n))
-        self._covariance[-1, -1] = self._spread**2
+        self._covariance[_DAMPING, _DAMPING] = self._spread**2
+        self._covariance[_BIAS, _BIAS] = self._bias_var
+        self._untwisted, self._start_deg = self._bias_var > 0, math.nan
+
+    def update(self, sample: Sample) -> Estimate:
+        """Take one sample, whose torque is freed of the bias as far as that is known."""
+        if self._untwisted and sample.usable():
+            self._weigh(sample)
+        if self._bias_var == 0:
+            return super().update(sample)
+        return super().update(replace(sample, torque_n_mm=sample.torque_n_mm - self.torque_bias_n_mm))
+
+    def _weigh(self, sample: Sample) -> None:
+        """The torque of an untwisted shaft is bias and noise; the base's first turn ends it."""
+        if math.isnan(self._start_deg):
+            self._start_deg = sample.base_deg
+        self._untwisted = abs(sample.base_deg - self._start_deg) < _FIRST_TURN_DEG
+        if self._untwisted:
+            variance = self._covariance[_BIAS, _BIAS]
+            gain = variance / (variance + self._torque_var)
+            self.torque_bias_n_mm += gain * (sample.torque_n_mm - self.torque_bias_n_mm)
+            self._covariance[_BIAS, :] *= 1 - gain
+            self._covariance[:, _BIAS] *= 1 - gain
+            self._covariance[_BIAS, _BIAS] = (1 - gain) * variance
+        elif self._bias_drift == 0:
+            self._covariance[_BIAS, :] = self._covariance[:, _BIAS] = 0.0
 
     def _advance(self, last: Sample, now: Sample) -> None:
         if self._mean_rad is None:
@@ -100,26 +150,34 @@ class AdaptiveEstimator(FeedforwardEstimator):
     def _predict(self, last: Sample, now: Sample, turned: float, before: Array) -> None:
         """Covariance over one sample."""
         dt, depth = now.time_s - last.time_s, 0.5 * (last.inserted_mm + now.inserted_mm)
-        # The Jacobian is diagonal but for its last column: beta only sets the pace, so
-        # d / d log beta of a step is minus the step.
+        # The Jacobian is diagonal but for two columns. beta only sets the pace, so that
+        # d / d log beta of a step is minus the step; the bias acts as a torque.
         decay = np.exp(self.twist.poles(depth, self.damping) * dt)
-        diagonal = np.concatenate([_ONE, decay, _ONE])
-        column = np.concatenate([[-turned], before - self._p, _NONE])
-        half = diagonal[:, None] * self._covariance + column[:, None] * self._covariance[-1]
-        self._covariance = half * diagonal + half[:, -1:] * column
+        per_torque = dt / (self.damping * depth)
+        jacobian = self._jacobian
+        self._jacobian_diagonal[1:_DAMPING] = decay
+        jacobian[0, _DAMPING] = -turned
+        jacobian[1:_DAMPING, _DAMPING] = before - self._p
+        jacobian[0, _BIAS] = -per_torque
+        jacobian[1:_DAMPING, _BIAS] = (-2 * per_torque) * self.twist.sign
+        self._covariance = jacobian @ self._covariance @ jacobian.T
         self._covariance[0, 0] += self._turn_var * dt
-        self._covariance[-1, -1] += self._drift**2 * dt
+        self._covariance[_DAMPING, _DAMPING] += self._drift**2 * dt
+        self._covariance[_BIAS, _BIAS] += self._bias_drift**2 * dt
 
     def _correct(self, now: Sample) -> None:
         """The base angle as a measurement."""
+        compliance = self._compliance(now)
         row = self._row
+        row[_BIAS] = -compliance
         mean = self._mean_rad or 0.0
         innovation = now.base_deg * _RAD - mean - self._base_past_mean(now)
         spread = self._covariance @ row
-        gain = spread / (row @ spread + self._base_var + self._torque_var * self._compliance(now) ** 2)
+        gain = spread / (row @ spread + self._base_var + self._torque_var * compliance**2)
         self._mean_rad = mean + gain[0] * innovation
-        self._p = self._p + gain[1:-1] * innovation
-        self.damping *= math.exp(min(max(gain[-1] * innovation, -0.5), 0.5))
+        self._p = self._p + gain[1:_DAMPING] * innovation
+        self.damping *= math.exp(min(max(gain[_DAMPING] * innovation, -0.5), 0.5))
+        self.torque_bias_n_mm += gain[_BIAS] * innovation
         self._covariance = self._covariance - np.outer(gain, spread)
 
     def _base_past_mean(self, sample: Sample) -> float:

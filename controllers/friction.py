@@ -8,9 +8,10 @@ Dry friction holds a lag that no waiting removes. The base therefore
    (reversal has to unwind the shaft from the base on), so the tip stays and the
    torque that a later slip could release is halved;
 3. asks for a short retraction and reinsertion where the lag can be wound no further
-   (winding or torque at their limit): sliding axially frees a shaft (Section II-B3).
+   (winding at its limit, or torque for `rest_s`): sliding axially frees a shaft (Section II-B3).
 
-In viscous tissue nothing is held, and 2 and 3 do not arise.
+In viscous tissue nothing is held: a lag that still falls while the base rests is not unwound.
+Phases follow the mean error of the last 50 ms or so, since noise alone must not end one.
 """
 
 import math
@@ -22,6 +23,8 @@ from models.errors import InvalidValue
 
 _UNWOUND = 0.5  # share of the held lag that is unwound
 _HELD_LAG_DEG = 2.0  # a lag below this is not worth unwinding
+_FALLING = 0.2  # share of its lag that tissue which holds nothing loses while the base rests
+_SMOOTHING_S = 0.05
 
 
 class Phase(StrEnum):
@@ -41,7 +44,8 @@ class FrictionAware:
       winding_per_s: rate of winding on, over the tip error.
       dead_band_deg: error of the tip that is good enough.
       most_winding_deg: how far beyond the compensator's law the base may wind.
-      rest_s: time for which the tip has to stay within the dead band before the base unwinds.
+      rest_s: time for which the tip has to stay within the dead band before the base unwinds,
+        or the torque at its limit before the needle is retracted.
       retract_mm: length of a retraction; 0: never ask for one.
 
     Raises:
@@ -82,8 +86,9 @@ class FrictionAware:
         """Forget winding and phase."""
         self._base.reset()
         self.phase = Phase.WINDING
-        self._wound_deg = 0.0
-        self._rest_deg = 0.0
+        self._wound_deg = self._at_limit_s = 0.0
+        self._rest_deg = self._held_deg = 0.0
+        self._mean_error_deg = math.nan
         self._reference_deg = math.nan
         self._time_s = self._since_s = math.nan
 
@@ -93,52 +98,75 @@ class FrictionAware:
             return self._base.toward(reference_deg, sample, estimate.status)
         if reference_deg != self._reference_deg:
             self._reference_deg, self._wound_deg = reference_deg, 0.0
+            self._mean_error_deg = math.nan
             self._enter(Phase.WINDING, sample)
         dt = sample.time_s - self._time_s if math.isfinite(self._time_s) else 0.0
         self._time_s = sample.time_s
         error_deg = reference_deg - estimate.tip_deg
+        self._smooth(error_deg, dt)
         if self.phase is Phase.WINDING:
             return self._wind(reference_deg, error_deg, dt, sample, estimate)
         if self.phase is Phase.RETRACTING:
             return self._retract(reference_deg, sample, estimate)
-        return self._rest(error_deg, sample, estimate)
+        return self._rest(sample, estimate)
+
+    def _smooth(self, error_deg: float, dt: float) -> None:
+        if math.isnan(self._mean_error_deg):
+            self._mean_error_deg = error_deg
+        self._mean_error_deg -= math.expm1(-dt / _SMOOTHING_S) * (error_deg - self._mean_error_deg)
+
+    @property
+    def _lag_deg(self) -> float:
+        """Of the tip behind the base, by the mean error."""
+        return self._base.base_deg - (self._reference_deg - self._mean_error_deg)
 
     def _enter(self, phase: Phase, sample: Sample) -> None:
-        self.phase, self._since_s = phase, sample.time_s
+        self.phase, self._since_s, self._at_limit_s = phase, sample.time_s, 0.0
+        self._held_deg = self._lag_deg
 
     def _wind(
         self, reference_deg: float, error_deg: float, dt: float, sample: Sample, estimate: Estimate
     ) -> Command:
-        if abs(error_deg) <= self.dead_band_deg:
+        if abs(self._mean_error_deg) <= self.dead_band_deg:
             self._rest_deg = self._base.base_deg
             self._enter(Phase.RESTING, sample)
             return self._base.toward(self._rest_deg, sample, estimate.status)
-        near = abs(error_deg) < 10 * self.dead_band_deg
+        near = abs(self._mean_error_deg) < 10 * self.dead_band_deg
         if near:
             self._wound_deg += self.winding_per_s * error_deg * dt
         command = self._base.toward(
             reference_deg + self.gain * error_deg + self._wound_deg, sample, estimate.status
         )
-        spent = command.torque_limited or abs(self._wound_deg) >= self.most_winding_deg
+        self._at_limit_s = self._at_limit_s + dt if command.torque_limited else 0.0
+        spent = self._at_limit_s >= self.rest_s or abs(self._wound_deg) >= self.most_winding_deg
         if spent and self.retract_mm > 0:
             self._enter(Phase.RETRACTING, sample)
         return command
 
-    def _rest(self, error_deg: float, sample: Sample, estimate: Estimate) -> Command:
+    def _rest(self, sample: Sample, estimate: Estimate) -> Command:
         # Unwound, the torque no longer tells the lag that friction holds: the base waits
         # for the next reference and ignores the estimate.
         if self.phase is Phase.UNWINDING:
             return self._base.toward(self._rest_deg, sample, estimate.status)
-        if abs(error_deg) > 3 * self.dead_band_deg:
+        if abs(self._mean_error_deg) > 3 * self.dead_band_deg:
             # What has been wound so far is kept: the base goes on from where it is.
-            self._wound_deg = self._base.base_deg - self._reference_deg - self.gain * error_deg
+            self._wound_deg = (
+                self._base.base_deg - self._reference_deg - self.gain * self._mean_error_deg
+            )
             self._enter(Phase.WINDING, sample)
         elif sample.time_s - self._since_s >= self.rest_s:
-            held = self._base.base_deg - estimate.tip_deg
-            if abs(held) > _HELD_LAG_DEG:
-                self._rest_deg -= _UNWOUND * held
-            self._enter(Phase.UNWINDING, sample)
+            self._unwind(sample)
         return self._base.toward(self._rest_deg, sample, estimate.status)
+
+    def _unwind(self, sample: Sample) -> None:
+        """Half of a lag that is held; a lag that falls is watched for longer."""
+        lag = self._lag_deg
+        if abs(lag) > _HELD_LAG_DEG and abs(lag) < (1 - _FALLING) * abs(self._held_deg):
+            self._enter(Phase.RESTING, sample)
+            return
+        if abs(lag) > _HELD_LAG_DEG:
+            self._rest_deg -= _UNWOUND * lag
+        self._enter(Phase.UNWINDING, sample)
 
     def _retract(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
         """Out for a second, in for a second, with the base at the reference."""

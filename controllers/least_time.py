@@ -16,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from controllers.laws import BaseModes, Compensator, Regulator
+from controllers.laws import Compensator
 from controllers.limits import LimitedBase, MotorLimits
+from controllers.modal_lag import BaseModes
+from controllers.regulator import Regulator
 from controllers.signals import Command, Estimate, Sample, Status
 from models.drive import DriveKind
 from models.errors import InvalidValue
@@ -249,8 +251,8 @@ class _LinearProgram:
             [
                 self._error,
                 -self._error,
-                limits.torque_n_mm - torque_free,
-                limits.torque_n_mm + torque_free,
+                limits.most_torque_n_mm - torque_free,
+                limits.most_torque_n_mm + torque_free,
                 self._side * self._error + band_deg,
             ]
         )

@@ -1,14 +1,61 @@
-"""Limits of the motor, and the saturation of base commands to them."""
+"""Limits of the motor and of the shaft, and the saturation of base commands to them.
+
+A turn of the base by du within a time h twists the free shaft f and that part of the inserted
+shaft which the turn can reach in h; the rest has not moved yet. With D = kappa / beta, the
+diffusivity of (9) without inertia, a ramp over h reaches sqrt(pi D h) / 2, so that the torque that is
+to be expected is
+
+    T + k du,     k = kappa / (f + sqrt(pi D h) / 2),
+
+which errs on the safe side: the torque T of before has begun to decay. du is the turn that the
+measured torque does not show yet: the one of this sample, and where torque is shown late, all that
+was commanded meanwhile. The command goes no further than where this is at the limit.
+"""
 
 import math
+from collections import deque
 
 from controllers.signals import Command, Estimate, Sample, Status
-from models.needle import Positive
+from models.needle import Needle, NonNegative, Positive
 from models.record import Record
+
+_RAD = math.pi / 180.0
+
+
+class ShaftLimits(Record):
+    """The shear stress that a shaft may carry, and what is needed to foresee it.
+
+    No stress is a property of the paper's wire: it states none. For superelastic Nitinol the
+    assumption used in this project's studies is `SUPERELASTIC_SHEAR_MPA`.
+    """
+
+    needle: Needle
+    damping_n_mm_s_per_mm: Positive
+    shear_stress_mpa: Positive
+    lateness_s: NonNegative = 0.0
+    """From a command to a sample that shows its torque, beside the sample itself."""
+
+    @property
+    def torque_n_mm(self) -> float:
+        """The torque at which the shaft's surface has this stress."""
+        return self.needle.torque_n_mm_at(self.shear_stress_mpa)
+
+    def stiffness_n_mm_per_deg(self, free_mm: float, turn_s: float) -> float:
+        """k of the module's docstring, for a turn of some duration."""
+        kappa = self.needle.rigidity_n_mm2
+        reach_mm = 0.5 * math.sqrt(math.pi * kappa / self.damping_n_mm_s_per_mm * turn_s)
+        return kappa / (free_mm + reach_mm) * _RAD
+
+
+# An assumption, not the paper's: superelastic wire is linear up to its upper plateau strength (as
+# ASTM F2516 measures it in tension), of which 400 MPa at room temperature is a cautious value;
+# von Mises' criterion makes it 400 / sqrt(3) in shear. Beyond it the shaft transforms, and
+# equation (1) no longer holds.
+SUPERELASTIC_SHEAR_MPA = 230.0
 
 
 class MotorLimits(Record):
-    """Limits of the motor at the base.
+    """Limits of the motor at the base, and of the shaft that it turns.
 
     The rate is that of the commanded angle. Torque cannot be commanded where the base
     is a servo: at the limit, the base goes no further against the torque it feels.
@@ -16,10 +63,17 @@ class MotorLimits(Record):
 
     rate_deg_s: Positive = 1500.0
     torque_n_mm: Positive = 20.0
+    shaft: ShaftLimits | None = None
+    """None: the shaft may carry whatever the motor gives."""
+
+    @property
+    def most_torque_n_mm(self) -> float:
+        """What motor and shaft both stand."""
+        return min(self.torque_n_mm, self.shaft.torque_n_mm if self.shaft else math.inf)
 
 
 class LimitedBase:
-    """Saturates base angles to commands that the motor can follow."""
+    """Saturates base angles to commands that motor and shaft can follow."""
 
     def __init__(self, limits: MotorLimits) -> None:
         self.limits = limits
@@ -29,6 +83,7 @@ class LimitedBase:
         """Forget the last command: the next starts from the measured base."""
         self._base_deg = math.nan
         self._time_s = math.nan
+        self._sent: deque[tuple[float, float]] = deque()
 
     @property
     def base_deg(self) -> float:
@@ -48,16 +103,39 @@ class LimitedBase:
             return Command(held, status=status if status is not Status.OK else Status.BAD_SAMPLE)
         if not math.isfinite(self._base_deg):
             self._base_deg, self._time_s = sample.base_deg, sample.time_s
-        reach = self.limits.rate_deg_s * max(sample.time_s - self._time_s, 0.0)
+        passed_s = max(sample.time_s - self._time_s, 0.0)
+        reach = self.limits.rate_deg_s * passed_s
         self._time_s = sample.time_s
         change = target_deg - self._base_deg
         rate_limited = abs(change) > reach
         change = min(max(change, -reach), reach)
-        against = change * sample.torque_n_mm > 0
-        torque_limited = against and abs(sample.torque_n_mm) >= self.limits.torque_n_mm
-        if not torque_limited:
-            self._base_deg += change
-        return Command(self._base_deg, rate_limited, torque_limited, advance_mm, status)
+        allowed = self._within_torque(change, sample, passed_s)
+        self._base_deg += allowed
+        if self.limits.shaft is not None:
+            self._sent.append((sample.time_s, self._base_deg))
+        return Command(self._base_deg, rate_limited, allowed != change, advance_mm, status)
+
+    def _within_torque(self, change_deg: float, sample: Sample, passed_s: float) -> float:
+        """As much of a change as keeps the torque within the limits."""
+        if (
+            change_deg * sample.torque_n_mm > 0
+            and abs(sample.torque_n_mm) >= self.limits.most_torque_n_mm
+        ):
+            return 0.0
+        shaft = self.limits.shaft
+        if shaft is None or change_deg == 0:
+            return change_deg
+        side = math.copysign(1.0, change_deg)
+        spare_n_mm = shaft.torque_n_mm - side * sample.torque_n_mm
+        stiffness = shaft.stiffness_n_mm_per_deg(sample.free_mm, passed_s + shaft.lateness_s)
+        most = spare_n_mm / stiffness - side * self._unseen_deg(sample.time_s - shaft.lateness_s)
+        return side * min(abs(change_deg), max(most, 0.0))
+
+    def _unseen_deg(self, seen_s: float) -> float:
+        """What was commanded after a time."""
+        while len(self._sent) > 1 and self._sent[1][0] <= seen_s:
+            self._sent.popleft()
+        return self._base_deg - self._sent[0][1] if self._sent else 0.0
 
 
 def rigid_needle_estimate(sample: Sample) -> Estimate:

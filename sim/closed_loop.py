@@ -1,8 +1,9 @@
 """A needle in MuJoCo under feedback control, which acts on the base joint only.
 
-The loop runs at the step of the simulation: the controller receives the measured base angle and
-base torque of the sample (and the tip angle, if it is given a sensor for it), with sensor noise
-where wanted, and returns the base angle for the next step.
+The loop runs at the step of the simulation: the controller receives what the sensors show of
+base angle and base torque (and of the tip, if it is given a sensor for it), and returns the base
+angle that the drive is to reach by the next step. Between the controller and the needle lies the
+hardware of `sim.loop`, which is ideal unless it is said otherwise.
 """
 
 from collections.abc import Callable
@@ -14,25 +15,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models import units
+from models.drive import DriveKind
 from sim.discretisation import Mesh
 from sim.kernel import memory_map
+from sim.loop.hardware import LoopHardware
+from sim.loop.measurement import CHANNELS, Measurement, MeasurementNoise, SensorReadings
+from sim.loop.servo_loop import ServoLoop
+from sim.loop.shaft import CommandedShaft
 from sim.schedule import Schedule
 from sim.simulation import Run, compile_model, controls, initial_data
 from sim.spec import Setup
 
+__all__ = ["ClosedLoopRun", "FeedbackController", "Measurement", "MeasurementNoise", "run_closed_loop"]
+
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Measurement:
-    """What the sensors of the rig show at one sample: s, deg, N mm, mm."""
-
-    time_s: float
-    base_deg: float
-    torque_n_mm: float
-    tip_deg: float
-    inserted_mm: float
-    free_mm: float
 
 
 class FeedbackController(Protocol):
@@ -47,28 +43,29 @@ class FeedbackController(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeasurementNoise:
-    """One standard deviation of each sensor's white noise, and the seed of a run."""
-
-    base_deg: float = 0.0
-    torque_n_mm: float = 0.0
-    tip_deg: float = 0.0
-    seed: int = 0
-
-
-@dataclass(frozen=True, kw_only=True)
 class ClosedLoopRun:
     """A run under control.
 
     Attributes:
-      run: as of `sim.simulation.simulate`; its drive is the commanded base angle.
+      run: as of `sim.simulation.simulate`; its drive is what acted on the needle: the angle of the
+        drive shaft, deg, or the torque of the motor, N mm.
       reference_deg: of the tip, (N,).
+      command_deg: of the base, received from the controller at each sample, (N,).
+      measured: what the sensors showed, by the names of `sim.loop.measurement.CHANNELS`, (N,) each.
       log: signals of the controller by name, (N,) each.
     """
 
     run: Run
     reference_deg: Array
+    command_deg: Array
+    measured: dict[str, Array]
     log: dict[str, Array] = field(default_factory=dict)
+
+    @property
+    def shaft_deg(self) -> Array:
+        """Angle of the drive shaft, deg, (N,)."""
+        driven_by_angle = self.run.setup.drive.kind is DriveKind.ANGLE
+        return self.run.inputs.drive if driven_by_angle else self.run.base_deg
 
 
 def run_closed_loop(
@@ -77,6 +74,7 @@ def run_closed_loop(
     controller: FeedbackController,
     *,
     noise: MeasurementNoise | None = None,
+    hardware: LoopHardware | None = None,
     log: Callable[[], dict[str, float]] | None = None,
     keep_shape: bool = False,
 ) -> ClosedLoopRun:
@@ -84,21 +82,24 @@ def run_closed_loop(
 
     Args:
       inputs: lengths and speed as scheduled; its `drive` is the reference of the tip, deg.
+      noise: of the sensors; None: no noise.
+      hardware: of drive and sensors; None: ideal.
       log: called after each command; the signals that it returns are kept.
       keep_shape: keep the angles of all nodes.
     """
-    loop, logged = _Loop(setup, inputs, noise or MeasurementNoise()), []
+    loop, logged = _Loop(setup, inputs, noise or MeasurementNoise(), hardware or LoopHardware()), []
     for i in range(loop.samples):
         if i:
             loop.step(i)
         base_deg = controller(loop.measurement(i), float(loop.scheduled.drive[i]))
         if log is not None:
             logged.append(log())
-        if i + 1 < loop.samples:
-            loop.command(i + 1, base_deg, controller.advance_mm)
+        loop.command(i, base_deg, controller.advance_mm)
     return ClosedLoopRun(
         run=loop.run(keep_shape=keep_shape),
         reference_deg=loop.scheduled.drive,
+        command_deg=loop.command_deg,
+        measured=dict(zip(CHANNELS, loop.measured.T, strict=True)),
         log={name: np.array([row[name] for row in logged]) for name in (logged[0] if logged else {})},
     )
 
@@ -106,19 +107,30 @@ def run_closed_loop(
 class _Loop:
     """The simulated rig of a run: row i of each array belongs to the end of step i."""
 
-    def __init__(self, setup: Setup, inputs: Schedule, noise: MeasurementNoise) -> None:
-        self.setup, self.scheduled = setup, inputs.at_steps(setup.discretisation.step_s)
+    def __init__(
+        self, setup: Setup, inputs: Schedule, noise: MeasurementNoise, hardware: LoopHardware
+    ) -> None:
+        step_s = setup.discretisation.step_s
+        self.setup, self.scheduled = setup, inputs.at_steps(step_s)
         self.samples = self.scheduled.time_s.size
+        self.command_deg, self.measured = np.zeros(self.samples), np.zeros((self.samples, 3))
         self._model = compile_model(setup)
         self._ctrl = controls(self.scheduled, setup)
         self._ctrl[:, memory_map.U_DRIVE] = 0.0
         self._data = initial_data(self._model, setup, self._ctrl[0])
         self._chain = self._model.numeric("needle").data[memory_map.H_CHAIN] != 0
-        spread = np.array([noise.base_deg, noise.torque_n_mm, noise.tip_deg])
-        self._noise = np.random.default_rng(noise.seed).normal(size=(self.samples, 3)) * spread
+        self._sensors = SensorReadings(hardware.sensors, noise, samples=self.samples, step_s=step_s)
+        self._driven_by_angle = setup.drive.kind is DriveKind.ANGLE
+        self._drive: CommandedShaft | ServoLoop = (
+            CommandedShaft(hardware, step_s=step_s)
+            if self._driven_by_angle
+            else ServoLoop(hardware, setup.drive, step_s=step_s)
+        )
         self._outputs = np.zeros((self.samples, memory_map.OUTPUTS))
         self._angles = np.zeros((self.samples, self._model.nq - 1))
-        self._base_deg = np.zeros(self.samples)
+        self._acting = np.zeros(self.samples)
+        self._first_mm, self._stretching = float(np.diff(setup.nodes_mm[:2])[0]), setup.stretching
+        self._bias_n_mm = hardware.sensors.torque_bias_n_mm
         # A controller may retract beside the schedule: the lengths follow what it does.
         self._advance_mm = np.zeros(self.samples)
         self._free_mm = self.scheduled.free_mm.copy()
@@ -133,23 +145,55 @@ class _Loop:
         self._angles[i] = np.cumsum(joints) if self._chain else joints
 
     def measurement(self, i: int) -> Measurement:
-        """The sensors at sample i; the base angle is that of the drive shaft, as commanded."""
-        torque = self._outputs[i, memory_map.O_BASE_TORQUE] / units.N_MM
+        """The sensors at sample i."""
         tip = self._outputs[i, memory_map.O_TIP_ANGLE] / units.DEG
+        self.measured[i] = self._sensors.read(i, (self._shaft_deg(i), self._torque_n_mm(i), float(tip)))
+        base_deg, torque_n_mm, tip_deg = self.measured[i].tolist()
         return Measurement(
             time_s=float(self.scheduled.time_s[i]),
-            base_deg=self._base_deg[i] + self._noise[i, 0],
-            torque_n_mm=float(torque + self._noise[i, 1]),
-            tip_deg=float(tip + self._noise[i, 2]),
+            base_deg=base_deg,
+            torque_n_mm=torque_n_mm,
+            tip_deg=tip_deg,
             inserted_mm=float(self._inserted_mm[i]),
             free_mm=float(self._free_mm[i]),
         )
 
+    def _shaft_deg(self, i: int) -> float:
+        """Angle of the drive shaft: with a torque drive, of the needle's base, which it carries."""
+        if self._driven_by_angle:
+            return float(self._acting[i])
+        return float(self._outputs[i, memory_map.O_BASE_ANGLE]) / units.DEG
+
+    def _torque_n_mm(self, i: int) -> float:
+        """Torque that the needle takes: with a torque drive, of its first element (the rotor takes
+        a share of the motor's)."""
+        if self._driven_by_angle:
+            return float(self._outputs[i, memory_map.O_BASE_TORQUE]) / units.N_MM
+        grown = float(self._free_mm[i]) / self.setup.free_mm if self._stretching else 1.0
+        twist_rad = float(self._angles[i, 0] - self._angles[i, 1])
+        return self.setup.needle.rigidity_n_mm2 * twist_rad / (self._first_mm * grown)
+
     def command(self, i: int, base_deg: float, advance_mm: float) -> None:
-        """Set what the drive and the carriage do in step i."""
-        self._base_deg[i], self._advance_mm[i] = base_deg, advance_mm
+        """Give the drive and the carriage the command of sample i: they act in the next step."""
+        self.command_deg[i] = base_deg
+        if i + 1 == self.samples:
+            return
+        self._act(i, base_deg)
+        self._advance(i + 1, advance_mm)
+
+    def _act(self, i: int, command_deg: float) -> None:
+        if isinstance(self._drive, CommandedShaft):
+            acting, scale = self._drive.follow(command_deg), units.DEG
+        else:
+            shaft, taken = self._shaft_deg(i), self._torque_n_mm(i)
+            acting = self._drive.motor_torque_n_mm(command_deg, shaft, taken + self._bias_n_mm)
+            scale = units.N_MM
+        self._acting[i + 1] = acting
+        self._ctrl[i + 1, memory_map.U_DRIVE] = acting * scale
+
+    def _advance(self, i: int, advance_mm: float) -> None:
+        self._advance_mm[i] = advance_mm
         speed_mm_s = (advance_mm - self._advance_mm[i - 1]) / self.setup.discretisation.step_s
-        self._ctrl[i, memory_map.U_DRIVE] = base_deg * units.DEG
         self._ctrl[i, memory_map.U_CARRIAGE] += advance_mm * units.MM
         self._ctrl[i, memory_map.U_SPEED] += speed_mm_s * units.MM
         self._free_mm[i] -= advance_mm
@@ -160,7 +204,7 @@ class _Loop:
     def run(self, *, keep_shape: bool) -> Run:
         """Everything that happened."""
         lengths = {"free_mm": self._free_mm, "inserted_mm": self._inserted_mm}
-        inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._base_deg})
+        inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._acting})
         angles = self._angles if keep_shape else None
         return Run(setup=self.setup, inputs=inputs, outputs=self._outputs, angles_rad=angles)
 

@@ -29,6 +29,7 @@ ROOMS_OF_VALIDATION = ("rig", "logs", "score")
 MAY_IMPORT_INSIDE = {
     "sim.kernel": {"sim.kernel", "sim.kernel.stage"},
     "sim.kernel.stage": {"sim.kernel", "sim.kernel.stage"},
+    "sim.loop": {"sim.loop"},
     "sim.recording": {"sim", "sim.kernel", "sim.recording"},
     "studies.crosscheck": {"studies.crosscheck"},
     "controllers.steering": {"controllers", "controllers.steering"},

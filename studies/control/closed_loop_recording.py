@@ -1,4 +1,4 @@
-"""A closed-loop run as a recording: estimated and true tip, modes, command, limits reached."""
+"""A closed-loop run as a recording: what is, what the sensors show, the estimate, the command."""
 
 from typing import Any
 
@@ -11,9 +11,11 @@ from sim.recording.recording import Recording, record
 
 
 def record_closed_loop(controlled: ClosedLoopRun, parameters: dict[str, Any] | None = None) -> Recording:
-    """Signals of the run, of the controller, and of the tip's path where it goes in."""
+    """Signals of the run, of the sensors and of the controller, and the tip's path where it goes in."""
     base = record(controlled.run, parameters)
-    columns = {"wanted_tip_deg": controlled.reference_deg} | {
+    columns = {"wanted_tip_deg": controlled.reference_deg}
+    columns |= {f"measured_{name}": values for name, values in controlled.measured.items()}
+    columns |= {
         name: values
         for name, values in controlled.log.items()
         if name != "estimate_damping_n_mm_s_per_mm"

@@ -5,7 +5,7 @@ from sim.closed_loop import run_closed_loop
 from sim.protocol import Protocol
 from sim.recording.recording import Recording
 from studies.control.closed_loop_recording import record_closed_loop
-from studies.control.tables import DAMPING
+from studies.control.step_response import DAMPING
 from studies.control.tip_controllers import ControllerDesign, tip_controller_named
 
 _LOOP_STEP_S = 0.002  # a controller acts at every step

@@ -15,10 +15,11 @@ from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.files import refuse_existing, write_text, writing
 from studies.control import tables
+from studies.control.comparison import StepResponse, as_row
 from studies.control.steering.steering_figures import draw_planes, draw_steered
 from studies.control.steering.steering_report import steering_json
 from studies.control.steering.steering_study import SteeringStudy
-from studies.control.tables import StepResponse
+from studies.control.step_response import turn
 from studies.crosscheck.poles import closed_form_needle
 
 FILES = (
@@ -29,7 +30,7 @@ FILES = (
     "steered.png",
     "planar.png",
 )
-_SHOWN = ("base_only", "feedforward", "feedback", "lqr", "least_time")
+_SHOWN = ("base_only", "base_only_at_limit", "feedforward", "feedback", "lqr", "least_time")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +47,7 @@ class ControlStudy:
             "format": "needle-control/1",
             "table_iv": [_iv(o) for o in self.tables],
             "table_v": [_v(o) for o in self.tables],
-            "robustness": [_plain(tables.as_row(o)) for o in self.robustness],
+            "robustness": [_plain(as_row(o)) for o in self.robustness],
             **steering_json(self.steering),
             "hankel_ratios": hankel(),
         }
@@ -66,7 +67,9 @@ def _iv(o: StepResponse) -> dict[str, Any]:
             "controller": o.controller,
             "settle_s": o.settle_s,
             "better_percent": o.settle_better,
+            "better_than_same_limits_percent": o.settle_better_same_limits,
             "overshoot_deg": o.overshoot_deg,
+            "shear_stress_mpa": o.shear_stress_mpa,
             "published_s": o.published_settle_s,
             "ratio": o.settle_s / o.published_settle_s,
         }
@@ -81,6 +84,7 @@ def _v(o: StepResponse) -> dict[str, Any]:
             "controller": o.controller,
             "integral_deg_s": o.integral_deg_s,
             "better_percent": o.integral_better,
+            "better_than_same_limits_percent": o.integral_better_same_limits,
             "published_deg_s": o.published_integral_deg_s,
             "ratio": o.integral_deg_s / o.published_integral_deg_s,
         }
@@ -105,7 +109,7 @@ def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> li
     refuse_existing(paths, force=force)
     write_text(paths[0], json.dumps(study.as_json(), indent=1, allow_nan=False), force=force)
     for path, responses in ((paths[1], study.tables), (paths[2], study.robustness)):
-        rows = pd.DataFrame([tables.as_row(o) for o in responses])
+        rows = pd.DataFrame([as_row(o) for o in responses])
         write_text(path, rows.to_csv(index=False), force=force)
     figures = (_draw_turns(study), draw_steered(study.steering), draw_planes(study.steering))
     for path, figure in zip(paths[3:], figures, strict=True):
@@ -121,7 +125,7 @@ def _draw_turns(study: ControlStudy) -> Figure:
     for column, depth in enumerate(tables.DEPTHS_CM):
         for name in _SHOWN:
             tissue = tissue_named("viscous-plastisol")
-            run = tables.turn(name, depth_cm=depth, free_mm=50.0, tissue=tissue).run
+            run = turn(name, depth_cm=depth, free_mm=50.0, tissue=tissue).run
             shown = run.time_s < (2.0 if depth < 20 else 4.0)
             axes[0, column].plot(run.time_s[shown], run.inputs.drive[shown], lw=1, label=name)
             axes[1, column].plot(run.time_s[shown], run.tip_deg[shown], lw=1.2, label=name)

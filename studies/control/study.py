@@ -3,8 +3,9 @@
 from collections.abc import Callable
 
 from studies.control.report import ControlStudy
+from studies.control.robustness import robustness
 from studies.control.steering.steering_study import STEERING_STAGES, run_steering
-from studies.control.tables import robustness, tables_iv_v
+from studies.control.tables import tables_iv_v
 
 STAGES = ("Tables IV and V", "robustness", *STEERING_STAGES)
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from controllers.adaptive import AdaptiveEstimator
 from controllers.estimators import (
@@ -12,9 +12,11 @@ from controllers.estimators import (
     OutputEquation,
 )
 from controllers.friction import FrictionAware
-from controllers.laws import BaseOnly, Compensator, Controller, Regulator
+from controllers.laws import BaseOnly, Compensator, Controller
 from controllers.least_time import LeastTime
 from controllers.limits import MotorLimits, rigid_needle_estimate
+from controllers.prediction import LoopTiming
+from controllers.regulator import PredictiveRegulator, Regulator
 from controllers.signals import Command, Estimate, Sample
 from models.errors import UnknownName
 from models.needle import Needle
@@ -24,6 +26,7 @@ from sim.closed_loop import Measurement
 # whatever the motor can do, which it does not state.
 BASE_ONLY_RATE_DEG_S = 300.0
 COMPENSATOR_GAIN = 1.5
+_BIAS_DRIFT_N_MM = 0.002  # in a root second: a sensor's zero that wanders by 0.015 N mm a minute
 
 
 @dataclass
@@ -85,24 +88,44 @@ class TipController:
             "torque_limited_count": float(self._command.torque_limited),
             "estimate_damping_n_mm_s_per_mm": self._estimate.damping_n_mm_s_per_mm,
         }
+        if isinstance(self.estimator, AdaptiveEstimator):
+            signals["estimate_bias_n_mm"] = self.estimator.torque_bias_n_mm
         kept = {k: 0.0 if math.isnan(v) else v for k, v in signals.items()}
         return kept | {f"estimate_mode_{i + 1}_deg": float(m) for i, m in enumerate(modes)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class ControllerDesign:
-    """The model and the limits that a tip controller is designed for.
+    """What a tip controller is designed for: a model, a motor, and the sensors of a loop.
 
     Attributes:
       needle, damping_n_mm_s_per_mm: of the modal model.
       limits: of the motor.
       order: modes of the estimator, with mode 0.
+      timing: delays and servo, as the predictive controllers know them.
+      base_noise_deg, torque_noise_n_mm: what the adaptive estimators expect of the sensors.
+      bias_spread_n_mm: how far the torque sensor's zero may be off, for those that estimate it.
     """
 
     needle: Needle
     damping_n_mm_s_per_mm: float
     limits: MotorLimits = MotorLimits()  # noqa: RUF009 - frozen
     order: int = 4
+    timing: LoopTiming = LoopTiming()  # noqa: RUF009 - frozen
+    base_noise_deg: float = 0.05
+    torque_noise_n_mm: float = 0.015
+    bias_spread_n_mm: float = 0.2
+
+    def off_by(
+        self, *, stiffness_factor: float = 1.0, damping_factor: float = 1.0
+    ) -> "ControllerDesign":
+        """The design of somebody who is wrong about the needle by these factors."""
+        modulus = self.needle.shear_modulus_gpa * stiffness_factor
+        return replace(
+            self,
+            needle=self.needle.but(shear_modulus_gpa=modulus),
+            damping_n_mm_s_per_mm=self.damping_n_mm_s_per_mm * damping_factor,
+        )
 
 
 def _feedforward(design: ControllerDesign) -> Estimator:
@@ -126,20 +149,71 @@ def _base_only(design: ControllerDesign) -> TipController:
     return TipController(BaseOnly(design.limits.but(rate_deg_s=rate)), None)
 
 
-def _feedback(design: ControllerDesign) -> TipController:
-    observer = LuenbergerEstimator(
+def _observer(design: ControllerDesign) -> LuenbergerEstimator:
+    return LuenbergerEstimator(
         design.needle, damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm, order=design.order
     )
-    return TipController(
-        Compensator(design.limits, gain=COMPENSATOR_GAIN), observer, uses_tip_sensor=True
+
+
+def _feedback(design: ControllerDesign) -> TipController:
+    law = Compensator(design.limits, gain=COMPENSATOR_GAIN)
+    return TipController(law, _observer(design), uses_tip_sensor=True)
+
+
+def _identifying(
+    design: ControllerDesign, *, bias_spread_n_mm: float = 0.0, bias_drift_n_mm: float = 0.0
+) -> AdaptiveEstimator:
+    return AdaptiveEstimator(
+        design.needle,
+        damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm,
+        order=design.order,
+        base_noise_deg=design.base_noise_deg,
+        torque_noise_n_mm=design.torque_noise_n_mm,
+        bias_spread_n_mm=bias_spread_n_mm,
+        bias_drift_n_mm=bias_drift_n_mm,
     )
 
 
 def _adaptive(design: ControllerDesign) -> TipController:
-    estimator = AdaptiveEstimator(
-        design.needle, damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm, order=design.order
+    return TipController(Compensator(design.limits, gain=COMPENSATOR_GAIN), _identifying(design))
+
+
+def _unbiased(design: ControllerDesign) -> TipController:
+    estimator = _identifying(design, bias_spread_n_mm=design.bias_spread_n_mm)
+    return TipController(Compensator(design.limits, gain=COMPENSATOR_GAIN), estimator)
+
+
+def _bias_tracking(design: ControllerDesign) -> TipController:
+    estimator = _identifying(
+        design, bias_spread_n_mm=design.bias_spread_n_mm, bias_drift_n_mm=_BIAS_DRIFT_N_MM
     )
     return TipController(Compensator(design.limits, gain=COMPENSATOR_GAIN), estimator)
+
+
+def _predictive_law(design: ControllerDesign) -> PredictiveRegulator:
+    return PredictiveRegulator(
+        design.needle,
+        design.limits,
+        design.timing,
+        damping_n_mm_s_per_mm=design.damping_n_mm_s_per_mm,
+    )
+
+
+def _predictive(design: ControllerDesign) -> TipController:
+    return TipController(_predictive_law(design), _feedforward(design))
+
+
+def _predictive_unbiased(design: ControllerDesign) -> TipController:
+    estimator = _identifying(design, bias_spread_n_mm=design.bias_spread_n_mm)
+    return TipController(_predictive_law(design), estimator)
+
+
+def _predictive_feedback(design: ControllerDesign) -> TipController:
+    return TipController(_predictive_law(design), _observer(design), uses_tip_sensor=True)
+
+
+def _friction_aware_feedback(design: ControllerDesign) -> TipController:
+    return TipController(FrictionAware(design.limits), _observer(design), uses_tip_sensor=True)
 
 
 def _lqr(design: ControllerDesign) -> TipController:
@@ -165,7 +239,13 @@ TIP_CONTROLLERS: dict[str, Callable[[ControllerDesign], TipController]] = {
     "adaptive": _adaptive,
     "lqr": _lqr,
     "least_time": _least_time,
+    "unbiased": _unbiased,
+    "bias_tracking": _bias_tracking,
+    "predictive": _predictive,
+    "predictive_unbiased": _predictive_unbiased,
+    "predictive_feedback": _predictive_feedback,
     "friction_aware": lambda d: TipController(FrictionAware(d.limits), _feedforward(d)),
+    "friction_aware_feedback": _friction_aware_feedback,
 }
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from models import published
 from models.materials import MATERIALS
-from studies.control.tables import response_metrics, turn
+from studies.control.step_response import response_metrics, turn
 from studies.published.experiments.rig import STATED_RIGS, PublishedRig
 from studies.published.fitting.hypothesis import stated
 

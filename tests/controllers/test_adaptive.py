@@ -1,6 +1,7 @@
 """The adaptive estimator learns the damping, also in noise, and refuses impossible noise."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,80 @@ def test_reset_returns_to_the_first_guess(fast_turn):
     estimator.reset()
     assert estimator.damping == 1.5 * BETA
     assert [e.tip_deg for e in estimates(fast_turn, estimator)[:1500]] == first
+
+
+def shown(recording, *, bias=0.0, seconds=None):
+    """The samples of a recording, with a torque sensor that is off by a bias and has noise."""
+    rng = np.random.default_rng(1)
+    names = ("time_s", "base_angle_deg", "base_torque_n_mm", "inserted_mm", "free_mm")
+    rows = np.array([recording[n] for n in names]).T
+    kept = rows if seconds is None else rows[rows[:, 0] <= seconds]
+    return [Sample(t, base, u + bias + rng.normal(0, 0.015), *ls) for t, base, u, *ls in kept]
+
+
+def test_a_torque_that_is_shown_before_the_first_turn_is_taken_for_bias():
+    estimator = AdaptiveEstimator(NITINOL, damping_n_mm_s_per_mm=BETA, bias_spread_n_mm=0.2)
+    rng, n = np.random.default_rng(0), 100
+    for i in range(n):
+        estimator.update(Sample(0.002 * i, 0.0, 0.1 + rng.normal(0, 0.015), 100.0, 50.0))
+    # The mean of n samples: four standard errors.
+    assert estimator.torque_bias_n_mm == pytest.approx(0.1, abs=4 * 0.015 / math.sqrt(n))
+
+
+@pytest.mark.parametrize("drift", [0.0, 0.002])
+def test_a_bias_is_removed_from_the_estimate_of_the_tip(fast_turn, drift):
+    estimator = AdaptiveEstimator(
+        NITINOL, damping_n_mm_s_per_mm=BETA, bias_spread_n_mm=0.2, bias_drift_n_mm=drift
+    )
+    trusting = AdaptiveEstimator(NITINOL, damping_n_mm_s_per_mm=BETA)
+    last = {}
+    for name, one in (("estimated", estimator), ("trusted", trusting)):
+        found = [one.update(sample) for sample in shown(fast_turn, bias=0.1)]
+        tips = np.array([e.tip_deg for e in found[-500:]])
+        last[name] = float(np.mean(tips - fast_turn["tip_angle_deg"][-500:]))
+    # 0.1 N mm over 50 mm of free shaft alone are 0.9 deg.
+    assert abs(last["trusted"]) > 0.9
+    assert abs(last["estimated"]) < 0.1
+
+
+def test_a_bias_that_comes_after_the_first_turn_is_followed_only_with_a_drift(fast_turn):
+    """In viscous tissue: at rest, a torque that does not turn the base is no torque."""
+    late = [
+        replace(s, torque_n_mm=s.torque_n_mm + (0.1 if s.time_s > 2.0 else 0.0))
+        for s in shown(fast_turn)
+    ]
+    found = {}
+    for drift in (0.0, 0.1):
+        estimator = AdaptiveEstimator(
+            NITINOL, damping_n_mm_s_per_mm=BETA, bias_spread_n_mm=0.2, bias_drift_n_mm=drift
+        )
+        for sample in late:
+            estimator.update(sample)
+        found[drift] = estimator.torque_bias_n_mm
+    assert found[0.1] == pytest.approx(0.1, abs=0.03)
+    assert found[0.0] == pytest.approx(0.0, abs=0.03)
+
+
+def test_a_torque_that_dry_friction_holds_is_taken_for_bias_where_the_bias_may_drift():
+    """Not observable: base at rest, torque at rest, for ever. Only what was known before helps."""
+    taken = {}
+    for drift in (0.0, 0.1):
+        estimator = AdaptiveEstimator(
+            NITINOL, damping_n_mm_s_per_mm=BETA, bias_spread_n_mm=0.2, bias_drift_n_mm=drift
+        )
+        for i in range(2000):
+            turned = min(0.02 * i, 20.0)
+            estimator.update(Sample(0.002 * i, turned, 0.03 * turned, 100.0, 50.0))
+        taken[drift] = estimator.torque_bias_n_mm
+    assert taken[0.1] > 0.3  # of 0.6 N mm
+    assert abs(taken[0.0]) < 0.01
+
+
+@pytest.mark.parametrize("field", ["bias_spread_n_mm", "bias_drift_n_mm"])
+@pytest.mark.parametrize("bad", [-0.1, math.inf])
+def test_an_impossible_bias_is_refused_by_its_name(field, bad):
+    with pytest.raises(InvalidValue, match=field):
+        AdaptiveEstimator(NITINOL, damping_n_mm_s_per_mm=BETA, **{field: bad})
 
 
 @pytest.mark.parametrize(

@@ -4,19 +4,20 @@ import math
 
 import numpy as np
 import pytest
-from scipy.linalg import solve_continuous_are
 
 from controllers.friction import FrictionAware
-from controllers.laws import BaseModes, BaseOnly, Compensator, Regulator
+from controllers.laws import BaseOnly, Compensator
 from controllers.least_time import LeastTime
 from controllers.limits import MotorLimits
+from controllers.prediction import LoopTiming
+from controllers.regulator import PredictiveRegulator, Regulator
 from controllers.signals import Estimate, Sample, Status
 from models.errors import InvalidValue
-from models.modes import InsertedNeedle
 from models.needle import NITINOL
 
 BETA = 0.01725
 LIMITS = MotorLimits()
+LATE = LoopTiming(measurement_delay_s=0.04)
 NO_LIMITS = MotorLimits(rate_deg_s=1e9, torque_n_mm=1e9)
 
 
@@ -29,6 +30,7 @@ def every_controller():
         "base only": BaseOnly(LIMITS),
         "compensator": Compensator(LIMITS),
         "regulator": Regulator(NITINOL, LIMITS, damping_n_mm_s_per_mm=BETA),
+        "predictive": PredictiveRegulator(NITINOL, LIMITS, LATE, damping_n_mm_s_per_mm=BETA),
         "least time": LeastTime(NITINOL, LIMITS, damping_n_mm_s_per_mm=BETA),
         "friction aware": FrictionAware(LIMITS),
     }
@@ -69,45 +71,7 @@ def test_the_compensator_overshoots_by_its_gain_times_the_tip_error(gain):
     assert commanded(Compensator(NO_LIMITS, gain=gain), 70.0) == pytest.approx(90 + gain * 20)
 
 
-def held(free=50.0):
-    return InsertedNeedle(needle=NITINOL, damping_n_mm_s_per_mm=BETA, inserted_mm=100.0, free_mm=free)
-
-
-def test_a_uniform_lag_has_the_modes_that_the_closed_form_gives_it():
-    modes = BaseModes(held(), 3, 3)
-    found = modes.lag_modes_rad(Estimate(80.0, np.zeros(3)), base_deg=90.0)
-    # Least squares on 201 points against integrals: modes of a needle with a free length are
-    # orthogonal, sums over points differ from integrals by 1 / 201 of the ends.
-    assert found == pytest.approx(np.radians(-10) * held().participation(3), rel=0.03)
-
-
-def test_the_gain_of_the_regulator_solves_riccatis_equation():
-    regulator = Regulator(NITINOL, NO_LIMITS, damping_n_mm_s_per_mm=BETA, weight_s=0.02)
-    modes, gain = regulator.design(sample(), 3)
-    a = np.diag([0.0, *modes.poles])
-    b = np.array([1.0, *(-modes.participation)])[:, None]
-    tip, weight = np.ones((1, 4)), np.array([[0.02**2]])
-    solution = solve_continuous_are(a, b, tip.T @ tip, weight)
-    assert gain == pytest.approx((b.T @ solution / weight)[0], rel=1e-6)
-    assert np.linalg.eigvals(a - b @ gain[None]).real.max() < 0
-
-
-def test_designs_are_made_once_for_every_two_millimetres():
-    regulator = Regulator(NITINOL, LIMITS, damping_n_mm_s_per_mm=BETA)
-    near, same, other = (regulator.design(sample(depth=d), 3)[0] for d in (100.0, 100.9, 103.0))
-    assert near is same
-    assert other is not near
-
-
-@pytest.mark.parametrize(
-    ("make", "field"),
-    [
-        (lambda: Compensator(LIMITS, gain=-1), "gain"),
-        (lambda: Regulator(NITINOL, LIMITS, damping_n_mm_s_per_mm=BETA, weight_s=0), "weight_s"),
-        (lambda: Regulator(NITINOL, LIMITS, damping_n_mm_s_per_mm=-1), "damping"),
-        (lambda: Regulator(NITINOL, LIMITS, damping_n_mm_s_per_mm=BETA, order=0), "order"),
-    ],
-)
-def test_an_impossible_law_is_refused_at_construction(make, field):
-    with pytest.raises(InvalidValue, match=field):
-        make()
+@pytest.mark.parametrize("gain", [-1, math.nan])
+def test_an_impossible_gain_is_refused_at_construction(gain):
+    with pytest.raises(InvalidValue, match="gain"):
+        Compensator(LIMITS, gain=gain)

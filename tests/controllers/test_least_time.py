@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from controllers.laws import BaseModes
 from controllers.least_time import LeastTime, plan
 from controllers.limits import MotorLimits
+from controllers.modal_lag import BaseModes
 from controllers.signals import Estimate, Sample
 from models.errors import InvalidValue
 from models.modes import InsertedNeedle

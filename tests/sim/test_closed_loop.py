@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
+from models.drive import Drive
 from models.needle import NITINOL
+from models.servo import Servo
 from models.tissue import Tissue
 from sim.closed_loop import MeasurementNoise, run_closed_loop
 from sim.discretisation import Discretisation, Mesh
+from sim.loop.hardware import LoopHardware, Sensors
+from sim.loop.shaft import CommandedShaft
 from sim.schedule import Schedule
 from sim.simulation import simulate
 from sim.spec import Setup
@@ -33,11 +37,12 @@ class Follower:
         return np.array([getattr(m, name) for m in self.measurements])
 
 
-def setup(mesh=Mesh.EULERIAN):
+def setup(mesh=Mesh.EULERIAN, drive=Drive(), step_s=STEP_S):  # noqa: B008 - frozen
     return Setup(
         needle=NITINOL,
+        drive=drive,
         tissue=Tissue.uniform(viscous_n_mm_s_per_mm=0.017),
-        discretisation=Discretisation(elements=8, step_s=STEP_S),
+        discretisation=Discretisation(elements=8, step_s=step_s),
         mesh=mesh,
         free_mm=50,
         inserted_mm=60,
@@ -91,6 +96,55 @@ def test_noise_has_the_stated_spread_and_is_the_same_for_the_same_seed():
         assert np.array_equal(errors, shown[1][name])
         # The spread of N samples is known to 1 / sqrt(2 N): four times that is 14 %.
         assert errors.std() == pytest.approx(getattr(noise, name), rel=4 / np.sqrt(2 * errors.size))
+
+
+def test_the_needle_is_turned_by_the_shaft_behind_latency_and_servo():
+    hardware = LoopHardware(command_latency_s=0.01, servo=Servo(natural_frequency_hz=10))
+    controlled = run_closed_loop(setup(), turn(), Follower(), hardware=hardware)
+    shaft = CommandedShaft(hardware, step_s=STEP_S)
+    followed = [shaft.follow(x) for x in controlled.command_deg[:-1]]
+    assert np.array_equal(controlled.command_deg, controlled.reference_deg)
+    assert controlled.shaft_deg[1:] == pytest.approx(followed)
+    late = simulate([setup()], controlled.run.inputs)[0]
+    assert np.abs(late.tip_deg - controlled.run.tip_deg).max() < 1e-10
+
+
+@pytest.mark.parametrize("mesh", Mesh)
+def test_a_motor_whose_servo_reads_an_encoder_turns_the_needle_as_the_filtered_command_does(mesh):
+    """Both fidelities of the drive; their difference halves with the step."""
+    hardware = LoopHardware(servo=Servo(natural_frequency_hz=8))
+    motor = Drive(kind="torque", rotor_inertia_kg_m2=2.5e-5)
+    apart = []
+    for step_s in (0.002, 0.001):
+        filtered, turned = (
+            run_closed_loop(setup(mesh, drive, step_s), turn(), Follower(), hardware=hardware)
+            for drive in (Drive(), motor)
+        )
+        apart.append(np.abs(filtered.shaft_deg - turned.shaft_deg).max())
+        torques = (made.measured["torque_n_mm"] for made in (filtered, turned))
+        assert np.abs(np.subtract(*torques)).max() < 0.1 * filtered.measured["torque_n_mm"].max()
+    assert apart[0] < 2.0
+    assert apart[1] == pytest.approx(apart[0] / 2, rel=0.1)
+
+
+def test_mujoco_clips_the_motor_to_its_torque_limit():
+    hardware = LoopHardware(servo=Servo(natural_frequency_hz=8))
+    motor = Drive(kind="torque", rotor_inertia_kg_m2=2.5e-5, torque_limit_n_mm=5.0)
+    run = run_closed_loop(setup(drive=motor), turn(), Follower(), hardware=hardware).run
+    assert np.abs(run.base_torque_n_mm).max() == pytest.approx(5.0)
+    assert run.base_deg[-1] == pytest.approx(45.0, abs=2.0)
+
+
+def test_the_controller_sees_what_the_sensors_show_and_the_run_keeps_it():
+    sensors = Sensors(base_step_deg=0.36, base_delay_s=0.02, torque_bias_n_mm=0.1, torque_delay_s=0.02)
+    follower = Follower()
+    made = run_closed_loop(setup(), turn(), follower, hardware=LoopHardware(sensors=sensors))
+    for name, values in made.measured.items():
+        assert np.array_equal(follower.shown(name), values)
+    late = np.concatenate([np.zeros(4), made.run.inputs.drive[:-4]])
+    assert made.measured["base_deg"] == pytest.approx(0.36 * np.round(late / 0.36))
+    assert made.measured["torque_n_mm"][4:] == pytest.approx(made.run.base_torque_n_mm[:-4] + 0.1)
+    assert np.array_equal(made.measured["tip_deg"], made.run.tip_deg)
 
 
 def test_a_retraction_beside_the_schedule_moves_the_chuck_through_a_slab():

@@ -11,7 +11,7 @@ from sim.discretisation import Discretisation, Mesh
 from sim.schedule import Schedule
 from sim.spec import Setup
 from studies.control.closed_loop_recording import record_closed_loop
-from studies.control.tables import DAMPING, DESIGN
+from studies.control.step_response import DAMPING, DESIGN
 from studies.control.tip_controllers import tip_controller_named
 
 
@@ -43,6 +43,8 @@ def test_reference_estimate_and_command_stand_beside_the_signals_of_the_run():
     assert np.array_equal(recording["estimate_tip_deg"], made.log["estimate_tip_deg"])
     assert np.array_equal(recording["tip_angle_deg"], made.run.tip_deg)
     assert recording["estimate_tip_deg"] == pytest.approx(recording["tip_angle_deg"], abs=0.1)
+    for name, values in made.measured.items():
+        assert np.array_equal(recording[f"measured_{name}"], values)
     assert recording.parameters["controller"] == "feedforward"
 
 

@@ -10,14 +10,15 @@ import pytest
 from models.drive import DriveKind
 from models.errors import OutputExists
 from models.materials import tissue_named
-from studies.control import report, tables
+from studies.control import report
+from studies.control.comparison import compare
 from studies.control.report import FILES, ControlStudy, hankel, write_study
 from studies.crosscheck.poles import closed_form_needle
 
 
 @pytest.fixture(scope="module")
 def small(small_steering):
-    responses = tables.compare(
+    responses = compare(
         tissue_named("viscous-plastisol"),
         depth_cm=5.0,
         free_mm=0.0,

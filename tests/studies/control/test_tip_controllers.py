@@ -6,7 +6,7 @@ import pytest
 
 from models.errors import UnknownName
 from sim.closed_loop import Measurement
-from studies.control.tables import DESIGN
+from studies.control.step_response import DESIGN
 from studies.control.tip_controllers import TIP_CONTROLLERS, tip_controller_named
 
 
@@ -36,7 +36,7 @@ def test_only_feedback_uses_the_tip_sensor(name):
         blind(measured(0.002 * i), 0.0)
         seeing(measured(0.002 * i, tip_deg=20.0), 0.0)
     differs = blind.estimated_tip_deg != seeing.estimated_tip_deg
-    assert differs == (name == "feedback") == seeing.uses_tip_sensor
+    assert differs == name.endswith("feedback") == seeing.uses_tip_sensor
 
 
 @pytest.mark.parametrize("name", TIP_CONTROLLERS)
@@ -48,6 +48,24 @@ def test_signals_are_finite_and_named_with_their_units(name):
     modes = [key for key in signals if key.startswith("estimate_mode_")]
     assert len(modes) == (0 if controller.estimator is None else DESIGN.order - 1)
     assert {"estimate_tip_deg", "command_base_deg", "rate_limited_count"} <= set(signals)
+
+
+def test_only_those_that_estimate_a_bias_log_one_and_take_it_off():
+    for name in ("feedforward", "adaptive", "unbiased", "predictive_unbiased"):
+        controller = tip_controller_named(name, DESIGN)
+        for i in range(50):
+            controller(measured(0.002 * i, torque_n_mm=0.1), 0.0)
+        estimates = name.endswith("unbiased")
+        assert controller.signals().get("estimate_bias_n_mm", 0.0) == pytest.approx(
+            0.1 if estimates else 0.0, abs=0.001
+        )
+
+
+def test_a_design_can_be_wrong_by_factors():
+    wrong = DESIGN.off_by(stiffness_factor=1.2, damping_factor=0.5)
+    assert wrong.needle.rigidity_n_mm2 == pytest.approx(1.2 * DESIGN.needle.rigidity_n_mm2)
+    assert wrong.damping_n_mm_s_per_mm == pytest.approx(0.5 * DESIGN.damping_n_mm_s_per_mm)
+    assert wrong.limits == DESIGN.limits
 
 
 @pytest.mark.parametrize("name", ["base_only", "feedforward", "lqr"])

@@ -1,0 +1,1 @@
+"""The hardware around a simulated needle: delays, sensors and the drive's servo."""
