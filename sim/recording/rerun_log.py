@@ -37,6 +37,9 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "tip_angle_deg": ("tip", [214, 39, 40]),
         "estimate_tip_deg": ("tip, estimated", [255, 127, 14]),
         "wanted_tip_deg": ("tip, wanted", [44, 160, 44]),
+        "command_base_deg": ("base, commanded", [31, 119, 180]),
+        "measured_base_deg": ("base, measured", [150, 150, 150]),
+        "measured_tip_deg": ("tip, measured", [255, 152, 150]),
         "closed_form_tip_deg": ("tip, closed form", [44, 160, 44]),
         "native_tip_deg": ("tip, native needle", [148, 103, 189]),
     },
@@ -44,6 +47,8 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "base_torque_n_mm": ("base torque", [31, 119, 180]),
         "friction_n_mm": ("friction of the tissue", [148, 103, 189]),
         "tip_torque_n_mm": ("torque at the tip", [214, 39, 40]),
+        "measured_torque_n_mm": ("base torque, measured", [158, 202, 225]),
+        "estimate_bias_n_mm": ("bias of the sensor, estimated", [255, 127, 14]),
     },
     "limits": {
         "rate_limited_count": ("at the motor's rate", [188, 189, 34]),
