@@ -12,6 +12,7 @@ ROOMS = (
     "criteria",
     "workers",
     "log",
+    "lab_files",
     "prepare",
     "replay",
     "effects",
