@@ -104,7 +104,7 @@ def _rig(draft: Draft) -> Iterator[str]:
             reason = "scatter of the readings, at rest where there is one"
             yield _line(f"  {name}", value, reason if value else "once its unit is known")
     if draft.loops is not None:
-        yield "# What the loops of torque over angle look like (viscous torque widens them too).\n"
+        yield "# What the loops of torque over angle look like (docs/import.md#the-loops):\n"
         yield "".join(f"#   {line}\n" for line in loop_lines(draft))
 
 
@@ -117,7 +117,9 @@ def loop_lines(draft: Draft) -> list[str]:
     return [
         f"stiffness after a reversal: {shape.stiffness.told(f'{torque}/{angle}')}",
         f"play (flat part after a reversal): {shape.play.told(angle)}",
-        f"dry level (half of the width): {shape.level.told(torque)}",
+        f"level (half of the width): {shape.level.told(torque)}, at "
+        f"{shape.rates_per_s[0]:.3g} to {shape.rates_per_s[1]:.3g} {angle}/s, viscous torque included",
+        f"torque kept in rests after a turn (dry alone): {shape.kept.told(torque)}",
         f"middle of the loops (an offset of the torque?): {shape.middle.told(torque)}",
     ]
 

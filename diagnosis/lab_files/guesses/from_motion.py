@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.criteria import CLOCK_SIGMA
+from diagnosis.criteria import CLOCK_LEAST_S, CLOCK_SIGMA, TIP_LAG_AT_MOST_S
 from diagnosis.lab_files.guesses.clock_offset import clock_offset
 from diagnosis.lab_files.guesses.guessed import GuessedColumn
-from diagnosis.lab_files.guesses.hysteresis import LoopShape, branches_of, loop_shape
+from diagnosis.lab_files.guesses.hysteresis import LoopShape, branches_of, kept_torques, loop_shape
 from diagnosis.lab_files.guesses.signs import (
     SignGuess,
     speed_sign,
@@ -41,7 +41,7 @@ def with_zero(column: GuessedColumn, trials: Trials, motions: Motions) -> Guesse
     values = [guess.value for guess in found if guess.value is not None]
     if not values:
         return column.with_guess("zero", found[0].reason if found else "the base's angle is not known")
-    reason = found[0].reason
+    reason = next(guess.reason for guess in found if guess.value is not None)
     if len(values) > 1:
         reason = (
             f"median of {len(values)} trials that start at rest, {min(values):.4g} to {max(values):.4g}; "
@@ -79,12 +79,14 @@ def with_offset(column: GuessedColumn, trials: Trials) -> GuessedColumn:
     offset, other_clock = min(known, key=lambda pair: pair[0].uncertainty_s or 0.0)
     late, uncertain = offset.late_s or 0.0, offset.uncertainty_s or 0.0
     reason = f"against the base: {offset.reason}"
-    if column.wanted == "tip_angle_deg" and 0 <= late <= 2:
+    if column.wanted == "tip_angle_deg" and 0 <= late <= TIP_LAG_AT_MOST_S:
         return column.with_guess("time_offset_s", f"{reason}; the needle lags by itself: 0 is kept")
     if not other_clock:
         return column.with_guess("time_offset_s", f"{reason}; same clock: 0 is kept")
-    if abs(late) <= CLOCK_SIGMA * uncertain:
-        return column.with_guess("time_offset_s", f"{reason}; within {CLOCK_SIGMA:g} sigma: 0 is kept")
+    if abs(late) <= max(CLOCK_SIGMA * uncertain, CLOCK_LEAST_S):
+        return column.with_guess(
+            "time_offset_s", f"{reason}; too little to be told from 0, which is kept"
+        )
     return column.with_guess(
         "time_offset_s", f"{reason}; two clocks", time_offset_s=float(f"{-late:.6g}")
     )
@@ -123,16 +125,18 @@ def loops_of(
     base: GuessedColumn, torque: GuessedColumn, trials: Trials, motions: Motions
 ) -> LoopShape | None:
     """Shape of all loops of torque over angle together; None without torque or reversals."""
-    branches, noise = [], 0.0
+    branches, kept, noise = [], list[float](), 0.0
     for name, motion in motions.items():
         own, angle = trials[name].get(torque.wanted), trials[name][base.wanted]
         if own is not None:
             late = torque.source.time_offset_s - base.source.time_offset_s
             shifted = replace(own, time_s=own.time_s + late)
             moved = base.scale * angle.values[np.isfinite(angle.values)]
-            branches += branches_of(motion, moved, torque.scale * at_times(shifted, motion.time_s))
+            read = at_times(shifted, motion.time_s) - _zero(torque, own)
+            branches += branches_of(motion, moved, torque.scale * read)
+            kept += kept_torques(motion, moved, torque.scale * read)
             noise = max(noise, abs(torque.scale) * scatter([own.values]))
-    return loop_shape(branches, noise) if len(branches) > 1 else None
+    return loop_shape(branches, kept, noise) if branches else None
 
 
 def scatter(parts: Sequence[Array]) -> float:
@@ -147,15 +151,19 @@ def at_times(series: Series, time_s: Array) -> Array:
     return np.interp(time_s, series.time_s[good], series.values[good])
 
 
+def _zero(torque: GuessedColumn, series: Series) -> float:
+    """The guessed zero of the torque; where there is none, half way between its directions."""
+    return float(torque.source.zero) or float(np.nanquantile(series.values, (0.1, 0.9)).mean())
+
+
 def _sign_in(column: GuessedColumn, own: Mapping[str, Series]) -> SignGuess | None:
     """The sign that one trial suggests; None: nothing to compare with."""
     base, one = own.get("base_angle_deg"), own.get(column.wanted)
     if base is None or one is None:
         return None
     if column.wanted == "base_torque_n_mm":
-        zero = float(column.source.zero) or float(np.nanmedian(one.values))
         shifted = replace(one, time_s=one.time_s + column.source.time_offset_s)
-        return torque_sign(at_times(shifted, base.time_s) - zero, base.values)
+        return torque_sign(at_times(shifted, base.time_s) - _zero(column, one), base.values)
     if column.wanted == "tip_angle_deg":
         return tip_sign(one.time_s, one.values, at_times(base, one.time_s))
     if column.wanted == "speed_mm_s" and not column.source.derive:

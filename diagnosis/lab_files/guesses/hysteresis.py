@@ -13,9 +13,11 @@ stiffness again.
 With u the share of that way, a straight line is put through the torque where u is between 0.1 and 0.3,
 another between 0.7 and 0.9. Their slopes are the stiffness, the angle between them at u = 1/2 the play,
 half of the whole way the level. Each is the median over the reversals, with their scatter. This is
-what the loops look like, not a model: viscous torque widens them too.
+what the loops look like, not a model: viscous torque widens them too. What torque is kept at rest has no
+viscous part: dry friction alone holds it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -24,6 +26,22 @@ import numpy as np
 from diagnosis.criteria import BRANCH_LEAST_NOISE, FIRST_QUARTERS, LAST_QUARTERS, PLATEAU
 from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.readers.lab_table import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Branch:
+    """From one reversal to the next.
+
+    Attributes:
+      angle, torque: (N,).
+      rate_per_s: mean, angle per second.
+      first: of a trial: no reversal before it.
+    """
+
+    angle: Array
+    torque: Array
+    rate_per_s: float
+    first: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,9 +55,10 @@ class LoopValue:
     def told(self, unit: str) -> str:
         """In words, with a unit."""
         if self.value is None or self.scatter is None:
-            return "no reversal shows it"
-        times = f"{self.reversals} reversal{'s' if self.reversals > 1 else ''}"
-        return f"{self.value:.4g} ± {self.scatter:.2g} {unit} ({times})"
+            return "not seen"
+        if self.reversals == 1:
+            return f"{self.value:.3g} {unit} (once)"
+        return f"{self.value:.3g} ± {self.scatter:.2g} {unit} ({self.reversals} times)"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,34 +70,45 @@ class LoopShape:
       play: angle over which torque stays at the middle after a reversal.
       level: half of what the torque changes by from one direction to the other.
       middle: torque halfway between both directions.
+      kept: torque at the end of a rest, along the turn before it.
+      rates_per_s: slowest and fastest turn of these loops, angle per second.
     """
 
     stiffness: LoopValue
     play: LoopValue
     level: LoopValue
     middle: LoopValue
+    kept: LoopValue
+    rates_per_s: tuple[float, float]
 
 
-def loop_shape(branches: list[tuple[Array, Array]], noise: float) -> LoopShape:
+def loop_shape(branches: Sequence[Branch], kept: Sequence[float], noise: float) -> LoopShape:
     """Shape of loops from their branches.
 
     Args:
-      branches: angle and torque from one reversal to the next, (N,) each, in the order of time.
+      branches: from one reversal to the next, in the order of time.
+      kept: torque at the end of rests, along the turn before each.
       noise: standard deviation of the torque; branches that change it by little more are left out.
     """
-    stiffness, play, level, middle = [], [], [], []
-    ends = [_plateau(angle, torque) for angle, torque in branches]
+    stiffness, play, level, middle, rates = [], [], [], [], []
+    ends = [_plateau(branch) for branch in branches]
     for i in range(1, len(branches)):
         before, after = ends[i - 1], ends[i]
-        if before is None or after is None or abs(after - before) <= BRANCH_LEAST_NOISE * noise:
+        if (
+            branches[i].first
+            or before is None
+            or after is None
+            or abs(after - before) <= BRANCH_LEAST_NOISE * noise
+        ):
             continue
-        angle, torque = branches[i]
+        angle, torque = branches[i].angle, branches[i].torque
         # A torque that changes as the base turns has the sign of the turn.
         forth = np.sign(angle[-1] - angle[0])
         if forth * (after - before) <= 0:
             continue
         level.append(abs(after - before) / 2)
         middle.append((after + before) / 2)
+        rates.append(branches[i].rate_per_s)
         share = (torque - before) / (after - before)
         lines = [_line(angle, share, *quarters) for quarters in (FIRST_QUARTERS, LAST_QUARTERS)]
         if None not in lines:
@@ -86,12 +116,17 @@ def loop_shape(branches: list[tuple[Array, Array]], noise: float) -> LoopShape:
             stiffness.append(abs(after - before) * (abs(slope_1) + abs(slope_2)) / 2)
             play.append(max(forth * (at_2 - at_1), 0.0))
     return LoopShape(
-        stiffness=_pooled(stiffness), play=_pooled(play), level=_pooled(level), middle=_pooled(middle)
+        stiffness=_pooled(stiffness),
+        play=_pooled(play),
+        level=_pooled(level),
+        middle=_pooled(middle),
+        kept=_pooled(kept),
+        rates_per_s=(min(rates, default=0.0), max(rates, default=0.0)),
     )
 
 
-def branches_of(motion: Motion, angle: Array, torque: Array) -> list[tuple[Array, Array]]:
-    """Angle and torque between reversals, without samples at rest.
+def branches_of(motion: Motion, angle: Array, torque: Array) -> list[Branch]:
+    """Angle and torque between reversals of one trial, without samples at rest.
 
     Args:
       motion: of the base; angle and torque are at its times, (N,).
@@ -101,12 +136,31 @@ def branches_of(motion: Motion, angle: Array, torque: Array) -> list[tuple[Array
     for a, b in pairwise(edges):
         moving = ~motion.resting[a:b] & np.isfinite(torque[a:b]) & np.isfinite(angle[a:b])
         if moving.sum() > 2:
-            found.append((angle[a:b][moving], torque[a:b][moving]))
+            turned, x, y = angle[a:b], angle[a:b][moving], torque[a:b][moving]
+            spent_s = float(moving.sum() * np.median(np.diff(motion.time_s)))
+            rate = float(np.ptp(turned)) / spent_s
+            found.append(Branch(angle=x, torque=y, rate_per_s=rate, first=not found))
     return found
 
 
-def _plateau(angle: Array, torque: Array) -> float | None:
+def kept_torques(motion: Motion, angle: Array, torque: Array) -> list[float]:
+    """Torque in the last half of each rest after a turn, positive along that turn."""
+    found: list[float] = []
+    for (_, before), (first, last) in pairwise(((motion.time_s[0],) * 2, *motion.rests_s)):
+        start = np.searchsorted(motion.time_s, before)
+        for i in motion.reversals:
+            start = max(start, i) if motion.time_s[i] < first else start
+        stop = np.searchsorted(motion.time_s, first)
+        way = angle[min(stop, angle.size - 1)] - angle[start]
+        inside = (motion.time_s >= (first + last) / 2) & (motion.time_s <= last) & np.isfinite(torque)
+        if way != 0 and inside.any() and first > motion.time_s[0]:
+            found.append(float(np.sign(way) * np.mean(torque[inside])))
+    return found
+
+
+def _plateau(branch: Branch) -> float | None:
     """Torque near the end of a branch, before the base slows down."""
+    angle, torque = branch.angle, branch.torque
     turned = np.abs(angle - angle[0])
     near = (turned >= PLATEAU[0] * turned.max()) & (turned <= PLATEAU[1] * turned.max())
     return float(np.median(torque[near])) if near.any() else None
@@ -128,7 +182,7 @@ def _line(angle: Array, share: Array, low: float, high: float) -> tuple[float, f
     return (float(slope), float((0.5 - offset) / slope)) if slope else None
 
 
-def _pooled(values: list[float]) -> LoopValue:
+def _pooled(values: Sequence[float]) -> LoopValue:
     if not values:
         return LoopValue(value=None, scatter=None, reversals=0)
     middle = float(np.median(values))

@@ -43,11 +43,8 @@ def torque_sign(torque: Array, angle: Array) -> SignGuess:
         return SignGuess(
             sign=None, reason=f"work is {share:+.0%} of what is moved to and fro: too little"
         )
-    said = "positive" if share > 0 else "negative"
-    return SignGuess(
-        sign=1 if share > 0 else -1,
-        reason=f"work on the needle is {said}: {share:+.0%} of all moved",
-    )
+    reason = f"work on the needle is {share:+.0%} of all that is moved"
+    return SignGuess(sign=1 if share > 0 else -1, reason=reason)
 
 
 def tip_sign(time_s: Array, tip: Array, base: Array) -> SignGuess:
@@ -63,7 +60,7 @@ def tip_sign(time_s: Array, tip: Array, base: Array) -> SignGuess:
 
 
 def speed_sign(time_s: Array, speed: Array, depth: Array, *, depth_grows: bool) -> SignGuess:
-    """Sign under which speed is positive into the tissue; depth may be the free length, which shrinks."""
+    """Sign that makes speed positive into the tissue; depth may be the free length, which shrinks."""
     travel = np.concatenate(([0.0], np.cumsum(np.diff(time_s) * (speed[1:] + speed[:-1]) / 2)))
     moved = (depth - depth[0]) * (1 if depth_grows else -1)
     if np.ptp(travel) == 0 or np.ptp(moved) == 0:
