@@ -44,8 +44,8 @@ def with_zero(column: GuessedColumn, trials: Trials, motions: Motions) -> Guesse
     reason = next(guess.reason for guess in found if guess.value is not None)
     if len(values) > 1:
         reason = (
-            f"median of {len(values)} trials that start at rest, {min(values):.4g} to {max(values):.4g}; "
-            f"{FIRST_REST!r} takes each trial's own"
+            f"median of {len(values)} trials that start at rest, {min(values):.4g} to "
+            f"{max(values):.4g}; {FIRST_REST!r} takes each trial's own"
         )
     return column.with_guess("zero", reason, zero=float(f"{np.median(values):.6g}"))
 

@@ -132,7 +132,7 @@ def branches_of(motion: Motion, angle: Array, torque: Array) -> list[Branch]:
       motion: of the base; angle and torque are at its times, (N,).
     """
     edges = [0, *motion.reversals, angle.size]
-    found = []
+    found: list[Branch] = []
     for a, b in pairwise(edges):
         moving = ~motion.resting[a:b] & np.isfinite(torque[a:b]) & np.isfinite(angle[a:b])
         if moving.sum() > 2:

@@ -60,8 +60,11 @@ def text_layout(lines: Sequence[str]) -> TextLayout | None:
     if best is None:
         return None
     _, count, separator, decimal = best
-    rows = [i for i, line in enumerate(lines) if _is_row(line, separator, decimal, count)]
-    first = rows[0]
+    first = next(
+        i
+        for i, line in enumerate(lines)
+        if _is_row(row := cells(line, separator), decimal) and len(row) == count
+    )
     names = _header([line for line in lines[:first] if line.strip()], separator, count)
     shown = names or [f"column {i + 1}" for i in range(count)]
     return TextLayout(
@@ -90,26 +93,26 @@ def is_date(cell: str) -> bool:
 
 
 def _score(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, int]:
-    """Numbers less other cells, and the number of cells, of the most frequent kind of line."""
-    probed = [cells(line, separator) for line in lines[-_PROBED:] if line.strip()]
-    numbers = [sum(_is_number(cell, decimal) for cell in row) for row in probed]
-    counts = Counter(len(row) for row, n in zip(probed, numbers, strict=True) if n and len(row) > 1)
-    if not counts:
+    """Numbers less other cells of the most frequent kind of row, and its number of cells."""
+    rows = [row for line in lines[-_PROBED:] if _is_row(row := cells(line, separator), decimal)]
+    if not rows:
         return 0, 0
-    count = counts.most_common(1)[0][0]
-    score = 0
-    for row, found in zip(probed, numbers, strict=True):
-        if len(row) == count:
-            other = sum(not (_is_number(c, decimal) or is_empty(c) or is_date(c)) for c in row)
-            score += found - 2 * other
-    return score, count
+    count = Counter(map(len, rows)).most_common(1)[0][0]
+    inside = [cell for row in rows if len(row) == count for cell in row]
+    known = sum(_is_known(cell, decimal) for cell in inside)
+    empty = sum(is_empty(cell) for cell in inside)
+    return known - (len(inside) - known - empty), count
 
 
-def _is_row(line: str, separator: str, decimal: str, count: int) -> bool:
-    row = cells(line, separator)
-    known = [_is_number(cell, decimal) or is_date(cell) for cell in row]
-    blank = [is_empty(cell) for cell in row]
-    return len(row) == count and any(known) and 2 * (sum(known) + sum(blank)) > count
+def _is_row(row: Sequence[str], decimal: str) -> bool:
+    """Whether most cells are numbers, times or empty."""
+    known = sum(_is_known(cell, decimal) for cell in row)
+    empty = sum(is_empty(cell) for cell in row)
+    return len(row) > 1 and known > 0 and 2 * (known + empty) > len(row)
+
+
+def _is_known(cell: str, decimal: str) -> bool:
+    return _is_number(cell, decimal) or is_date(cell)
 
 
 def _is_number(cell: str, decimal: str) -> bool:
@@ -121,7 +124,7 @@ def _header(above: Sequence[str], separator: str, count: int) -> list[str]:
     units: list[str] = []
     for line in reversed(above):
         row = _split(line, separator, count)
-        if not row or not any(row):
+        if not any(row) or all(_is_number(cell, ".") for cell in row):
             continue
         if not units and all(not cell or cell == "-" or is_unit(cell.strip("[](){}<>")) for cell in row):
             units = row
