@@ -32,7 +32,7 @@ class TimeSource(Record):
 
     column: str
     unit: str | None = None
-    factor: float | None = None
+    factor: Annotated[float, Field(gt=0)] | None = None
     """Seconds per unit of the file, for a unit that is not known."""
     guess: bool = False
 
@@ -227,6 +227,8 @@ def _wrong_unit(name: str, source: ColumnSource) -> list[str]:
     quantity = source.quantity(name)
     if quantity is None:
         return [f".derive: {name} cannot be had by '{source.derive}'"]
+    if source.factor == 0:
+        return [".factor: expected a number other than 0"]
     if source.unit is None:
         return []
     known = factor_of(source.unit, quantity)
@@ -240,7 +242,7 @@ def _wrong_unit(name: str, source: ColumnSource) -> list[str]:
             f".factor: {source.unit!r} is a known unit ({known:.6g} {quantity}); take 'factor' out, "
             "or name the unit otherwise"
         ]
-    return [".factor: expected a number other than 0"] if source.factor == 0 else []
+    return []
 
 
 def _known(quantity: Quantity) -> str:

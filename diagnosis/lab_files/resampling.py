@@ -6,6 +6,7 @@ less often is interpolated by straight lines. A pause stays a pause: no reading 
 """
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.signal import resample_poly
 
 from diagnosis.criteria import GAP_STEPS
@@ -58,7 +59,9 @@ def told(time_s: Array, wanted_hz: float) -> str:
     return f"{own:.4g} to {wanted_hz:.4g} Hz, interpolated by straight lines"
 
 
-def _in_gap(time_s: Array, wanted_s: Array, usual_s: float) -> np.ndarray:
-    """Between two samples that are far apart."""
+def _in_gap(time_s: Array, wanted_s: Array, usual_s: float) -> NDArray[np.bool_]:
+    """Between two samples that are far apart, and near neither."""
     after = np.clip(np.searchsorted(time_s, wanted_s), 1, time_s.size - 1)
-    return np.asarray(time_s[after] - time_s[after - 1] > GAP_STEPS * usual_s)
+    before_s, after_s = time_s[after - 1], time_s[after]
+    alone = np.minimum(np.abs(wanted_s - before_s), np.abs(after_s - wanted_s)) > usual_s / 2
+    return np.asarray((after_s - before_s > GAP_STEPS * usual_s) & alone)
