@@ -133,7 +133,7 @@ SIGN_LEAST_CORRELATION = 0.3
 ZERO_SIGMA = 4.0
 """Derived: a mean at rest that is off 0 by fewer of its standard deviations reads 0."""
 CLOCK_LONGEST_S = 5.0
-CLOCK_STEP_S = 0.002
+CLOCK_STEP_S = 0.01
 CLOCK_BLOCKS = 8
 CLOCK_SIGMA = 4.0
 CLOCK_LEAST_S = 0.1

@@ -71,7 +71,8 @@ def with_offset(column: GuessedColumn, trials: Trials) -> GuessedColumn:
     for own in trials.values():
         base, one = own.get("base_angle_deg"), own.get(column.wanted)
         if base is not None and one is not None:
-            offset = clock_offset(one.time_s, one.values, base.time_s, base.values)
+            torque = column.wanted == "base_torque_n_mm"
+            offset = clock_offset(one.time_s, one.values, base.time_s, base.values, torque=torque)
             found.append((offset, one.clock[0] != base.clock[0]))
     known = [pair for pair in found if pair[0].late_s is not None]
     if not known:

@@ -136,9 +136,8 @@ def branches_of(motion: Motion, angle: Array, torque: Array) -> list[Branch]:
     for a, b in pairwise(edges):
         moving = ~motion.resting[a:b] & np.isfinite(torque[a:b]) & np.isfinite(angle[a:b])
         if moving.sum() > 2:
-            turned, x, y = angle[a:b], angle[a:b][moving], torque[a:b][moving]
-            spent_s = float(moving.sum() * np.median(np.diff(motion.time_s)))
-            rate = float(np.ptp(turned)) / spent_s
+            x, y = angle[a:b][moving], torque[a:b][moving]
+            rate = _rate(motion.time_s[a:b][moving], x)
             found.append(Branch(angle=x, torque=y, rate_per_s=rate, first=not found))
     return found
 
@@ -156,6 +155,14 @@ def kept_torques(motion: Motion, angle: Array, torque: Array) -> list[float]:
         if way != 0 and inside.any() and first > motion.time_s[0]:
             found.append(float(np.sign(way) * np.mean(torque[inside])))
     return found
+
+
+def _rate(time_s: Array, angle: Array) -> float:
+    """Rate over the middle of a turn."""
+    share = np.abs(angle - angle[0]) / max(float(np.abs(angle - angle[0]).max()), 1e-12)
+    middle = (share > FIRST_QUARTERS[0]) & (share < LAST_QUARTERS[1])
+    spent_s = float(np.count_nonzero(middle) * np.median(np.diff(time_s)))
+    return float(np.ptp(angle[middle])) / spent_s if spent_s > 0 else 0.0
 
 
 def _plateau(branch: Branch) -> float | None:
