@@ -137,12 +137,13 @@ CLOCK_STEP_S = 0.01
 CLOCK_BLOCKS = 8
 CLOCK_SIGMA = 4.0
 CLOCK_LEAST_S = 0.1
+CLOCK_LEAST_CORRELATION = 0.7
 TIP_LAG_AT_MOST_S = 2.0
 ALIKE_PEAKS = 0.9
 """Offsets of clocks that are looked for, their step, the blocks of which one is left out at a time, the
-standard deviations and the seconds from which an offset is one (a torque that relaxes leads by some
-hundredths), the lag up to which the tip may be slow by itself, and the share of the highest product from
-which another one is about as high: of these the smallest offset is taken."""
+standard deviations and the seconds from which an offset is one (a needle is not one spring), the least
+correlation that is believed, the lag up to which the tip may be slow by itself, and the share of the
+highest product from which another one is about as high: of these the smallest offset is taken."""
 DERIVATIVE_WINDOW_S = 0.1
 """Time over which a speed is taken from a position: 5 Hz and slower pass."""
 NAME_LEAST_SCORE = 2.0

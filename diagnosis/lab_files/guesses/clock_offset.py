@@ -18,7 +18,7 @@ from diagnosis.criteria import (
     CLOCK_BLOCKS,
     CLOCK_LONGEST_S,
     CLOCK_STEP_S,
-    SIGN_LEAST_CORRELATION,
+    CLOCK_LEAST_CORRELATION,
 )
 from diagnosis.lab_files.readers.lab_table import Array
 
@@ -71,7 +71,7 @@ def clock_offset(
         if alike > match:
             match, blocks = alike, found
     whole = blocks.sum(axis=0)
-    if match < SIGN_LEAST_CORRELATION:
+    if match < CLOCK_LEAST_CORRELATION:
         return ClockOffset(
             late_s=None, uncertainty_s=None, reason=f"rates correlate by {match:.2f} only"
         )

@@ -14,13 +14,13 @@ TORQUE = TURNS["base_torque_n_mm"].to_numpy()
 @pytest.mark.parametrize("late_s", [0.0, 0.35, -0.8, 2.0])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_late_torque_is_late_by_its_offset(late_s, sign):
-    """A spring that relaxes leads by some hundredths of a second by itself: that is the bound."""
+    """What the tool itself takes for no offset is the bound; the found ones are 0.02 s off at most."""
     found = clock_offset(TIME + late_s, sign * TORQUE, TIME, BASE_DEG, torque=True)
     assert found.late_s == pytest.approx(late_s, abs=CLOCK_LEAST_S)
     assert found.uncertainty_s < 0.1
 
 
-def test_an_offset_is_found_exactly_beside_that_lead():
+def test_an_offset_changes_the_lag_by_as_much():
     none = clock_offset(TIME, TORQUE, TIME, BASE_DEG, torque=True)
     late = clock_offset(TIME + 0.35, TORQUE, TIME, BASE_DEG, torque=True)
     assert late.late_s - none.late_s == pytest.approx(0.35, abs=0.01)  # a sample
@@ -38,7 +38,7 @@ def test_a_slower_sampling_does_not_shift():
 
 def test_an_offset_beyond_a_quarter_of_the_record_is_not_made_up():
     found = clock_offset(TIME + 4, TORQUE, TIME, BASE_DEG, torque=True)
-    assert found.late_s is None or abs(found.late_s - 4) > 1  # 2 s are looked at, of 8 in common
+    assert found.late_s is None  # 2 s are looked at, of 8 in common
 
 
 def test_noise_and_short_records_have_no_offset():
