@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 import yaml
 from pydantic import Field
 
-from diagnosis.lab_files.units import QUANTITIES, RATES, UNITS, Quantity, factor_of
+from diagnosis.lab_files.units import QUANTITIES, RATES, UNITS, MeasuredQuantity, factor_of
 from diagnosis.log.nominal_rig import NominalNeedle, NominalTissue, SensorNoise
 from diagnosis.log.trial import COLUMNS, REQUIRED, SENSORS
 from models.errors import InvalidValue
@@ -39,7 +39,7 @@ class TimeSource(Record):
     @property
     def seconds(self) -> float:
         """Seconds in one of its units."""
-        return self.factor or factor_of(self.unit or "", Quantity.TIME) or 1.0
+        return self.factor or factor_of(self.unit or "", MeasuredQuantity.TIME) or 1.0
 
 
 class ColumnSource(Record):
@@ -63,7 +63,7 @@ class ColumnSource(Record):
     guess: bool = False
     """Guessed by a draft and confirmed by nobody: refused."""
 
-    def quantity(self, wanted: str) -> Quantity | None:
+    def quantity(self, wanted: str) -> MeasuredQuantity | None:
         """What the file's column measures, if it is to give the wanted one; None: impossible."""
         own = QUANTITIES[wanted]
         if self.derive == "integrate":
@@ -161,12 +161,12 @@ def _blanks(mapping: ImportMapping) -> list[str]:
     found = []
     for time in mapping.times:
         if time.factor is None and time.unit is None:
-            found.append(f"times.{time.column}: state 'unit', one of {_known(Quantity.TIME)}")
+            found.append(f"times.{time.column}: state 'unit', one of {_known(MeasuredQuantity.TIME)}")
     for name, source in mapping.columns.items():
         if source.column is None:
             found.append(f"columns.{name}.column: state the column of the file, or remove the entry")
         elif source.unit is None and source.factor is None:
-            quantity = source.quantity(name) or QUANTITIES.get(name, Quantity.ANGLE)
+            quantity = source.quantity(name) or QUANTITIES.get(name, MeasuredQuantity.ANGLE)
             found.append(
                 f"columns.{name}: state 'unit' of {source.column!r}, one of {_known(quantity)}; or "
                 f"'factor', {quantity} per unit of the file"
@@ -194,7 +194,11 @@ def _impossible(mapping: ImportMapping) -> list[str]:
             continue
         found += [f"columns.{name}{wrong}" for wrong in _wrong_unit(name, source)]
     for time in mapping.times:
-        if time.unit is not None and time.factor is None and not factor_of(time.unit, Quantity.TIME):
+        if (
+            time.unit is not None
+            and time.factor is None
+            and not factor_of(time.unit, MeasuredQuantity.TIME)
+        ):
             found.append(
                 f"times.{time.column}.unit: {time.unit!r} is not known; state 'factor', seconds per unit"
             )
@@ -245,7 +249,7 @@ def _wrong_unit(name: str, source: ColumnSource) -> list[str]:
     return []
 
 
-def _known(quantity: Quantity) -> str:
+def _known(quantity: MeasuredQuantity) -> str:
     return ", ".join(list(UNITS[quantity])[:6]) + " ..."
 
 

@@ -12,7 +12,7 @@ from enum import StrEnum
 from diagnosis.log.unit_hints import ANGLES, LENGTHS, SPEEDS, TIMES, TORQUES
 
 
-class Quantity(StrEnum):
+class MeasuredQuantity(StrEnum):
     """What a column measures; the value is its unit in rig-log/1."""
 
     ANGLE = "deg"
@@ -24,17 +24,20 @@ class Quantity(StrEnum):
 
 
 QUANTITIES = {
-    "time_s": Quantity.TIME,
-    "base_angle_deg": Quantity.ANGLE,
-    "tip_angle_deg": Quantity.ANGLE,
-    "base_torque_n_mm": Quantity.TORQUE,
-    "tip_torque_n_mm": Quantity.TORQUE,
-    "inserted_mm": Quantity.LENGTH,
-    "free_mm": Quantity.LENGTH,
-    "speed_mm_s": Quantity.SPEED,
+    "time_s": MeasuredQuantity.TIME,
+    "base_angle_deg": MeasuredQuantity.ANGLE,
+    "tip_angle_deg": MeasuredQuantity.ANGLE,
+    "base_torque_n_mm": MeasuredQuantity.TORQUE,
+    "tip_torque_n_mm": MeasuredQuantity.TORQUE,
+    "inserted_mm": MeasuredQuantity.LENGTH,
+    "free_mm": MeasuredQuantity.LENGTH,
+    "speed_mm_s": MeasuredQuantity.SPEED,
 }
 """By column of rig-log/1."""
-RATES = {Quantity.ANGLE: Quantity.ANGULAR_RATE, Quantity.LENGTH: Quantity.SPEED}
+RATES = {
+    MeasuredQuantity.ANGLE: MeasuredQuantity.ANGULAR_RATE,
+    MeasuredQuantity.LENGTH: MeasuredQuantity.SPEED,
+}
 """What is integrated to give a quantity."""
 
 _RAD = 180 / math.pi
@@ -62,13 +65,13 @@ for _force, _pounds in (
 ):
     for _arm, _inches in (("in", 1.0), ("ft", 12.0)):
         _TORQUES |= dict.fromkeys((_force + _arm, _arm + _force), _POUND_INCH * _pounds * _inches)
-UNITS: dict[Quantity, dict[str, float]] = {
-    Quantity.ANGLE: _ANGLES,
-    Quantity.ANGULAR_RATE: _RATES,
-    Quantity.TORQUE: _TORQUES,
-    Quantity.LENGTH: _LENGTHS,
-    Quantity.SPEED: _SPEEDS,
-    Quantity.TIME: _TIMES,
+UNITS: dict[MeasuredQuantity, dict[str, float]] = {
+    MeasuredQuantity.ANGLE: _ANGLES,
+    MeasuredQuantity.ANGULAR_RATE: _RATES,
+    MeasuredQuantity.TORQUE: _TORQUES,
+    MeasuredQuantity.LENGTH: _LENGTHS,
+    MeasuredQuantity.SPEED: _SPEEDS,
+    MeasuredQuantity.TIME: _TIMES,
 }
 """Units of rig-log/1 in one of these, by the letters and digits of its name."""
 _WITHOUT_SCALE = {
@@ -88,7 +91,7 @@ _WITHOUT_SCALE = {
 }
 
 
-def factor_of(unit: str, quantity: Quantity) -> float | None:
+def factor_of(unit: str, quantity: MeasuredQuantity) -> float | None:
     """Units of rig-log/1 in one of these; None: not known for this quantity."""
     return UNITS[quantity].get(_plain(unit))
 

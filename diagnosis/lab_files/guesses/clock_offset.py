@@ -1,8 +1,8 @@
 """How far the clocks of a sensor and of the base are apart, by cross-correlation.
 
 A shaft that is twisted and relaxes within a time tau reads as a spring: the torque is what a low-pass
-filter of tau takes off the base's angle, the tip is what it leaves. Of several tau the one is taken whose
-rates match best; the lag of the highest product is the offset. So the needle's own lag is mostly
+filter of tau takes off the base's angle, the tip is what it leaves. Of several tau the one is taken
+whose rates match best; the lag of the highest product is the offset. So the needle's own lag is mostly
 taken off. How uncertain the rest is, is seen from leaving out one block of time after the other
 (jackknife): with m blocks and lags l_i without block i, the variance is (m - 1) / m sum (l_i - mean)^2.
 """
@@ -16,9 +16,9 @@ from scipy.signal import lfilter
 from diagnosis.criteria import (
     ALIKE_PEAKS,
     CLOCK_BLOCKS,
+    CLOCK_LEAST_CORRELATION,
     CLOCK_LONGEST_S,
     CLOCK_STEP_S,
-    CLOCK_LEAST_CORRELATION,
 )
 from diagnosis.lab_files.readers.lab_table import Array
 
@@ -100,7 +100,7 @@ def _rate(even: Array, time_s: Array, values: Array) -> Array:
 def _low_pass(values: Array, share: float) -> Array:
     """First-order low-pass filter that takes so much of the difference in each step."""
     gain = 1 - np.exp(-share)
-    return values[0] + np.asarray(lfilter([gain], [1, gain - 1], values - values[0]))
+    return np.asarray(values[0] + lfilter([gain], [1, gain - 1], values - values[0]))
 
 
 def _blocks(size: int) -> list[slice]:
@@ -111,7 +111,7 @@ def _blocks(size: int) -> list[slice]:
 def _products(own: Array, other: Array, block: slice, reach: int) -> Array:
     """Sums of products over a block of the reference, for lags from -reach to reach."""
     window = np.pad(own, reach)[block.start : block.stop + 2 * reach]
-    return np.correlate(window, other[block], mode="valid")
+    return np.asarray(np.correlate(window, other[block], mode="valid"))
 
 
 def _highest(products: Array) -> int | None:

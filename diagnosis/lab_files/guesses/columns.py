@@ -16,7 +16,7 @@ from diagnosis.lab_files.guesses.names import (
 from diagnosis.lab_files.guesses.unit_guess import guessed_unit
 from diagnosis.lab_files.mapping import ColumnSource, TimeSource, TrialSource
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
-from diagnosis.lab_files.units import Quantity
+from diagnosis.lab_files.units import MeasuredQuantity
 from diagnosis.log.trial import REQUIRED, SENSORS
 
 Open = list[str]
@@ -91,7 +91,7 @@ def guessed_sources(
 
 def _guessed_time(table: LabTable, name: str, open_: Open) -> GuessedTimes:
     ros = table.ros_units or name.endswith(".log_time")
-    unit = guessed_unit(name, table.columns[name], Quantity.TIME, ros_units=ros)
+    unit = guessed_unit(name, table.columns[name], MeasuredQuantity.TIME, ros_units=ros)
     if not unit.known:
         open_.append(f"times.{name}: {unit.reason}")
     source = TimeSource(column=name, unit=unit.unit, guess=unit.asked)
@@ -100,7 +100,7 @@ def _guessed_time(table: LabTable, name: str, open_: Open) -> GuessedTimes:
 
 def _guessed_column(guess: NameGuess, derive: Any, open_: Open) -> GuessedColumn:
     table, name, wanted = guess.table, guess.column, guess.wanted
-    quantity = ColumnSource(column=name, derive=derive).quantity(wanted) or Quantity.ANGLE
+    quantity = ColumnSource(column=name, derive=derive).quantity(wanted) or MeasuredQuantity.ANGLE
     unit = guessed_unit(name, table.columns[name], quantity, ros_units=table.ros_units)
     joint = f" and that of its joint, {table.words[name]!r}" if name in table.words else ""
     reasons = {"column": f"by its name{joint}", "unit": unit.reason}

@@ -11,7 +11,7 @@ import numpy as np
 
 from diagnosis.criteria import NAME_LEAST_SCORE, SAME_MOTION
 from diagnosis.lab_files.readers.lab_table import Array, LabTable
-from diagnosis.lab_files.units import QUANTITIES, Quantity, factor_of, unit_in
+from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, unit_in
 from diagnosis.log.unit_hints import words_of
 
 # A star stands for any end of a word; numbers at the end do not count.
@@ -85,8 +85,10 @@ def angular_rate(tables: Sequence[LabTable], used: Iterable[str]) -> tuple[LabTa
     for table in tables:
         for name in table.columns:
             words, unit = _all_words(table, name), unit_in(name)
-            turns = factor_of(unit, Quantity.ANGULAR_RATE) is not None
-            called = _has(words, _RATE) and _has(words, _BASE) and not factor_of(unit, Quantity.SPEED)
+            turns = factor_of(unit, MeasuredQuantity.ANGULAR_RATE) is not None
+            called = (
+                _has(words, _RATE) and _has(words, _BASE) and not factor_of(unit, MeasuredQuantity.SPEED)
+            )
             if name not in used and (turns or called) and not _has(words, f"{_TIP} {_COMMANDED}"):
                 return table, name
     return None
@@ -106,10 +108,10 @@ def is_rate_of(values: Array, time_s: Array, position: Array) -> bool:
 def _score(wanted: str, table: LabTable, name: str) -> float:
     """How well a name and its unit fit; the weights of words, 2 for a unit, less what speaks against."""
     words, unit = _all_words(table, name), unit_in(name)
-    known = [quantity for quantity in Quantity if factor_of(unit, quantity) is not None]
+    known = [quantity for quantity in MeasuredQuantity if factor_of(unit, quantity) is not None]
     foreign = bool(known) and QUANTITIES[wanted] not in known
     base, tip = 2.0 * _has(words, _BASE), 2.0 * _has(words, _TIP)
-    rate = _has(words, _RATE) or Quantity.ANGULAR_RATE in known
+    rate = _has(words, _RATE) or MeasuredQuantity.ANGULAR_RATE in known
     angle = 2.0 * _has(words, _ANGLE)
     torque, depth = _weight(words, _TORQUE), _weight(words, _DEPTH)
     still = 3.0 * (_span(table.columns[name]) == 0)

@@ -12,15 +12,15 @@ from diagnosis.criteria import (
     RADIANS_AT_MOST,
 )
 from diagnosis.lab_files.readers.lab_table import Array
-from diagnosis.lab_files.units import Quantity, factor_of, unit_in
+from diagnosis.lab_files.units import MeasuredQuantity, factor_of, unit_in
 
 _ROS = {
-    Quantity.ANGLE: "rad",
-    Quantity.ANGULAR_RATE: "rad/s",
-    Quantity.TORQUE: "N m",
-    Quantity.LENGTH: "m",
-    Quantity.SPEED: "m/s",
-    Quantity.TIME: "s",
+    MeasuredQuantity.ANGLE: "rad",
+    MeasuredQuantity.ANGULAR_RATE: "rad/s",
+    MeasuredQuantity.TORQUE: "N m",
+    MeasuredQuantity.LENGTH: "m",
+    MeasuredQuantity.SPEED: "m/s",
+    MeasuredQuantity.TIME: "s",
 }
 
 
@@ -40,7 +40,7 @@ class UnitGuess:
     reason: str
 
 
-def guessed_unit(name: str, values: Array, quantity: Quantity, *, ros_units: bool) -> UnitGuess:
+def guessed_unit(name: str, values: Array, quantity: MeasuredQuantity, *, ros_units: bool) -> UnitGuess:
     """The unit of a column that measures a quantity."""
     if ros_units:
         return UnitGuess(unit=_ROS[quantity], known=True, asked=False, reason="ROS's units (REP 103)")
@@ -53,18 +53,18 @@ def guessed_unit(name: str, values: Array, quantity: Quantity, *, ros_units: boo
     return _by_magnitude(values, quantity)
 
 
-def _by_magnitude(values: Array, quantity: Quantity) -> UnitGuess:
+def _by_magnitude(values: Array, quantity: MeasuredQuantity) -> UnitGuess:
     finite = values[np.isfinite(values)]
     span, most = (float(np.ptp(finite)), float(np.abs(finite).max())) if finite.size else (0.0, 0.0)
     unit: str | None
     match quantity:
-        case Quantity.TIME:
+        case MeasuredQuantity.TIME:
             step = float(np.median(np.diff(finite))) if finite.size > 1 else 0.0
             unit, said = _time_unit(step), f"the step is {step:.4g}"
-        case Quantity.ANGLE:
+        case MeasuredQuantity.ANGLE:
             unit = "rad" if span <= RADIANS_AT_MOST else "deg"
             said = f"it turns by {span:.4g}, which were {np.degrees(span):.4g} deg if in rad"
-        case Quantity.LENGTH:
+        case MeasuredQuantity.LENGTH:
             unit, said = "m" if most <= METRES_AT_MOST else "mm", f"it reaches {most:.4g}"
         case _:
             unit, said = None, f"it reaches {most:.4g}"
@@ -82,5 +82,5 @@ def _time_unit(step: float) -> str:
     return "ms" if step >= MILLISECONDS_AT_LEAST else "s"
 
 
-def _in_words(quantity: Quantity) -> str:
+def _in_words(quantity: MeasuredQuantity) -> str:
     return f"unit of {quantity.name.lower().replace('_', ' ')}"

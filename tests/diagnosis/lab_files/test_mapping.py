@@ -5,7 +5,7 @@ import yaml
 from lab_files import RIG, mapping_of
 
 from diagnosis.lab_files.mapping import ColumnSource, as_rig, guesses, read_mapping
-from diagnosis.lab_files.units import Quantity
+from diagnosis.lab_files.units import MeasuredQuantity
 from models.errors import InvalidValue
 
 
@@ -112,9 +112,13 @@ def test_a_trial_may_have_a_constant_of_its_own(tmp_path):
 
 def test_what_is_integrated_is_a_rate():
     assert (
-        ColumnSource(column="w", derive="integrate").quantity("base_angle_deg") == Quantity.ANGULAR_RATE
+        ColumnSource(column="w", derive="integrate").quantity("base_angle_deg")
+        == MeasuredQuantity.ANGULAR_RATE
     )
-    assert ColumnSource(column="z", derive="differentiate").quantity("speed_mm_s") == Quantity.LENGTH
+    assert (
+        ColumnSource(column="z", derive="differentiate").quantity("speed_mm_s")
+        == MeasuredQuantity.LENGTH
+    )
     assert ColumnSource(column="z", derive="differentiate").quantity("inserted_mm") is None
 
 

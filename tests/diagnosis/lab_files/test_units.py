@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from diagnosis.lab_files.units import QUANTITIES, Quantity, factor_of, is_unit, unit_in
+from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, is_unit, unit_in
 from diagnosis.log.trial import COLUMNS
 
 POUND_N, INCH_MM = 4.4482216152605, 25.4
@@ -13,30 +13,30 @@ POUND_N, INCH_MM = 4.4482216152605, 25.4
 @pytest.mark.parametrize(
     ("unit", "quantity", "factor"),
     [
-        ("rad", Quantity.ANGLE, 180 / math.pi),
-        ("°", Quantity.ANGLE, 1),
-        ("rev", Quantity.ANGLE, 360),
-        ("mrad", Quantity.ANGLE, 0.18 / math.pi),
-        ("N m", Quantity.TORQUE, 1000),
-        ("N·m", Quantity.TORQUE, 1000),
-        ("mN m", Quantity.TORQUE, 1),
-        ("mNm", Quantity.TORQUE, 1),
-        ("N*mm", Quantity.TORQUE, 1),
-        ("in-lb", Quantity.TORQUE, POUND_N * INCH_MM),
-        ("lbf in", Quantity.TORQUE, POUND_N * INCH_MM),
-        ("kip*in", Quantity.TORQUE, 1000 * POUND_N * INCH_MM),
-        ("ft lb", Quantity.TORQUE, 12 * POUND_N * INCH_MM),
-        ("oz-in", Quantity.TORQUE, POUND_N * INCH_MM / 16),
-        ("kgf cm", Quantity.TORQUE, 98.0665),
-        ("in", Quantity.LENGTH, INCH_MM),
-        ("µm", Quantity.LENGTH, 1e-3),
-        ("m/s", Quantity.SPEED, 1000),
-        ("in/s", Quantity.SPEED, INCH_MM),
-        ("ms", Quantity.TIME, 1e-3),
-        ("ns", Quantity.TIME, 1e-9),
-        ("rpm", Quantity.ANGULAR_RATE, 6),
-        ("deg/s", Quantity.ANGULAR_RATE, 1),
-        ("rev/min", Quantity.ANGULAR_RATE, 6),
+        ("rad", MeasuredQuantity.ANGLE, 180 / math.pi),
+        ("°", MeasuredQuantity.ANGLE, 1),
+        ("rev", MeasuredQuantity.ANGLE, 360),
+        ("mrad", MeasuredQuantity.ANGLE, 0.18 / math.pi),
+        ("N m", MeasuredQuantity.TORQUE, 1000),
+        ("N·m", MeasuredQuantity.TORQUE, 1000),
+        ("mN m", MeasuredQuantity.TORQUE, 1),
+        ("mNm", MeasuredQuantity.TORQUE, 1),
+        ("N*mm", MeasuredQuantity.TORQUE, 1),
+        ("in-lb", MeasuredQuantity.TORQUE, POUND_N * INCH_MM),
+        ("lbf in", MeasuredQuantity.TORQUE, POUND_N * INCH_MM),
+        ("kip*in", MeasuredQuantity.TORQUE, 1000 * POUND_N * INCH_MM),
+        ("ft lb", MeasuredQuantity.TORQUE, 12 * POUND_N * INCH_MM),
+        ("oz-in", MeasuredQuantity.TORQUE, POUND_N * INCH_MM / 16),
+        ("kgf cm", MeasuredQuantity.TORQUE, 98.0665),
+        ("in", MeasuredQuantity.LENGTH, INCH_MM),
+        ("µm", MeasuredQuantity.LENGTH, 1e-3),
+        ("m/s", MeasuredQuantity.SPEED, 1000),
+        ("in/s", MeasuredQuantity.SPEED, INCH_MM),
+        ("ms", MeasuredQuantity.TIME, 1e-3),
+        ("ns", MeasuredQuantity.TIME, 1e-9),
+        ("rpm", MeasuredQuantity.ANGULAR_RATE, 6),
+        ("deg/s", MeasuredQuantity.ANGULAR_RATE, 1),
+        ("rev/min", MeasuredQuantity.ANGULAR_RATE, 6),
     ],
 )
 def test_a_unit_has_the_factor_of_its_definition(unit, quantity, factor):
@@ -45,9 +45,15 @@ def test_a_unit_has_the_factor_of_its_definition(unit, quantity, factor):
 
 @pytest.mark.parametrize(
     ("unit", "quantity"),
-    [("in", Quantity.ANGLE), ("kip", Quantity.TORQUE), ("deg/s", Quantity.ANGLE), ("counts", Quantity.ANGLE),
-     ("rev/s", Quantity.ANGLE), ("", Quantity.TIME)],
-)  # fmt: skip
+    [
+        ("in", MeasuredQuantity.ANGLE),
+        ("kip", MeasuredQuantity.TORQUE),
+        ("deg/s", MeasuredQuantity.ANGLE),
+        ("rev/s", MeasuredQuantity.ANGLE),
+        ("counts", MeasuredQuantity.ANGLE),
+        ("", MeasuredQuantity.TIME),
+    ],
+)
 def test_a_unit_of_something_else_has_none(unit, quantity):
     assert factor_of(unit, quantity) is None
 
