@@ -43,7 +43,7 @@ def torque_sign(torque: Array, angle: Array) -> SignGuess:
         return SignGuess(
             sign=None, reason=f"work is {share:+.0%} of what is moved to and fro: too little"
         )
-    reason = f"work on the needle is {share:+.0%} of all that is moved"
+    reason = f"the drive's work on the needle comes to {share:+.0%} of all that is moved"
     return SignGuess(sign=1 if share > 0 else -1, reason=reason)
 
 
@@ -55,7 +55,7 @@ def tip_sign(time_s: Array, tip: Array, base: Array) -> SignGuess:
     same, opposite = misfit(driving, following, float(even[1] - even[0]))
     if max(1 - same, 1 - opposite) < SIGN_LEAST_CORRELATION:
         return SignGuess(sign=None, reason="the tip does not follow the base either way")
-    left = f"a lagging copy of the base leaves {same:.0%} of it, of the opposite way {opposite:.0%}"
+    left = f"a lagging copy of the base explains {1 - same:.0%} of it, with a minus {1 - opposite:.0%}"
     return SignGuess(sign=1 if same <= opposite else -1, reason=left)
 
 
@@ -67,8 +67,10 @@ def speed_sign(time_s: Array, speed: Array, depth: Array, *, depth_grows: bool) 
         return SignGuess(sign=None, reason="nothing moves along the axis")
     match = float(np.corrcoef(travel, moved)[0, 1])
     if abs(match) < SIGN_LEAST_CORRELATION:
-        return SignGuess(sign=None, reason=f"correlation with the depth is {match:+.2f} only")
-    return SignGuess(sign=1 if match > 0 else -1, reason=f"correlation with the depth is {match:+.2f}")
+        return SignGuess(sign=None, reason=f"correlation with the axial motion is {match:+.2f} only")
+    return SignGuess(
+        sign=1 if match > 0 else -1, reason=f"correlation with the axial motion is {match:+.2f}"
+    )
 
 
 def zero_at_rest(values: Array, time_s: Array, motion: Motion, noise: float) -> ZeroGuess:
