@@ -9,8 +9,8 @@ from rich.table import Table
 
 from diagnosis.lab_files.draft_file import loop_lines, mapping_text
 from diagnosis.lab_files.guesses.draft import Draft, drafted
-from diagnosis.lab_files.mapping import read_mapping
 from diagnosis.lab_files.preview import write_preview
+from diagnosis.lab_files.read_mapping import read_mapping
 from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.readers.read import read_lab_files
 from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from diagnosis.lab_files.guesses.draft import Draft
 from diagnosis.lab_files.motion import Motion
-from diagnosis.lab_files.trial_tables import Series
+from diagnosis.lab_files.series import Series
 from sim.files import writing
 
 _MOST_TRIALS = 4

@@ -8,6 +8,7 @@ import yaml
 
 from diagnosis.lab_files.mapping import ImportMapping, as_rig
 from diagnosis.lab_files.readers.lab_table import LabFile
+from diagnosis.lab_files.series import refuse_unreadable
 from diagnosis.lab_files.trial_tables import ImportedTrial, imported_trial
 from models.errors import InvalidValue
 from sim.files import refuse_existing, write_text, writing
@@ -21,6 +22,7 @@ def imported(mapping: ImportMapping, files: Sequence[LabFile]) -> tuple[Imported
     Raises:
       InvalidValue: names the file and column.
     """
+    refuse_unreadable(mapping, files)
     return tuple(imported_trial(mapping, trial, files) for trial in mapping.trials)
 
 

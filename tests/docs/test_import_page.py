@@ -14,8 +14,8 @@ from diagnosis.lab_files.mapping import (
     ImportMapping,
     TimeSource,
     TrialSource,
-    read_mapping,
 )
+from diagnosis.lab_files.read_mapping import read_mapping
 from diagnosis.lab_files.readers.read import read_lab_files
 from diagnosis.lab_files.units import MeasuredQuantity, factor_of
 from diagnosis.lab_files.write_log import imported, write_log

@@ -51,7 +51,7 @@ def guessed_time_columns(files: Sequence[LabFile], open_: Open) -> list[GuessedT
                 numbers = ", ".join(f"{key} = {value:g}" for key, value in file.scalars.items())
                 beside = f" (single numbers in the file: {numbers})" if numbers else ""
                 open_.append(
-                    f"times: {table.title} has no column of times; state one, or 'sample_hz'{beside}"
+                    f"times: {table.title} has no rising column of times; state 'sample_hz'{beside}"
                 )
             elif name not in found:
                 found[name] = _guessed_time(table, name, open_)

@@ -24,7 +24,7 @@ from diagnosis.lab_files.guesses.hysteresis import LoopShape
 from diagnosis.lab_files.mapping import ImportMapping, TrialSource
 from diagnosis.lab_files.motion import Motion, motion_of
 from diagnosis.lab_files.readers.lab_table import LabFile
-from diagnosis.lab_files.trial_tables import Series, raw_series
+from diagnosis.lab_files.series import Series, raw_series
 from models.errors import InvalidValue
 
 NOISES = {

@@ -20,7 +20,7 @@ from diagnosis.lab_files.mapping import FIRST_REST
 from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.readers.lab_table import Array
 from diagnosis.lab_files.resampling import rate_hz
-from diagnosis.lab_files.trial_tables import Series
+from diagnosis.lab_files.series import Series
 from diagnosis.log.sensor_faults import quantum
 from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import white_noise

@@ -6,7 +6,7 @@ from lab_files import LAB, write_csv, write_ros2
 
 from diagnosis.lab_files.draft_file import loop_lines, mapping_text
 from diagnosis.lab_files.guesses.draft import drafted
-from diagnosis.lab_files.mapping import read_mapping
+from diagnosis.lab_files.read_mapping import read_mapping
 from diagnosis.lab_files.readers.read import read_lab_files
 from models.errors import InvalidValue
 

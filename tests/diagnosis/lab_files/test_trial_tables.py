@@ -20,7 +20,7 @@ from lab_files import (
 from diagnosis.lab_files.mapping import ImportMapping
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
 from diagnosis.lab_files.readers.read import read_lab_files
-from diagnosis.lab_files.trial_tables import imported_trial, raw_series
+from diagnosis.lab_files.trial_tables import imported_trial
 from models.errors import InvalidValue
 
 
@@ -164,24 +164,20 @@ def test_bad_input_names_file_and_column(change, named):
         in_memory(columns)
 
 
-def test_a_column_that_two_files_have_needs_to_be_told_which():
-    mapping = mapping_of(["a.csv", "b.csv"])
-    mapping["trials"] = [{"file": "trial.csv", "lab_files": ["a.csv", "b.csv"]}]
-    columns = {name: LAB[name].to_numpy() for name in LAB}
-    files = [
-        LabFile(path=Path(name), tables=(LabTable(title=name, columns=columns),))
-        for name in ("a.csv", "b.csv")
-    ]
-    whole = ImportMapping(**mapping)
-    with pytest.raises(InvalidValue, match="state 'file'"):
-        raw_series(whole, whole.trials[0], files, "free_mm")
-    mapping["columns"]["free_mm"]["file"] = 2
-    whole = ImportMapping(**mapping)
-    assert raw_series(whole, whole.trials[0], files, "free_mm").where.startswith("b.csv")
-
-
 def test_files_without_times_have_a_stated_rate():
     columns = {name: LAB[name].to_numpy() for name in LAB if name != "t (ms)"}
     table = in_memory(columns, times=[], sample_hz=100.0)
     np.testing.assert_allclose(table["time_s"], KNOWN["time_s"], atol=1e-9)
     assert isinstance(table, pd.DataFrame)
+
+
+def test_a_zero_from_a_rest_needs_a_base():
+    torque = {"column": "torque (N m)", "unit": "N m", "zero": "first_rest"}
+    columns = {name: LAB[name].to_numpy() for name in LAB}
+    with pytest.raises(InvalidValue, match="base_angle_deg"):
+        in_memory(
+            columns,
+            columns={"base_torque_n_mm": torque},
+            constants={"base_angle_deg": 0, "inserted_mm": 1, "free_mm": 1, "speed_mm_s": 0},
+            resample_hz=50,
+        )

@@ -20,7 +20,7 @@ from diagnosis.lab_files.guesses.from_motion import (
 from diagnosis.lab_files.guesses.guessed import GuessedColumn
 from diagnosis.lab_files.mapping import ColumnSource
 from diagnosis.lab_files.motion import motion_of
-from diagnosis.lab_files.trial_tables import Series
+from diagnosis.lab_files.series import Series
 
 TIME = TURNS["time_s"].to_numpy()
 OWN = {
