@@ -72,8 +72,8 @@ def drafted(files: Sequence[LabFile]) -> Draft:
     series = _series(trials, files, times, columns, open_)
     motions = _motions(series)
     open_.append("needle, tissue: no file says what the rig is believed to be: fill the blanks")
-    columns = [with_zero(column, series, motions) for column in columns]
     columns = [with_offset(column, series) for column in columns]
+    columns = [with_zero(column, series, motions) for column in columns]
     columns = [with_sign(column, series) for column in columns]
     by_name = {column.wanted: column for column in columns}
     base, torque = by_name.get("base_angle_deg"), by_name.get("base_torque_n_mm")

@@ -35,8 +35,8 @@ def with_zero(column: GuessedColumn, trials: Trials, motions: Motions) -> Guesse
         return column
     found = []
     for name, motion in motions.items():
-        one = trials[name].get(column.wanted)
-        if one is not None:
+        if column.wanted in trials[name]:
+            one = _on_time(column, trials[name][column.wanted])
             found.append(zero_at_rest(one.values, one.time_s, motion, scatter([one.values])))
     values = [guess.value for guess in found if guess.value is not None]
     if not values:
@@ -113,7 +113,7 @@ def noise_of(column: GuessedColumn | None, trials: Trials, motions: Motions) -> 
         return None
     parts = [own[column.wanted] for own in trials.values() if column.wanted in own]
     rests = [
-        own[column.wanted].values[motions[name].at_rest(own[column.wanted].time_s)]
+        own[column.wanted].values[motions[name].at_rest(_on_time(column, own[column.wanted]).time_s)]
         for name, own in trials.items()
         if column.wanted in own and name in motions
     ]
@@ -130,10 +130,8 @@ def loops_of(
     for name, motion in motions.items():
         own, angle = trials[name].get(torque.wanted), trials[name][base.wanted]
         if own is not None:
-            late = torque.source.time_offset_s - base.source.time_offset_s
-            shifted = replace(own, time_s=own.time_s + late)
             moved = base.scale * angle.values[np.isfinite(angle.values)]
-            read = at_times(shifted, motion.time_s) - _zero(torque, own)
+            read = at_times(_on_time(torque, own), motion.time_s) - _zero(torque, own)
             branches += branches_of(motion, moved, torque.scale * read)
             kept += kept_torques(motion, moved, torque.scale * read)
             noise = max(noise, abs(torque.scale) * scatter([own.values]))
@@ -152,6 +150,11 @@ def at_times(series: Series, time_s: Array) -> Array:
     return np.interp(time_s, series.time_s[good], series.values[good])
 
 
+def _on_time(column: GuessedColumn, series: Series) -> Series:
+    """A column by the base's clock, which is the one that the others are compared with."""
+    return replace(series, time_s=series.time_s + column.source.time_offset_s)
+
+
 def _zero(torque: GuessedColumn, series: Series) -> float:
     """The guessed zero of the torque; where there is none, half way between its directions."""
     return float(torque.source.zero) or float(np.nanquantile(series.values, (0.1, 0.9)).mean())
@@ -159,12 +162,12 @@ def _zero(torque: GuessedColumn, series: Series) -> float:
 
 def _sign_in(column: GuessedColumn, own: Mapping[str, Series]) -> SignGuess | None:
     """The sign that one trial suggests; None: nothing to compare with."""
-    base, one = own.get("base_angle_deg"), own.get(column.wanted)
-    if base is None or one is None:
+    base = own.get("base_angle_deg")
+    if base is None or column.wanted not in own:
         return None
+    one = _on_time(column, own[column.wanted])
     if column.wanted == "base_torque_n_mm":
-        shifted = replace(one, time_s=one.time_s + column.source.time_offset_s)
-        return torque_sign(at_times(shifted, base.time_s) - _zero(column, one), base.values)
+        return torque_sign(at_times(one, base.time_s) - _zero(column, one), base.values)
     if column.wanted == "tip_angle_deg":
         return tip_sign(one.time_s, one.values, at_times(base, one.time_s))
     if column.wanted == "speed_mm_s" and not column.source.derive:

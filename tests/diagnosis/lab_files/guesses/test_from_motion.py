@@ -61,6 +61,15 @@ def test_an_offset_of_the_torque_does_not_change_its_sign():
     assert with_sign(zeroed, shifted).source.sign == -1
 
 
+def test_the_rest_of_a_late_clock_is_that_of_the_base():
+    """Late by 3 s, the first second of the base lies before all samples of the torque."""
+    late = trials(base_torque_n_mm={"time_s": TIME + 3, "values": OWN["base_torque_n_mm"].values + 2})
+    right = TWIST.with_guess("time_offset_s", "known", time_offset_s=-3.0)
+    assert with_zero(right, late, MOTIONS).source.zero == pytest.approx(2, abs=0.01)
+    assert with_zero(TWIST, late, MOTIONS).source.zero == 0
+    assert noise_of(right, late, MOTIONS) == pytest.approx(TORQUE, rel=0.1)
+
+
 def test_without_an_offset_the_zero_is_kept():
     assert with_zero(TWIST, trials(), MOTIONS).source.zero == 0
 
