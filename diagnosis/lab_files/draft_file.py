@@ -102,7 +102,8 @@ def _rig(draft: Draft) -> Iterator[str]:
             yield _line(f"  {name}", 1.0, "no such sensor: any number does")
         else:
             reason = "scatter of the readings, at rest where there is one"
-            yield _line(f"  {name}", value, reason if value else "once its unit is known")
+            times = f"times the factor: {draft.noise_in_files.get(name)} is the scatter of the readings"
+            yield _line(f"  {name}", value, times if name in draft.noise_in_files else reason)
     if draft.loops is not None:
         yield "# What the loops of torque over angle look like (docs/import.md#the-loops):\n"
         yield "".join(f"#   {line}\n" for line in loop_lines(draft))

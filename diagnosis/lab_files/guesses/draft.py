@@ -42,6 +42,7 @@ class Draft:
     Attributes:
       resample_hz: rows per second, where columns have clocks of their own.
       noise: by field of `sensors`, in its unit; None: scale open, or no such sensor.
+      noise_in_files: where the scale is open, in the unit of the file, in words.
       loops: of torque over base angle, in `loop_units`; None: no torque or no reversals.
       open: what the user has to decide or add.
       unused: columns that nothing was found for.
@@ -54,6 +55,7 @@ class Draft:
     columns: tuple[GuessedColumn, ...]
     resample_hz: float | None
     noise: Mapping[str, float | None]
+    noise_in_files: Mapping[str, str]
     loops: LoopShape | None
     loop_units: tuple[str, str]
     open: tuple[str, ...]
@@ -77,6 +79,12 @@ def drafted(files: Sequence[LabFile]) -> Draft:
     columns = [with_sign(column, series) for column in columns]
     by_name = {column.wanted: column for column in columns}
     base, torque = by_name.get("base_angle_deg"), by_name.get("base_torque_n_mm")
+    noise = {field: noise_of(by_name.get(of), series, motions) for field, of in NOISES.items()}
+    open_noise = {
+        field: f"{noise[field]:.3g} {_unit(by_name[of], '')}"
+        for field, of in NOISES.items()
+        if noise[field] is not None and not by_name[of].known
+    }
     used = {c.source.column for c in columns} | {time.source.column for time in times}
     unused = [n for t in tables for n in t.columns if n not in used and not n.endswith(".log_time")]
     return Draft(
@@ -84,7 +92,8 @@ def drafted(files: Sequence[LabFile]) -> Draft:
         times=tuple(times),
         columns=tuple(columns),
         resample_hz=needed_rate_hz(columns, series),
-        noise={field: noise_of(by_name.get(of), series, motions) for field, of in NOISES.items()},
+        noise={field: None if field in open_noise else noise[field] for field in NOISES},
+        noise_in_files=open_noise,
         loops=loops_of(base, torque, series, motions) if base and torque else None,
         loop_units=(_unit(base, "deg"), _unit(torque, "N mm")),
         open=tuple(open_),

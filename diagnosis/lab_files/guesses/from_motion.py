@@ -104,12 +104,12 @@ def needed_rate_hz(columns: Sequence[GuessedColumn], trials: Trials) -> float | 
 
 
 def noise_of(column: GuessedColumn | None, trials: Trials, motions: Motions) -> float | None:
-    """Standard deviation in units of rig-log/1: at rest, or of whole trials where there is no rest.
+    """Standard deviation: at rest, or of whole trials where there is no rest.
 
     Returns:
-      None without a column, or where its scale is open.
+      In units of rig-log/1, or of the file where its scale is open; None without such a column.
     """
-    if column is None or not column.known or column.source.derive:
+    if column is None or column.source.derive:
         return None
     parts = [own[column.wanted] for own in trials.values() if column.wanted in own]
     rests = [

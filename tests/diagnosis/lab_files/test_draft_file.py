@@ -76,6 +76,15 @@ def test_a_missing_base_angle_is_a_blank_entry(tmp_path):
     assert loop_lines(draft) == []
 
 
+def test_where_the_scale_is_open_the_noise_is_told_in_the_unit_of_the_file(tmp_path):
+    table = LAB.rename(columns={"torque (N m)": "torque (V)"})
+    text = mapping_text(draft_of(write_csv(tmp_path, table)))
+    assert yaml.safe_load(text)["sensors"]["base_torque_noise_n_mm"] is None
+    line = next(line for line in text.splitlines() if "base_torque_noise_n_mm" in line)
+    assert "times the factor: 1.4" in line  # 0.015 N mm, good to 2.4 %, in thousandths of a volt
+    assert "e-05 V" in line
+
+
 def test_without_a_sensor_its_noise_is_any_number(tmp_path):
     draft = draft_of(write_csv(tmp_path, LAB.drop(columns=["tip camera (deg)"])))
     assert yaml.safe_load(mapping_text(draft))["sensors"]["tip_angle_noise_deg"] == 1.0

@@ -111,7 +111,8 @@ def test_noise_is_that_of_the_readings_in_units_of_rig_log():
     assert noise_of(TWIST, trials(), MOTIONS) == pytest.approx(TORQUE, rel=0.1)
     metres = replace(TWIST, source=TWIST.source.but(unit="N m"))
     assert noise_of(metres, trials(), MOTIONS) == pytest.approx(1000 * TORQUE, rel=0.1)
-    assert noise_of(replace(TWIST, known=False), trials(), MOTIONS) is None
+    volts = replace(TWIST, source=TWIST.source.but(unit="V"), known=False)
+    assert noise_of(volts, trials(), MOTIONS) == pytest.approx(TORQUE, rel=0.1)
     assert noise_of(None, trials(), MOTIONS) is None
 
 
