@@ -50,6 +50,8 @@ def parser() -> argparse.ArgumentParser:
     control = commands.add_parser("control", help="estimators and controllers: Tables IV and V")
     _add_output(control, default=Path("out/control"))
 
+    _add_import(commands.add_parser("import", help="make a rig-log/1 folder of a lab's own files"))
+
     replay = commands.add_parser("replay", help="replay a rig's log on the nominal needle")
     replay.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
     _add_output(replay, default=Path("out/replay"))
@@ -68,6 +70,19 @@ def parser() -> argparse.ArgumentParser:
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
     inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
     return top
+
+
+def _add_import(importer: argparse.ArgumentParser) -> None:
+    importer.add_argument(
+        "files", type=Path, nargs="+", metavar="FILE", help="CSV or other text, Parquet, MAT, MCAP"
+    )
+    importer.add_argument(
+        "--map", type=Path, metavar="FILE", help="a mapping.yaml; without it one is drafted"
+    )
+    importer.add_argument(
+        "--accept-guesses", action="store_true", help="take the guesses of the mapping for confirmed"
+    )
+    _add_output(importer, default=Path("out/import"))
 
 
 def _add_blind(blind: argparse.ArgumentParser) -> None:
@@ -181,6 +196,17 @@ def _run(args: argparse.Namespace, console: Console) -> int:
 
             return blind.run_score(
                 args.folder, args.out, trials=args.trials, force=args.force, console=console
+            )
+        case "import":
+            from scripts import import_log
+
+            return import_log.run(
+                args.files,
+                args.out,
+                mapping=args.map,
+                accept_guesses=args.accept_guesses,
+                force=args.force,
+                console=console,
             )
         case "replay":
             from scripts import replay

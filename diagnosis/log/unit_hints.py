@@ -12,31 +12,31 @@ from difflib import SequenceMatcher
 from diagnosis.criteria import NAME_LIKENESS, NOISE_RATIO
 
 # How many of the format's unit one of these is. `mN m`, `mNm` and `mn_m` are all "mnm" here.
-_ANGLES = {"deg": 1, "degree": 1, "degrees": 1, "rad": 57.29578, "radian": 57.29578}
-_ANGLES |= {"radians": 57.29578, "mrad": 0.05729578, "rev": 360, "turn": 360, "turns": 360}
-_TIMES = {"s": 1, "sec": 1, "second": 1, "seconds": 1, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60}
-_LENGTHS = {"mm": 1, "cm": 10, "m": 1000, "um": 1e-3, "inch": 25.4, "inches": 25.4}
-_SPEEDS = {"mms": 1, "mmpers": 1, "cms": 10, "ms": 1000, "mpers": 1000, "ums": 1e-3, "mmmin": 1 / 60}
-_TORQUES = {"nmm": 1, "mnm": 1, "nm": 1000, "ncm": 10, "mnmm": 1e-3, "unm": 1e-3}
+ANGLES = {"deg": 1, "degree": 1, "degrees": 1, "rad": 57.29578, "radian": 57.29578}
+ANGLES |= {"radians": 57.29578, "mrad": 0.05729578, "rev": 360, "turn": 360, "turns": 360}
+TIMES = {"s": 1, "sec": 1, "second": 1, "seconds": 1, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60}
+LENGTHS = {"mm": 1, "cm": 10, "m": 1000, "um": 1e-3, "inch": 25.4, "inches": 25.4}
+SPEEDS = {"mms": 1, "mmpers": 1, "cms": 10, "ms": 1000, "mpers": 1000, "ums": 1e-3, "mmmin": 1 / 60}
+TORQUES = {"nmm": 1, "mnm": 1, "nm": 1000, "ncm": 10, "mnmm": 1e-3, "unm": 1e-3}
 _STIFFNESSES = {"gpa": 1, "mpa": 1e-3, "kpa": 1e-6, "pa": 1e-9, "nmm2": 1e-3}
 _DENSITIES = {"gcm3": 1, "gpercm3": 1, "kgm3": 1e-3, "kgperm3": 1e-3}
 _DAMPINGS = {"nmmspermm": 1, "nmsperm": 1, "ns": 1, "nmmsmm": 1, "nmspermm": 1000, "mnmmspermm": 1e-3}
 _UNITS: dict[str, dict[str, float]] = {
-    "time_s": _TIMES,
-    "base_angle_deg": _ANGLES,
-    "tip_angle_deg": _ANGLES,
-    "base_torque_n_mm": _TORQUES,
-    "tip_torque_n_mm": _TORQUES,
-    "inserted_mm": _LENGTHS,
-    "free_mm": _LENGTHS,
-    "speed_mm_s": _SPEEDS,
-    "diameter_mm": _LENGTHS,
+    "time_s": TIMES,
+    "base_angle_deg": ANGLES,
+    "tip_angle_deg": ANGLES,
+    "base_torque_n_mm": TORQUES,
+    "tip_torque_n_mm": TORQUES,
+    "inserted_mm": LENGTHS,
+    "free_mm": LENGTHS,
+    "speed_mm_s": SPEEDS,
+    "diameter_mm": LENGTHS,
     "shear_modulus_gpa": _STIFFNESSES,
     "density_g_cm3": _DENSITIES,
     "damping_n_mm_s_per_mm": _DAMPINGS,
-    "tip_angle_noise_deg": _ANGLES,
-    "base_torque_noise_n_mm": _TORQUES,
-    "base_angle_noise_deg": _ANGLES,
+    "tip_angle_noise_deg": ANGLES,
+    "base_torque_noise_n_mm": TORQUES,
+    "base_angle_noise_deg": ANGLES,
 }
 # Units that a log may be in as a whole, as they are written.
 _WHOLE: dict[str, dict[str, float]] = {
@@ -104,14 +104,14 @@ def unit_off_by(column: str, factor: float) -> OtherUnit | None:
 
 
 def _compared(found: str, wanted: str) -> LookAlike:
-    words, (quantity, _) = _words(found), _without_unit(_words(wanted), _UNITS[wanted])
+    words, (quantity, _) = words_of(found), _without_unit(words_of(wanted), _UNITS[wanted])
     stem, factor = _without_unit(words, _UNITS[wanted])
     foreign = factor is None and bool(_without_unit(words, dict.fromkeys(_ANY_UNIT, 1.0))[1])
     likeness = 0.0 if foreign else _likeness(stem, quantity)
     return LookAlike(found=found, wanted=wanted, factor=factor, likeness=likeness)
 
 
-def _words(name: str) -> list[str]:
+def words_of(name: str) -> list[str]:
     """`Base Torque [mN·m]` and `baseTorque_mN_m` are both base, torque, m, n, m or mn, m."""
     plain = name.replace("°", " deg").replace("µ", "u").replace("μ", "u").replace("^", "")
     spaced = re.sub(r"(?<=[a-z])(?=[A-Z][a-z])", "_", plain)

@@ -1,0 +1,1 @@
+"""What a lab's columns probably are: every guess with its reason, none believed unseen."""

@@ -1,0 +1,145 @@
+"""A draft of a mapping: what the columns probably are, why, and what is open. Nothing is refused."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagnosis.lab_files.guesses.columns import (
+    Open,
+    guessed_sources,
+    guessed_time_columns,
+    guessed_trials,
+)
+from diagnosis.lab_files.guesses.from_motion import (
+    loops_of,
+    needed_rate_hz,
+    noise_of,
+    with_offset,
+    with_sign,
+    with_zero,
+)
+from diagnosis.lab_files.guesses.guessed import GuessedColumn, GuessedTimes
+from diagnosis.lab_files.guesses.hysteresis import LoopShape
+from diagnosis.lab_files.mapping import ImportMapping, TrialSource
+from diagnosis.lab_files.motion import Motion, motion_of
+from diagnosis.lab_files.readers.lab_table import LabFile
+from diagnosis.lab_files.series import Series, raw_series
+from models.errors import InvalidValue
+
+NOISES = {
+    "tip_angle_noise_deg": "tip_angle_deg",
+    "base_torque_noise_n_mm": "base_torque_n_mm",
+    "base_angle_noise_deg": "base_angle_deg",
+}
+"""Fields of `sensors` and the columns that they are the noise of."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draft:
+    """Everything that is guessed, and everything that is open.
+
+    Attributes:
+      resample_hz: rows per second, where columns have clocks of their own.
+      noise: by field of `sensors`, in its unit; None: scale open, or no such sensor.
+      noise_in_files: where the scale is open, in the unit of the file, in words.
+      loops: of torque over base angle, in `loop_units`; None: no torque or no reversals.
+      open: what the user has to decide or add.
+      unused: columns that nothing was found for.
+      motions: of the base, by trial.
+      series: guessed columns as they are in the files, by trial.
+    """
+
+    trials: tuple[TrialSource, ...]
+    times: tuple[GuessedTimes, ...]
+    columns: tuple[GuessedColumn, ...]
+    resample_hz: float | None
+    noise: Mapping[str, float | None]
+    noise_in_files: Mapping[str, str]
+    loops: LoopShape | None
+    loop_units: tuple[str, str]
+    open: tuple[str, ...]
+    unused: tuple[str, ...]
+    motions: Mapping[str, Motion]
+    series: Mapping[str, Mapping[str, Series]]
+
+
+def drafted(files: Sequence[LabFile]) -> Draft:
+    """Guess a mapping for lab files; what cannot be told is in `open`, all of it."""
+    open_: Open = []
+    trials = guessed_trials(files, open_)
+    tables = [table for file in files if file.path.name in trials[0].lab_files for table in file.tables]
+    times = guessed_time_columns(files, open_)
+    columns = guessed_sources(tables, times, open_)
+    series = _series(trials, files, times, columns, open_)
+    motions = _motions(series)
+    open_.append("needle, tissue: no file says what the rig is believed to be: fill the blanks")
+    columns = [with_offset(column, series) for column in columns]
+    columns = [with_zero(column, series, motions) for column in columns]
+    columns = [with_sign(column, series) for column in columns]
+    by_name = {column.wanted: column for column in columns}
+    base, torque = by_name.get("base_angle_deg"), by_name.get("base_torque_n_mm")
+    noise = {field: noise_of(by_name.get(of), series, motions) for field, of in NOISES.items()}
+    open_noise = {
+        field: f"{noise[field]:.3g} {_unit(by_name[of], '')}"
+        for field, of in NOISES.items()
+        if noise[field] is not None and not by_name[of].known
+    }
+    used = {c.source.column for c in columns} | {time.source.column for time in times}
+    unused = [n for t in tables for n in t.columns if n not in used and not n.endswith(".log_time")]
+    return Draft(
+        trials=tuple(trials),
+        times=tuple(times),
+        columns=tuple(columns),
+        resample_hz=needed_rate_hz(columns, series),
+        noise={field: None if field in open_noise else noise[field] for field in NOISES},
+        noise_in_files=open_noise,
+        loops=loops_of(base, torque, series, motions) if base and torque else None,
+        loop_units=(_unit(base, "deg"), _unit(torque, "N mm")),
+        open=tuple(open_),
+        unused=tuple(unused),
+        motions=motions,
+        series=series,
+    )
+
+
+def _series(
+    trials: Sequence[TrialSource],
+    files: Sequence[LabFile],
+    times: Sequence[GuessedTimes],
+    columns: Sequence[GuessedColumn],
+    open_: Open,
+) -> dict[str, dict[str, Series]]:
+    """The guessed columns as they are in the files; what cannot be read is open."""
+    mapping = ImportMapping(
+        format="rig-import/1",
+        trials=tuple(trials),
+        times=tuple(time.source for time in times),
+        columns={column.wanted: column.source for column in columns},
+        needle={},
+        tissue={},
+        sensors={},
+    )
+    found: dict[str, dict[str, Series]] = {trial.file: {} for trial in trials}
+    for trial in trials:
+        for column in columns:
+            try:
+                one = raw_series(mapping, trial, files, column.wanted)
+            except InvalidValue as error:
+                open_.append(str(error))
+            else:
+                if np.isfinite(one.values).sum() > 2:
+                    found[trial.file][column.wanted] = one
+    open_[:] = dict.fromkeys(open_)
+    return found
+
+
+def _motions(series: Mapping[str, Mapping[str, Series]]) -> dict[str, Motion]:
+    bases = {name: own["base_angle_deg"] for name, own in series.items() if "base_angle_deg" in own}
+    return {name: motion_of(base.time_s, base.values) for name, base in bases.items()}
+
+
+def _unit(column: GuessedColumn | None, known: str) -> str:
+    if column is None or column.known:
+        return known
+    return column.source.unit or "(unit of the file)"

@@ -1,0 +1,65 @@
+"""A picture of a draft: every guessed column over time, rests, reversals, and the loops."""
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+
+from diagnosis.lab_files.guesses.draft import Draft
+from diagnosis.lab_files.motion import Motion
+from diagnosis.lab_files.series import Series
+from sim.files import writing
+
+_MOST_TRIALS = 4
+_MOST_POINTS = 5000
+
+
+def write_preview(draft: Draft, path: Path, *, force: bool) -> None:
+    """Draw the first trials, values as they are in the files."""
+    trials = list(draft.series)[:_MOST_TRIALS]
+    names = [column.wanted for column in draft.columns]
+    rows, columns = max(len(names), 1), max(len(trials), 1) + 1
+    size = (3.6 * columns, 1.7 * rows + 1)
+    figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
+    for axis in axes[:, -1]:
+        axis.set_axis_off()
+    for i, name in enumerate(names):
+        source = next(column.source for column in draft.columns if column.wanted == name)
+        axes[i, 0].set_ylabel(f"{name}\n{source.column}", fontsize=7)
+        for k, trial in enumerate(trials):
+            if name in draft.series[trial]:
+                _over_time(axes[i, k], draft.series[trial][name], draft.motions.get(trial))
+    for k, trial in enumerate(trials):
+        axes[0, k].set_title(trial, fontsize=9)
+        axes[-1, k].set_xlabel("time in the files, s")
+    _loops(axes[0, -1], draft, trials)
+    with writing(path, force=force) as part:
+        figure.savefig(part, dpi=100, format="png")
+    plt.close(figure)
+
+
+def _over_time(axis: Axes, series: Series, motion: Motion | None) -> None:
+    few = _few(series.time_s.size)
+    axis.plot(series.time_s[few], series.values[few], lw=0.7, color="tab:blue")
+    if motion is not None:
+        for first, last in motion.rests_s:
+            axis.axvspan(first, last, color="0.9", lw=0)
+        for i in motion.reversals:
+            axis.axvline(motion.time_s[i], color="tab:orange", lw=0.5)
+
+
+def _loops(axis: Axes, draft: Draft, trials: list[str]) -> None:
+    for trial in trials:
+        own = draft.series[trial]
+        if {"base_angle_deg", "base_torque_n_mm"} <= set(own):
+            base, torque = own["base_angle_deg"], own["base_torque_n_mm"]
+            few = _few(base.time_s.size)
+            at = np.interp(base.time_s[few], torque.time_s, torque.values)
+            axis.set_axis_on()
+            axis.plot(base.values[few], at, lw=0.5)
+            axis.set_title("torque over base angle", fontsize=9)
+
+
+def _few(count: int) -> slice:
+    return slice(None, None, max(1, count // _MOST_POINTS))

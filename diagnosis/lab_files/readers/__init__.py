@@ -1,0 +1,1 @@
+"""CSV, Parquet, MAT and MCAP files as tables of numbers."""

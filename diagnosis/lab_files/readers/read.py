@@ -1,0 +1,48 @@
+"""Which reader reads which file."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from diagnosis.lab_files.readers.lab_table import LabFile
+from diagnosis.lab_files.readers.mat_file import read_mat_file
+from diagnosis.lab_files.readers.mcap_file import read_mcap_file
+from diagnosis.lab_files.readers.parquet_file import read_parquet_file
+from diagnosis.lab_files.readers.text_file import read_text_file
+from models.errors import InvalidValue
+
+_READERS: dict[str, Callable[[Path], LabFile]] = {
+    ".parquet": read_parquet_file,
+    ".pq": read_parquet_file,
+    ".mat": read_mat_file,
+    ".mcap": read_mcap_file,
+}
+_OTHER = {
+    ".xlsx": "save the sheet as CSV",
+    ".xls": "save the sheet as CSV",
+    ".bag": "convert it: rosbags-convert --src FILE.bag --dst FILE.mcap",
+    ".db3": "convert it: ros2 bag convert, storage_id mcap",
+    ".tdms": "export it as CSV",
+    ".h5": "export its datasets as CSV or Parquet",
+}
+
+
+def read_lab_files(paths: Sequence[Path]) -> tuple[LabFile, ...]:
+    """Read files, each by its ending; without a known one, as text.
+
+    Raises:
+      InvalidValue: names the first file that cannot be read, and how to fix it.
+    """
+    names = [path.name for path in paths]
+    for path in paths:
+        if not path.is_file():
+            raise InvalidValue("FILE", path, "files of measurements; there is none of this name")
+        if names.count(path.name) > 1:
+            raise InvalidValue("FILE", path, "file names that differ", "rename one of the two")
+        if path.suffix.lower() in _OTHER:
+            raise InvalidValue(
+                str(path),
+                path.suffix,
+                "CSV or other text, .parquet, .mat or .mcap",
+                _OTHER[path.suffix.lower()],
+            )
+    return tuple(_READERS.get(path.suffix.lower(), read_text_file)(path) for path in paths)

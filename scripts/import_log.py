@@ -1,0 +1,111 @@
+"""`needle import`: a lab's files as a rig-log/1 folder, by a mapping that the user confirms."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from diagnosis.lab_files.draft_file import loop_lines, mapping_text
+from diagnosis.lab_files.guesses.draft import Draft, drafted
+from diagnosis.lab_files.preview import write_preview
+from diagnosis.lab_files.read_mapping import read_mapping
+from diagnosis.lab_files.readers.lab_table import LabFile
+from diagnosis.lab_files.readers.read import read_lab_files
+from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log
+from diagnosis.log.rig_log import read_rig_log
+from sim.files import write_text
+
+_FIELDS = ("column", "unit", "derive", "sign", "zero", "time_offset_s")
+
+
+def run(
+    paths: Sequence[Path],
+    folder: Path,
+    *,
+    mapping: Path | None,
+    accept_guesses: bool,
+    force: bool,
+    console: Console,
+) -> int:
+    """Draft a mapping, or apply one."""
+    files = read_lab_files(paths)
+    for note in (note for file in files for note in file.notes):
+        console.print(f"note: {note}", highlight=False, markup=False)
+    if mapping is None:
+        return _draft(files, folder, force=force, console=console)
+    return _write(files, folder, mapping, accept_guesses=accept_guesses, force=force, console=console)
+
+
+def _draft(files: Sequence[LabFile], folder: Path, *, force: bool, console: Console) -> int:
+    paths = [folder / "mapping.yaml", folder / "preview.png"]
+    refuse_to_overwrite(paths, [file.path for file in files], force=force)
+    draft = drafted(files)
+    console.print(table(draft))
+    for item in draft.open:
+        console.print(f"open: {item}", highlight=False, markup=False)
+    for line in loop_lines(draft):
+        console.print(f"loops: {line}", highlight=False, markup=False)
+    write_text(paths[0], mapping_text(draft), force=force)
+    write_preview(draft, paths[1], force=force)
+    for path in paths:
+        console.print(f"wrote      {path}", highlight=False)
+    names = " ".join(str(file.path) for file in files)
+    console.print(
+        f"next: look at preview.png, edit mapping.yaml, then\n  needle import {names} "
+        f"--map {paths[0]} --out LOG",
+        highlight=False,
+        markup=False,
+        soft_wrap=True,
+    )
+    return 0
+
+
+def table(draft: Draft) -> Table:
+    """Every guess with its reason."""
+    shown = Table("column", "field", "guess", "because", title="Guesses: check each of them")
+    for time in draft.times:
+        shown.add_row("time_s", "column", escape(time.source.column), "by its name; it rises")
+        shown.add_row("", "unit", escape(str(time.source.unit)), escape(time.reason), end_section=True)
+    for column in draft.columns:
+        fields = [name for name in _FIELDS if name in column.reasons]
+        for i, name in enumerate(fields):
+            value = getattr(column.source, name)
+            shown.add_row(
+                "" if i else column.wanted,
+                name,
+                escape(f"{value:g}" if isinstance(value, float) else str(value)),
+                escape(column.reasons[name]),
+                end_section=i == len(fields) - 1,
+            )
+    for sensor, value in draft.noise.items():
+        if value is not None:
+            shown.add_row("sensors", sensor, f"{value:g}", "scatter of the readings at rest")
+    return shown
+
+
+def _write(
+    files: Sequence[LabFile],
+    folder: Path,
+    path: Path,
+    *,
+    accept_guesses: bool,
+    force: bool,
+    console: Console,
+) -> int:
+    mapping = read_mapping(path, accept_guesses=accept_guesses)
+    outputs = log_paths(mapping, folder)
+    refuse_to_overwrite(outputs, [path, *(file.path for file in files)], force=force)
+    trials = imported(mapping, files)
+    write_log(mapping, trials, folder, force=force)
+    for note in (note for trial in trials for note in trial.notes):
+        console.print(note, highlight=False, markup=False)
+    for output in outputs:
+        console.print(f"wrote      {output}", highlight=False)
+    log = read_rig_log(folder)
+    for warning in log.warnings:
+        console.print(f"warning: {warning}", highlight=False, markup=False)
+    said = "no warnings" if not log.warnings else f"{len(log.warnings)} warnings"
+    console.print(f"read back: {len(log.trials)} trials, {said}", highlight=False)
+    return 0

@@ -1,0 +1,46 @@
+"""Units by name, else by magnitude and as a question."""
+
+import numpy as np
+import pytest
+
+from diagnosis.lab_files.guesses.unit_guess import guessed_unit
+from diagnosis.lab_files.units import MeasuredQuantity
+
+RAMP = np.linspace(0, 1, 101)
+
+
+def test_a_unit_in_the_name_is_taken_without_a_question():
+    guess = guessed_unit("angle [deg]", 3 * RAMP, MeasuredQuantity.ANGLE, ros_units=False)
+    assert (guess.unit, guess.known, guess.asked) == ("deg", True, False)
+
+
+def test_a_unit_of_another_quantity_is_asked_for():
+    guess = guessed_unit("disp (in)", RAMP, MeasuredQuantity.ANGLE, ros_units=False)
+    assert (guess.unit, guess.known, guess.asked) == ("in", False, True)
+    assert "how many deg" in guess.reason
+
+
+@pytest.mark.parametrize(
+    ("values", "quantity", "unit"),
+    [
+        (3.1 * RAMP, MeasuredQuantity.ANGLE, "rad"),
+        (90 * RAMP, MeasuredQuantity.ANGLE, "deg"),
+        (0.1 * RAMP, MeasuredQuantity.LENGTH, "m"),
+        (100 * RAMP, MeasuredQuantity.LENGTH, "mm"),
+        (0.01 * np.arange(9), MeasuredQuantity.TIME, "s"),
+        (10.0 * np.arange(9), MeasuredQuantity.TIME, "ms"),
+        (1e4 * np.arange(9), MeasuredQuantity.TIME, "us"),
+        (1e7 * np.arange(9), MeasuredQuantity.TIME, "ns"),
+        (RAMP, MeasuredQuantity.TORQUE, None),
+    ],
+)
+def test_without_a_unit_the_magnitude_asks(values, quantity, unit):
+    guess = guessed_unit("x", values, quantity, ros_units=False)
+    assert guess.unit == unit
+    assert guess.asked
+    assert guess.reason.endswith("?")
+
+
+def test_ros_has_units_of_its_own():
+    guess = guessed_unit("effort", RAMP, MeasuredQuantity.TORQUE, ros_units=True)
+    assert (guess.unit, guess.asked) == ("N m", False)
