@@ -12,7 +12,7 @@ import numpy as np
 from diagnosis.criteria import SIGN_LEAST_CORRELATION, SIGN_LEAST_WORK, ZERO_SIGMA
 from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.readers.lab_table import Array
-from diagnosis.log.consistency import misfit
+from diagnosis.log.checks.binned_trial import misfit
 
 _SAMPLES = 1500
 
