@@ -83,9 +83,10 @@ def test_a_torque_driven_needle_turns_as_the_modal_state_space_says():
     assert np.abs(tip - np.degrees(expected[1])).max() < 1e-3 * np.degrees(expected[1]).max()
 
 
-def test_the_method_is_of_second_order_in_the_step():
-    check = motion.order_in_step()
-    assert check.passed, check
+def test_the_methods_are_of_second_and_of_first_order_in_the_step():
+    second, first = motion.order_in_step()
+    assert second.passed, second
+    assert first.passed, first
 
 
 @pytest.mark.parametrize("tissue", [DRY, SOFT], ids=["dry", "soft"])

@@ -2,20 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 from studies.control.steering import planar_study
 from studies.control.steering.duty_cycle_study import SpunCurvature, spun_curvatures
 from studies.control.steering.fused_study import RollErrors, compare_estimators
 from studies.control.steering.planar_study import PlaneApproach, approach_plane, imaged_approaches
 from studies.control.steering.steered_insertions import SteeredInsertion, TurnOrder, steered_insertions
-
-STEERING_STAGES = (
-    "steered insertions",
-    "the planar controller",
-    "the planar controller with images",
-    "base and images fused",
-    "duty-cycled spinning",
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,22 +30,35 @@ class SteeringStudy:
     fused: dict[str, dict[str, RollErrors]]
     spun: list[SpunCurvature]
 
+    @classmethod
+    def of_parts(
+        cls,
+        steered: list[list[SteeredInsertion]],
+        known_pose: list[list[PlaneApproach]],
+        imaged: list[dict[str, list[PlaneApproach]]],
+        fused: list[dict[str, dict[str, RollErrors]]],
+        spun: list[list[SpunCurvature]],
+    ) -> "SteeringStudy":
+        """From what the parts of every stage returned, in the order of `steering_parts`."""
+        speeds = planar_study.SPEEDS_MM_S
+        return cls(
+            steered=dict(zip(TurnOrder, steered, strict=True)),
+            known_pose=dict(zip(speeds, known_pose, strict=True)),
+            imaged=dict(zip(speeds, imaged, strict=True)),
+            fused=fused[0],
+            spun=spun[0],
+        )
 
-def run_steering(progress: Callable[[str], None]) -> SteeringStudy:
-    """Run everything that steers.
 
-    Args:
-      progress: called with the name of each stage as it begins.
-    """
+def steering_parts() -> dict[str, list[Callable[[], Any]]]:
+    """The stages that steer, in order: the parts of each, none of which needs another."""
     speeds = planar_study.SPEEDS_MM_S
-    progress(STEERING_STAGES[0])
-    steered = {order: steered_insertions(order) for order in TurnOrder}
-    progress(STEERING_STAGES[1])
-    known_pose = {speed: approach_plane(speed_mm_s=speed) for speed in speeds}
-    progress(STEERING_STAGES[2])
-    imaged = {speed: imaged_approaches(speed_mm_s=speed) for speed in speeds}
-    progress(STEERING_STAGES[3])
-    fused = compare_estimators()
-    progress(STEERING_STAGES[4])
-    spun = spun_curvatures()
-    return SteeringStudy(steered=steered, known_pose=known_pose, imaged=imaged, fused=fused, spun=spun)
+    return {
+        "steered insertions": [partial(steered_insertions, order) for order in TurnOrder],
+        "the planar controller": [partial(approach_plane, speed_mm_s=speed) for speed in speeds],
+        "the planar controller with images": [
+            partial(imaged_approaches, speed_mm_s=speed) for speed in speeds
+        ],
+        "base and images fused": [compare_estimators],
+        "duty-cycled spinning": [spun_curvatures],
+    }

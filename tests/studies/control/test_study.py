@@ -1,20 +1,43 @@
-"""`needle control` runs its stages in order and hands every result to the report."""
+"""`needle control` runs independent parts, over processes, and keeps every result in order."""
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+
+import pytest
 
 from studies.control import study
+from studies.control.robustness import plants
 
 
-def test_every_stage_is_announced_and_its_result_kept(monkeypatch):
-    """The stages themselves take a minute; each has tests of its own."""
-    monkeypatch.setattr(study, "tables_iv_v", lambda: ["iv", "v"])
-    monkeypatch.setattr(study, "robustness", lambda: ["robust"])
-
-    def steer(progress):
-        for stage in study.STEERING_STAGES:
-            progress(stage)
-        return "steered"
-
-    monkeypatch.setattr(study, "run_steering", steer)
+def test_parts_come_back_in_order_with_a_pool_and_without():
+    stages = {"one": [partial(pow, 2, n) for n in range(5)], "two": [partial(abs, -3)]}
+    expected = {"one": [1, 2, 4, 8, 16], "two": [3]}
     announced = []
-    made = study.run_study(announced.append)
-    assert tuple(announced) == study.STAGES
-    assert (made.tables, made.robustness, made.steering) == (["iv", "v"], ["robust"], "steered")
+    with ThreadPoolExecutor(2) as pool:
+        assert study.collected(stages, pool, announced.append) == expected
+    assert study.collected(stages, None, announced.append) == expected
+    assert announced == ["one", "two"] * 2
+
+
+def test_what_a_part_raises_reaches_the_caller():
+    with pytest.raises(ZeroDivisionError):
+        study.collected({"one": [partial(divmod, 1, 0)]}, None, str)
+
+
+def test_every_rig_is_a_part_and_all_stages_become_the_study(monkeypatch):
+    """The parts themselves have tests of their own."""
+    assert len(study.stage_parts()["robustness"]) > len(plants())
+    steering = {f"steering {i}": [partial(str, i)] for i in range(5)}
+    monkeypatch.setattr(
+        study,
+        "stage_parts",
+        lambda: {
+            "tables": [partial(list, "iv")],
+            "robust": [partial(list, "a"), partial(list, "b")],
+            **steering,
+        },
+    )
+    monkeypatch.setattr(study.SteeringStudy, "of_parts", lambda *parts: parts)
+    made = study.run_study(workers=1)
+    assert (made.tables, made.robustness) == (["i", "v"], ["a", "b"])
+    assert made.steering == tuple([str(i)] for i in range(5))
