@@ -28,6 +28,11 @@ from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 
+ONE_TRIAL = (
+    "the log has one trial, and none can be held out: the gap after is that on the trial of the fit, "
+    "and nothing tells whether its parameters hold elsewhere; add a second trial"
+)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
@@ -147,6 +152,8 @@ def nominal_residuals(problem: FitProblem, nominal: Sequence[Prediction]) -> tup
 
 def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], tuple[str, ...]]:
     """Residuals of trials that the fit has not seen, and a warning where there are none."""
+    if len(problem.log.trials) == 1:
+        return best.fit.by_trial, (ONE_TRIAL,)
     if best.held_out is not None:
         return best.held_out, ()
     try:

@@ -58,8 +58,11 @@ def titles(effects: Sequence[str]) -> str:
 def reduction(found: Diagnosis) -> str:
     """How much of the gap is explained."""
     gap = found.assessment.gap
+    seen = "On held-out trials, which the fit has not seen,"
+    if len(found.log.trials) == 1:
+        seen = "On the one trial that there is, which is that of the fit,"
     return (
-        f"On held-out trials, which the fit has not seen, the residual falls from {gap.before:.2f} σ to "
+        f"{seen} the residual falls from {gap.before:.2f} σ to "
         f"{gap.after:.3f} σ: by {100 * gap.shrink:.1f} % "
         f"(95 % interval {100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %). "
         "1 σ is the noise floor."

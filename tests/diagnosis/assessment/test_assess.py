@@ -27,7 +27,8 @@ def log():
     whole = log_of(DRY, speed=-1.0, seconds=6.0)
     table = whole.trials[0].table
     kept = table[(table["time_s"] < 3.0) | (table["time_s"] > 3.2)].reset_index(drop=True)
-    return replace(whole, trials=(Trial(name="trial_01.csv", table=kept),))
+    names = ("trial_01.csv", "trial_02.csv")
+    return replace(whole, trials=tuple(Trial(name=name, table=kept) for name in names))
 
 
 @pytest.fixture(scope="module")
@@ -73,8 +74,17 @@ def test_predictions_are_at_the_samples_of_the_log(log, nominal, fitted):
 
 def test_residuals_of_the_nominal_rig_are_those_of_its_fit(nominal):
     by_trial = nominal_residuals(nominal.problem, nominal.predictions)
-    (again,) = nominal.problem.residuals([RigParameters()])
-    np.testing.assert_array_equal(by_trial[0], again[0])
+    again = nominal.problem.residuals([RigParameters()])
+    assert len(by_trial) == len(again) == 2
+    for one, other in zip(by_trial, again, strict=True):
+        np.testing.assert_array_equal(one, other[0])
+
+
+def test_of_one_trial_none_is_held_out(log, nominal, fitted):
+    alone = replace(nominal.problem.log, trials=nominal.problem.log.trials[:1])
+    after, said = module._held_out(replace(nominal.problem, log=alone), fitted)
+    assert after is fitted.fit.by_trial
+    assert said == (module.ONE_TRIAL,)
 
 
 def test_held_out_trials_are_not_simulated_again(log, nominal, fitted, monkeypatch):

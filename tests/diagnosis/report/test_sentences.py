@@ -69,6 +69,13 @@ def test_sets_that_fit_alike_are_told_in_words(dry):
     assert f"{titles(TWO)}; or {titles(('stiction',))}" in said
 
 
+def test_one_trial_is_not_called_held_out(dry):
+    alone = replace(dry.found, log=replace(dry.found.log, trials=dry.found.log.trials[:1]))
+    assert "held-out" in reduction(dry.found)
+    assert "held-out" not in reduction(alone)
+    assert "which is that of the fit" in reduction(alone)
+
+
 def test_the_reduction_is_told_with_its_interval(dry):
     gap = dry.found.assessment.gap
     said = reduction(dry.found)
