@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.detection_limits import detection_limits
-from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
+from diagnosis.assessment.forward_step import forward_selection, gap_with_one_more, on_decimated
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, intervals
 from diagnosis.assessment.nearest import Nearest, nearest_of
@@ -20,9 +20,9 @@ from diagnosis.replay.replay import Prediction, replay, residuals
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
-from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.contributions import strongest_first
-from diagnosis.selection.verdict import Verdict
+from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.workers import Failure, Task, Workers, attempt
 from sim.simulation import SimulationFailed
 
@@ -42,7 +42,7 @@ class Assessment:
       gap: before and after, on held-out trials.
       nearest: the best that was tried, whatever the verdict.
       breakdown: of the residual of the nominal rig.
-      breakdown_after: of what the best explanation leaves.
+      breakdown_after: of what the nearest explanation leaves.
       shape, shape_after: of the same two residuals.
       parameters: by effect that was accepted.
       with_one_more: gap that one more effect may bring it down to, by effect.
@@ -50,7 +50,7 @@ class Assessment:
         the log is not explained, or by two effects.
       next_experiment: in words; empty where nothing is left to tell apart.
       numerical_error: of the replay, in sigma, by sensor.
-      explained: readings that the best explanation predicts, at the samples of the log, by trial.
+      explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
     """
 
     gap: GapReduction
@@ -88,8 +88,8 @@ def assess(
     Raises:
       SimulationFailed: the best explanation cannot be simulated.
     """
-    best = verdict.best.fit
-    rig = best.parameterization.rig(best.x)
+    near = _nearest_candidate(problem, coarse, verdict, effects, workers)
+    rig = near.fit.parameterization.rig(near.fit.x)
     predictions = replay(problem.log, rig, problem.resolution)
     change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
     error = numerical_error(change)
@@ -97,14 +97,14 @@ def assess(
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
-    after, lost = _held_out(problem, verdict.best)
+    after, lost = _held_out(problem, near)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
-    own = intervals(problem, best, change, left=_above_noise(verdict.best))
+    own = intervals(problem, near.fit, change, left=_above_noise(near))
     gap = gap_reduction(nominal_residuals(problem, nominal), after)
-    named = verdict.effects or strongest_first(problem, verdict.best)
+    named = verdict.effects or strongest_first(problem, near)
     return Assessment(
         gap=gap,
-        nearest=nearest_of(verdict.best, named, own, gap),
+        nearest=nearest_of(near, named, own, gap),
         breakdown=where[0],
         breakdown_after=where[1],
         shape=residual_shape(before),
@@ -117,6 +117,20 @@ def assess(
         explained=explained,
         warnings=(*problem.log.warnings, *numerical_warnings(error), *lost),
     )
+
+
+def _nearest_candidate(
+    problem: FitProblem,
+    coarse: FitProblem,
+    verdict: Verdict,
+    effects: Sequence[str],
+    workers: Workers,
+) -> Candidate:
+    """The best of the verdict; of an unknown log, with the further effects that bring it nearer."""
+    if verdict.kind is not VerdictKind.UNKNOWN:
+        return verdict.best
+    fit = forward_selection(problem, coarse, verdict.best.fit, effects, workers)
+    return verdict.best if fit is verdict.best.fit else candidate(fit)
 
 
 def _above_noise(best: Candidate) -> float:

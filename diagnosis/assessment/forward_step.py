@@ -1,13 +1,22 @@
-"""A forward step: what each further effect would add to an explanation, on the decimated log."""
+"""Forward steps: what each further effect would add to an explanation.
+
+Real rigs have three to five effects at once, and a verdict stops at two, because more of them can
+imitate what the library lacks. The nearest explanation of an unknown log goes on: one effect at
+a time, the one that promises most, as long as it takes off a good share of what is left and does not
+come down to the noise (by imitation, most likely).
+"""
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
+from diagnosis.criteria import MOST_OF_NEAREST, STEP_LEAVES
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.selection.screening import screen
-from diagnosis.workers import Failure, Task, Workers
+from diagnosis.selection.screening import Screened, screen
+from diagnosis.workers import Failure, Task, Workers, attempt
 
 _ITERATIONS = 3
 _STARTS = 2
@@ -31,15 +40,47 @@ def gap_with_one_more(
     Args:
       base: the best fit on the decimated log.
     """
+    screened = _one_more(coarse, base, effects, workers)
+    samples = max(base.samples, 1)
+    # The floor of the decimated log is not exactly that of the log: ratios carry over.
+    scale = best.gap / np.sqrt(base.cost / samples) if base.cost > 0 else 1.0
+    left = {s.names[-1]: float(scale * np.sqrt(s.cost / samples)) for s in screened}
+    return dict(sorted(left.items(), key=lambda item: item[1]))
+
+
+def forward_selection(
+    problem: FitProblem, coarse: FitProblem, best: Fit, effects: Sequence[str], workers: Workers
+) -> Fit:
+    """The best fit with further effects, added while each takes off a good share of the cost.
+
+    Args:
+      problem: the log itself; coarse: the decimated log.
+    """
+    base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
+    while not isinstance(base, Failure) and len(best.names) < MOST_OF_NEAREST:
+        promising = min(_one_more(coarse, base, effects, workers), key=lambda s: s.cost, default=None)
+        if promising is None or promising.cost > STEP_LEAVES * base.cost:
+            break
+        arguments = (coarse, promising.names, promising.start)
+        wider = attempt(fit_effects, Task(effects=promising.names, arguments=arguments))
+        if isinstance(wider, Failure) or wider.cost > STEP_LEAVES * base.cost:
+            break
+        refit = partial(fit_effects, most_iterations=_ITERATIONS)
+        found = attempt(refit, Task(effects=wider.names, arguments=(problem, wider.names, wider.x)))
+        if isinstance(found, Failure) or found.cost > STEP_LEAVES * best.cost:
+            break
+        if floor_of(found.by_trial).small:
+            break
+        best, base = found, wider
+    return best
+
+
+def _one_more(coarse: FitProblem, base: Fit, effects: Sequence[str], workers: Workers) -> list[Screened]:
+    """What every further effect promises on top of a fit."""
     tasks = [
         Task(effects=(name,), arguments=(coarse, base, name, _STARTS))
         for name in effects
         if name not in base.names
     ]
     results = workers.each("adding another effect", screen, tasks)
-    screened = [found[0] for found in results if not isinstance(found, Failure)]
-    samples = max(base.samples, 1)
-    # The floor of the decimated log is not exactly that of the log: ratios carry over.
-    scale = best.gap / np.sqrt(base.cost / samples) if base.cost > 0 else 1.0
-    left = {s.names[-1]: float(scale * np.sqrt(s.cost / samples)) for s in screened}
-    return dict(sorted(left.items(), key=lambda item: item[1]))
+    return [found[0] for found in results if not isinstance(found, Failure)]
