@@ -115,7 +115,12 @@ def assess(
         next_experiment=advise(coarse, verdict, *where),
         numerical_error=error,
         explained=explained,
-        warnings=(*problem.log.warnings, *numerical_warnings(error), *lost),
+        warnings=(
+            *problem.log.warnings,
+            *numerical_warnings(error),
+            *lost,
+            *_bound_warnings(near.fit.status.at_bound),
+        ),
     )
 
 
@@ -131,6 +136,15 @@ def _nearest_candidate(
         return verdict.best
     fit = forward_selection(problem, coarse, verdict.best.fit, effects, workers)
     return verdict.best if fit is verdict.best.fit else candidate(fit)
+
+
+def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
+    """A warning for every parameter that the data would take beyond its bound."""
+    return tuple(
+        f"{parameter} stopped at a bound of its range: the data ask for more, and its value and "
+        "interval mean little"
+        for parameter in at_bound
+    )
 
 
 def _above_noise(best: Candidate) -> float:

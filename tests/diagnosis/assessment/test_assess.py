@@ -80,6 +80,12 @@ def test_residuals_of_the_nominal_rig_are_those_of_its_fit(nominal):
         np.testing.assert_array_equal(one, other[0])
 
 
+def test_a_parameter_at_its_bound_earns_a_warning_that_names_it():
+    (said,) = module._bound_warnings(("coulomb_friction.level",))
+    assert said.startswith("coulomb_friction.level stopped at a bound")
+    assert module._bound_warnings(()) == ()
+
+
 def test_of_one_trial_none_is_held_out(log, nominal, fitted):
     alone = replace(nominal.problem.log, trials=nominal.problem.log.trials[:1])
     after, said = module._held_out(replace(nominal.problem, log=alone), fitted)
