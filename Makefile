@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
-# For short tests, over two processes; what takes long uses two by itself.
+# Tests over two processes; those that share a fixture stay together.
 SPREAD := -n 2 --dist loadgroup
 
 .PHONY: setup compiled demo test quick coverage check format bench clean
@@ -23,7 +23,7 @@ compiled: $(STAMP)
 	$(BIN)/python -c "from sim.simulation import prepare_processes as sim; from validation.rig.simulation import compile_kernels as rig; sim(); rig()"
 
 test: compiled
-	CI=1 $(BIN)/python -m pytest
+	CI=1 $(BIN)/python -m pytest $(SPREAD)
 
 quick: compiled
 	CI=1 $(BIN)/python -m pytest $(SPREAD) -m "not slow"

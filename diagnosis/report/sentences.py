@@ -37,13 +37,14 @@ def nearest(found: Diagnosis) -> str:
     if not near.effects:
         return "Nearest: nothing that was tried improves on the nominal model"
     values = [
-        f"{name} {interval.value:.3g} {interval.unit}".removesuffix(" -")
-        for own in near.parameters.values()
+        f"{effect} {name} {interval.value:.3g} {interval.unit}".removesuffix(" -")
+        for effect, own in near.parameters.items()
         for name, interval in own.items()
     ]
+    verb = "explain" if len(near.effects) > 1 else "explains"
     bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
     return (
-        f"Nearest: {titles(near.effects)} ({', '.join(values)}) explain "
+        f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
         f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is "
         f"{found.assessment.breakdown_after.largest}{bound}"
@@ -52,7 +53,8 @@ def nearest(found: Diagnosis) -> str:
 
 def titles(effects: Sequence[str]) -> str:
     """Effects in plain words."""
-    return " and ".join(LIBRARY[name].title for name in effects)
+    *others, last = [LIBRARY[name].title for name in effects] or [""]
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def reduction(found: Diagnosis) -> str:

@@ -58,7 +58,9 @@ def test_every_verdict_has_its_headline(dry, verdict, said):
 def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
     assert nearest(dry.found) == ""
     said = nearest(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()))
-    assert said.startswith("Nearest: dry (Coulomb) friction along the shaft (level 0.00")
+    assert said.startswith(
+        "Nearest: dry (Coulomb) friction along the shaft (coulomb_friction level 0.00"
+    )
     assert "% of the power of the gap" in said
     assert "what is left is largest in " in said
 
