@@ -44,8 +44,8 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     parts = [
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
-        *where_section(found),
         *_nearest(found, report),
+        *where_section(found),
         *_which(found, report),
         html.heading("How much is explained"),
         html.paragraph(reduction(found)),
