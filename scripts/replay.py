@@ -41,7 +41,7 @@ def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int
         console.print(f"warning: {warning}", highlight=False, markup=False)
     with console.status(f"replaying {len(log.trials)} trials"):
         nominal = replay_nominal(log)
-    for warning in nominal.problem.noise.warnings:
+    for warning in (*nominal.problem.log.warnings, *nominal.problem.noise.warnings):
         console.print(f"warning: {warning}", highlight=False, markup=False)
     console.print(table(nominal))
     write(log, nominal, folder, force=force)
