@@ -59,7 +59,7 @@ def parser() -> argparse.ArgumentParser:
     diagnose = commands.add_parser("diagnose", help="say what a rig has that its model lacks")
     diagnose.add_argument("log", type=Path, metavar="LOG", nargs="?", help="a rig-log/1 folder")
     diagnose.add_argument(
-        "--paper", action="store_true", help="the published Tables II, IV and V instead"
+        "--paper", action="store_true", help="the published tables and figures instead"
     )
     diagnose.add_argument("--json", action="store_true", help="print report.json instead")
     _add_output(diagnose, default=None)

@@ -9,6 +9,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from models import units
 from models.errors import InvalidValue
 from sim.kernel import memory_map
 from sim.law_table import law_table
@@ -37,6 +38,7 @@ def read_model(path: Path, setup: Setup) -> mujoco.MjModel:
             f"the {expected} elements of the protocol",
             "write the model of this protocol with `needle insert --mjcf`",
         )
+    _check_lengths(model, path, setup)
     _check_tissue(model, path, setup)
     compile_model(setup)  # installs the callback
     return model
@@ -50,6 +52,18 @@ def _header(model: mujoco.MjModel, path: Path) -> np.ndarray:
             str(path), "another model", "a needle as `needle insert --mjcf` of this version writes it"
         )
     return head
+
+
+def _check_lengths(model: mujoco.MjModel, path: Path, setup: Setup) -> None:
+    """Nodes are places on the shaft: a file of other lengths would feel the tissue elsewhere."""
+    found, expected = model.numeric("needle_mesh").data / units.MM, setup.nodes_mm
+    if not np.allclose(found, expected, rtol=_SAME, atol=_SAME):
+        raise InvalidValue(
+            str(path),
+            f"a shaft with nodes from {found[0]:g} to {found[-1]:g} mm",
+            f"the nodes of the protocol, {expected[0]:g} to {expected[-1]:g} mm from the chuck",
+            "write the model of this protocol with `needle insert --mjcf`",
+        )
 
 
 def _check_tissue(model: mujoco.MjModel, path: Path, setup: Setup) -> None:

@@ -1,6 +1,7 @@
 """A model through an MJCF file: it runs as the one that wrote it, and changes in it count."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -90,6 +91,17 @@ def test_a_model_of_another_number_of_elements_is_refused(tmp_path):
     path.write_text(needle_spec(setup(elements=8)).to_xml())
     with pytest.raises(InvalidValue, match="16 elements"):
         read_model(path, setup())
+
+
+@pytest.mark.parametrize(("free", "inserted"), [(50.0, 200.0), (0.0, 100.0)])
+def test_a_model_of_other_lengths_is_refused(tmp_path, free, inserted):
+    """Also where the number of nodes is the same."""
+    path, made = tmp_path / "needle.xml", setup(elements=15 if free else 16)
+    path.write_text(needle_spec(setup()).to_xml())
+    other = replace(made, free_mm=free, inserted_mm=inserted)
+    assert other.nodes_mm.size == setup().nodes_mm.size
+    with pytest.raises(InvalidValue, match="the nodes of the protocol"):
+        read_model(path, other)
 
 
 def test_a_model_of_another_tissue_is_refused(tmp_path):
