@@ -23,7 +23,7 @@ from sim.loop.measurement import CHANNELS, Measurement, MeasurementNoise, Sensor
 from sim.loop.servo_loop import ServoLoop
 from sim.loop.shaft import CommandedShaft
 from sim.schedule import Schedule
-from sim.simulation import Run, compile_model, controls, initial_data
+from sim.simulation import Run, compile_model, controls, initial_data, refuse_untrustworthy
 from sim.spec import Setup
 
 __all__ = ["ClosedLoopRun", "FeedbackController", "Measurement", "MeasurementNoise", "run_closed_loop"]
@@ -202,7 +202,13 @@ class _Loop:
             self._ctrl[i, memory_map.U_INSERTED] = self._inserted_mm[i] * units.MM
 
     def run(self, *, keep_shape: bool) -> Run:
-        """Everything that happened."""
+        """Everything that happened.
+
+        Raises:
+          SimulationFailed: see `sim.simulation.refuse_untrustworthy`.
+        """
+        step_s = self.setup.discretisation.step_s
+        refuse_untrustworthy(self._outputs, self.scheduled.time_s, step_s)
         lengths = {"free_mm": self._free_mm, "inserted_mm": self._inserted_mm}
         inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._acting})
         angles = self._angles if keep_shape else None

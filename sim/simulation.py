@@ -213,19 +213,7 @@ def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Ar
     outputs = np.vstack([_at_rest(start, setup), raw["sensordata"]])
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:
         _centre_inertia(outputs)
-    if not np.isfinite(outputs).all():
-        bad = inputs.time_s[np.flatnonzero(~np.isfinite(outputs).all(axis=1))[0]]
-        raise SimulationFailed(
-            f"expected finite outputs, found NaN or infinity at {bad:.3f} s; take a smaller step "
-            f"than {setup.discretisation.step_s} s, or check the tissue's parameters"
-        )
-    landing = float(outputs[-1, memory_map.O_LANDING])
-    if landing > _LANDING_TOLERANCE_RAD:
-        raise SimulationFailed(
-            f"expected MuJoCo's step to end within {_LANDING_TOLERANCE_RAD:.0e} rad of the angles "
-            f"that the callback computed, found {landing:.1e} rad; remove any other passive "
-            "callback, and change nothing in the model but its stiffness, inertia, servos and step"
-        )
+    refuse_untrustworthy(outputs, inputs.time_s, setup.discretisation.step_s)
     if "qpos" not in raw:
         return Run(setup=setup, inputs=inputs, outputs=outputs)
     angles = np.vstack([start.qpos[None, 1:], raw["qpos"][:, 1:]])
@@ -238,6 +226,27 @@ def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Ar
         angles_rad=angles,
         tissue_rad=_tissue(start, raw["userdata"]),
     )
+
+
+def refuse_untrustworthy(outputs: Array, time_s: Array, step_s: float) -> None:
+    """What every run has to pass, whoever made its steps.
+
+    Raises:
+      SimulationFailed: outputs are not finite, or MuJoCo did not land where it should.
+    """
+    if not np.isfinite(outputs).all():
+        bad = time_s[np.flatnonzero(~np.isfinite(outputs).all(axis=1))[0]]
+        raise SimulationFailed(
+            f"expected finite outputs, found NaN or infinity at {bad:.3f} s; take a smaller step "
+            f"than {step_s} s, or check the tissue's parameters"
+        )
+    landing = float(outputs[-1, memory_map.O_LANDING])
+    if landing > _LANDING_TOLERANCE_RAD:
+        raise SimulationFailed(
+            f"expected MuJoCo's step to end within {_LANDING_TOLERANCE_RAD:.0e} rad of the angles "
+            f"that the callback computed, found {landing:.1e} rad; remove any other passive "
+            "callback, and change nothing in the model but its stiffness, inertia, servos and step"
+        )
 
 
 def _centre_inertia(outputs: Array) -> None:

@@ -87,7 +87,7 @@ def log_recording(
     """
     rr.set_strict_mode(True)
     with writing(path, force=force) as part:
-        stream = rr.RecordingStream(APPLICATION)
+        stream = rr.RecordingStream(application(recording))
         stream.save(part, default_blueprint=blueprint(recording))
         _log_text(stream, recording, results)
         for plot, signals in _PLOTS.items():
@@ -102,6 +102,23 @@ def log_recording(
         stream.disconnect()
 
 
+def application(recording: Recording) -> str:
+    """The application of a recording: a viewer keeps one layout for each, so that recordings with
+    other views are another application."""
+    return APPLICATION + "".join(
+        f"-{name}" for name, there in _optional_views(recording).items() if there
+    )
+
+
+def _optional_views(recording: Recording) -> dict[str, bool]:
+    """Which views a recording has besides those that all have."""
+    return {
+        "shaft": recording.group("shaft").size > 0,
+        "tissue": recording.group("tissue").size > 0,
+        "control": "rate_limited_count" in recording.table,
+    }
+
+
 def blueprint(recording: Recording) -> Any:
     """Needle above tissue on the left, plots in the middle, text on the right."""
     plots = [
@@ -111,11 +128,12 @@ def blueprint(recording: Recording) -> Any:
         rrb.TimeSeriesView(origin="/lengths", name="Lengths, mm"),
     ]
     left: list[Any] = [rrb.Spatial3DView(origin="/world", name="Needle")]
-    if recording.group("shaft").size:
+    there = _optional_views(recording)
+    if there["shaft"]:
         left.append(rrb.BarChartView(origin="/profile/shaft", name="Lag behind the base, deg"))
-    if recording.group("tissue").size:
+    if there["tissue"]:
         left.append(rrb.BarChartView(origin="/profile/tissue", name="Twist of the tissue, deg"))
-    if "rate_limited_count" in recording.table:
+    if there["control"]:
         plots.append(rrb.TimeSeriesView(origin="/limits", name="Limits reached"))
         plots.append(rrb.TimeSeriesView(origin="/estimate", name="Modes of the estimator, deg"))
     checks = [

@@ -19,6 +19,7 @@ FILES = (
     *("validate.json", "poles.csv", "checks.csv", "published.csv", "validate.png"),
     *recordings.NAMES,
 )
+_RATIOS = (0.05, 20.0)  # of our figure over the published one, that are drawn
 _COLOURS = {
     PoleSource.SECOND_ORDER: "tab:red",
     PoleSource.FIRST_ORDER: "tab:orange",
@@ -68,11 +69,12 @@ def write_report(findings: Findings, folder: Path, *, force: bool = False) -> li
 
 
 def _draw(findings: Findings, path: Path, *, force: bool) -> None:
-    figure, axes = plt.subplots(2, 2, figsize=(14, 9), layout="constrained")
-    _draw_poles(axes[0, 0], findings)
-    _draw_turn(axes[0, 1])
-    _draw_steps(axes[1, 0])
-    _draw_ratios(axes[1, 1], findings)
+    # Poles, turn and steps one below the other, ratios beside all of them.
+    figure, axes = plt.subplot_mosaic("PR;TR;SR", figsize=(14, 12), layout="constrained")
+    _draw_poles(axes["P"], findings)
+    _draw_turn(axes["T"])
+    _draw_steps(axes["S"])
+    _draw_ratios(axes["R"], findings)
     with writing(path, force=force) as part:
         figure.savefig(part, dpi=130, format="png")
     plt.close(figure)
@@ -127,8 +129,11 @@ def _draw_steps(axis: Axes) -> None:
 def _draw_ratios(axis: Axes, findings: Findings) -> None:
     shown = [c for c in findings.comparisons if "mode" not in c.item or "inertialess" in c.item]
     ratios = [c.ratio for c in shown]
-    axis.barh(range(len(shown)), ratios, color="tab:blue")
+    axis.plot(ratios, range(len(shown)), "o", color="tab:blue", ms=5)
     axis.axvline(1.0, color="k", lw=1)
-    axis.set_yticks(range(len(shown)), [c.item for c in shown], fontsize=5)
+    axis.set_yticks(range(len(shown)), [c.item for c in shown], fontsize=7)
     axis.invert_yaxis()
-    axis.set(xlabel="ours / published", title="Published figures, recomputed")
+    axis.grid(axis="y", color="0.9")
+    axis.set(xscale="log", xlim=_RATIOS)
+    axis.set_xlabel(f"ours / published (no mark: ours never settles, or is below {_RATIOS[0]:g})")
+    axis.set_title("Published figures, recomputed")

@@ -12,7 +12,7 @@ from sim.discretisation import Discretisation, Mesh
 from sim.loop.hardware import LoopHardware, Sensors
 from sim.loop.shaft import CommandedShaft
 from sim.schedule import Schedule
-from sim.simulation import simulate
+from sim.simulation import SimulationFailed, compile_model, simulate
 from sim.spec import Setup
 
 STEP_S = 0.005
@@ -170,3 +170,16 @@ def test_signals_of_the_controller_are_kept_at_every_sample():
     assert np.array_equal(controlled.log["seen"], controlled.reference_deg)
     assert controlled.run.angles_rad.shape == (controlled.reference_deg.size, 10)
     assert run_closed_loop(setup(), turn(), Follower()).run.angles_rad is None
+
+
+def test_a_loop_whose_steps_do_not_land_is_refused_like_any_other_run(monkeypatch):
+    """Damping of a joint is nothing that the tissue's callback knows of."""
+
+    def damped(made):
+        model = compile_model(made)
+        model.dof_damping[3] = 1e-3
+        return model
+
+    monkeypatch.setattr("sim.closed_loop.compile_model", damped)
+    with pytest.raises(SimulationFailed, match="step to end within"):
+        run_closed_loop(setup(), turn(), Follower())

@@ -9,7 +9,8 @@ from models.modes import InsertedNeedle
 from models.needle import NITINOL
 from sim.experiment import perform
 from sim.paper_protocols import protocol_named
-from sim.recording.rerun_log import log_recording, modal_amplitudes_deg
+from sim.recording.recording import Recording
+from sim.recording.rerun_log import application, log_recording, modal_amplitudes_deg
 
 
 def test_the_rerun_file_holds_the_signals_to_the_last_bit(recording, tmp_path):
@@ -34,6 +35,19 @@ def test_the_file_is_arranged_by_a_blueprint(recording, tmp_path):
     path = tmp_path / "run.rrd"
     log_recording(recording, path)
     assert RrdReader(str(path)).blueprints()
+
+
+def test_recordings_with_other_views_are_another_application(recording):
+    """A viewer that has shown the one would show the other in its layout."""
+    table = recording.table
+    shaftless = table[[c for c in table if not c.startswith("shaft_0")]]
+    controlled = table.assign(rate_limited_count=0.0)
+    names = {
+        application(Recording(table=one, parameters=recording.parameters))
+        for one in (table, shaftless, controlled)
+    }
+    assert len(names) == 3
+    assert application(recording) in names
 
 
 def test_a_rerun_file_is_not_overwritten(recording, tmp_path):
