@@ -43,6 +43,7 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
+    start_rate_deg_s: float = 0.0
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.replay.past import Past
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
@@ -36,6 +37,7 @@ class RigParameters:
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
+      pasts: of the trials that began twisted or moving.
     """
 
     stiffness_scale: float = 1.0
@@ -64,6 +66,7 @@ class RigParameters:
     torque_bias_n_mm: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
+    pasts: tuple[Past, ...] = ()
 
     def needle(self, rig: NominalRig, length_mm: float) -> Needle:
         """The needle, of the length that a trial needs."""
@@ -118,6 +121,14 @@ class RigParameters:
     def without_sensors(self) -> "RigParameters":
         """The rig whose sensors show what is."""
         return replace(self, tip_bias_deg=0.0, tip_scale=1.0, tip_delay_s=0.0, torque_bias_n_mm=0.0)
+
+    def past_of(self, trial: str) -> Past | None:
+        """What came before a trial; None: it begins untwisted and at rest."""
+        return next((past for past in self.pasts if past.trial == trial), None)
+
+    def on_trial(self, trial: str) -> "RigParameters":
+        """The rig that one trial sees: without the pasts of others."""
+        return replace(self, pasts=tuple(past for past in self.pasts if past.trial == trial))
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle that goes through a schedule."""
