@@ -212,6 +212,22 @@ INERTIA_COUNTS_SIGMA = 0.05
 spline. Derived: a twentieth of sigma adds 0.1 % to a gap; the paper's needle is at 0.001 and below."""
 INERTIA_LOST_SIGMA = 0.5
 """Part of that torque that samples half as frequent would lose, from which a warning is given."""
+INSERTED_AT_LEAST = 0.1
+"""Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
+START_LOOK_S = 0.25
+START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
+START_OUTLIER_SIGMA = 5.0
+START_TORQUE_FACTOR = 2.0
+"""A late start: the first readings of the tip, through which a parabola is laid, lie off by so many standard
+deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree within
+so large a factor. Set on nothing: 94 clean logs came to 3.5 at most, 40 that were cut to 17 and more."""
+START_DECAYS = 10.0
+START_MOST_UNUSED = 0.25
+"""Time constants of the second mode after which a shape of twist that one number does not tell has faded
+(derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out for it."""
+START_SPREAD_DEG = 90.0
+"""One standard deviation of what the base turned by before a late start, about the twist that is read. A
+choice, so broad that a second of any trial outweighs it."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 

@@ -22,20 +22,25 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import COARSE
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
 
-def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
+def decimated(
+    problem: FitProblem, nominal: Sequence[Prediction], nominal_rig: RigParameters = NOMINAL
+) -> FitProblem:
     """The problem for a coarse needle, given the fine nominal predictions of its trials.
+
+    Args:
+      nominal_rig: that made these; with what came before trials that began late.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated so coarsely.
     """
     log = problem.log
     each = zip(log.trials, nominal, strict=True)
-    trials = tuple(_decimated(log.rig, trial, prediction) for trial, prediction in each)
+    trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
     share = sum(t.time_s.size for t in trials) / sum(t.time_s.size for t in log.trials)
     sigma = {sensor: s * np.sqrt(share) for sensor, s in problem.noise.sigma.items()}
     return replace(
@@ -46,9 +51,11 @@ def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
     )
 
 
-def _decimated(rig: NominalRig, trial: PreparedTrial, nominal: Prediction) -> PreparedTrial:
+def _decimated(
+    rig: NominalRig, nominal_rig: RigParameters, trial: PreparedTrial, nominal: Prediction
+) -> PreparedTrial:
     bare, width_s = _without_readings(trial)
-    coarse = predict(rig, bare, [NOMINAL], COARSE)[0]
+    coarse = predict(rig, bare, [nominal_rig], COARSE)[0]
     readings = {}
     for sensor in SENSORS:
         if trial.has(sensor):

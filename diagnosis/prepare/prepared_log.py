@@ -20,6 +20,21 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
+@dataclass(frozen=True, kw_only=True)
+class LateStart:
+    """How a trial begins whose recording began late.
+
+    Attributes:
+      twist_deg: of the base before the tip at the first sample, as the readings say.
+      rate_deg_s: of the base at the first sample.
+      unused_s: from the first sample, that what the sensors read is not used.
+    """
+
+    twist_deg: float
+    rate_deg_s: float
+    unused_s: float
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PreparedTrial:
     """A trial to replay; every array has the shape of `time_s`, (N,).
@@ -31,6 +46,7 @@ class PreparedTrial:
       readings: by sensor, in the unit of its name; NaN where it gave nothing.
       logged: rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
+      late_start: None: it begins untwisted and at rest.
     """
 
     name: str
@@ -43,7 +59,7 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
-    start_rate_deg_s: float = 0.0
+    late_start: LateStart | None = None
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""

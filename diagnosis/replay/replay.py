@@ -15,9 +15,10 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
-from diagnosis.replay.past import Past, schedule_with_past
+from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensors import driven, sensed
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
@@ -63,7 +64,7 @@ def predict(
     """
     seen = [rig.on_trial(trial.name).without_sensors() for rig in rigs]
     needles = list(dict.fromkeys(seen))
-    runs = dict(zip(needles, _runs(nominal, trial, needles, resolution), strict=True))
+    runs = dict(zip(needles, _run(nominal, trial, needles, resolution), strict=True))
     each = zip(rigs, seen, strict=True)
     return [_sensed(rig, runs[needle], trial.time_s) for rig, needle in each]
 
@@ -72,7 +73,7 @@ def shape_of(
     nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
 ) -> Run:
     """The whole simulated run of one trial, on its own steps, with the shape of the shaft."""
-    return _run(nominal, trial, rig.past_of(trial.name), [rig], resolution, keep_shape=True)[0]
+    return _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
@@ -85,38 +86,25 @@ def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Arr
     return np.concatenate(parts) if parts else np.zeros(0)
 
 
-def _runs(
-    nominal: NominalRig,
-    trial: PreparedTrial,
-    rigs: Sequence[RigParameters],
-    resolution: Resolution,
-) -> list[Run]:
-    """Runs of a trial in the order of the rigs; those that share its past run side by side."""
-    pasts = [rig.past_of(trial.name) for rig in rigs]
-    runs: dict[RigParameters, Run] = {}
-    for past in dict.fromkeys(pasts):
-        alike = [rig for rig, own in zip(rigs, pasts, strict=True) if own == past]
-        runs |= zip(alike, _run(nominal, trial, past, alike, resolution), strict=True)
-    return [runs[rig] for rig in rigs]
-
-
 def _run(
     nominal: NominalRig,
     trial: PreparedTrial,
-    past: Past | None,
     rigs: Sequence[RigParameters],
     resolution: Resolution,
     *,
     keep_shape: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
-    schedule = trial.schedule if past is None else schedule_with_past(trial, past)
-    setups = [r.setup(nominal, schedule, elements=elements, step_s=step_s) for r in rigs]
-    return simulate(setups, schedule, keep_shape=keep_shape)
+    inputs = [driven(rig, schedule_with_past(rig, trial)) for rig in rigs]
+    setups = [
+        rig.setup(nominal, own, elements=elements, step_s=step_s)
+        for rig, own in zip(rigs, inputs, strict=True)
+    ]
+    return simulate(setups, inputs, keep_shape=keep_shape)
 
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
-    tip, torque = rig.sensed(run.time_s, run.tip_deg, run.base_torque_n_mm)
+    tip, torque = sensed(rig, run.time_s, run.inputs.drive, run.tip_deg, run.base_torque_n_mm)
     return Prediction(
         tip_angle_deg=np.interp(at_s, run.time_s, tip),
         base_torque_n_mm=np.interp(at_s, run.time_s, torque),

@@ -1,24 +1,19 @@
 """The parameters of a rig that effects change, and the MuJoCo needle that they make of a nominal rig.
 
 Every field is neutral by default: `RigParameters()` is the nominal rig. Units are in the names;
-scales, shares, ratios, exponents and coefficients have none.
+scales, shares, ratios, exponents and coefficients have none. From the motor to the needle there are
+drive shaft with its encoder, torque sensor, bearing, chuck.
 """
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.replay.past import Past
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.schedule import Schedule
 from sim.spec import Setup
-
-Array = NDArray[np.float64]
 
 LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
 
@@ -34,10 +29,14 @@ class RigParameters:
       layer_ratio: damping of the deep layer over that of the shallow one.
       layer_boundary_fraction: of the inserted length.
       base_stiffness_n_mm_per_rad: of a spring between drive shaft and needle; 0: rigid.
+      drive_friction_n_mm: dry friction of the bearing, which the torque sensor reads.
+      base_scale: what the encoder reads over what the drive shaft turns.
+      inserted_offset_mm: true inserted length less the logged one.
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
-      pasts: of the trials that began twisted or moving.
+      turned_before_deg: by trial that began late, what the base turned by before, beyond the twist that
+        its first readings show.
     """
 
     stiffness_scale: float = 1.0
@@ -64,9 +63,14 @@ class RigParameters:
     tip_scale: float = 1.0
     tip_delay_s: float = 0.0
     torque_bias_n_mm: float = 0.0
+    torque_scale: float = 1.0
+    torque_delay_s: float = 0.0
+    drive_friction_n_mm: float = 0.0
+    base_scale: float = 1.0
+    inserted_offset_mm: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
-    pasts: tuple[Past, ...] = ()
+    turned_before_deg: tuple[tuple[str, float], ...] = ()
 
     def needle(self, rig: NominalRig, length_mm: float) -> Needle:
         """The needle, of the length that a trial needs."""
@@ -119,19 +123,25 @@ class RigParameters:
         )
 
     def without_sensors(self) -> "RigParameters":
-        """The rig whose sensors show what is."""
-        return replace(self, tip_bias_deg=0.0, tip_scale=1.0, tip_delay_s=0.0, torque_bias_n_mm=0.0)
-
-    def past_of(self, trial: str) -> Past | None:
-        """What came before a trial; None: it begins untwisted and at rest."""
-        return next((past for past in self.pasts if past.trial == trial), None)
+        """The rig whose sensors show what the needle does."""
+        return replace(
+            self,
+            tip_bias_deg=0.0,
+            tip_scale=1.0,
+            tip_delay_s=0.0,
+            torque_bias_n_mm=0.0,
+            torque_scale=1.0,
+            torque_delay_s=0.0,
+            drive_friction_n_mm=0.0,
+        )
 
     def on_trial(self, trial: str) -> "RigParameters":
-        """The rig that one trial sees: without the pasts of others."""
-        return replace(self, pasts=tuple(past for past in self.pasts if past.trial == trial))
+        """The rig that one trial sees: without what came before others."""
+        own = tuple((name, turn) for name, turn in self.turned_before_deg if name == trial)
+        return replace(self, turned_before_deg=own)
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
-        """The MuJoCo needle that goes through a schedule."""
+        """The MuJoCo needle that goes through a schedule, which is what the rig was `driven` by."""
         shaft = max(schedule.longest_mm, 1.0)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
@@ -153,13 +163,6 @@ class RigParameters:
             if standing
             else self.material_share_growing_depth,
         )
-
-    def sensed(self, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> tuple[Array, Array]:
-        """What the sensors show of tip and base torque."""
-        shown = tip_deg
-        if self.tip_delay_s != 0.0:
-            shown = np.interp(time_s - self.tip_delay_s, time_s, tip_deg)
-        return self.tip_bias_deg + self.tip_scale * shown, torque_n_mm + self.torque_bias_n_mm
 
 
 NOMINAL = RigParameters()
