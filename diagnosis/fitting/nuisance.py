@@ -16,7 +16,7 @@ from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.rig_parameters import Past, RigParameters
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
@@ -39,7 +39,7 @@ def _growing_depth(rig: RigParameters, share: float) -> RigParameters:
 
 
 _TURN = Parameter(
-    name="turn",
+    name="turned",
     unit="deg",
     low=-_MOST_TURN_DEG,
     high=_MOST_TURN_DEG,
@@ -64,8 +64,9 @@ SLIP_GROWING_DEPTH = Effect(
 )
 
 
-def _turned_before(trial: str, rig: RigParameters, turn_deg: float) -> RigParameters:
-    return replace(rig, turned_before_deg=(*rig.turned_before_deg, (trial, turn_deg)))
+def _with_past(trial: str, rig: RigParameters, turned_deg: float, wound_deg: float) -> RigParameters:
+    past = Past(trial=trial, wound_deg=wound_deg, turned_deg=turned_deg)
+    return replace(rig, pasts=(*rig.pasts, past))
 
 
 def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
@@ -75,8 +76,8 @@ def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
             name=f"start of {trial.name}",
             title=f"what the base turned by before {trial.name} began",
             place=Place.DRIVE,
-            parameters=(_TURN,),
-            apply=partial(_turned_before, trial.name),
+            parameters=(_TURN, replace(_TURN, name="wound")),
+            apply=partial(_with_past, trial.name),
             trial=trial.name,
         )
         for trial in log.trials

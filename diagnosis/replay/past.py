@@ -21,13 +21,8 @@ from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 
-_TURN_S = 1.0
+_TURN_S, _REST_S = 1.0, 2.0
 _COLUMNS = ("free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm")
-
-
-def turn_before_deg(rig: RigParameters, trial: str, start: LateStart) -> float:
-    """What the base turned by before a late trial began."""
-    return start.twist_deg + dict(rig.turned_before_deg).get(trial, 0.0)
 
 
 def schedule_with_past(rig: RigParameters, trial: PreparedTrial) -> Schedule:
@@ -35,10 +30,13 @@ def schedule_with_past(rig: RigParameters, trial: PreparedTrial) -> Schedule:
     start, logged = trial.late_start, trial.schedule
     if start is None:
         return logged
+    past = rig.past_of(trial.name)
     first_deg = float(logged.drive[0])
-    rest_deg = first_deg - turn_before_deg(rig, trial.name, start)
-    motion = CubicHermiteSpline([-_TURN_S, 0.0], [rest_deg, first_deg], [0.0, start.rate_deg_s])
-    before_s = np.linspace(-_TURN_S, 0.0, max(2, round(_TURN_S / trial.sample_s) + 1))[:-1]
+    rest_deg = first_deg - start.twist_deg - past.turned_deg
+    angles_deg = [rest_deg - past.wound_deg, rest_deg, rest_deg, first_deg]
+    times_s = np.cumsum([0.0, _TURN_S, _REST_S, _TURN_S]) - (2 * _TURN_S + _REST_S)
+    motion = CubicHermiteSpline(times_s, angles_deg, [0.0, 0.0, 0.0, start.rate_deg_s])
+    before_s = np.linspace(times_s[0], 0.0, round(-times_s[0] / trial.sample_s) + 1)[:-1]
 
     def with_first(values: Array) -> Array:
         return np.concatenate([np.full(before_s.size, values[0]), values])
