@@ -218,13 +218,13 @@ START_LOOK_S = 0.25
 START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
 START_OUTLIER_SIGMA = 5.0
 START_TORQUE_FACTOR = 2.0
-"""A late start: the first readings of the tip, through which a parabola is laid, lie off by so many standard
-deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree within
-so large a factor. Set on nothing: 94 clean logs came to 3.5 at most, 40 that were cut to 17 and more."""
+"""A late start: a parabola through the first readings of the tip begins off the base by so many standard
+deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
+within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
 START_DECAYS = 10.0
 START_MOST_UNUSED = 0.25
-"""Time constants of the second mode after which a shape of twist that one number does not tell has faded
-(derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out for it."""
+"""Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
+not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
 START_SPREAD_DEG = 90.0
 """One standard deviation of what the base turned by before a late start, about the twist that is read. A
 choice, so broad that a second of any trial outweighs it."""

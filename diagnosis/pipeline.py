@@ -19,7 +19,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.late_start import with_late_starts
+from diagnosis.prepare.late_start_detection import with_late_starts, without_unused
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
@@ -85,6 +85,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     """
     prepare_processes()
     nominal = replay_nominal(log)
+    log = without_unused(log, nominal.problem.log)
     with process_pool(workers, progress) as pool:
         found = _searched(log, nominal, pool)
         last = _judged(found)

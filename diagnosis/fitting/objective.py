@@ -1,7 +1,8 @@
 """Residuals of a log as a function of the fit's vector, and their slopes.
 
 The nuisance moves by a few per cent at the most: its slopes are taken again only where the
-effects have moved far. What came before a late trial moves as far as effects do, and costs one trial. A fit ends at a vector that it has been at: what was simulated there is kept.
+effects have moved far. What came before a late trial moves as far as effects do, and costs one trial.
+A fit ends at a vector that it has been at: what was simulated there is kept.
 """
 
 from collections.abc import Sequence

@@ -14,25 +14,11 @@ from numpy.typing import NDArray
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
+from diagnosis.prepare.late_start import LateStart
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-
-@dataclass(frozen=True, kw_only=True)
-class LateStart:
-    """How a trial begins whose recording began late.
-
-    Attributes:
-      twist_deg: of the base before the tip at the first sample, as the readings say.
-      rate_deg_s: of the base at the first sample.
-      unused_s: from the first sample, that what the sensors read is not used.
-    """
-
-    twist_deg: float
-    rate_deg_s: float
-    unused_s: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -105,9 +91,10 @@ class PreparedLog:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Trials whose samples are too rare for what they have to carry."""
+        """Trials whose samples are too rare for what they have to carry, and that began late."""
         each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
-        return tuple(warning for warning in each if warning)
+        late = (t.late_start.warning(t.name) for t in self.trials if t.late_start)
+        return (*(warning for warning in each if warning), *late)
 
 
 def _steadied(depth_mm: Array) -> Array:

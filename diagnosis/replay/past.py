@@ -1,21 +1,22 @@
 """What the base did before a recording began that began late.
 
-A trial that begins twisted or moving has a past that the log does not show. What that left is the state
-of the needle, and one number tells enough of it, once the fast modes have faded: the base rests, then
-turns, in a smooth ramp, to the first angle of the log,
+A trial that begins twisted or moving has a past that the log does not show. What that left is the
+state of the needle, and two numbers tell enough of it, once the fast modes have faded. From rest, in
+smooth ramps, the base
 
-    turn = twist that the first readings show + a correction that is fitted,
+    turns by `wound`, rests, and turns by `twist + turned` into the first angle of the log,
 
-and arrives at the first rate. The same needle goes through this as through the trial. So what is left
-of it follows the law of whatever rig is replayed: in viscous tissue it fades, dry friction keeps it until
-a motion tears it away.
+where it arrives at the first rate. The twist is that of the first readings; the others are fitted.
+The same needle goes through this as through the trial, so that what is left of it follows the law
+of whatever rig is replayed: in viscous tissue it fades, elastic tissue creeps back, and dry friction
+keeps it until a motion tears it away.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
-from diagnosis.prepare.prepared_log import LateStart, PreparedTrial
+from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.rig_parameters import RigParameters
 from sim.schedule import Schedule
 

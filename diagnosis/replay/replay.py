@@ -72,8 +72,9 @@ def predict(
 def shape_of(
     nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
 ) -> Run:
-    """The whole simulated run of one trial, on its own steps, with the shape of the shaft."""
-    return _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    """The simulated run of one trial, on its own steps, with the shape of the shaft."""
+    run = _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    return run.since(float(trial.time_s[0]))
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
