@@ -25,6 +25,6 @@ class LateStart:
         moving = f", moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
         return (
             f"{trial}: begins wound up by about {abs(self.twist_deg):.2g} deg{moving}: what the base "
-            f"turned by before is fitted, and what its sensors read in the first {self.unused_s:.2g} s is "
-            "not used"
+            "turned by before is fitted, and what its sensors read in the first "
+            f"{self.unused_s:.2g} s is not used"
         )

@@ -46,11 +46,11 @@ _FEWEST = 10  # readings that a parabola is laid through
 class _Offset:
     """What a sensor reads at the start beyond the nominal rig, and what it has to exceed to be one."""
 
-    value: float = 0.0
+    off: float = 0.0
     limit: float = np.inf
 
     def beyond(self, other: float) -> bool:
-        return abs(self.value - other) > self.limit
+        return abs(self.off - other) > self.limit
 
 
 def with_late_starts(
@@ -98,8 +98,8 @@ def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mappin
     off = torque.beyond(shared[_TORQUE])
     if not trial.has(_TIP):
         return off
-    twisted = (tip.value - shared[_TIP]) * (torque.value - shared[_TORQUE]) < 0.0
-    a_little = abs(tip.value - shared[_TIP]) > tip.limit / 2
+    twisted = (tip.off - shared[_TIP]) * (torque.off - shared[_TORQUE]) < 0.0
+    a_little = abs(tip.off - shared[_TIP]) > tip.limit / 2
     rests = abs(start_rate_deg_s(trial)) < TURNING_DEG_S
     return tip.beyond(shared[_TIP]) or (off and twisted and a_little and rests)
 
@@ -109,7 +109,7 @@ def _carries_torque(rig: NominalRig, trial: PreparedTrial, tip: _Offset, torque:
     if not (tip.beyond(0.0) and torque.beyond(0.0)):
         return False
     free_mm, inserted_mm = float(trial.free_mm[0]), float(trial.inserted_mm[0])
-    per_torque = -np.radians(tip.value) * rig.rigidity_n_mm2 / torque.value
+    per_torque = -np.radians(tip.off) * rig.rigidity_n_mm2 / torque.off
     factor = START_TORQUE_FACTOR
     return bool(free_mm / factor <= per_torque <= factor * (free_mm + inserted_mm))
 
@@ -146,14 +146,14 @@ def _offset(time_s: Array, residual: Array, sigma: float) -> _Offset:
         if near.all():
             break
         time, left = time[near], left[near]
-    return _Offset(value=value, limit=sigma * max(START_SIGMA * spread, START_LEAST_SIGMA))
+    return _Offset(off=value, limit=sigma * max(START_SIGMA * spread, START_LEAST_SIGMA))
 
 
 def _shared(offsets: Sequence[_Offset]) -> float:
     """The offset that most trials share, two at least; else 0."""
     best, most = 0.0, sum(not own.beyond(0.0) for own in offsets)
     for one in offsets:
-        alike = [own.value for own in offsets if not own.beyond(one.value)]
+        alike = [own.off for own in offsets if not own.beyond(one.off)]
         if len(alike) > max(most, 1):
             best, most = float(np.median(alike)), len(alike)
     return best
@@ -167,10 +167,10 @@ def _late(
     shared: Mapping[str, float],
 ) -> PreparedTrial:
     if trial.has(_TIP):
-        twist_deg = shared[_TIP] - tip.value
+        twist_deg = shared[_TIP] - tip.off
     else:
         length_mm = float(trial.free_mm[0] + 0.5 * trial.inserted_mm[0])
-        twist_deg = float(np.degrees((torque.value - shared[_TORQUE]) * length_mm / rig.rigidity_n_mm2))
+        twist_deg = float(np.degrees((torque.off - shared[_TORQUE]) * length_mm / rig.rigidity_n_mm2))
     unused_s = min(_forgotten_s(rig, trial), START_MOST_UNUSED * float(np.ptp(trial.time_s)))
     unused = trial.time_s < trial.time_s[0] + unused_s
     start = LateStart(twist_deg=float(twist_deg), rate_deg_s=start_rate_deg_s(trial), unused_s=unused_s)

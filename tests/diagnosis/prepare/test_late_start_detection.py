@@ -1,7 +1,7 @@
 """Which trials of a log began late.
 
-The tip's noise is 0.25 deg. A parabola through 25 readings begins with 0.6 of that, so that a twist above
-0.75 deg is one; twists here are 3 deg and more.
+The tip's noise is 0.25 deg. A parabola through 25 readings begins with 0.6 of that, so that a twist
+above 0.75 deg is one; twists here are 3 deg and more.
 """
 
 from dataclasses import replace
