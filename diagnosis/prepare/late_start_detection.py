@@ -44,13 +44,13 @@ _FEWEST = 10  # readings that a parabola is laid through
 
 @dataclass(frozen=True, kw_only=True)
 class _Offset:
-    """What a sensor reads at the start beyond the nominal rig, and what it has to exceed to be one."""
+    """What a sensor reads at the start beyond the nominal rig, and what that has to exceed."""
 
-    off: float = 0.0
-    limit: float = np.inf
+    off_sigma: float = 0.0
+    limit_sigma: float = np.inf
 
     def beyond(self, other: float) -> bool:
-        return abs(self.off - other) > self.limit
+        return abs(self.off_sigma - other) > self.limit_sigma
 
 
 def with_late_starts(
@@ -64,13 +64,13 @@ def with_late_starts(
     tips = _offsets(log.trials, _TIP, residuals, noise)
     torques = _offsets(log.trials, _TORQUE, residuals, noise)
     each = list(zip(log.trials, tips, torques, strict=True))
-    loaded = [_carries_torque(log.rig, trial, tip, torque) for trial, tip, torque in each]
+    loaded = [_carries_torque(log.rig, trial, tip, torque, noise) for trial, tip, torque in each]
     shared = {
         sensor: _shared([own for own, twisted in zip(offsets, loaded, strict=True) if not twisted])
         for sensor, offsets in ((_TIP, tips), (_TORQUE, torques))
     }
     trials = [
-        _late(log.rig, trial, tip, torque, shared)
+        _late(log.rig, trial, tip, torque, shared, noise)
         if twisted or _differs(trial, tip, torque, shared)
         else trial
         for (trial, tip, torque), twisted in zip(each, loaded, strict=True)
@@ -98,18 +98,21 @@ def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mappin
     off = torque.beyond(shared[_TORQUE])
     if not trial.has(_TIP):
         return off
-    twisted = (tip.off - shared[_TIP]) * (torque.off - shared[_TORQUE]) < 0.0
-    a_little = abs(tip.off - shared[_TIP]) > tip.limit / 2
+    twisted = (tip.off_sigma - shared[_TIP]) * (torque.off_sigma - shared[_TORQUE]) < 0.0
+    a_little = abs(tip.off_sigma - shared[_TIP]) > tip.limit_sigma / 2
     rests = abs(start_rate_deg_s(trial)) < TURNING_DEG_S
     return tip.beyond(shared[_TIP]) or (off and twisted and a_little and rests)
 
 
-def _carries_torque(rig: NominalRig, trial: PreparedTrial, tip: _Offset, torque: _Offset) -> bool:
+def _carries_torque(
+    rig: NominalRig, trial: PreparedTrial, tip: _Offset, torque: _Offset, noise: Noise
+) -> bool:
     """Whether both sensors are off as those of a twisted shaft are: trials may begin alike."""
     if not (tip.beyond(0.0) and torque.beyond(0.0)):
         return False
     free_mm, inserted_mm = float(trial.free_mm[0]), float(trial.inserted_mm[0])
-    per_torque = -np.radians(tip.off) * rig.rigidity_n_mm2 / torque.off
+    twist_rad = -np.radians(tip.off_sigma * noise[_TIP])
+    per_torque = twist_rad * rig.rigidity_n_mm2 / (torque.off_sigma * noise[_TORQUE])
     factor = START_TORQUE_FACTOR
     return bool(free_mm / factor <= per_torque <= factor * (free_mm + inserted_mm))
 
@@ -146,14 +149,16 @@ def _offset(time_s: Array, residual: Array, sigma: float) -> _Offset:
         if near.all():
             break
         time, left = time[near], left[near]
-    return _Offset(off=value, limit=sigma * max(START_SIGMA * spread, START_LEAST_SIGMA))
+    limit = max(START_SIGMA * spread, START_LEAST_SIGMA)
+    return _Offset(off_sigma=value / sigma, limit_sigma=limit)
 
 
 def _shared(offsets: Sequence[_Offset]) -> float:
     """The offset that most trials share, two at least; else 0."""
-    best, most = 0.0, sum(not own.beyond(0.0) for own in offsets)
-    for one in offsets:
-        alike = [own.off for own in offsets if not own.beyond(one.off)]
+    measured = [own for own in offsets if np.isfinite(own.limit_sigma)]
+    best, most = 0.0, sum(not own.beyond(0.0) for own in measured)
+    for one in measured:
+        alike = [own.off_sigma for own in measured if not own.beyond(one.off_sigma)]
         if len(alike) > max(most, 1):
             best, most = float(np.median(alike)), len(alike)
     return best
@@ -165,12 +170,14 @@ def _late(
     tip: _Offset,
     torque: _Offset,
     shared: Mapping[str, float],
+    noise: Noise,
 ) -> PreparedTrial:
     if trial.has(_TIP):
-        twist_deg = shared[_TIP] - tip.off
+        twist_deg = (shared[_TIP] - tip.off_sigma) * noise[_TIP]
     else:
+        torque_n_mm = (torque.off_sigma - shared[_TORQUE]) * noise[_TORQUE]
         length_mm = float(trial.free_mm[0] + 0.5 * trial.inserted_mm[0])
-        twist_deg = float(np.degrees((torque.off - shared[_TORQUE]) * length_mm / rig.rigidity_n_mm2))
+        twist_deg = float(np.degrees(torque_n_mm * length_mm / rig.rigidity_n_mm2))
     unused_s = min(_forgotten_s(rig, trial), START_MOST_UNUSED * float(np.ptp(trial.time_s)))
     unused = trial.time_s < trial.time_s[0] + unused_s
     start = LateStart(twist_deg=float(twist_deg), rate_deg_s=start_rate_deg_s(trial), unused_s=unused_s)
