@@ -78,9 +78,17 @@ SATURATED_BESIDE = 10
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""
-SPIKE_SIGMA = 20.0
-SPIKE_SHARE = 0.2
-"""A lone sample so far off its neighbours, which agree within this share of its jump."""
+OUTLIER_FALSE_ALARMS = 0.05
+"""Derived: samples of a column of a trial that white noise makes outliers of, on average; below one in a
+log. Of 3000 samples that asks for 4.5 sigma."""
+OUTLIER_CLEARANCE = 8.0
+OUTLIER_MISFIT = 2.0
+OUTLIER_ONE_SIDED = 0.5
+OUTLIER_MOST_BESIDE = 4
+OUTLIER_MOST_RUN = 5
+"""How far an outlier is off, in what its neighbours leave of one curve (a corner of the motion comes to 4),
+the share of that by which it is off each side alone (at a corner, 0 of one side), samples that a window
+may do without, itself among them, and outliers in a row; what lasts longer is an event."""
 
 # Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 

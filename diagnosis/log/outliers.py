@@ -1,0 +1,200 @@
+"""Outliers: one or a few samples in a row that are off what the samples on both sides say.
+
+Readings move, fast and with corners, so that a sample is compared with a cubic through its own
+neighbours, which is fitted robustly (least absolute residuals) and then by least squares without what
+it leaves out. A sample is an outlier if all of this holds:
+
+- it is off by z sigma sqrt(1 + leverage), with z from the chance that white noise is, and sigma not
+  below what the readings about it scatter by (in a fast motion, jitter of the time is noise);
+- the neighbours on both sides agree with one curve: they leave little beside what the sample is off;
+- neither side alone, as a parabola or line, comes near it: at a corner of the motion, one does.
+
+What was found is taken out, and the rest is looked at again.
+
+Source: robust local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829; Hampel's identifier.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+from scipy.special import ndtri
+
+from diagnosis.criteria import (
+    OUTLIER_CLEARANCE,
+    OUTLIER_FALSE_ALARMS,
+    OUTLIER_MISFIT,
+    OUTLIER_MOST_BESIDE,
+    OUTLIER_MOST_RUN,
+    OUTLIER_ONE_SIDED,
+)
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+_HALVES = (4, 7)  # neighbours on each side
+_SIDE_ORDER = {4: 1, 7: 2}  # of the curve through one side of so many
+_ORDER = 3  # of the curve
+_PASSES = 4
+_ROBUST_STEPS = 12
+_LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
+_SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
+_ABOUT = 16  # samples on each side whose scatter counts
+_TO_SIGMA = 1.4826  # a median of absolute deviations, of a normal distribution
+_CHUNK = 20_000  # windows that are fitted at once
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outliers:
+    """Outliers of a column.
+
+    Attributes:
+      rows: which samples, (N,).
+      expected: what their neighbours say of them; elsewhere the readings, (N,).
+    """
+
+    rows: Mask
+    expected: Array
+
+
+def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
+    """Outliers among readings, (N,) each; what is not finite is none.
+
+    Args:
+      sigma: white noise of the readings, in their unit.
+    """
+    rows, expected = np.zeros(values.size, bool), values.copy()
+    for _ in range(_PASSES):
+        rest = np.flatnonzero(np.isfinite(values) & ~rows)
+        found, said = _pass(time_s[rest], values[rest], sigma)
+        if found.size == 0:
+            break
+        rows[rest[found]], expected[rest[found]] = True, said
+    rows &= ~_in_long_run(rows)
+    return Outliers(rows=rows, expected=np.where(rows, expected, values))
+
+
+def _in_long_run(rows: Mask) -> Mask:
+    """What lasts is an event, not an outlier."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], rows.astype(np.int8), [0])))).reshape(-1, 2)
+    long = np.zeros(rows.size, bool)
+    for start, end in edges[edges[:, 1] - edges[:, 0] > OUTLIER_MOST_RUN]:
+        long[start:end] = True
+    return long
+
+
+def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
+    """Outliers that are seen beside the samples that are left, and what is expected there."""
+    if not sigma > 0 or values.size < 2 * max(_HALVES) + 1:
+        return np.zeros(0, int), np.zeros(0)
+    scale = _scatter_about(time_s, values, sigma)
+    suspects = _screened(time_s, values, scale)
+    limit = float(-ndtri(OUTLIER_FALSE_ALARMS / (2 * len(_HALVES) * values.size)))
+    rows, expected = np.zeros(values.size, bool), np.zeros(values.size)
+    for half in _HALVES:
+        for part in np.array_split(suspects, suspects.size // _CHUNK + 1):
+            off, said = _judged(time_s, values, scale, part, half, limit)
+            rows[part[off]], expected[part[off]] = True, said[off]
+    found = np.flatnonzero(rows)
+    return found, expected[found]
+
+
+def _interpolated(time_s: Array, values: Array, near: int, far: int) -> tuple[Array, Array]:
+    """Cubic through two samples on each side, NaN near the ends, and its gain of white noise."""
+    n = values.size
+    middle = np.arange(far, n - far)
+    at = [middle - far, middle - near, middle + near, middle + far]
+    weights = []
+    for i in range(4):
+        others = [j for j in range(4) if j != i]
+        top = np.prod([time_s[middle] - time_s[at[j]] for j in others], axis=0)
+        weights.append(top / np.prod([time_s[at[i]] - time_s[at[j]] for j in others], axis=0))
+    said, gain = np.full(n, np.nan), np.full(n, np.nan)
+    said[middle] = sum(w * values[a] for w, a in zip(weights, at, strict=True))
+    gain[middle] = np.sqrt(1 + sum(w**2 for w in weights))
+    return said, gain
+
+
+def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
+    """What readings scatter by before, about and after each sample, and sigma at least, (N,)."""
+    said, gain = _interpolated(time_s, values, 1, 2)
+    size = np.abs(values - said) / gain
+    padded = np.pad(size[2:-2], 2 + _ABOUT, mode="reflect")
+    inside = _TO_SIGMA * np.median(sliding_window_view(padded, _ABOUT + 1), axis=1)
+    n = values.size
+    before, after = inside[:n], inside[_ABOUT : _ABOUT + n]
+    return np.maximum(sigma, np.maximum(before, after))
+
+
+def _screened(time_s: Array, values: Array, scale: Array) -> Index:
+    """Samples that are worth a fit: all near the ends, and what is off some cubic."""
+    off = np.zeros(values.size)
+    for near, far in ((1, 2), (2, 4), (3, 6)):
+        said, gain = _interpolated(time_s, values, near, far)
+        off = np.fmax(off, np.abs(values - said) / (gain * scale))
+    ends = max(_HALVES)
+    off[:ends], off[-ends:] = np.inf, np.inf
+    return np.flatnonzero(off > _SCREENED_SIGMA)
+
+
+def _judged(
+    time_s: Array, values: Array, scale: Array, rows: Index, half: int, limit: float
+) -> tuple[Mask, Array]:
+    """Which of the rows are outliers beside `half` neighbours on each side, and what is expected."""
+    width = 2 * half + 1
+    first = np.clip(rows - half, 0, values.size - width)
+    window = first[:, None] + np.arange(width)
+    x = time_s[window] - time_s[rows][:, None]
+    x /= np.abs(x).max(axis=1, keepdims=True)
+    y, own = values[window] - values[rows][:, None], scale[rows]
+    powers = x[:, :, None] ** np.arange(_ORDER + 1)
+    itself = window == rows[:, None]
+    left = y - _robust(powers, y, own)
+    good = (np.abs(left) <= _LEFT_OUT_SIGMA * own[:, None]) & ~itself
+    curve, spread = _least_squares(powers, y, good)
+    left = np.where(good, y - curve, 0.0)
+    here = np.argmax(itself, axis=1)[:, None]
+    off = -np.take_along_axis(curve, here, axis=1)[:, 0]
+    noise = np.sqrt(1 + np.take_along_axis(spread, here, axis=1)[:, 0])
+    freedom = np.maximum(good.sum(axis=1) - _ORDER - 1, 1)
+    chance = OUTLIER_MISFIT * own**2
+    misfit = np.sqrt(np.maximum((left**2).sum(axis=1) / freedom - chance, 0.0))
+    outlying = np.abs(off) > np.maximum(limit * own * noise, OUTLIER_CLEARANCE * misfit)
+    outside = width - good.sum(axis=1)
+    outlying &= outside <= OUTLIER_MOST_BESIDE
+    for side in (x < 0, x > 0):
+        far = _far_from_side(powers[:, :, : _SIDE_ORDER[half] + 1], y, good & side, here, off)
+        at_end = (side.sum(axis=1) < half) & (outside <= 2)
+        outlying &= far | at_end
+    return outlying, values[rows] - off
+
+
+def _robust(powers: Array, y: Array, scale: Array) -> Array:
+    """The curve of least absolute residuals, by reweighting, (M, W)."""
+    weights = np.ones(y.shape)
+    curve = np.zeros(y.shape)
+    for _ in range(_ROBUST_STEPS):
+        curve = _least_squares(powers, y, weights, spread=False)[0]
+        weights = 1 / np.maximum(np.abs(y - curve), 0.5 * scale[:, None]) * scale[:, None]
+    return curve
+
+
+def _least_squares(
+    powers: Array, y: Array, weights: Array | Mask, *, spread: bool = True
+) -> tuple[Array, Array]:
+    """Weighted fits in M windows: curves, (M, W), and their variances in that of one reading."""
+    weighted = powers * weights[:, :, None]
+    normal = np.swapaxes(weighted, 1, 2) @ powers
+    normal += 1e-9 * np.eye(powers.shape[2])  # where too few points are left, which is refused
+    inverse = np.linalg.inv(normal)
+    curve = (powers @ (inverse @ (np.swapaxes(weighted, 1, 2) @ y[:, :, None])))[:, :, 0]
+    return curve, np.einsum("mwi,mij,mwj->mw", powers, inverse, powers) if spread else curve
+
+
+def _far_from_side(powers: Array, y: Array, good: Mask, here: Index, off: Array) -> Mask:
+    """Whether a curve through the good points of one side is far from the sample, and as the other is."""
+    curve = _least_squares(powers, y, good, spread=False)[0]
+    apart = -np.take_along_axis(curve, here, axis=1)[:, 0] / np.where(off == 0, 1.0, off)
+    return (good.sum(axis=1) > powers.shape[2]) & (apart > OUTLIER_ONE_SIDED)
