@@ -62,6 +62,15 @@ NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
 
+# Time stamps that jitter (log/time_stamps.py)
+
+EVEN_MOST_STEPS = 1.0
+"""Steps by which stamps may be off an even grid, root mean square: beyond, the grid has lost count."""
+EVEN_TELLING_SIGMA = 3.0
+EVEN_SIGMA = 6.0
+"""Derived: a sample tells which axis is the true one where both disagree by three of their standard
+deviations; samples have to tell for even times by six of those of a fair coin, once in 10^9 logs."""
+
 # Sensor faults: which readings are set aside (log/sensor_faults.py)
 
 FALSE_ALARM_CHANCE = 1e-9

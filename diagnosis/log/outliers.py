@@ -29,6 +29,7 @@ from diagnosis.criteria import (
     OUTLIER_MOST_RUN,
     OUTLIER_ONE_SIDED,
 )
+from diagnosis.log.cubic import interpolated
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -101,25 +102,9 @@ def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
     return found, expected[found]
 
 
-def _interpolated(time_s: Array, values: Array, near: int, far: int) -> tuple[Array, Array]:
-    """Cubic through two samples on each side, NaN near the ends, and its gain of white noise."""
-    n = values.size
-    middle = np.arange(far, n - far)
-    at = [middle - far, middle - near, middle + near, middle + far]
-    weights = []
-    for i in range(4):
-        others = [j for j in range(4) if j != i]
-        top = np.prod([time_s[middle] - time_s[at[j]] for j in others], axis=0)
-        weights.append(top / np.prod([time_s[at[i]] - time_s[at[j]] for j in others], axis=0))
-    said, gain = np.full(n, np.nan), np.full(n, np.nan)
-    said[middle] = sum(w * values[a] for w, a in zip(weights, at, strict=True))
-    gain[middle] = np.sqrt(1 + sum(w**2 for w in weights))
-    return said, gain
-
-
 def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
     """What readings scatter by before, about and after each sample, and sigma at least, (N,)."""
-    said, gain = _interpolated(time_s, values, 1, 2)
+    said, gain = interpolated(time_s, values, 1, 2)
     size = np.abs(values - said) / gain
     padded = np.pad(size[2:-2], 2 + _ABOUT, mode="reflect")
     inside = _TO_SIGMA * np.median(sliding_window_view(padded, _ABOUT + 1), axis=1)
@@ -132,7 +117,7 @@ def _screened(time_s: Array, values: Array, scale: Array) -> Index:
     """Samples that are worth a fit: all near the ends, and what is off some cubic."""
     off = np.zeros(values.size)
     for near, far in ((1, 2), (2, 4), (3, 6)):
-        said, gain = _interpolated(time_s, values, near, far)
+        said, gain = interpolated(time_s, values, near, far)
         off = np.fmax(off, np.abs(values - said) / (gain * scale))
     ends = max(_HALVES)
     off[:ends], off[-ends:] = np.inf, np.inf
