@@ -95,9 +95,13 @@ OUTLIER_MISFIT = 2.0
 OUTLIER_ONE_SIDED = 0.5
 OUTLIER_MOST_BESIDE = 4
 OUTLIER_MOST_RUN = 5
-"""How far an outlier is off, in what its neighbours leave of one curve (a corner of the motion comes to 4),
-the share of that by which it is off each side alone (at a corner, 0 of one side), samples that a window
-may do without, itself among them, and outliers in a row; what lasts longer is an event."""
+"""How far an outlier is off, in what its neighbours leave of one curve (a corner comes to 4) beyond the
+noise, of which they may leave twice the variance by chance; the share of it by which it is off each side
+alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
+in a row: what lasts longer is an event."""
+PULSES_SHARE = 0.5
+"""Share of the outliers of the base that another signal answers to, from which these are motion: those of
+two sensors meet by chance, in some hundredths of them."""
 
 # Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
@@ -208,6 +212,11 @@ alone, as a question."""
 
 # Preparing a log for replay (prepare/)
 
+AVERAGED_ABOVE_HZ = 220.0
+AVERAGING_S = 0.01
+AVERAGED_LEAST_SHARE = 0.5
+"""Samples a second from which means over a hundredth of a second, a step of the replay, are diagnosed in
+their place; and the share of its samples that a window has to have."""
 STEADY_DEPTH_MM = 0.2
 """A depth that changes by less is constant: what is left is the reading of the stage."""
 GAP_STEPS = 2.5

@@ -19,6 +19,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.averaging import averaged
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
@@ -41,10 +42,12 @@ class NominalReplay:
     """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
 
     Attributes:
+      log: as it is diagnosed: averaged, if it has more samples than are of use.
       problem: the log, its noise, and what is left open of the rig.
       predictions: of the nominal rig, by trial of the problem.
     """
 
+    log: RigLog
     problem: FitProblem
     predictions: list[Prediction]
 
@@ -76,6 +79,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     """
     prepare_processes()
     nominal = replay_nominal(log)
+    log = nominal.log
     with process_pool(workers, progress) as pool:
         found = _searched(log, nominal, pool)
         last = _judged(found)
@@ -98,13 +102,14 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
+    log = averaged(log)
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
     noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
     library = library_of(scale_of(prepared))
     problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
-    return NominalReplay(problem=problem, predictions=predictions)
+    return NominalReplay(log=log, problem=problem, predictions=predictions)
 
 
 def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:

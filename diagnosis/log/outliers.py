@@ -29,7 +29,7 @@ from diagnosis.criteria import (
     OUTLIER_MOST_RUN,
     OUTLIER_ONE_SIDED,
 )
-from diagnosis.log.cubic import interpolated
+from diagnosis.log.local_curves import interpolated, least_squares, robust_curve
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -39,11 +39,14 @@ _HALVES = (4, 7)  # neighbours on each side
 _SIDE_ORDER = {4: 1, 7: 2}  # of the curve through one side of so many
 _ORDER = 3  # of the curve
 _PASSES = 4
-_ROBUST_STEPS = 12
+_STENCILS = ((1, 2), (2, 4), (3, 6))  # neighbours on each side of a cubic
 _LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
 _SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
-_ABOUT = 16  # samples on each side whose scatter counts
-_TO_SIGMA = 1.4826  # a median of absolute deviations, of a normal distribution
+_ABOUT = 32  # samples on each side whose scatter counts
+_QUIET_SHARE = 0.4  # of these, that outliers beside them do not reach
+_QUIET_SIZE = 0.288  # that quantile of the smaller residual of two stencils, of white noise
+_LOUD = 1.5  # times sigma: what a local scatter comes to by chance
+_MARGIN = 1.25  # of a local scatter: half of the samples about it tell it to a fifth
 _CHUNK = 20_000  # windows that are fitted at once
 
 
@@ -58,6 +61,10 @@ class Outliers:
 
     rows: Mask
     expected: Array
+
+    def without(self, some: Mask, values: Array) -> "Outliers":
+        """The same without some rows, whose readings are what was meant."""
+        return Outliers(rows=self.rows & ~some, expected=np.where(some, values, self.expected))
 
 
 def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
@@ -88,7 +95,7 @@ def _in_long_run(rows: Mask) -> Mask:
 
 def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
     """Outliers that are seen beside the samples that are left, and what is expected there."""
-    if not sigma > 0 or values.size < 2 * max(_HALVES) + 1:
+    if not sigma > 0 or values.size < 2 * _ABOUT:
         return np.zeros(0, int), np.zeros(0)
     scale = _scatter_about(time_s, values, sigma)
     suspects = _screened(time_s, values, scale)
@@ -103,20 +110,22 @@ def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
 
 
 def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
-    """What readings scatter by before, about and after each sample, and sigma at least, (N,)."""
-    said, gain = interpolated(time_s, values, 1, 2)
-    size = np.abs(values - said) / gain
+    """What readings scatter by about each sample where that is more than sigma for certain, (N,)."""
+    size = np.full(values.size, np.inf)
+    for near, far in _STENCILS[::2]:  # without a neighbour in common, so that an outlier is in one alone
+        said, gain = interpolated(time_s, values, near, far)
+        size = np.fmin(size, np.abs(values - said) / gain)
     padded = np.pad(size[2:-2], 2 + _ABOUT, mode="reflect")
-    inside = _TO_SIGMA * np.median(sliding_window_view(padded, _ABOUT + 1), axis=1)
-    n = values.size
-    before, after = inside[:n], inside[_ABOUT : _ABOUT + n]
-    return np.maximum(sigma, np.maximum(before, after))
+    windows = sliding_window_view(padded, 2 * _ABOUT + 1)
+    rank = round(2 * _ABOUT * _QUIET_SHARE)
+    local = np.partition(windows, rank, axis=1)[:, rank] / _QUIET_SIZE
+    return np.where(local > _LOUD * sigma, _MARGIN * local, sigma)
 
 
 def _screened(time_s: Array, values: Array, scale: Array) -> Index:
     """Samples that are worth a fit: all near the ends, and what is off some cubic."""
     off = np.zeros(values.size)
-    for near, far in ((1, 2), (2, 4), (3, 6)):
+    for near, far in _STENCILS:
         said, gain = interpolated(time_s, values, near, far)
         off = np.fmax(off, np.abs(values - said) / (gain * scale))
     ends = max(_HALVES)
@@ -136,9 +145,9 @@ def _judged(
     y, own = values[window] - values[rows][:, None], scale[rows]
     powers = x[:, :, None] ** np.arange(_ORDER + 1)
     itself = window == rows[:, None]
-    left = y - _robust(powers, y, own)
+    left = y - robust_curve(powers, y, own)
     good = (np.abs(left) <= _LEFT_OUT_SIGMA * own[:, None]) & ~itself
-    curve, spread = _least_squares(powers, y, good)
+    curve, spread = least_squares(powers, y, good)
     left = np.where(good, y - curve, 0.0)
     here = np.argmax(itself, axis=1)[:, None]
     off = -np.take_along_axis(curve, here, axis=1)[:, 0]
@@ -150,36 +159,16 @@ def _judged(
     outside = width - good.sum(axis=1)
     outlying &= outside <= OUTLIER_MOST_BESIDE
     for side in (x < 0, x > 0):
-        far = _far_from_side(powers[:, :, : _SIDE_ORDER[half] + 1], y, good & side, here, off)
+        far = _far_from_side(powers[:, :, : _SIDE_ORDER[half] + 1], y, good & side, here, off, own)
         at_end = (side.sum(axis=1) < half) & (outside <= 2)
         outlying &= far | at_end
     return outlying, values[rows] - off
 
 
-def _robust(powers: Array, y: Array, scale: Array) -> Array:
-    """The curve of least absolute residuals, by reweighting, (M, W)."""
-    weights = np.ones(y.shape)
-    curve = np.zeros(y.shape)
-    for _ in range(_ROBUST_STEPS):
-        curve = _least_squares(powers, y, weights, spread=False)[0]
-        weights = 1 / np.maximum(np.abs(y - curve), 0.5 * scale[:, None]) * scale[:, None]
-    return curve
-
-
-def _least_squares(
-    powers: Array, y: Array, weights: Array | Mask, *, spread: bool = True
-) -> tuple[Array, Array]:
-    """Weighted fits in M windows: curves, (M, W), and their variances in that of one reading."""
-    weighted = powers * weights[:, :, None]
-    normal = np.swapaxes(weighted, 1, 2) @ powers
-    normal += 1e-9 * np.eye(powers.shape[2])  # where too few points are left, which is refused
-    inverse = np.linalg.inv(normal)
-    curve = (powers @ (inverse @ (np.swapaxes(weighted, 1, 2) @ y[:, :, None])))[:, :, 0]
-    return curve, np.einsum("mwi,mij,mwj->mw", powers, inverse, powers) if spread else curve
-
-
-def _far_from_side(powers: Array, y: Array, good: Mask, here: Index, off: Array) -> Mask:
-    """Whether a curve through the good points of one side is far from the sample, and as the other is."""
-    curve = _least_squares(powers, y, good, spread=False)[0]
-    apart = -np.take_along_axis(curve, here, axis=1)[:, 0] / np.where(off == 0, 1.0, off)
-    return (good.sum(axis=1) > powers.shape[2]) & (apart > OUTLIER_ONE_SIDED)
+def _far_from_side(powers: Array, y: Array, good: Mask, here: Index, off: Array, scale: Array) -> Mask:
+    """Whether a curve through the good points of one side is off the sample, on the same side of it."""
+    curve, variance = least_squares(powers, y, good)
+    apart = -np.sign(off) * np.take_along_axis(curve, here, axis=1)[:, 0]
+    noise = scale * np.sqrt(1 + np.take_along_axis(variance, here, axis=1)[:, 0])
+    enough = good.sum(axis=1) > powers.shape[2]
+    return np.asarray(enough & (apart - noise > OUTLIER_ONE_SIDED * np.abs(off)))

@@ -20,18 +20,20 @@ from diagnosis.criteria import (
     FROZEN_LEAST_S,
     FROZEN_TIMES_USUAL_RUN,
     NOISE_RATIO,
+    PULSES_SHARE,
     SATURATED_BESIDE,
     SATURATED_LEAST_RUN,
     SATURATED_NEAR_SIGMA,
     SATURATED_SHARE,
 )
-from diagnosis.log.outliers import find_outliers
+from diagnosis.log.outliers import Outliers, find_outliers
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+BASE = "base_angle_deg"
 _EMPTIED = "these samples are not used"
 _REPLACED = "replaced by what their neighbours say"
 _KEPT = "used as it is: correct or cut these rows"
@@ -48,11 +50,9 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
       noise: claimed standard deviation by column.
     """
     table, warnings = trial.table.copy(), []
-    for name, claim in noise.items():
-        if not trial.has(name):
-            continue
-        read = trial[name]
-        off = find_outliers(trial["time_s"], read, _outlier_scale(read, claim))
+    outliers = _outliers(trial, noise)
+    for name, off in outliers.items():
+        read, claim = trial[name], noise[name]
         values = np.where(off.rows, np.nan, read)
         saturated = _saturated(values, claim)
         frozen = _frozen(trial["time_s"], np.where(saturated, np.nan, values), claim)
@@ -63,9 +63,31 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
         }
         for what, (rows, done) in faults.items():
             if rows.any():
-                warnings.append(_told(trial.name, name, what, rows, _EMPTIED if name in SENSORS else done))
+                warnings.append(
+                    _told(trial.name, name, what, rows, _EMPTIED if name in SENSORS else done)
+                )
         table[name] = np.where(saturated | frozen, np.nan, values) if name in SENSORS else off.expected
     return replace(trial, table=table), warnings
+
+
+def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
+    """Outliers by column; a pulse of the base that other signals answer to is motion, and none."""
+    time, having = trial["time_s"], [name for name in noise if trial.has(name)]
+    found = {n: find_outliers(time, trial[n], _outlier_scale(trial[n], noise[n])) for n in having}
+    base = found[BASE].rows
+    answers = np.logical_or.reduce(
+        [off.rows for name, off in found.items() if name != BASE] or [base & False]
+    )
+    pulses = base & _beside(answers)
+    if not pulses.any() or pulses.sum() < PULSES_SHARE * base.sum():
+        return found
+    near = _beside(pulses)
+    return {name: off.without(near, trial[name]) for name, off in found.items()}
+
+
+def _beside(rows: Mask) -> Mask:
+    """The rows, and one on each side."""
+    return np.asarray(np.convolve(rows, np.ones(3), "same") > 0)
 
 
 def scatter(values: Array) -> float:

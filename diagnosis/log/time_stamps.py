@@ -21,12 +21,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import isotonic_regression
 
-from diagnosis.criteria import EVEN_MOST_STEPS, EVEN_SIGMA, EVEN_TELLING_SIGMA
-from diagnosis.log.cubic import interpolated
+from diagnosis.criteria import EVEN_MOST_STEPS, EVEN_SIGMA, EVEN_TELLING_SIGMA, FEWEST_ROWS
+from diagnosis.log.local_curves import interpolated
 from diagnosis.log.trial import SENSORS, FileRows, Trial
-from diagnosis.log.white_noise import white_noise
 
 Array = NDArray[np.float64]
+Counts = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 _BASE = "base_angle_deg"
@@ -61,24 +61,24 @@ def _rms(values: Array) -> float:
 
 def _even_times(stamps_s: Array) -> tuple[Array, Array]:
     """When samples were taken if they were taken evenly: no row was lost, or some were; (N,) each."""
-    index = np.arange(stamps_s.size)
+    index = np.arange(stamps_s.size, dtype=np.intp)
     return _on_line(stamps_s, index), _on_line(stamps_s, _counts(stamps_s))
 
 
-def _on_line(stamps_s: Array, counts: Array) -> Array:
+def _on_line(stamps_s: Array, counts: Counts) -> Array:
     start, period = np.polynomial.polynomial.polyfit(counts, stamps_s, 1)
     return np.asarray(start + period * counts)
 
 
-def _counts(stamps_s: Array) -> Array:
+def _counts(stamps_s: Array) -> Counts:
     """The place of each sample on an even grid, lost rows counted, (N,)."""
-    index = np.arange(stamps_s.size)
+    index = np.arange(stamps_s.size, dtype=np.intp)
     period, start, counts = _period(stamps_s), stamps_s[0], index
     for _ in range(_REFINEMENTS):
         ahead = isotonic_regression((stamps_s - start) / period - index).x
         counts = index + np.rint(ahead).astype(int)
         start, period = np.polynomial.polynomial.polyfit(counts, stamps_s, 1)
-    return counts
+    return np.asarray(counts, np.intp)
 
 
 def _period(stamps_s: Array) -> float:
@@ -107,8 +107,12 @@ def _certainty(trials: Sequence[Trial], evens: Sequence[Array]) -> float:
 def _nearer(values: Array, stamps_s: Array, even_s: Array) -> Mask:
     """Whether samples at which noise cannot decide are nearer to a cubic over even times, (M,)."""
     rows = np.flatnonzero(np.isfinite(values))
-    read, sigma = values[rows], white_noise([values], order=4)
-    there, loud = interpolated(stamps_s[rows], read, 1, 2)
-    here, quiet = interpolated(even_s[rows], read, 1, 2)
+    if rows.size < FEWEST_ROWS:
+        return np.zeros(0, bool)
+    read = values[rows]
+    (there, loud), (here, quiet) = (interpolated(at[rows], read, 1, 2) for at in (stamps_s, even_s))
+    off_there, off_here = np.abs(read - there), np.abs(read - here)
+    # Of a normal distribution, the median size is 0.67 sigma.
+    sigma = min(np.nanmedian(off_there / loud), np.nanmedian(off_here / quiet)) / 0.6745
     telling = np.abs(there - here) > EVEN_TELLING_SIGMA * sigma * np.maximum(loud, quiet)
-    return np.asarray(np.abs(read - here)[telling] < np.abs(read - there)[telling])
+    return np.asarray(off_here[telling] < off_there[telling])
