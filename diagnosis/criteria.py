@@ -100,8 +100,8 @@ noise, of which they may leave twice the variance by chance; the share of it by 
 alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
 in a row: what lasts longer is an event."""
 PULSES_SHARE = 0.5
-"""Share of the outliers of the base that another signal answers to, from which these are motion: those of
-two sensors meet by chance, in some hundredths of them."""
+"""Share of the outliers of the base that another signal answers to, from which they are motion: by chance
+those of two sensors meet in some hundredths of them."""
 
 # Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
