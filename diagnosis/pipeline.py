@@ -19,6 +19,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.averaging import averaged
 from diagnosis.prepare.late_start_detection import with_late_starts, without_unused
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
@@ -43,11 +44,14 @@ class NominalReplay:
     """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
 
     Attributes:
+      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
+        readings of trials that began late.
       problem: the log, its noise, and what is left open of the rig.
       fit: of what came before trials that began late, and of nothing else.
       predictions: of the nominal rig, by trial of the problem.
     """
 
+    log: RigLog
     problem: FitProblem
     fit: Fit
     predictions: list[Prediction]
@@ -85,7 +89,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     """
     prepare_processes()
     nominal = replay_nominal(log)
-    log = without_unused(log, nominal.problem.log)
+    log = nominal.log
     with process_pool(workers, progress) as pool:
         found = _searched(log, nominal, pool)
         last = _judged(found)
@@ -108,6 +112,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
+    log = averaged(log)
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
@@ -118,10 +123,11 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
     if not late_starts_of(begun):
         fit = nominal_fit(nominal_residuals(problem, predictions))
-        return NominalReplay(problem=problem, fit=fit, predictions=predictions)
+        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
     fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
-    rig = fit.parameterization.rig(fit.x)
-    return NominalReplay(problem=problem, fit=fit, predictions=replay(begun, rig))
+    predictions = replay(begun, fit.parameterization.rig(fit.x))
+    known = without_unused(log, begun)
+    return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
 
 
 def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
