@@ -25,11 +25,12 @@ from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
+from diagnosis.selection.ambiguity import told_apart
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import SearchState, search
-from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
+from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.workers import Progress, Workers, process_pool, silent
 from sim.simulation import prepare_processes
 
@@ -78,7 +79,7 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
     nominal = replay_nominal(log)
     with process_pool(workers, progress) as pool:
         found = _searched(log, nominal, pool)
-        last = _judged(found)
+        last = _judged(found, pool)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
@@ -125,17 +126,17 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
-def _judged(found: SearchState) -> Judged:
+def _judged(found: SearchState, workers: Workers) -> Judged:
     """The verdict on what the search found."""
     before = found.problem.noise
     checked = check(found.problem, found.candidates, found.checked)
+    checked, verdict, alike = told_apart(found, checked, workers)
     problem = replace(found.problem, noise=checked.noise)
-    verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
     return Judged(
         problem=problem,
         coarse=found.coarse.renoised(checked.noise, before=before),
         verdict=verdict,
-        record=(*found.record, *judged(checked.candidates)),
+        record=(*found.record, *alike, *judged(checked.candidates)),
     )

@@ -8,6 +8,7 @@ from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
 from diagnosis.report.figures.overview import draw_ranking, draw_trials
 from diagnosis.report.sentences import (
+    alike,
     headline,
     nearest,
     reduction,
@@ -44,6 +45,7 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     parts = [
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
+        *([html.paragraph(f"{alike(found)}.")] if alike(found) else []),
         *_nearest(found, report),
         *where_section(found),
         *_which(found, report),
