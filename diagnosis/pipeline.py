@@ -25,9 +25,9 @@ from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
-from diagnosis.selection.ambiguity import told_apart
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
+from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import SearchState, search
 from diagnosis.selection.verdict import Verdict, VerdictKind

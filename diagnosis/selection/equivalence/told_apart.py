@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.selection.checked import Checked, check
-from diagnosis.selection.equivalence import covers, equivalent_sets
+from diagnosis.selection.equivalence.equivalent_sets import covers, equivalent_sets
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import RecordEntry
 from diagnosis.selection.search import SearchState

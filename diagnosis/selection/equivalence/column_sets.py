@@ -15,6 +15,8 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria import EQUIVALENT_PART
+
 Array = NDArray[np.float64]
 
 _RIDGE = 1e-10  # on the diagonal of G, relative: two equal columns share
@@ -27,12 +29,12 @@ class Combination:
     Attributes:
       columns: which.
       amounts: of each.
-      left: sum of squares of the target that they do not explain.
+      cost: sum of squares of the target that they do not explain.
     """
 
     columns: tuple[int, ...]
     amounts: Array
-    left: float
+    cost: float
 
 
 def beside(nuisance: Array, weights: Array, columns: Array) -> Array:
@@ -67,12 +69,9 @@ def combinations_within(
         for own, amount, rest, can in zip(map(tuple, sets), amounts, left, possible, strict=True):
             before = min(least[part] for part in _parts(own))
             least[own] = min(float(rest), before) if can else before
-            if can and rest <= allowed and rest <= _WORTHWHILE * before:
-                found.append(Combination(columns=own, amounts=amount, left=float(rest)))
-    return sorted(found, key=lambda one: (len(one.columns), one.left))
-
-
-_WORTHWHILE = 0.5  # of what a smaller set leaves: else the last column only mops up
+            if can and rest <= allowed and rest <= EQUIVALENT_PART * before:
+                found.append(Combination(columns=own, amounts=amount, cost=float(rest)))
+    return sorted(found, key=lambda one: (len(one.columns), one.cost))
 
 
 def _parts(columns: tuple[int, ...]) -> Iterator[tuple[int, ...]]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagnosis.selection.equal_span import beside, combinations_within
+from diagnosis.selection.equivalence.column_sets import beside, combinations_within
 
 RNG = np.random.default_rng(3)
 FREE = np.zeros(5, bool)
@@ -26,7 +26,7 @@ def test_the_sets_that_add_up_are_found_with_their_amounts(columns):
     assert sets(found) == [(2,), (0, 1)]
     np.testing.assert_allclose(found[0].amounts, [0.1], rtol=1e-6)
     np.testing.assert_allclose(found[1].amounts, [0.1, 0.1], rtol=1e-6)
-    assert all(one.left < 1e-6 for one in found)
+    assert all(one.cost < 1e-6 for one in found)
 
 
 def test_a_column_is_not_in_a_set_that_does_without_it(columns):

@@ -7,7 +7,7 @@ from diagnosis_fixtures import coarse_of, joined, log_of
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.equivalence import covers, equivalent_sets
+from diagnosis.selection.equivalence.equivalent_sets import covers, equivalent_sets
 from diagnosis.workers import Workers
 
 SCALES = ("base_angle_scale", "damping_error", "stiffness_error", "tip_angle_scale", "torque_scale")
@@ -33,7 +33,7 @@ def equal_to(coarse, *names):
     best = candidate(fit_effects(coarse, names, start, most_iterations=0))
     assert best.names == names
     found = equivalent_sets(coarse, best, (*SCALES, *OTHERS), Workers())
-    assert all(one.left < 0.1 for one in found)  # identities: only inertia, 1e-6 of any torque, is left
+    assert all(one.cost < 0.1 for one in found)  # identities: only inertia, 1e-6 of any torque, is left
     return {frozenset(one.names): one.parts for one in found}
 
 

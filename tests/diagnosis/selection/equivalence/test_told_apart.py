@@ -8,9 +8,9 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection.ambiguity import told_apart
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.checked import check
+from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
 

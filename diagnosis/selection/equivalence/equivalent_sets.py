@@ -25,7 +25,7 @@ from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.equal_span import beside, combinations_within
+from diagnosis.selection.equivalence.column_sets import beside, combinations_within
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
@@ -42,12 +42,12 @@ class Equivalent:
 
     Attributes:
       parts: of the vector of its fit to what the chosen one predicts.
-      left: cost by which the two differ on this log.
+      cost: cost by which the two differ on this log.
     """
 
     names: tuple[str, ...]
     parts: Parts
-    left: float
+    cost: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -132,8 +132,8 @@ def _halved(problem: FitProblem, parts: Parts) -> Parts:
 
 
 def _beside(share: Array) -> Array:
-    """A share between 0 and 1, moved a little."""
-    return np.where(share > 0.5, share - _DIFFERENCE, share + _DIFFERENCE)
+    """A share between 0 and 1, moved a little and still between."""
+    return np.abs(share - _DIFFERENCE)
 
 
 def _reading(problem: FitProblem, trial: PreparedTrial, rig: RigParameters) -> PreparedTrial:
@@ -224,9 +224,9 @@ def _fit(chosen: _Chosen, names: tuple[str, ...], start: Parts) -> Equivalent:
     problem = chosen.problem
     begin = problem.parameterization(names).joined({**chosen.kept, **start})
     fit = fit_effects(problem, names, begin, most_iterations=_ITERATIONS)
-    return Equivalent(names=names, parts=fit.parts, left=fit.cost - chosen.prior)
+    return Equivalent(names=names, parts=fit.parts, cost=fit.cost - chosen.prior)
 
 
 def _is_equal(chosen: _Chosen, one: Equivalent) -> bool:
     power = float(chosen.changed @ chosen.changed)
-    return one.left <= min(SIMPLE_LEAD, EQUIVALENT_LEAVES * power)
+    return one.cost <= min(SIMPLE_LEAD, EQUIVALENT_LEAVES * power)
