@@ -218,6 +218,11 @@ LEAST_DIFFERENCES = 20
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
+
+DRIFT_TIME_S = 5.0
+DRIFT_MOST_DEGREES = 12
+"""Physical: a torque sensor drifts with its temperature, over many seconds. Trial per shape of drift,
+and shapes at most: of a random walk so many leave 0.1 of its range."""
 # Where the residual is (residuals/)
 
 TURNING_DEG_S = 1.0
@@ -291,6 +296,13 @@ NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
+DRIFT_SHARE = 0.3
+"""Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
+DRIFT_RANGE_SIGMA = 6.0
+"""Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
+no roughness but a fault, and the answer stays unknown."""
+IMPERFECT_BASES = 4
+"""Leading explanations with an imperfection of a sensor, to which another one is added."""
 FINALISTS = 4
 CONTENDING = 60.0
 """Candidates that are fitted on the log itself, and the score behind the best beyond which they are out

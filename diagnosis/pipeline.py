@@ -28,7 +28,8 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.record import RecordEntry, judged
-from diagnosis.selection.search import SearchState, search
+from diagnosis.selection.search import search
+from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
 from diagnosis.workers import Progress, Workers, process_pool, silent
 from sim.simulation import prepare_processes

@@ -12,9 +12,11 @@ from diagnosis.assessment.forward_step import forward_selection, gap_with_one_mo
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, intervals
 from diagnosis.assessment.nearest import Nearest, nearest_of
+from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
+from diagnosis.replay.drift import drift_range_sigma, with_drift
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay, residuals
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
@@ -45,6 +47,8 @@ class Assessment:
       breakdown_after: of what the nearest explanation leaves.
       shape, shape_after: of the same two residuals.
       parameters: by effect that was accepted.
+      imperfections: of sensors that the nearest explanation rests on, with their parameters.
+      torque_drift_sigma: largest range of the drift within a trial that was allowed for.
       with_one_more: gap that one more effect may bring it down to, by effect.
       detection_limits: parameters at the largest strength that may go unseen, by effect; empty where
         the log is not explained, or by two effects.
@@ -60,6 +64,8 @@ class Assessment:
     shape: ResidualShape
     shape_after: ResidualShape
     parameters: dict[str, dict[str, Interval]]
+    imperfections: dict[str, dict[str, Interval]]
+    torque_drift_sigma: float
     with_one_more: dict[str, float]
     detection_limits: dict[str, dict[str, float]]
     next_experiment: str
@@ -93,7 +99,7 @@ def assess(
     predictions = replay(problem.log, rig, problem.resolution)
     change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
     error = numerical_error(change)
-    explained = at_samples(problem, predictions)
+    explained = at_samples(problem, with_drift(problem.log, predictions))
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
@@ -110,6 +116,8 @@ def assess(
         shape=residual_shape(before),
         shape_after=residual_shape(left),
         parameters={e: p for e, p in own.items() if e in verdict.effects},
+        imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
+        torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,
         detection_limits=limits,
         next_experiment=advise(coarse, verdict, *where),

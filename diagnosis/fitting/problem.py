@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.prepare.prepared_log import PreparedLog
@@ -31,7 +31,7 @@ class FitProblem:
     noise: Noise
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
-    library: Mapping[str, Effect] = field(default_factory=lambda: LIBRARY)
+    library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
@@ -48,6 +48,10 @@ class FitProblem:
             predictions = predict(self.log.rig, trial, rigs, self.resolution)
             found.append([residuals(trial, p, self.noise) for p in predictions])
         return found
+
+    def drifting(self) -> "FitProblem":
+        """The same, where the torque sensor may drift."""
+        return replace(self, log=self.log.drifting())
 
     def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
         """The same with its noise changed as another problem's was, from `before` to `noise`."""

@@ -5,7 +5,7 @@ it (`base_motion_deg` here) are two things: a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.drift import drift_basis
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
 from sim.schedule import Schedule
 
@@ -31,6 +32,7 @@ class PreparedTrial:
       readings: by sensor, in the unit of its name; NaN where it gave nothing.
       logged: rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
+      torque_drifts: whether its torque sensor may drift; what could be drift then counts for nothing.
     """
 
     name: str
@@ -43,6 +45,7 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
+    torque_drifts: bool = False
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
@@ -74,6 +77,16 @@ class PreparedTrial:
         """Median time between samples."""
         return float(np.median(np.diff(self.time_s)))
 
+    def without_drift(self, sensor: str, left: Array) -> Array:
+        """What is left of a sensor's finite readings, beside what may be drift, (M,)."""
+        if not self.torque_drifts or sensor != "base_torque_n_mm":
+            return left
+        return np.asarray(left - self._drift_basis @ (self._drift_basis.T @ left))
+
+    @cached_property
+    def _drift_basis(self) -> Array:
+        return drift_basis(self.time_s, np.isfinite(self.readings["base_torque_n_mm"]))
+
     @cached_property
     def _measured(self) -> frozenset[str]:
         return frozenset(name for name, values in self.readings.items() if np.isfinite(values).any())
@@ -85,6 +98,10 @@ class PreparedLog:
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
+
+    def drifting(self) -> "PreparedLog":
+        """The log, of whose torque sensor nothing that may be drift counts."""
+        return replace(self, trials=tuple(replace(t, torque_drifts=True) for t in self.trials))
 
     @property
     def warnings(self) -> tuple[str, ...]:

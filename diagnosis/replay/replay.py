@@ -78,7 +78,8 @@ def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Arr
     for sensor in SENSORS:
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
-            parts.append(left[np.isfinite(left)])
+            left = left[np.isfinite(left)]
+            parts.append(trial.without_drift(sensor, left))
     return np.concatenate(parts) if parts else np.zeros(0)
 
 

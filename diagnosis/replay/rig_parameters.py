@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 from diagnosis.log.nominal_rig import NominalRig
 from models.drive import Drive
@@ -62,6 +63,9 @@ class RigParameters:
     tip_scale: float = 1.0
     tip_delay_s: float = 0.0
     torque_bias_n_mm: float = 0.0
+    tip_clock_ratio: float = 1.0
+    torque_clock_ratio: float = 1.0
+    torque_low_pass_s: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
 
@@ -117,7 +121,16 @@ class RigParameters:
 
     def without_sensors(self) -> "RigParameters":
         """The rig whose sensors show what is."""
-        return replace(self, tip_bias_deg=0.0, tip_scale=1.0, tip_delay_s=0.0, torque_bias_n_mm=0.0)
+        return replace(
+            self,
+            tip_bias_deg=0.0,
+            tip_scale=1.0,
+            tip_delay_s=0.0,
+            torque_bias_n_mm=0.0,
+            tip_clock_ratio=1.0,
+            torque_clock_ratio=1.0,
+            torque_low_pass_s=0.0,
+        )
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle that goes through a schedule."""
@@ -145,10 +158,30 @@ class RigParameters:
 
     def sensed(self, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> tuple[Array, Array]:
         """What the sensors show of tip and base torque."""
-        shown = tip_deg
-        if self.tip_delay_s != 0.0:
-            shown = np.interp(time_s - self.tip_delay_s, time_s, tip_deg)
-        return self.tip_bias_deg + self.tip_scale * shown, torque_n_mm + self.torque_bias_n_mm
+        tip = _late(time_s, tip_deg, self.tip_clock_ratio, self.tip_delay_s)
+        torque = _low_passed(time_s, torque_n_mm, self.torque_low_pass_s)
+        torque = _late(time_s, torque, self.torque_clock_ratio, 0.0)
+        return self.tip_bias_deg + self.tip_scale * tip, torque + self.torque_bias_n_mm
+
+
+def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:
+    """What a sensor shows whose clock runs off, and which shows what was."""
+    if clock_ratio == 1.0 and delay_s == 0.0:
+        return values
+    start_s = time_s[0]
+    return np.asarray(np.interp(start_s + (time_s - start_s) * clock_ratio - delay_s, time_s, values))
+
+
+def _low_passed(time_s: Array, values: Array, time_constant_s: float) -> Array:
+    """A low pass of first order, exact for values that run straight between even times."""
+    if time_constant_s <= 0.0 or values.size < 2:
+        return values
+    step = (time_s[1] - time_s[0]) / time_constant_s
+    decay = np.exp(-step)
+    ramp = -np.expm1(-step) / step
+    at_rest = [ramp * values[0]]
+    shown, _ = lfilter([1.0 - ramp, ramp - decay], [1.0, -decay], values, zi=at_rest)
+    return np.asarray(shown)
 
 
 NOMINAL = RigParameters()

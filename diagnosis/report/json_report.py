@@ -32,6 +32,10 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "parameters": _parameters(told.parameters),
         "gap": {**asdict(told.gap), "noise": 1.0},
         "nearest": _nearest(told.nearest),
+        "sensors": {
+            "imperfections": _parameters(told.imperfections),
+            "torque_drift_sigma": told.torque_drift_sigma,
+        },
         "where": _where(diagnosis),
         "next_experiment": told.next_experiment,
         "floor": _floor(verdict.best),

@@ -8,10 +8,10 @@ fits by chance more often than one of 19 effects.
 import math
 from collections.abc import Sequence
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 
 
 def complexity_penalty(names: Sequence[str], samples: int) -> float:
     """Penalty of a set of effects on so many residuals, in cost."""
-    freedom = sum(len(LIBRARY[n].reported) for n in names)
-    return freedom * math.log(max(samples, 2)) + 2.0 * math.log(math.comb(len(LIBRARY), len(names)))
+    freedom = sum(len(FITTED[n].reported) for n in names)
+    return freedom * math.log(max(samples, 2)) + 2.0 * math.log(math.comb(len(FITTED), len(names)))

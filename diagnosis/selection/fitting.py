@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
@@ -44,7 +44,7 @@ def fit_screened(
         record += entries
         at_floor = [c for c in found if c.floor.small]
         floor = min((c.fit.cost for c in at_floor), default=np.inf)
-        inner = {i for c in at_floor for n in c.names for i in LIBRARY[n].contains}
+        inner = {i for c in at_floor for n in c.names for i in FITTED[n].contains}
         skipped += [s for s in waiting if not _still(s, floor, inner)]
         waiting = [s for s in waiting if _still(s, floor, inner)]
     record += not_fitted(stage, _sets(skipped), "promises to stay far above what is at the noise floor")

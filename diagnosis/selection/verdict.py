@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
 
@@ -113,12 +113,12 @@ def _nested(one: Candidate, other: Candidate) -> bool:
     if len(mine) != 1 or len(theirs) != 1:
         return False
     a, b = mine.pop(), theirs.pop()
-    return a in LIBRARY[b].contains or b in LIBRARY[a].contains
+    return a in FITTED[b].contains or b in FITTED[a].contains
 
 
 def _covers(other: Candidate, best: Candidate) -> bool:
     """Whether each effect of the best is there, or contained in one that is."""
-    within = {name for o in other.named for name in (o, *LIBRARY[o].contains)}
+    within = {name for o in other.named for name in (o, *FITTED[o].contains)}
     return set(best.named) <= within
 
 

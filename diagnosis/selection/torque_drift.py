@@ -1,0 +1,73 @@
+"""Where nothing explains a log: the search once more, with a torque sensor that may drift.
+
+A drift could take over a part of what friction does, so that it is tried last, and only where it would
+take off most of what one of the leading explanations leaves beyond noise. One of more than
+DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
+"""
+
+from collections.abc import Callable
+
+from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SHARE, FINALISTS
+from diagnosis.fitting.fit import Fit, nominal_fit
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.replay.drift import drift_range_sigma
+from diagnosis.replay.replay import replay
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.checked import check
+from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+Search = Callable[[SearchState, Workers], SearchState]
+
+STAGE = "drift of the torque sensor"
+
+
+def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchState:
+    """The state of a search that allows for drift where that explains the log; else the state itself."""
+    if check(state.problem, state.candidates, state.checked).explains:
+        return state
+    leading = sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
+    if not any(_promises(state.problem, c) for c in leading):
+        return state
+    again = search(_drifting(state), workers)
+    if not check(again.problem, again.candidates, again.checked).explains:
+        return state.noting(_dropped("no explanation reaches the noise with it"))
+    most = _range_sigma(again.problem, again.best.fit)
+    if most > DRIFT_RANGE_SIGMA:
+        return state.noting(_dropped(f"{most:.1f} sigma within a trial are more than a sensor's drift"))
+    return again
+
+
+def _promises(problem: FitProblem, one: Candidate) -> bool:
+    """Whether a drift would take off most of what an explanation leaves beyond noise."""
+    rig = one.fit.parameterization.rig(one.fit.x)
+    left = sum(float(own[0] @ own[0]) for own in problem.drifting().residuals([rig]))
+    there = sum(float(own @ own) for own in one.fit.by_trial)
+    return there - left > DRIFT_SHARE * (there - one.fit.samples)
+
+
+def _range_sigma(problem: FitProblem, fit: Fit) -> float:
+    predictions = replay(problem.log, fit.parameterization.rig(fit.x), problem.resolution)
+    return drift_range_sigma(problem.log, problem.noise, predictions)
+
+
+def _drifting(state: SearchState) -> SearchState:
+    """The start of a search on the same log with drift allowed for."""
+    problem = state.problem.drifting()
+    rig = state.nominal.parameterization.rig(state.nominal.x)
+    return SearchState(
+        problem=problem,
+        coarse=state.coarse.drifting(),
+        effects=state.effects,
+        nominal=nominal_fit([own[0] for own in problem.residuals([rig])]),
+        record=(*state.record, _entry(Decision.KEPT, "it would take off most of what is left")),
+    )
+
+
+def _dropped(reason: str) -> RecordEntry:
+    return _entry(Decision.DROPPED, reason)
+
+
+def _entry(decision: Decision, reason: str) -> RecordEntry:
+    return RecordEntry(stage=STAGE, effects=(), decision=decision, reason=reason)
