@@ -212,6 +212,8 @@ INERTIA_COUNTS_SIGMA = 0.05
 spline. Derived: a twentieth of sigma adds 0.1 % to a gap; the paper's needle is at 0.001 and below."""
 INERTIA_LOST_SIGMA = 0.5
 """Part of that torque that samples half as frequent would lose, from which a warning is given."""
+INSERTED_AT_LEAST = 0.1
+"""Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 

@@ -159,24 +159,26 @@ def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjD
 
 def simulate(
     setups: Sequence[Setup],
-    inputs: Schedule,
+    inputs: Schedule | Sequence[Schedule],
     *,
     models: Sequence[mujoco.MjModel] | None = None,
     keep_shape: bool = False,
     threads: int = 1,
 ) -> list[Run]:
-    """Run needles of one model size side by side through the same inputs.
+    """Run needles of one model size side by side, through the same inputs or each through its own.
 
     Args:
       setups: differ in anything but number of nodes, rows and step.
-      inputs: sampled at any times; resampled to the step.
+      inputs: sampled at any times; resampled to the step. One for all set-ups, or one for each, from
+        the same start to the same end.
       models: of the set-ups, where their numbers were changed after they were compiled: their
         stiffness, inertia, servos and time step are what is simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
 
     Raises:
-      InvalidValue: the setups differ in elements or rows of the law table.
+      InvalidValue: the setups differ in elements or rows of the law table; the inputs are not as many
+        as the set-ups, or last differently long.
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
     models = [_model(setup) for setup in setups] if models is None else list(models)
@@ -190,8 +192,8 @@ def simulate(
                 f"the same number of elements and rows in every set-up, {first.nq, first.nuserdata}",
                 "set `rows` to the largest number of rows",
             )
-    stepped = inputs.at_steps(first.opt.timestep)
-    ctrl = np.stack([controls(stepped, setup) for setup in setups])
+    stepped = _at_steps(inputs, len(setups), first.opt.timestep)
+    ctrl = np.stack([controls(own, setup) for own, setup in zip(stepped, setups, strict=True)])
     batch = Batch(first, len(setups), threads)
     batch.set_models(models)
     starts = []
@@ -204,9 +206,22 @@ def simulate(
     record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
     raw = batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record)
     return [
-        _run(setups[i], stepped, starts[i], {k: v[i] for k, v in raw.items()})
+        _run(setups[i], stepped[i], starts[i], {k: v[i] for k, v in raw.items()})
         for i in range(len(setups))
     ]
+
+
+def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) -> list[Schedule]:
+    """The inputs of every set-up at the ends of steps; those that several share are resampled once."""
+    each = [inputs] * count if isinstance(inputs, Schedule) else list(inputs)
+    if len(each) != count:
+        raise InvalidValue("inputs", len(each), f"one schedule, or one for each of {count} set-ups")
+    distinct = {id(own): own for own in each}
+    stepped = {key: own.at_steps(step_s) for key, own in distinct.items()}
+    spans = {(own.time_s[0], own.time_s.size) for own in stepped.values()}
+    if len(spans) > 1:
+        raise InvalidValue("inputs", sorted(spans), "schedules of one start and one number of steps")
+    return [stepped[id(own)] for own in each]
 
 
 def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Array]) -> Run:

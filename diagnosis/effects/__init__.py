@@ -11,6 +11,7 @@ from dataclasses import replace
 from importlib import import_module
 from types import ModuleType
 
+from diagnosis.criteria import INSERTED_AT_LEAST
 from diagnosis.effects import imperfections
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.prepare.rig_scale import RigScale
@@ -36,7 +37,10 @@ def library_of(scale: RigScale) -> Mapping[str, Effect]:
 
     def sized(parameter: Parameter) -> Parameter:
         own = parameter.scaled(torque=scale.torque_scale, rate=scale.rate_scale)
-        return own.reaching(scale.dry_n_mm_per_mm) if own.unit == "N mm / mm" else own
+        if own.unit == "N mm / mm":
+            return own.reaching(scale.dry_n_mm_per_mm)
+        deepest = (1 - INSERTED_AT_LEAST) * scale.shallowest_mm
+        return own.above(-deepest) if own.unit == "mm" else own
 
     return {
         name: replace(effect, parameters=tuple(sized(p) for p in effect.parameters))

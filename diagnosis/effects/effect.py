@@ -65,6 +65,12 @@ class Parameter:
         """The same with a highest value of at least this."""
         return self if value <= self.high else replace(self, high=value)
 
+    def above(self, low: float) -> "Parameter":
+        """The same with a lowest value of at least this, and starts half way down to it at most."""
+        if low <= self.low:
+            return self
+        return replace(self, low=low, start=tuple(max(value, 0.5 * low) for value in self.start))
+
     def to_fit(self, value: float) -> float:
         """The coordinate of a value that a fit moves in."""
         return float(np.log(value)) if self.logarithmic else value / self.scale

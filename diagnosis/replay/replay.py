@@ -17,6 +17,7 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensors import driven, sensed
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
@@ -92,12 +93,16 @@ def _run(
     keep_shape: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
-    setups = [r.setup(nominal, trial.schedule, elements=elements, step_s=step_s) for r in rigs]
-    return simulate(setups, trial.schedule, keep_shape=keep_shape)
+    inputs = [driven(rig, trial.schedule) for rig in rigs]
+    setups = [
+        rig.setup(nominal, own, elements=elements, step_s=step_s)
+        for rig, own in zip(rigs, inputs, strict=True)
+    ]
+    return simulate(setups, inputs, keep_shape=keep_shape)
 
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
-    tip, torque = rig.sensed(run.time_s, run.tip_deg, run.base_torque_n_mm)
+    tip, torque = sensed(rig, run.time_s, run.inputs.drive, run.tip_deg, run.base_torque_n_mm)
     return Prediction(
         tip_angle_deg=np.interp(at_s, run.time_s, tip),
         base_torque_n_mm=np.interp(at_s, run.time_s, torque),

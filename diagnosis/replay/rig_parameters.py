@@ -1,14 +1,11 @@
 """The parameters of a rig that effects change, and the MuJoCo needle that they make of a nominal rig.
 
 Every field is neutral by default: `RigParameters()` is the nominal rig. Units are in the names;
-scales, shares, ratios, exponents and coefficients have none.
+scales, shares, ratios, exponents and coefficients have none. From the motor to the needle there are
+drive shaft with its encoder, torque sensor, bearing, chuck.
 """
 
 from dataclasses import dataclass, replace
-
-import numpy as np
-from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from diagnosis.log.nominal_rig import NominalRig
 from models.drive import Drive
@@ -17,8 +14,6 @@ from models.tissue import Interface, Layer, Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.schedule import Schedule
 from sim.spec import Setup
-
-Array = NDArray[np.float64]
 
 LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
 
@@ -34,6 +29,9 @@ class RigParameters:
       layer_ratio: damping of the deep layer over that of the shallow one.
       layer_boundary_fraction: of the inserted length.
       base_stiffness_n_mm_per_rad: of a spring between drive shaft and needle; 0: rigid.
+      drive_friction_n_mm: dry friction of the bearing, which the torque sensor reads.
+      base_scale: what the encoder reads over what the drive shaft turns.
+      inserted_offset_mm: true inserted length less the logged one.
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
@@ -66,6 +64,11 @@ class RigParameters:
     tip_clock_ratio: float = 1.0
     torque_clock_ratio: float = 1.0
     torque_low_pass_s: float = 0.0
+    torque_scale: float = 1.0
+    torque_delay_s: float = 0.0
+    drive_friction_n_mm: float = 0.0
+    base_scale: float = 1.0
+    inserted_offset_mm: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
 
@@ -120,7 +123,7 @@ class RigParameters:
         )
 
     def without_sensors(self) -> "RigParameters":
-        """The rig whose sensors show what is."""
+        """The rig whose sensors show what the needle does."""
         return replace(
             self,
             tip_bias_deg=0.0,
@@ -130,10 +133,13 @@ class RigParameters:
             tip_clock_ratio=1.0,
             torque_clock_ratio=1.0,
             torque_low_pass_s=0.0,
+            torque_scale=1.0,
+            torque_delay_s=0.0,
+            drive_friction_n_mm=0.0,
         )
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
-        """The MuJoCo needle that goes through a schedule."""
+        """The MuJoCo needle that goes through a schedule, which is what the rig was `driven` by."""
         shaft = max(schedule.longest_mm, 1.0)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
@@ -155,33 +161,6 @@ class RigParameters:
             if standing
             else self.material_share_growing_depth,
         )
-
-    def sensed(self, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> tuple[Array, Array]:
-        """What the sensors show of tip and base torque."""
-        tip = _late(time_s, tip_deg, self.tip_clock_ratio, self.tip_delay_s)
-        torque = _low_passed(time_s, torque_n_mm, self.torque_low_pass_s)
-        torque = _late(time_s, torque, self.torque_clock_ratio, 0.0)
-        return self.tip_bias_deg + self.tip_scale * tip, torque + self.torque_bias_n_mm
-
-
-def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:
-    """What a sensor shows whose clock runs off, and which shows what was."""
-    if clock_ratio == 1.0 and delay_s == 0.0:
-        return values
-    start_s = time_s[0]
-    return np.asarray(np.interp(start_s + (time_s - start_s) * clock_ratio - delay_s, time_s, values))
-
-
-def _low_passed(time_s: Array, values: Array, time_constant_s: float) -> Array:
-    """A low pass of first order, exact for values that run straight between even times."""
-    if time_constant_s <= 0.0 or values.size < 2:
-        return values
-    step = (time_s[1] - time_s[0]) / time_constant_s
-    decay = np.exp(-step)
-    ramp = -np.expm1(-step) / step
-    at_rest = [ramp * values[0]]
-    shown, _ = lfilter([1.0 - ramp, ramp - decay], [1.0, -decay], values, zi=at_rest)
-    return np.asarray(shown)
 
 
 NOMINAL = RigParameters()

@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensors import driven, sensed
 
 
 def setup(rig, one=None):
@@ -25,7 +26,11 @@ def test_the_nominal_rig_is_that_of_rig_yaml():
     assert found.drive.stiffness_n_mm_per_rad is None
 
 
-SENSORS = {"tip_bias_deg", "tip_scale", "tip_delay_s", "torque_bias_n_mm"}
+SENSORS = {
+    *("tip_bias_deg", "tip_scale", "tip_delay_s"),
+    *("torque_bias_n_mm", "torque_scale", "torque_delay_s", "drive_friction_n_mm"),
+}
+INPUTS = {"base_scale", "inserted_offset_mm"}
 NEEDS = {  # what a field shows beside only
     "static_excess_n_mm_per_mm": {"kinetic_n_mm_per_mm": 0.001},
     "stribeck_rad_s": {"kinetic_n_mm_per_mm": 0.001, "static_excess_n_mm_per_mm": 0.001},
@@ -46,8 +51,12 @@ def test_every_parameter_changes_the_needle_or_its_sensors(name):
         assert setup(changed, deeper) != setup(about, deeper)
     elif name in SENSORS:
         time = np.linspace(0, 1, 11)
-        before, after = (np.concatenate(r.sensed(time, time, time)) for r in (about, changed))
+        before, after = (np.concatenate(sensed(r, time, time, time, time)) for r in (about, changed))
         assert not np.array_equal(before, after)
+    elif name in INPUTS:
+        logged = prepared(trial(turns())).schedule
+        assert driven(about, logged) is logged
+        assert driven(changed, logged) is not logged
     else:
         assert setup(changed) != setup(about)
 
@@ -57,12 +66,3 @@ def test_two_layers_keep_the_total_damping():
     shallow, deep = (layer.interface.viscous_n_mm_s_per_mm for layer in layers)
     assert deep == pytest.approx(3 * shallow)
     assert 0.4 * shallow + 0.6 * deep == pytest.approx(RIG.tissue.damping_n_mm_s_per_mm)
-
-
-def test_a_delayed_sensor_shows_what_was():
-    time = np.linspace(0, 10, 1001)
-    tip, torque = RigParameters(tip_delay_s=0.5, tip_scale=2.0, tip_bias_deg=3.0).sensed(
-        time, time, time
-    )
-    np.testing.assert_allclose(tip, 3 + 2 * np.maximum(time - 0.5, 0.0))
-    np.testing.assert_array_equal(torque, time)
