@@ -221,10 +221,11 @@ LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
-DRIFT_TIME_S = 5.0
-DRIFT_MOST_DEGREES = 12
-"""Physical: a torque sensor drifts with its temperature, over many seconds. Trial per shape of drift,
-and shapes at most: of a random walk so many leave 0.1 of its range."""
+DRIFT_SIZE_SIGMA = 2.0
+DRIFT_FASTEST_S = 1.5
+DRIFT_MOST_SHAPES = 40
+"""Physical: what the torque sensor of a lab drifts by within a trial, in sigma of its noise; period of
+the fastest shape of drift, and shapes at most: of a random walk so many leave less than 0.1 sigma."""
 # Where the residual is (residuals/)
 
 TURNING_DEG_S = 1.0

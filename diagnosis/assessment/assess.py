@@ -99,7 +99,7 @@ def assess(
     predictions = replay(problem.log, rig, problem.resolution)
     change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
     error = numerical_error(change)
-    explained = at_samples(problem, with_drift(problem.log, predictions))
+    explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)

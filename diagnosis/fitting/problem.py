@@ -49,9 +49,9 @@ class FitProblem:
             found.append([residuals(trial, p, self.noise) for p in predictions])
         return found
 
-    def drifting(self) -> "FitProblem":
-        """The same, where the torque sensor may drift."""
-        return replace(self, log=self.log.drifting())
+    def drifting(self, size_n_mm: float) -> "FitProblem":
+        """The same with a torque sensor that may drift by so much within a trial."""
+        return replace(self, log=self.log.drifting(size_n_mm / self.noise["base_torque_n_mm"]))
 
     def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
         """The same with its noise changed as another problem's was, from `before` to `noise`."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.prepare.drift import drift_basis
+from diagnosis.prepare.drift import drift_whitening
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
 from sim.schedule import Schedule
 
@@ -32,7 +32,7 @@ class PreparedTrial:
       readings: by sensor, in the unit of its name; NaN where it gave nothing.
       logged: rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
-      torque_drifts: whether its torque sensor may drift; what could be drift then counts for nothing.
+      torque_drift_sigma: what its torque sensor may drift by, in sigma of its noise.
     """
 
     name: str
@@ -45,7 +45,7 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
-    torque_drifts: bool = False
+    torque_drift_sigma: float = 0.0
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
@@ -78,14 +78,15 @@ class PreparedTrial:
         return float(np.median(np.diff(self.time_s)))
 
     def without_drift(self, sensor: str, left: Array) -> Array:
-        """What is left of a sensor's finite readings, beside what may be drift, (M,)."""
-        if not self.torque_drifts or sensor != "base_torque_n_mm":
+        """What is left of a sensor's finite readings, in sigma, less what may be drift, (M,)."""
+        if not self.torque_drift_sigma or sensor != "base_torque_n_mm":
             return left
-        return np.asarray(left - self._drift_basis @ (self._drift_basis.T @ left))
+        return np.asarray(left - self._drift @ (self._drift.T @ left))
 
     @cached_property
-    def _drift_basis(self) -> Array:
-        return drift_basis(self.time_s, np.isfinite(self.readings["base_torque_n_mm"]))
+    def _drift(self) -> Array:
+        kept = np.isfinite(self.readings["base_torque_n_mm"])
+        return drift_whitening(self.time_s, kept, self.torque_drift_sigma)
 
     @cached_property
     def _measured(self) -> frozenset[str]:
@@ -99,9 +100,10 @@ class PreparedLog:
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
 
-    def drifting(self) -> "PreparedLog":
-        """The log, of whose torque sensor nothing that may be drift counts."""
-        return replace(self, trials=tuple(replace(t, torque_drifts=True) for t in self.trials))
+    def drifting(self, size_sigma: float) -> "PreparedLog":
+        """The log with a torque sensor that may drift by so much within a trial."""
+        trials = tuple(replace(trial, torque_drift_sigma=size_sigma) for trial in self.trials)
+        return replace(self, trials=trials)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
 
 from collections.abc import Callable
 
-from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SHARE, FINALISTS
+from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SHARE, DRIFT_SIZE_SIGMA, FINALISTS
 from diagnosis.fitting.fit import Fit, nominal_fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.drift import drift_range_sigma
@@ -42,7 +42,8 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
 def _promises(problem: FitProblem, one: Candidate) -> bool:
     """Whether a drift would take off most of what an explanation leaves beyond noise."""
     rig = one.fit.parameterization.rig(one.fit.x)
-    left = sum(float(own[0] @ own[0]) for own in problem.drifting().residuals([rig]))
+    drifting = problem.drifting(_size_n_mm(problem))
+    left = sum(float(own[0] @ own[0]) for own in drifting.residuals([rig]))
     there = sum(float(own @ own) for own in one.fit.by_trial)
     return there - left > DRIFT_SHARE * (there - one.fit.samples)
 
@@ -52,13 +53,18 @@ def _range_sigma(problem: FitProblem, fit: Fit) -> float:
     return drift_range_sigma(problem.log, problem.noise, predictions)
 
 
+def _size_n_mm(problem: FitProblem) -> float:
+    return DRIFT_SIZE_SIGMA * problem.noise["base_torque_n_mm"]
+
+
 def _drifting(state: SearchState) -> SearchState:
     """The start of a search on the same log with drift allowed for."""
-    problem = state.problem.drifting()
+    size_n_mm = _size_n_mm(state.problem)
+    problem = state.problem.drifting(size_n_mm)
     rig = state.nominal.parameterization.rig(state.nominal.x)
     return SearchState(
         problem=problem,
-        coarse=state.coarse.drifting(),
+        coarse=state.coarse.drifting(size_n_mm),
         effects=state.effects,
         nominal=nominal_fit([own[0] for own in problem.residuals([rig])]),
         record=(*state.record, _entry(Decision.KEPT, "it would take off most of what is left")),

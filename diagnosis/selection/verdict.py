@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
-from diagnosis.effects import FITTED, LIBRARY
+from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
 
@@ -65,7 +65,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     rivals = [c for c in at_floor if c is not best and _alike(best, c)]
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
-    if rivals and kind is VerdictKind.EXPLAINED:
+    if rivals:
         kind = VerdictKind.UNDECIDED
     return Verdict(
         kind=kind,
@@ -99,8 +99,13 @@ def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
 
 
 def _alike(best: Candidate, other: Candidate) -> bool:
-    """Whether another explanation fits as well, and is not the best with more beside it."""
-    if not best.named or not other.named or abs(other.score - best.score) > SIMPLE_LEAD:
+    """Whether another explanation fits as well, and is not the best with more beside it.
+
+    An effect may be taken for an imperfection of a sensor, so that these count here.
+    """
+    if not _says(best) or not _says(other) or abs(other.score - best.score) > SIMPLE_LEAD:
+        return False
+    if set(best.named) == set(other.named):
         return False
     if _nested(best, other):
         return best.fit.size < other.fit.size  # the other way round, NESTED_LEAD is enough
@@ -118,8 +123,13 @@ def _nested(one: Candidate, other: Candidate) -> bool:
 
 def _covers(other: Candidate, best: Candidate) -> bool:
     """Whether each effect of the best is there, or contained in one that is."""
-    within = {name for o in other.named for name in (o, *FITTED[o].contains)}
-    return set(best.named) <= within
+    within = {name for o in _says(other) for name in (o, *FITTED[o].contains)}
+    return set(_says(best)) <= within
+
+
+def _says(one: Candidate) -> tuple[str, ...]:
+    """What is named, and imperfections of sensors."""
+    return (*one.named, *(name for name in one.names if name in IMPERFECTIONS))
 
 
 def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:
