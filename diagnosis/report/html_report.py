@@ -14,6 +14,7 @@ from diagnosis.report.sentences import (
     replay_quality,
     with_one_more,
 )
+from diagnosis.report.sensors import imperfections
 from diagnosis.report.tables import limits_table, parameter_table, search_table
 from diagnosis.report.where import where_section
 from diagnosis.result import Diagnosis
@@ -44,6 +45,7 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     parts = [
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
+        html.paragraph(imperfections(found)),
         *_nearest(found, report),
         *where_section(found),
         *_which(found, report),

@@ -30,6 +30,7 @@ KEYS = {
     "replay_error",
     "noise",
     "search",
+    "sensors",
     "warnings",
 }
 
