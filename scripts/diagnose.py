@@ -14,8 +14,8 @@ from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
-from diagnosis.report.sentences import headline, largest_parts, largest_residual, nearest
 from diagnosis.report.sensors import imperfections
+from diagnosis.report.sentences import headline, largest_parts, largest_residual, nearest
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown

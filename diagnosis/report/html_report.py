@@ -7,6 +7,7 @@ from typing import Any
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
 from diagnosis.report.figures.overview import draw_ranking, draw_trials
+from diagnosis.report.sensors import imperfections
 from diagnosis.report.sentences import (
     headline,
     nearest,
@@ -14,7 +15,6 @@ from diagnosis.report.sentences import (
     replay_quality,
     with_one_more,
 )
-from diagnosis.report.sensors import imperfections
 from diagnosis.report.tables import limits_table, parameter_table, search_table
 from diagnosis.report.where import where_section
 from diagnosis.result import Diagnosis
@@ -45,7 +45,7 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     parts = [
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
-        html.paragraph(imperfections(found)),
+        *([html.paragraph(sensors)] if (sensors := imperfections(found)) else []),
         *_nearest(found, report),
         *where_section(found),
         *_which(found, report),
