@@ -92,9 +92,19 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--seed", type=int, default=1, help="the same seed gives the same bytes")
     make.add_argument("--count", type=int, default=40, help="number of logs (default: 40)")
     make.add_argument(
-        "--kinds", nargs="+", metavar="KIND", help="some of: none single pair off_nominal outside"
+        "--kinds",
+        nargs="+",
+        metavar="KIND",
+        help="some of: none single pair off_nominal outside (default: these five), rough_none"
+        " rough_single wrong_constant wrong_outside, or all",
     )
     make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these effects")
+    make.add_argument(
+        "--roughness",
+        nargs="+",
+        metavar="NAME",
+        help="of the rough kinds, each of these in turn and alone (default: pairs of all ten)",
+    )
     make.add_argument(
         "--signature",
         nargs=2,
@@ -106,6 +116,7 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
     score = actions.add_parser("score", help="diagnose the logs, then compare with the ground truth")
     score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
+    score.add_argument("--limit", type=float, metavar="SECONDS", help="time for each diagnosis")
     score.add_argument(
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
     )
@@ -187,6 +198,7 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 count=args.count,
                 kinds=args.kinds,
                 effects=args.effects,
+                roughness=args.roughness,
                 signature=(args.signature[0], args.signature[1]),
                 short=args.short,
                 console=console,
@@ -195,7 +207,12 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             from scripts import blind
 
             return blind.run_score(
-                args.folder, args.out, trials=args.trials, force=args.force, console=console
+                args.folder,
+                args.out,
+                trials=args.trials,
+                limit_s=args.limit,
+                force=args.force,
+                console=console,
             )
         case "import":
             from scripts import import_log
