@@ -25,6 +25,9 @@ STAGE = "drift of the torque sensor"
 
 def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchState:
     """The state of a search that allows for drift where that explains the log; else the state itself."""
+    if workers.stop.due:
+        workers.stop.leave_out(STAGE)
+        return state
     if check(state.problem, state.candidates, state.checked).explains:
         return state
     leading = sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
