@@ -344,3 +344,9 @@ ALMOST_NOTHING_SIGMA = 0.01
 leaves above the noise."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
+
+# Stopping early (pipeline.py)
+
+REPLAYS_AFTER_STOP = 8.0
+"""Replays of the log for which a limit keeps time: one step of a fit, held-out trials of what is at the
+floor, predictions. Set on examples/rig-log-dry; it decides on when a search is cut short alone."""

@@ -3,6 +3,7 @@
 RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -> Assessment -> Diagnosis
 """
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
+from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import nominal_fit
@@ -23,6 +25,7 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
+from diagnosis.progress import in_words
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
@@ -30,8 +33,9 @@ from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
-from diagnosis.workers import Progress, Workers, process_pool, silent
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, verdict_on
+from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
+from diagnosis.workers import Watcher, Workers, process_pool, silent
 from sim.simulation import prepare_processes
 
 Array = NDArray[np.float64]
@@ -65,21 +69,33 @@ class Judged:
     record: tuple[RecordEntry, ...]
 
 
-def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> Diagnosis:
-    """Diagnose a log.
+def diagnose(
+    log: RigLog,
+    *,
+    workers: int = 2,
+    limit_s: float | None = None,
+    stop: StopSignal | None = None,
+    progress: Watcher = silent,
+) -> Diagnosis:
+    """Diagnose a log, to the end or as far as there is time.
 
     Args:
       workers: processes.
-      progress: is told the stage and its share that is done.
+      limit_s: time after which the best so far is told; None: as long as it takes.
+      stop: a signal with a limit of its own, which others may give at any time.
+      progress: is told the stage, its tasks that are done, and all of them.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
+      StoppedEarly: the end came before the nominal rig was replayed.
     """
+    stop = StopSignal(limit_s) if stop is None else stop
     prepare_processes()
-    nominal = replay_nominal(log)
-    with process_pool(workers, progress) as pool:
+    nominal = _nominal_in_time(log, stop)
+    with process_pool(workers, progress, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
-        last = _judged(found)
+        cut = bool(stop.left_out)
+        last = _judged(found, cut=cut)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
@@ -90,7 +106,25 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         verdict=last.verdict,
         assessment=assessment,
         record=last.record,
+        stopped=_early_stop(stop, cut),
     )
+
+
+def _nominal_in_time(log: RigLog, stop: StopSignal) -> NominalReplay:
+    """The nominal replay, from whose time that of the end is known."""
+    began_s = time.monotonic()
+    nominal = replay_nominal(log)
+    if stop.over:
+        raise StoppedEarly(f"{stop.why}: stopped before the nominal rig was replayed; nothing to tell")
+    stop.reserve(REPLAYS_AFTER_STOP * (time.monotonic() - began_s))
+    return nominal
+
+
+def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
+    if not stop.left_out:
+        return None
+    stage, left_out = in_words(stop.left_out[0]), tuple(stop.left_out)
+    return EarlyStop(why=stop.why, stage=stage, left_out=left_out, search=search)
 
 
 def replay_nominal(log: RigLog) -> NominalReplay:
@@ -126,14 +160,16 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
-def _judged(found: SearchState) -> Judged:
-    """The verdict on what the search found."""
+def _judged(found: SearchState, *, cut: bool) -> Judged:
+    """The verdict on what the search found; provisional if it was cut short."""
     before = found.problem.noise
     checked = check(found.problem, found.candidates, found.checked)
     problem = replace(found.problem, noise=checked.noise)
     verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
+    if cut:
+        verdict = provisional(verdict, checked.candidates)
     return Judged(
         problem=problem,
         coarse=found.coarse.renoised(checked.noise, before=before),

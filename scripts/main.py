@@ -1,10 +1,12 @@
 """The console command `needle`: arguments, errors and exit codes.
 
-0: done; 1: a bound of `needle validate` fails; 2: bad input, or nothing written.
+0: done; 1: a bound of `needle validate` fails; 2: bad input, or nothing written; 130 and 143: stopped
+by Ctrl-C or SIGTERM.
 """
 
 import argparse
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -62,6 +64,12 @@ def parser() -> argparse.ArgumentParser:
         "--paper", action="store_true", help="the published tables and figures instead"
     )
     diagnose.add_argument("--json", action="store_true", help="print report.json instead")
+    diagnose.add_argument(
+        "--limit",
+        type=float,
+        metavar="SECONDS",
+        help="time for all of it: what explains the log best by then is told, marked as such",
+    )
     _add_output(diagnose, default=None)
 
     _add_blind(commands.add_parser("blind", help="validate the diagnosis on rigs that it has not met"))
@@ -120,10 +128,11 @@ def _add_output(command: argparse.ArgumentParser, *, default: Path | None) -> No
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a subcommand; returns the exit code."""
+    began_s = time.monotonic()
     args = parser().parse_args(arguments)
     console = Console()
     try:
-        return _run(args, console)
+        return _run(args, console, began_s)
     except NeedleError as error:
         shown = f"[bold red]needle {args.command}:[/] {escape(str(error))}"
         Console(stderr=True).print(shown, highlight=False)
@@ -133,7 +142,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 130
 
 
-def _run(args: argparse.Namespace, console: Console) -> int:
+def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:
     # Imported here, for one command alone: `needle --help` need not wait for MuJoCo.
     match args.command:
         case "demo":
@@ -176,7 +185,13 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             from scripts import diagnose
 
             return diagnose.run(
-                args.log, args.out, json_only=args.json, force=args.force, console=console
+                args.log,
+                args.out,
+                limit_s=args.limit,
+                began_s=began_s,
+                json_only=args.json,
+                force=args.force,
+                console=console,
             )
         case "blind" if args.action == "make":
             from scripts import blind

@@ -25,6 +25,7 @@ from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.stopping import StopSignal
 from diagnosis.workers import Failure, Task, Workers, attempt
 from sim.simulation import SimulationFailed
 
@@ -34,6 +35,12 @@ ONE_TRIAL = (
     "the log has one trial, and none can be held out: the gap after is that on the trial of the fit, "
     "and nothing tells whether its parameters hold elsewhere; add a second trial"
 )
+
+TO_ITS_END = "diagnose this log to its end first: what was not tried may explain it as well, or better"
+"""In place of a next experiment where the search was cut short."""
+FINER, REPLICATES = "numerical error", "noise of the base angle in the intervals"
+ONE_MORE, LIMITS, NEXT = "adding another effect", "detection limits", "next experiment"
+"""Parts that a stop leaves out."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +60,7 @@ class Assessment:
       detection_limits: parameters at the largest strength that may go unseen, by effect; empty where
         the log is not explained, or by two effects.
       next_experiment: in words; empty where nothing is left to tell apart.
-      numerical_error: of the replay, in sigma, by sensor.
+      numerical_error: of the replay, in sigma, by sensor; empty where there was no time for it.
       explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
     """
 
@@ -83,7 +90,7 @@ def assess(
     effects: Sequence[str],
     workers: Workers,
 ) -> Assessment:
-    """Assess a verdict.
+    """Assess a verdict; after a stop, what needs many simulations is left out.
 
     Args:
       problem: the log itself, as finely replayed and with the noise that the verdict rests on.
@@ -94,11 +101,14 @@ def assess(
     Raises:
       SimulationFailed: the best explanation cannot be simulated.
     """
+    stop = workers.stop
+    complete = not stop.left_out
     near = _nearest_candidate(problem, coarse, verdict, effects, workers)
     rig = near.fit.parameterization.rig(near.fit.x)
     predictions = replay(problem.log, rig, problem.resolution)
-    change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
-    error = numerical_error(change)
+    arguments = (problem.log, problem.noise, rig, predictions, problem.resolution)
+    change = stop.unless_due(FINER, lambda: refinement_change(*arguments)) or []
+    error = numerical_error(change) if change else {}
     explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
@@ -106,6 +116,8 @@ def assess(
     after, lost = _held_out(problem, near)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
     own = intervals(problem, near.fit, change, left=_above_noise(near))
+    if stop.due:
+        stop.leave_out(REPLICATES)
     gap = gap_reduction(nominal_residuals(problem, nominal), after)
     named = verdict.effects or strongest_first(problem, near)
     return Assessment(
@@ -120,7 +132,7 @@ def assess(
         torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,
         detection_limits=limits,
-        next_experiment=advise(coarse, verdict, *where),
+        next_experiment=_next_experiment(coarse, verdict, where, stop) if complete else TO_ITS_END,
         numerical_error=error,
         explained=explained,
         warnings=(
@@ -142,8 +154,23 @@ def _nearest_candidate(
     """The best of the verdict; of an unknown log, with the further effects that bring it nearer."""
     if verdict.kind is not VerdictKind.UNKNOWN:
         return verdict.best
+    if workers.stop.due:
+        workers.stop.leave_out(ONE_MORE)
+        return verdict.best
     fit = forward_selection(problem, coarse, verdict.best.fit, effects, workers)
     return verdict.best if fit is verdict.best.fit else candidate(fit)
+
+
+def _next_experiment(
+    coarse: FitProblem,
+    verdict: Verdict,
+    where: tuple[ResidualBreakdown, ResidualBreakdown],
+    stop: StopSignal,
+) -> str:
+    """Only what tells two explanations apart has to be simulated, and takes time."""
+    if verdict.kind is not VerdictKind.UNDECIDED:
+        return advise(coarse, verdict, *where)
+    return stop.unless_due(NEXT, lambda: advise(coarse, verdict, *where)) or ""
 
 
 def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
@@ -164,14 +191,19 @@ def _further_effects(
     coarse: FitProblem, verdict: Verdict, effects: Sequence[str], workers: Workers
 ) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
     """The gap with one more effect, and detection limits where the log is explained."""
-    best = verdict.best.fit
+    best, stop = verdict.best.fit, workers.stop
     base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
     if isinstance(base, Failure):
+        if base.stopped:
+            stop.leave_out(ONE_MORE)
+        if base.stopped and verdict.settled:
+            stop.leave_out(LIMITS)
         return {}, {}
-    left = gap_with_one_more(coarse, best, base, effects, workers)
+    arguments = (coarse, best, base, effects, workers)
+    left = stop.unless_due(ONE_MORE, lambda: gap_with_one_more(*arguments)) or {}
     if not verdict.settled:
         return left, {}
-    return left, detection_limits(coarse, best, base, effects, workers)
+    return left, stop.unless_due(LIMITS, lambda: detection_limits(*arguments)) or {}
 
 
 def at_samples(problem: FitProblem, predictions: Sequence[Prediction]) -> list[Prediction]:

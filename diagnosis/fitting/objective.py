@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.stopping import raise_if_stopped
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
@@ -52,7 +53,12 @@ class Objective:
         return self._known[key]
 
     def __call__(self, x: Array) -> Array:
-        """(n, M) or (n,) to residuals with the prior, (N, M) or (N,)."""
+        """(n, M) or (n,) to residuals with the prior, (N, M) or (N,).
+
+        Raises:
+          StoppedEarly: there is no time left for the fit.
+        """
+        raise_if_stopped()
         columns = x.reshape(x.shape[0], -1)
         trials = self._trials(columns)
         if trials is None:

@@ -16,6 +16,7 @@ from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import RecordEntry
+from diagnosis.stopping import EarlyStop
 
 FORMAT = "gap-report/1"
 
@@ -26,6 +27,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "verdict": verdict.kind.value,
+        "stopped": _stopped(diagnosis.stopped),
         "effects": list(verdict.effects),
         "confusable": [list(names) for names in verdict.confusable],
         "ranking": [{"effect": n, "probability": p} for n, p in verdict.ranking],
@@ -48,6 +50,12 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "search": [_entry(entry) for entry in diagnosis.record],
         "warnings": list(diagnosis.warnings),
     }
+
+
+def _stopped(early: EarlyStop | None) -> dict[str, Any] | None:
+    if early is None:
+        return None
+    return {"why": early.why, "stage": early.stage, "left_out": list(early.left_out)}
 
 
 def _parameters(by_effect: Mapping[str, Mapping[str, Interval]]) -> dict[str, Any]:

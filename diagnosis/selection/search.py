@@ -30,21 +30,28 @@ from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import check
 from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists, fit_screened
 from diagnosis.selection.mesh_refinement import refined_mesh
-from diagnosis.selection.record import RecordEntry, dropped, failed, kept, not_fitted
+from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, kept, not_fitted
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.torque_drift import with_drift
-from diagnosis.workers import Failure, Task, Workers, attempt
+from diagnosis.workers import Failure, Task, Workers
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; where nothing explains the log, with drift of the torque as well."""
-    return with_drift(_all_stages(state, workers), workers, _all_stages)
+    """The state after all stages; where nothing explains the log, with drift of the torque as well.
+
+    After a stop it is that of the stages that there was time for; the nominal rig is in any.
+    """
+    found = _all_stages(state, workers)
+    return found if workers.stop.left_out else with_drift(found, workers, _all_stages)
 
 
 def _all_stages(state: SearchState, workers: Workers) -> SearchState:
     for stage in STAGES:
-        state = stage(state, workers)
+        if workers.stop.due and state.candidates:
+            workers.stop.leave_out(stage.__name__.replace("_", " "))
+        else:
+            state = stage(state, workers)
     return state
 
 
@@ -71,7 +78,8 @@ def stiffness_or_damping_alone(state: SearchState, workers: Workers) -> SearchSt
 def single_effects(state: SearchState, workers: Workers) -> SearchState:
     """Every effect screened, the promising fitted on the decimated log, the best on the log itself."""
     stage = "single effects"
-    start = attempt(fit_effects, Task(effects=(), arguments=(state.coarse, ())))
+    alone = [Task(effects=(), arguments=(state.coarse, ()))]
+    (start,) = workers.each(f"screening {stage}", fit_effects, alone)
     if isinstance(start, Failure):
         return state.noting(*failed(stage, [start]))
     screened, record = _screened(
@@ -90,6 +98,8 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
     """A replay as fine as the log asks, and candidates fitted to it."""
     problem, found, record = refined_mesh(state.problem, state.candidates, workers)
+    if any(entry.decision is Decision.STOPPED for entry in record):
+        return state.noting(*record)  # costs at two resolutions do not compare
     return replace(state, problem=problem, candidates=tuple(found)).noting(*record)
 
 

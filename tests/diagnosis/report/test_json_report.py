@@ -14,6 +14,7 @@ from diagnosis.selection.record import Decision
 KEYS = {
     "format",
     "verdict",
+    "stopped",
     "effects",
     "confusable",
     "ranking",
