@@ -30,11 +30,10 @@ from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
-from diagnosis.selection.provisional import provisional
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, verdict_on
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Watcher, Workers, process_pool, silent
 from sim.simulation import prepare_processes

@@ -208,9 +208,7 @@ def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) 
     return [stepped[id(own)] for own in each]
 
 
-def _run(
-    setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]
-) -> Run:
+def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]) -> Run:
     """What came of a rollout that set off at some joints `start`, under the inputs `ctrl`."""
     outputs = np.vstack([_at_rest(setup, start, ctrl), raw["sensordata"]])
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:

@@ -38,8 +38,12 @@ from diagnosis.workers import Failure, Task, Workers
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; where nothing explains the log, with drift of the torque as well."""
-    return with_drift(_all_stages(state, workers), workers, _all_stages)
+    """The state after all stages; where nothing explains the log, with drift of the torque as well.
+
+    After a stop it is that of the stages that there was time for; the nominal rig is in any.
+    """
+    found = _all_stages(state, workers)
+    return found if workers.stop.left_out else with_drift(found, workers, _all_stages)
 
 
 def _all_stages(state: SearchState, workers: Workers) -> SearchState:

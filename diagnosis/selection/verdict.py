@@ -9,7 +9,7 @@ unknown     nothing that was tried brings the residual to the noise floor
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
@@ -75,6 +75,24 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         rivals=tuple(rivals),
         ranking=_ranking(candidates, known=True),
     )
+
+
+def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
+    """The verdict of a search that was cut short: no more than what was tried can say.
+
+    An explanation at the noise floor may have rivals that nobody tried, and the nominal rig effects
+    that nobody looked for. So it is `undecided` between all that explain the log so far, that of the
+    verdict first, or `unknown`.
+
+    Args:
+      candidates: that were checked, best first.
+    """
+    if verdict.kind is VerdictKind.UNKNOWN:
+        return verdict
+    others = [c for c in candidates if c.explains and c is not verdict.best]
+    sets = {frozenset(names): names for names in (*(c.named for c in others[::-1]), verdict.effects)}
+    confusable = tuple(reversed(sets.values()))
+    return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
 
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
