@@ -62,6 +62,15 @@ NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
 
+# Time stamps that jitter (log/time_stamps.py)
+
+EVEN_MOST_STEPS = 1.0
+"""Steps by which stamps may be off an even grid, root mean square: beyond, the grid has lost count."""
+EVEN_TELLING_SIGMA = 3.0
+EVEN_SIGMA = 6.0
+"""Derived: a sample tells which axis is the true one where both disagree by three of their standard
+deviations; samples have to tell for even times by six of those of a fair coin, once in 10^9 logs."""
+
 # Sensor faults: which readings are set aside (log/sensor_faults.py)
 
 FALSE_ALARM_CHANCE = 1e-9
@@ -78,9 +87,21 @@ SATURATED_BESIDE = 10
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""
-SPIKE_SIGMA = 20.0
-SPIKE_SHARE = 0.2
-"""A lone sample so far off its neighbours, which agree within this share of its jump."""
+OUTLIER_FALSE_ALARMS = 0.05
+"""Derived: samples of a column of a trial that white noise makes outliers of, on average; below one in a
+log. Of 3000 samples that asks for 4.5 sigma."""
+OUTLIER_CLEARANCE = 8.0
+OUTLIER_MISFIT = 2.0
+OUTLIER_ONE_SIDED = 0.5
+OUTLIER_MOST_BESIDE = 4
+OUTLIER_MOST_RUN = 5
+"""How far an outlier is off, in what its neighbours leave of one curve (a corner comes to 4) beyond the
+noise, of which they may leave twice the variance by chance; the share of it by which it is off each side
+alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
+in a row: what lasts longer is an event."""
+PULSES_SHARE = 0.5
+"""Share of the outliers of the base that another signal answers to, from which they are motion: by
+chance those of two sensors meet in some hundredths of them."""
 
 # Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
@@ -191,6 +212,11 @@ alone, as a question."""
 
 # Preparing a log for replay (prepare/)
 
+AVERAGED_ABOVE_HZ = 220.0
+AVERAGING_S = 0.01
+AVERAGED_LEAST_SHARE = 0.5
+"""Samples a second from which means over a hundredth of a second, a step of the replay, are diagnosed in
+their place; and the share of its samples that a window has to have."""
 STEADY_DEPTH_MM = 0.2
 """A depth that changes by less is constant: what is left is the reading of the stage."""
 GAP_STEPS = 2.5

@@ -21,6 +21,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.averaging import averaged
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
@@ -46,10 +47,12 @@ class NominalReplay:
     """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
 
     Attributes:
+      log: as it is diagnosed: averaged, if it has more samples than are of use.
       problem: the log, its noise, and what is left open of the rig.
       predictions: of the nominal rig, by trial of the problem.
     """
 
+    log: RigLog
     problem: FitProblem
     predictions: list[Prediction]
 
@@ -92,6 +95,7 @@ def diagnose(
     stop = StopSignal(limit_s) if stop is None else stop
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
+    log = nominal.log
     with process_pool(workers, progress, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
         cut = bool(stop.left_out)
@@ -133,13 +137,14 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
+    log = averaged(log)
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
     noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
     library = library_of(scale_of(prepared))
     problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
-    return NominalReplay(problem=problem, predictions=predictions)
+    return NominalReplay(log=log, problem=problem, predictions=predictions)
 
 
 def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:

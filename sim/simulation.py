@@ -13,7 +13,7 @@ from models.errors import InvalidValue, NeedleError
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
-from sim.needles import batch_of, compile_model, models_of
+from sim.needles import batch_of, models_of
 from sim.schedule import Schedule
 from sim.spec import Setup
 

@@ -38,6 +38,10 @@ class Prediction:
         """The prediction at some of its samples."""
         return Prediction(**{sensor: self[sensor][kept] for sensor in SENSORS})
 
+    def at(self, wanted_s: Array, time_s: Array) -> "Prediction":
+        """The prediction at other times, given those of its samples."""
+        return Prediction(**{s: np.interp(wanted_s, time_s, self[s]) for s in SENSORS})
+
 
 def replay(
     log: PreparedLog, rig: RigParameters = NOMINAL, resolution: Resolution = FINE
