@@ -240,6 +240,20 @@ INERTIA_LOST_SIGMA = 0.5
 """Part of that torque that samples half as frequent would lose, from which a warning is given."""
 INSERTED_AT_LEAST = 0.1
 """Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
+START_LOOK_S = 0.25
+START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
+START_OUTLIER_SIGMA = 5.0
+START_TORQUE_FACTOR = 2.0
+"""A late start: a parabola through the first readings of the tip begins off the base by so many standard
+deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
+within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
+START_DECAYS = 10.0
+START_MOST_UNUSED = 0.25
+"""Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
+not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
+START_SPREAD_DEG = 90.0
+"""One standard deviation of what the base turned by before a late start, about the twist that is read. A
+choice, so broad that a second of any trial outweighs it."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 

@@ -15,19 +15,21 @@ from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
 from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import nominal_fit
-from diagnosis.fitting.nuisance import nuisance_of
+from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
+from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.averaging import averaged
+from diagnosis.prepare.late_start_detection import with_late_starts, without_unused
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
 from diagnosis.progress import in_words
 from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
@@ -49,12 +51,19 @@ class NominalReplay:
     Attributes:
       log: as it is diagnosed: averaged, if it has more samples than are of use.
       problem: the log, its noise, and what is left open of the rig.
+      fit: of what came before trials that began late, and of nothing else.
       predictions: of the nominal rig, by trial of the problem.
     """
 
     log: RigLog
     problem: FitProblem
+    fit: Fit
     predictions: list[Prediction]
+
+    @property
+    def rig(self) -> RigParameters:
+        """The nominal rig, with what came before trials that began late."""
+        return self.fit.parameterization.rig(self.fit.x)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,7 +104,7 @@ def diagnose(
     stop = StopSignal(limit_s) if stop is None else stop
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
-    log = nominal.log
+    log = without_unused(nominal.log, nominal.problem.log)
     with process_pool(workers, progress, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
         cut = bool(stop.left_out)
@@ -141,10 +150,17 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
-    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
-    library = library_of(scale_of(prepared))
-    problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
-    return NominalReplay(log=log, problem=problem, predictions=predictions)
+    left = _residuals(prepared, predictions)
+    noise = estimate_noise(log.rig, left, base_sigma_deg, told)
+    begun = with_late_starts(prepared, left, noise)
+    library = library_of(scale_of(begun))
+    problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
+    if not late_starts_of(begun):
+        fit = nominal_fit(nominal_residuals(problem, predictions))
+        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
+    fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
+    rig = fit.parameterization.rig(fit.x)
+    return NominalReplay(log=log, problem=problem, fit=fit, predictions=replay(begun, rig))
 
 
 def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
@@ -158,9 +174,9 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     problem = nominal.problem
     start = SearchState(
         problem=problem,
-        coarse=decimated(problem, nominal.predictions),
+        coarse=decimated(problem, nominal.predictions, nominal.rig),
         effects=testable_effects(log),
-        nominal=nominal_fit(nominal_residuals(problem, nominal.predictions)),
+        nominal=nominal.fit,
     )
     return search(start, workers)
 
