@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.effects import library_of
-from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.fitting.problem import FitProblem
@@ -107,10 +107,12 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     return NominalReplay(problem=problem, predictions=predictions)
 
 
-def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
-    """Measured minus nominal, in units of the sensor, by sensor and trial."""
+def _residuals(
+    log: PreparedLog, predictions: Sequence[Prediction]
+) -> dict[str, list[tuple[Array, Array]]]:
+    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
     each = list(zip(log.trials, predictions, strict=True))
-    return {s: [t.readings[s] - p[s] for t, p in each if t.has(s)] for s in SENSORS}
+    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
 
 
 def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
@@ -127,7 +129,6 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
 
 def _judged(found: SearchState) -> Judged:
     """The verdict on what the search found."""
-    before = found.problem.noise
     checked = check(found.problem, found.candidates, found.checked)
     problem = replace(found.problem, noise=checked.noise)
     verdict = verdict_on(checked.candidates)
@@ -135,7 +136,9 @@ def _judged(found: SearchState) -> Judged:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
     return Judged(
         problem=problem,
-        coarse=found.coarse.renoised(checked.noise, before=before),
+        coarse=replace(
+            found.coarse, noise=decimated_noise(checked.noise, problem.log, found.coarse.log)
+        ),
         verdict=verdict,
         record=(*found.record, *judged(checked.candidates)),
     )

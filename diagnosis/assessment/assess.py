@@ -1,7 +1,7 @@
 """Everything that is told beside the verdict."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, intervals
 from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
@@ -100,7 +101,10 @@ def assess(
     after, lost = _held_out(problem, near)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
     own = intervals(problem, near.fit, change, left=_above_noise(near))
-    gap = gap_reduction(nominal_residuals(problem, nominal), after)
+    plain = problem.noise.uncoloured
+    gap = gap_reduction(
+        nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
+    )
     named = verdict.effects or strongest_first(problem, near)
     return Assessment(
         gap=gap,

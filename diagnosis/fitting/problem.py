@@ -1,7 +1,7 @@
 """What a fit rests on: a prepared log, its noise, what is left open, how finely it is replayed."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,8 +48,3 @@ class FitProblem:
             predictions = predict(self.log.rig, trial, rigs, self.resolution)
             found.append([residuals(trial, p, self.noise) for p in predictions])
         return found
-
-    def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
-        """The same with its noise changed as another problem's was, from `before` to `noise`."""
-        sigma = {s: own * noise[s] / before[s] if own else own for s, own in self.noise.sigma.items()}
-        return replace(self, noise=replace(self.noise, sigma=sigma))

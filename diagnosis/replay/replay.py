@@ -73,12 +73,13 @@ def shape_of(
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
-    """Measured minus predicted / sigma, all sensors of the trial one after another, (M,)."""
+    """Measured minus predicted / sigma, whitened, all sensors of the trial one after another, (M,)."""
     parts = []
     for sensor in SENSORS:
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
-            parts.append(left[np.isfinite(left)])
+            read = np.isfinite(left)
+            parts.append(noise.whitened(sensor, trial.time_s[read], left[read]))
     return np.concatenate(parts) if parts else np.zeros(0)
 
 
