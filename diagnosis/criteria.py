@@ -257,6 +257,21 @@ choice, so broad that a second of any trial outweighs it."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 
+COLOUR_WINDOW_S, COLOUR_ABOVE_HZ = 2.0, 1.5
+COLOUR_WINDOWS = 12
+COLOUR_LONGEST_S = 0.3
+COLOUR_CHI_SQUARE = 20.0
+COLOUR_LEAST_SHARE = 0.2
+COLOUR_OPEN = 4.0
+"""Noise is coloured where white noise alone fits its spectrum worse by so much chi-square (derived: of
+two more parameters, once in 20 000 sensors by chance) and so large a share of its variance is: what
+effects leave of the nominal rig passes for less. The spectrum is taken from at least so many windows of
+so many seconds, from the frequency on above which effects leave little; colours within so much
+chi-square of the best are open. Physical: what is correlated for longer is drift and not noise."""
+COLOURED_BLOCK_S = 2.0
+"""Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
+correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
+and SLOW_BLOCK alone, some tenths of a second, would not see them."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""

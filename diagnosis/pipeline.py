@@ -14,7 +14,7 @@ from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
-from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
 from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
@@ -152,7 +152,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     told = far_claims(log.trials, log.rig.sensors.by_column())
     left = _residuals(prepared, predictions)
     noise = estimate_noise(log.rig, left, base_sigma_deg, told)
-    begun = with_late_starts(prepared, left, noise)
+    begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
     library = library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
     if not late_starts_of(begun):
@@ -163,10 +163,12 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     return NominalReplay(log=log, problem=problem, fit=fit, predictions=replay(begun, rig))
 
 
-def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
-    """Measured minus nominal, in units of the sensor, by sensor and trial."""
+def _residuals(
+    log: PreparedLog, predictions: Sequence[Prediction]
+) -> dict[str, list[tuple[Array, Array]]]:
+    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
     each = list(zip(log.trials, predictions, strict=True))
-    return {s: [t.readings[s] - p[s] for t, p in each if t.has(s)] for s in SENSORS}
+    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
 
 
 def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
@@ -183,7 +185,6 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
 
 def _judged(found: SearchState, *, cut: bool) -> Judged:
     """The verdict on what the search found; provisional if it was cut short."""
-    before = found.problem.noise
     checked = check(found.problem, found.candidates, found.checked)
     problem = replace(found.problem, noise=checked.noise)
     verdict = verdict_on(checked.candidates)
@@ -193,7 +194,9 @@ def _judged(found: SearchState, *, cut: bool) -> Judged:
         verdict = provisional(verdict, checked.candidates)
     return Judged(
         problem=problem,
-        coarse=found.coarse.renoised(checked.noise, before=before),
+        coarse=replace(
+            found.coarse, noise=decimated_noise(checked.noise, problem.log, found.coarse.log)
+        ),
         verdict=verdict,
         record=(*found.record, *judged(checked.candidates)),
     )

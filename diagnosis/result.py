@@ -34,7 +34,7 @@ class Diagnosis:
         """Of the log, of its noise, of the search and of the replay."""
         return (
             *self.log.warnings,
-            *self.noise.warnings,
+            *self.noise.notes,
             *self._failures,
             *self.assessment.warnings,
         )

@@ -82,13 +82,14 @@ def shape_of(
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
-    """Measured minus predicted / sigma, all sensors of the trial one after another, (M,)."""
+    """Measured minus predicted / sigma, whitened, all sensors of the trial one after another, (M,)."""
     parts = []
     for sensor in SENSORS:
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
-            left = left[np.isfinite(left)]
-            parts.append(trial.without_drift(sensor, left))
+            read = np.isfinite(left)
+            beside = trial.without_drift(sensor, left[read])
+            parts.append(noise.whitened(sensor, trial.time_s[read], beside))
     return np.concatenate(parts) if parts else np.zeros(0)
 
 

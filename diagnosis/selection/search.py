@@ -24,7 +24,9 @@ from diagnosis.criteria import (
     WORTH_FITTING,
 )
 from diagnosis.effects import IMPERFECTIONS
+from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.noise_reestimation import rescaled, with_colour
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import check
@@ -96,6 +98,24 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_finalists("finalists", state.problem, singles, workers))
 
 
+def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
+    """Where what the best effect leaves shows other colours than the nominal rig did: once more."""
+    noise = with_colour(state.problem, state.best.fit)
+    if noise.colour.keys() == state.problem.noise.colour.keys():
+        return state
+    again = replace(
+        state,
+        problem=replace(state.problem, noise=noise),
+        coarse=replace(state.coarse, noise=decimated_noise(noise, state.problem.log, state.coarse.log)),
+        nominal=rescaled(state.nominal, state.problem, noise),
+        candidates=(),
+        singles=(),
+    ).noting(*dropped("coloured noise", state.candidates, "the noise has another colour"))
+    for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
+        again = stage(again, workers)
+    return again
+
+
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
     """A replay as fine as the log asks, and candidates fitted to it."""
     problem, found, record = refined_mesh(state.problem, state.candidates, workers)
@@ -164,6 +184,7 @@ STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,
+    coloured_noise,
     finer_mesh,
     pairs,
     one_more_imperfection,
