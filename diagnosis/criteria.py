@@ -370,6 +370,17 @@ NOMINAL_LEAD = 10.0
 """Score by which the scatter of stiffness and damping has to improve on the exact nominal rig before it
 is kept beside it."""
 
+# What no log can tell apart (selection/equivalence/)
+
+EQUIVALENT_SIZE, EQUIVALENT_FITS = 3, 3
+EQUIVALENT_LEAVES = 0.01
+"""Effects of an equivalent set at most, sets of one size that are fitted, and share of what the chosen
+explanation changes, as a sum of squares, by which the two may differ: a tenth as an amplitude. Beside
+it SIMPLE_LEAD is the largest cost, which is the smaller from a gap of 1.03 sigma on; without the share
+a weak effect would have the whole library for company. A choice; no log was looked at."""
+EQUIVALENT_PART = 0.5
+"""Share of the rest that one more effect of a set may leave: what takes less off is none."""
+
 # How fine a replay has to be (replay/, selection/mesh_refinement.py)
 
 REFINE_SIGMA = 0.1

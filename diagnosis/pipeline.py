@@ -33,10 +33,11 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
+from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, verdict_on
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Watcher, Workers, process_pool, silent
 from sim.simulation import prepare_processes
@@ -108,7 +109,7 @@ def diagnose(
     with process_pool(workers, progress, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
         cut = bool(stop.left_out)
-        last = _judged(found, cut=cut)
+        last = _judged(found, pool, cut=cut)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
@@ -183,11 +184,11 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
-def _judged(found: SearchState, *, cut: bool) -> Judged:
+def _judged(found: SearchState, workers: Workers, *, cut: bool) -> Judged:
     """The verdict on what the search found; provisional if it was cut short."""
     checked = check(found.problem, found.candidates, found.checked)
+    checked, verdict, alike = told_apart(found, checked, workers)
     problem = replace(found.problem, noise=checked.noise)
-    verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
     if cut:
@@ -198,5 +199,5 @@ def _judged(found: SearchState, *, cut: bool) -> Judged:
             found.coarse, noise=decimated_noise(checked.noise, problem.log, found.coarse.log)
         ),
         verdict=verdict,
-        record=(*found.record, *judged(checked.candidates)),
+        record=(*found.record, *alike, *judged(checked.candidates)),
     )
