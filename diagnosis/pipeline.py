@@ -14,7 +14,7 @@ from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
-from diagnosis.fitting.decimation import decimated, decimated_noise
+from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
 from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
@@ -31,9 +31,8 @@ from diagnosis.progress import in_words
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
-from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
-from diagnosis.selection.equivalence.told_apart import told_apart
+from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
@@ -108,8 +107,9 @@ def diagnose(
     log = without_unused(nominal.log, nominal.problem.log)
     with process_pool(workers, progress, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
+        told = told_apart(found, pool)
         cut = bool(stop.left_out)
-        last = _judged(found, pool, cut=cut)
+        last = _judged(told, cut=cut)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
@@ -184,10 +184,9 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
-def _judged(found: SearchState, workers: Workers, *, cut: bool) -> Judged:
+def _judged(told: ToldApart, *, cut: bool) -> Judged:
     """The verdict on what the search found; provisional if it was cut short."""
-    checked = check(found.problem, found.candidates, found.checked)
-    checked, verdict, alike = told_apart(found, checked, workers)
+    found, checked, verdict = told.state, told.checked, told.verdict
     problem = replace(found.problem, noise=checked.noise)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
@@ -195,9 +194,7 @@ def _judged(found: SearchState, workers: Workers, *, cut: bool) -> Judged:
         verdict = provisional(verdict, checked.candidates)
     return Judged(
         problem=problem,
-        coarse=replace(
-            found.coarse, noise=decimated_noise(checked.noise, problem.log, found.coarse.log)
-        ),
+        coarse=told.coarse,
         verdict=verdict,
-        record=(*found.record, *alike, *judged(checked.candidates)),
+        record=(*found.record, *judged(checked.candidates)),
     )

@@ -9,7 +9,6 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.checked import check
 from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
@@ -25,7 +24,7 @@ def verdict_of(rig, *names, **values):
     parts = {name: np.log([value]) for name, value in values.items()}
     start = state.problem.parameterization(names).joined(parts)
     found = replace(state, candidates=(candidate(fit_effects(state.problem, names, start)),))
-    return told_apart(found, check(found.problem, found.candidates), Workers())[1]
+    return told_apart(found, Workers()).verdict
 
 
 @pytest.fixture(scope="module")
