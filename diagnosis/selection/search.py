@@ -26,6 +26,7 @@ from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.noise_reestimation import rescaled, with_colour
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.fitting import Made, fit_all, fit_each_alone, fit_finalists, fit_screened
@@ -68,6 +69,19 @@ class SearchState:
         """The state with more candidates."""
         found, record = made
         return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
+
+    def renoised(self, noise: Noise) -> "SearchState":
+        """The state in units of another noise."""
+        fine, coarse = self.problem, self.coarse
+        rare = decimated_noise(noise, fine.log, coarse.log)
+        return replace(
+            self,
+            problem=replace(fine, noise=noise),
+            coarse=replace(coarse, noise=rare),
+            nominal=rescaled(self.nominal, fine, noise),
+            candidates=tuple(candidate(rescaled(c.fit, fine, noise)) for c in self.candidates),
+            singles=tuple(candidate(rescaled(c.fit, coarse, rare)) for c in self.singles),
+        )
 
     def noting(self, *entries: RecordEntry) -> "SearchState":
         """The state with a longer record."""
@@ -121,18 +135,15 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
 
 
 def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
-    """Where what the best effect leaves shows other colours than the nominal rig did: once more."""
+    """The noise as the best effect leaves it; where other sensors' is coloured, all once more."""
     noise = with_colour(state.problem, state.best.fit)
-    if noise.colour.keys() == state.problem.noise.colour.keys():
+    if noise.same(state.problem.noise):
         return state
-    again = replace(
-        state,
-        problem=replace(state.problem, noise=noise),
-        coarse=replace(state.coarse, noise=decimated_noise(noise, state.problem.log, state.coarse.log)),
-        nominal=rescaled(state.nominal, state.problem, noise),
-        candidates=(),
-        singles=(),
-    ).noting(*dropped("coloured noise", state.candidates, "the noise has another colour"))
+    again = state.renoised(noise)
+    if noise.colour.keys() == state.problem.noise.colour.keys():
+        return again
+    out = dropped("coloured noise", state.candidates, "the noise has another colour")
+    again = replace(again, candidates=(), singles=()).noting(*out)
     for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
         again = stage(again, workers)
     return again

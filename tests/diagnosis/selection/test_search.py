@@ -225,3 +225,14 @@ def test_a_search_begins_again_where_the_best_effect_leaves_another_colour(dry_s
     assert [e.effects for e in dropped] == [c.names for c in begun.candidates]
     # Where the colours are the same, nothing is done.
     assert module.coloured_noise(again, Workers()) is again
+
+
+def test_where_the_same_noise_is_coloured_otherwise_fits_are_kept_in_its_units(undisturbed):
+    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    noise = replace(undisturbed.problem.noise, colour=colour)
+    again = undisturbed.renoised(noise)
+    best = undisturbed.best
+    left = again.problem.residuals([best.fit.parameterization.rig(best.fit.x)])
+    (same,) = (c for c in again.candidates if c.names == best.names)
+    np.testing.assert_allclose(same.fit.by_trial[0], left[0][0], atol=1e-9)
+    assert len(again.singles) == len(undisturbed.singles)
