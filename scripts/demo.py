@@ -53,7 +53,7 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
 
     _announce(console, 4, f"replay of {len(log.trials)} trials of a rig")
     nominal = replay_nominal(log)
-    replaying.write(log, nominal, folder / "replay", force=force)
+    replaying.write(nominal, folder / "replay", force=force)
     console.print(replaying.table(nominal))
 
     _announce(console, 5, "what a rig has that its model lacks")

@@ -65,6 +65,12 @@ class Parameter:
         """The same with a highest value of at least this."""
         return self if value <= self.high else replace(self, high=value)
 
+    def above(self, low: float) -> "Parameter":
+        """The same with a lowest value of at least this, and starts half way down to it at most."""
+        if low <= self.low:
+            return self
+        return replace(self, low=low, start=tuple(max(value, 0.5 * low) for value in self.start))
+
     def to_fit(self, value: float) -> float:
         """The coordinate of a value that a fit moves in."""
         return float(np.log(value)) if self.logarithmic else value / self.scale
@@ -107,6 +113,7 @@ class Effect:
       needs: column of a log without which it cannot show; empty: none beyond the usual.
       differences: that slopes are taken over, in the units of the fit, one fit after the
         other. Where stick and slip make a residual rough, a wide one sees past that.
+      trial: the one trial that it is about; empty: all.
     """
 
     name: str
@@ -117,6 +124,7 @@ class Effect:
     contains: tuple[str, ...] = ()
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
+    trial: str = ""
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

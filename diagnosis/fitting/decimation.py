@@ -23,20 +23,25 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import COARSE
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
 
-def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
+def decimated(
+    problem: FitProblem, nominal: Sequence[Prediction], nominal_rig: RigParameters = NOMINAL
+) -> FitProblem:
     """The problem for a coarse needle, given the fine nominal predictions of its trials.
+
+    Args:
+      nominal_rig: that made these; with what came before trials that began late.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated so coarsely.
     """
     log = problem.log
     each = zip(log.trials, nominal, strict=True)
-    trials = tuple(_decimated(log.rig, trial, prediction) for trial, prediction in each)
+    trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
     rare = PreparedLog(rig=log.rig, trials=trials)
     noise = decimated_noise(problem.noise, log, rare)
     return replace(problem, log=rare, noise=noise, resolution=COARSE)
@@ -62,9 +67,11 @@ def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     return replace(noise, sigma=sigma, colour=colour)
 
 
-def _decimated(rig: NominalRig, trial: PreparedTrial, nominal: Prediction) -> PreparedTrial:
+def _decimated(
+    rig: NominalRig, nominal_rig: RigParameters, trial: PreparedTrial, nominal: Prediction
+) -> PreparedTrial:
     bare, width_s = _without_readings(trial)
-    coarse = predict(rig, bare, [NOMINAL], COARSE)[0]
+    coarse = predict(rig, bare, [nominal_rig], COARSE)[0]
     readings = {}
     for sensor in SENSORS:
         if trial.has(sensor):
@@ -106,9 +113,12 @@ def _means(time_s: Array, values: Array, middles_s: Array, width_s: float) -> Ar
         return np.full(middles_s.shape, np.nan)
     half = np.minimum(0.5 * width_s, np.minimum(middles_s - time_s[0], time_s[-1] - middles_s))
     area = np.asarray(cumulative_trapezoid(known, at, initial=0), float)
-    means = np.interp(middles_s + half, at, area) - np.interp(middles_s - half, at, area)
-    narrow = half < 1e-9
-    means = np.where(narrow, np.interp(middles_s, at, known), means / np.where(narrow, 1.0, 2 * half))
+    # Where readings begin or end within a window, the mean is that of what was read.
+    last, first = (np.clip(middles_s + side * half, at[0], at[-1]) for side in (1, -1))
+    covered = last - first
+    means = np.interp(last, at, area) - np.interp(first, at, area)
+    narrow = covered < 1e-9
+    means = np.where(narrow, np.interp(middles_s, at, known), means / np.where(narrow, 1.0, covered))
     return np.where(_sparse(at, middles_s, half), np.nan, means)
 
 
@@ -116,4 +126,6 @@ def _sparse(at_s: Array, middles_s: Array, half_s: Array) -> NDArray[np.bool_]:
     """Windows with fewer than half of the usual number of samples."""
     reach = half_s + 1e-9
     count = np.searchsorted(at_s, middles_s + reach, "right") - np.searchsorted(at_s, middles_s - reach)
-    return np.asarray((count < 0.5 * np.median(count)) & (half_s > 1e-9))
+    few = (count < 0.5 * np.median(count)) & (half_s > 1e-9)
+    outside = (middles_s + reach < at_s[0]) | (middles_s - reach > at_s[-1])
+    return np.asarray(few | outside)

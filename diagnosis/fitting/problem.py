@@ -1,12 +1,12 @@
 """What a fit rests on: a prepared log, its noise, what is left open, how finely it is replayed."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.prepare.prepared_log import PreparedLog
@@ -31,7 +31,7 @@ class FitProblem:
     noise: Noise
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
-    library: Mapping[str, Effect] = field(default_factory=lambda: LIBRARY)
+    library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
@@ -48,3 +48,7 @@ class FitProblem:
             predictions = predict(self.log.rig, trial, rigs, self.resolution)
             found.append([residuals(trial, p, self.noise) for p in predictions])
         return found
+
+    def drifting(self, size_n_mm: float) -> "FitProblem":
+        """The same with a torque sensor that may drift by so much within a trial."""
+        return replace(self, log=self.log.drifting(size_n_mm / self.noise["base_torque_n_mm"]))

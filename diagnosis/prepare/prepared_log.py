@@ -5,7 +5,7 @@ it (`base_motion_deg` here) are two things: a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.drift import drift_whitening
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
+from diagnosis.prepare.late_start import LateStart
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -31,6 +33,8 @@ class PreparedTrial:
       readings: by sensor, in the unit of its name; NaN where it gave nothing.
       logged: rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
+      torque_drift_sigma: what its torque sensor may drift by, in sigma of its noise.
+      late_start: None: it begins untwisted and at rest.
     """
 
     name: str
@@ -43,6 +47,8 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
+    torque_drift_sigma: float = 0.0
+    late_start: LateStart | None = None
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
@@ -74,6 +80,17 @@ class PreparedTrial:
         """Median time between samples."""
         return float(np.median(np.diff(self.time_s)))
 
+    def without_drift(self, sensor: str, left: Array) -> Array:
+        """What is left of a sensor's finite readings, in sigma, less what may be drift, (M,)."""
+        if not self.torque_drift_sigma or sensor != "base_torque_n_mm":
+            return left
+        return np.asarray(left - self._drift @ (self._drift.T @ left))
+
+    @cached_property
+    def _drift(self) -> Array:
+        kept = np.isfinite(self.readings["base_torque_n_mm"])
+        return drift_whitening(self.time_s, kept, self.torque_drift_sigma)
+
     @cached_property
     def _measured(self) -> frozenset[str]:
         return frozenset(name for name, values in self.readings.items() if np.isfinite(values).any())
@@ -86,11 +103,17 @@ class PreparedLog:
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
 
+    def drifting(self, size_sigma: float) -> "PreparedLog":
+        """The log with a torque sensor that may drift by so much within a trial."""
+        trials = tuple(replace(trial, torque_drift_sigma=size_sigma) for trial in self.trials)
+        return replace(self, trials=trials)
+
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Trials whose samples are too rare for what they have to carry."""
+        """Trials whose samples are too rare for what they have to carry, and that began late."""
         each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
-        return tuple(warning for warning in each if warning)
+        late = (t.late_start.warning(t.name) for t in self.trials if t.late_start)
+        return (*(warning for warning in each if warning), *late)
 
 
 def _steadied(depth_mm: Array) -> Array:

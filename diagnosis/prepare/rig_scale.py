@@ -9,6 +9,7 @@ parameter with a unit of torque grows with
 which does. Rates grow where the base turns faster than any needle is turned.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,11 +32,13 @@ class RigScale:
       torque_scale: on parameters with a unit of torque.
       rate_scale: on rates of turning.
       dry_n_mm_per_mm: dry torque per mm that would hold all torque that was measured.
+      shallowest_mm: depth that every trial reaches.
     """
 
     torque_scale: float = 1.0
     rate_scale: float = 1.0
     dry_n_mm_per_mm: float = 0.0
+    shallowest_mm: float = math.inf
 
 
 def scale_of(log: PreparedLog) -> RigScale:
@@ -43,9 +46,10 @@ def scale_of(log: PreparedLog) -> RigScale:
     stiffness = log.rig.rigidity_n_mm2 / NITINOL.rigidity_n_mm2
     torques = [t.readings["base_torque_n_mm"] for t in log.trials if t.has("base_torque_n_mm")]
     rates = [np.gradient(np.radians(t.base_motion_deg), t.time_s) for t in log.trials]
+    shallowest_mm = float(min(t.inserted_mm.max() for t in log.trials))
     rate = max(1.0, _half_range(rates) / FASTEST_NEEDLE_RAD_S)
     if not torques or _half_range(torques) == 0.0:
-        return RigScale(torque_scale=stiffness, rate_scale=rate)
+        return RigScale(torque_scale=stiffness, rate_scale=rate, shallowest_mm=shallowest_mm)
     most = _half_range(torques)
     least_scale, most_scale = (most / at for at in reversed(TORQUES_OF_UNIT_SCALE_N_MM))
     depth = np.median(np.concatenate([t.inserted_mm for t in log.trials]))
@@ -53,6 +57,7 @@ def scale_of(log: PreparedLog) -> RigScale:
         torque_scale=float(np.clip(stiffness, least_scale, most_scale)),
         rate_scale=rate,
         dry_n_mm_per_mm=float(most / depth) if depth > 0 else 0.0,
+        shallowest_mm=shallowest_mm,
     )
 
 

@@ -15,8 +15,10 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.sensors import driven, sensed
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
@@ -36,6 +38,10 @@ class Prediction:
     def rows(self, kept: NDArray[np.bool_]) -> "Prediction":
         """The prediction at some of its samples."""
         return Prediction(**{sensor: self[sensor][kept] for sensor in SENSORS})
+
+    def at(self, wanted_s: Array, time_s: Array) -> "Prediction":
+        """The prediction at other times, given those of its samples."""
+        return Prediction(**{s: np.interp(wanted_s, time_s, self[s]) for s in SENSORS})
 
 
 def replay(
@@ -60,16 +66,19 @@ def predict(
     Raises:
       SimulationFailed: one of them cannot be simulated.
     """
-    needles = list(dict.fromkeys(rig.without_sensors() for rig in rigs))
+    seen = [rig.on_trial(trial.name).without_sensors() for rig in rigs]
+    needles = list(dict.fromkeys(seen))
     runs = dict(zip(needles, _run(nominal, trial, needles, resolution), strict=True))
-    return [_sensed(rig, runs[rig.without_sensors()], trial.time_s) for rig in rigs]
+    each = zip(rigs, seen, strict=True)
+    return [_sensed(rig, runs[needle], trial.time_s) for rig, needle in each]
 
 
 def shape_of(
     nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
 ) -> Run:
-    """The whole simulated run of one trial, on its own steps, with the shape of the shaft."""
-    return _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    """The simulated run of one trial, on its own steps, with the shape of the shaft."""
+    run = _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    return run.since(float(trial.time_s[0]))
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
@@ -79,7 +88,8 @@ def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Arr
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
             read = np.isfinite(left)
-            parts.append(noise.whitened(sensor, trial.time_s[read], left[read]))
+            beside = trial.without_drift(sensor, left[read])
+            parts.append(noise.whitened(sensor, trial.time_s[read], beside))
     return np.concatenate(parts) if parts else np.zeros(0)
 
 
@@ -92,12 +102,16 @@ def _run(
     keep_shape: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
-    setups = [r.setup(nominal, trial.schedule, elements=elements, step_s=step_s) for r in rigs]
-    return simulate(setups, trial.schedule, keep_shape=keep_shape)
+    inputs = [driven(rig, schedule_with_past(rig, trial)) for rig in rigs]
+    setups = [
+        rig.setup(nominal, own, elements=elements, step_s=step_s)
+        for rig, own in zip(rigs, inputs, strict=True)
+    ]
+    return simulate(setups, inputs, keep_shape=keep_shape)
 
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
-    tip, torque = rig.sensed(run.time_s, run.tip_deg, run.base_torque_n_mm)
+    tip, torque = sensed(rig, run.time_s, run.inputs.drive, run.tip_deg, run.base_torque_n_mm)
     return Prediction(
         tip_angle_deg=np.interp(at_s, run.time_s, tip),
         base_torque_n_mm=np.interp(at_s, run.time_s, torque),

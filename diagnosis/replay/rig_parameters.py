@@ -1,13 +1,11 @@
 """The parameters of a rig that effects change, and the MuJoCo needle that they make of a nominal rig.
 
 Every field is neutral by default: `RigParameters()` is the nominal rig. Units are in the names;
-scales, shares, ratios, exponents and coefficients have none.
+scales, shares, ratios, exponents and coefficients have none. From the motor to the needle there are
+drive shaft with its encoder, torque sensor, bearing, chuck.
 """
 
 from dataclasses import dataclass, replace
-
-import numpy as np
-from numpy.typing import NDArray
 
 from diagnosis.log.nominal_rig import NominalRig
 from models.drive import Drive
@@ -17,9 +15,22 @@ from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.schedule import Schedule
 from sim.spec import Setup
 
-Array = NDArray[np.float64]
-
 LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Past:
+    """What the base turned by before a trial began late.
+
+    Attributes:
+      trial: its name.
+      wound_deg: before a rest.
+      turned_deg: into the first sample, beyond the twist that its readings show.
+    """
+
+    trial: str
+    wound_deg: float = 0.0
+    turned_deg: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,9 +44,13 @@ class RigParameters:
       layer_ratio: damping of the deep layer over that of the shallow one.
       layer_boundary_fraction: of the inserted length.
       base_stiffness_n_mm_per_rad: of a spring between drive shaft and needle; 0: rigid.
+      drive_friction_n_mm: dry friction of the bearing, which the torque sensor reads.
+      base_scale: what the encoder reads over what the drive shaft turns.
+      inserted_offset_mm: true inserted length less the logged one.
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
+      pasts: of trials that began late.
     """
 
     stiffness_scale: float = 1.0
@@ -62,8 +77,17 @@ class RigParameters:
     tip_scale: float = 1.0
     tip_delay_s: float = 0.0
     torque_bias_n_mm: float = 0.0
+    tip_clock_ratio: float = 1.0
+    torque_clock_ratio: float = 1.0
+    torque_low_pass_s: float = 0.0
+    torque_scale: float = 1.0
+    torque_delay_s: float = 0.0
+    drive_friction_n_mm: float = 0.0
+    base_scale: float = 1.0
+    inserted_offset_mm: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
+    pasts: tuple[Past, ...] = ()
 
     def needle(self, rig: NominalRig, length_mm: float) -> Needle:
         """The needle, of the length that a trial needs."""
@@ -116,11 +140,31 @@ class RigParameters:
         )
 
     def without_sensors(self) -> "RigParameters":
-        """The rig whose sensors show what is."""
-        return replace(self, tip_bias_deg=0.0, tip_scale=1.0, tip_delay_s=0.0, torque_bias_n_mm=0.0)
+        """The rig whose sensors show what the needle does."""
+        return replace(
+            self,
+            tip_bias_deg=0.0,
+            tip_scale=1.0,
+            tip_delay_s=0.0,
+            torque_bias_n_mm=0.0,
+            tip_clock_ratio=1.0,
+            torque_clock_ratio=1.0,
+            torque_low_pass_s=0.0,
+            torque_scale=1.0,
+            torque_delay_s=0.0,
+            drive_friction_n_mm=0.0,
+        )
+
+    def past_of(self, trial: str) -> Past:
+        """What came before a trial that began late."""
+        return next((past for past in self.pasts if past.trial == trial), Past(trial=trial))
+
+    def on_trial(self, trial: str) -> "RigParameters":
+        """The rig that one trial sees: without the pasts of others."""
+        return replace(self, pasts=tuple(past for past in self.pasts if past.trial == trial))
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
-        """The MuJoCo needle that goes through a schedule."""
+        """The MuJoCo needle that goes through a schedule, which is what the rig was `driven` by."""
         shaft = max(schedule.longest_mm, 1.0)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
@@ -142,13 +186,6 @@ class RigParameters:
             if standing
             else self.material_share_growing_depth,
         )
-
-    def sensed(self, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> tuple[Array, Array]:
-        """What the sensors show of tip and base torque."""
-        shown = tip_deg
-        if self.tip_delay_s != 0.0:
-            shown = np.interp(time_s - self.tip_delay_s, time_s, tip_deg)
-        return self.tip_bias_deg + self.tip_scale * shown, torque_n_mm + self.torque_bias_n_mm
 
 
 NOMINAL = RigParameters()

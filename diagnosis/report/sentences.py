@@ -10,7 +10,35 @@ from diagnosis.selection.verdict import VerdictKind
 
 
 def headline(found: Diagnosis) -> str:
-    """The verdict in one sentence."""
+    """The verdict in one sentence, marked where the diagnosis was stopped early."""
+    early = found.stopped
+    if early is None:
+        return _verdict(found)
+    told = _best_so_far(found) if early.search else _verdict(found)
+    return f"Stopped early ({early.why}, while {early.stage}): best so far: {told}"
+
+
+def left_out(found: Diagnosis) -> str:
+    """What a stop left out; empty where nothing was."""
+    if found.stopped is None:
+        return ""
+    rivals = (
+        "; what was not tried may explain the log as well, or better" if found.stopped.search else ""
+    )
+    return f"stopped early ({found.stopped.why}): not done: {', '.join(found.stopped.left_out)}{rivals}"
+
+
+def _best_so_far(found: Diagnosis) -> str:
+    """What a search that was cut short has come to: never that nothing else is there."""
+    verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
+    residual = f"residual {gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
+    if verdict.kind is VerdictKind.UNKNOWN:
+        return f"{titles(near.effects) or NOTHING}, which does not explain the gap: {residual}"
+    sets = "; or ".join(titles(names) or NOTHING for names in verdict.confusable)
+    return f"{sets}: undecided, as others were not tried: {residual}"
+
+
+def _verdict(found: Diagnosis) -> str:
     gap, effects = found.assessment.gap, found.verdict.effects
     before, after = f"{gap.before:.2f} σ", f"{gap.after:.2f} σ (σ = sensor noise)"
     match found.verdict.kind:
@@ -27,6 +55,9 @@ def headline(found: Diagnosis) -> str:
                 "Unknown: no effect of the library, nor any pair that was tried, explains the gap: "
                 f"residual {before}, at best {after}"
             )
+
+
+NOTHING = "the nominal model as it is"
 
 
 def nearest(found: Diagnosis) -> str:
@@ -48,6 +79,18 @@ def nearest(found: Diagnosis) -> str:
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
         f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is "
         f"{found.assessment.breakdown_after.largest}{bound}"
+    )
+
+
+def alike(found: Diagnosis) -> str:
+    """What the accepted effects cannot be told from, in one sentence; else empty."""
+    verdict = found.verdict
+    if verdict.kind is not VerdictKind.EXPLAINED or not verdict.confusable:
+        return ""
+    others = "; or ".join(titles(names) for names in verdict.confusable[1:])
+    return (
+        f"Cannot be told from: {others}. These change every reading of this log in the same way; "
+        "what is named is the likelier cause, not the only one"
     )
 
 

@@ -13,6 +13,7 @@ from diagnosis.criteria import (
     SCATTER_NAMED,
     SHIFT_LIMIT,
 )
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.cross_validation import held_out_residuals, information, shift_statistic
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
@@ -96,9 +97,16 @@ class Candidate:
         """Its effects, and stiffness or damping of the rig where they are off by too much.
 
         Beside effects that is more than scatter explains. Alone it is whatever is
-        certain: the nominal rig does not fit, and this is why.
+        certain: the nominal rig does not fit, and this is why. Imperfections of sensors
+        are not named.
         """
-        return (*self.names, *(n for n in self._open_scatter() if self._is_off(n)))
+        own = (name for name in self.names if name in LIBRARY)
+        return (*own, *self.scatter_named)
+
+    @property
+    def scatter_named(self) -> tuple[str, ...]:
+        """Stiffness or damping of the rig, where they are off by too much."""
+        return tuple(n for n in self._open_scatter() if self._is_off(n))
 
     @property
     def only_scatter(self) -> bool:

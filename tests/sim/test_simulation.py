@@ -16,8 +16,9 @@ from models.statespace import modal_system
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
+from sim.needles import compile_model
 from sim.schedule import Schedule
-from sim.simulation import compile_model, controls, initial_data, prepare_processes, simulate
+from sim.simulation import controls, initial_data, prepare_processes, simulate
 from sim.spec import Setup
 from studies.crosscheck import motion
 
@@ -118,6 +119,20 @@ def test_different_tissues_run_side_by_side_as_they_do_alone():
     together = simulate(setups, TURN, threads=2)
     for one, beside in zip(setups, together, strict=True):
         assert np.array_equal(simulate([one], TURN)[0].outputs, beside.outputs)
+
+
+def test_set_ups_may_each_have_inputs_of_their_own():
+    slower = schedule([0, 1.3, 3], [0, 45, 45], inserted=80.0)
+    setups, inputs = [setup(), setup(inserted=80.0), setup()], [TURN, slower, TURN]
+    for one, own, beside in zip(setups, inputs, simulate(setups, inputs), strict=True):
+        assert np.array_equal(simulate([one], own)[0].outputs, beside.outputs)
+
+
+def test_inputs_are_as_many_as_set_ups_and_last_as_long():
+    with pytest.raises(InvalidValue, match="one for each of 2"):
+        simulate([setup(), setup()], [TURN])
+    with pytest.raises(InvalidValue, match="one number of steps"):
+        simulate([setup(), setup()], [TURN, schedule([0, 0.3, 4], [0, 90, 90])])
 
 
 def test_a_saved_state_restores_exactly():

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.replay.sensors import sensed
 from sim.simulation import Run
 from studies.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 from studies.published.experiments.base_turn import TURN_DEG
@@ -18,10 +19,11 @@ _ROUNDING_S = 1e-9
 
 def read_off(experiment: TurnExperiment, run: Run, rig: PublishedRig) -> Quantities:
     """What the paper would have read from a run of an experiment, in the quantities' units."""
-    tip, torque = rig.model.sensed(run.time_s, run.tip_deg, run.base_torque_n_mm)
+    drive = run.inputs.drive
+    tip, torque = sensed(rig.model, run.time_s, drive, run.tip_deg, run.base_torque_n_mm)
     if experiment is TurnExperiment.QUICK_TURN:
         return _of_quick_turn(run.time_s, TURN_DEG - tip)
-    return _of_turn_at_rest(AT_REST[experiment], run.time_s, run.inputs.drive - tip, torque)
+    return _of_turn_at_rest(AT_REST[experiment], run.time_s, drive - tip, torque)
 
 
 def _of_quick_turn(time_s: Array, error_deg: Array) -> Quantities:

@@ -80,13 +80,19 @@ BASE_SERVO = Mechanism(
     apply=lambda rig, time: replace(rig, turn=BaseTurn(shape=BaseTurnShape.SERVO, time_s=time)),
 )
 
+NOT_STUDIED = frozenset(
+    ("torque_scale", "torque_sensor_delay", "base_angle_scale", "drive_friction", "inserted_offset")
+)
+"""Effects on the constants of a rig's log: the paper states its gains, and its figures have none."""
+_STUDIED = {name: effect for name, effect in LIBRARY.items() if name not in NOT_STUDIED}
+
 OF_PLASTISOL: dict[str, Mechanism] = {
     m.name: m
     for m in (
         FREE_LENGTH,
         BASE_RAMP,
         BASE_SERVO,
-        *(_of_library(effect) for name, effect in LIBRARY.items() if name != DAMPING.name),
+        *(_of_library(effect) for name, effect in _STUDIED.items() if name != DAMPING.name),
     )
 }
-OF_GELATIN: dict[str, Mechanism] = {name: _of_library(effect) for name, effect in LIBRARY.items()}
+OF_GELATIN: dict[str, Mechanism] = {name: _of_library(effect) for name, effect in _STUDIED.items()}

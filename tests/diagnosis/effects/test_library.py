@@ -35,6 +35,11 @@ VOCABULARY = {
     "tip_angle_scale": "sensor",
     "tip_sensor_delay": "sensor",
     "torque_bias": "sensor",
+    "torque_scale": "sensor",
+    "torque_sensor_delay": "sensor",
+    "base_angle_scale": "sensor",
+    "drive_friction": "drive",
+    "inserted_offset": "parameters",
 }
 
 

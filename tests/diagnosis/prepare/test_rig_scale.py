@@ -71,6 +71,16 @@ def test_a_dry_level_that_holds_all_measured_torque_is_within_bounds():
     assert own["entry_friction"].parameters[0].high == LIBRARY["entry_friction"].parameters[0].high
 
 
+def test_an_inserted_offset_leaves_a_tenth_of_the_shallowest_trial_inserted(log):
+    shallowest = scale_of(prepare(log)[0]).shallowest_mm
+    assert shallowest == 90.0
+    own = library_of(RigScale(shallowest_mm=4.0))["inserted_offset"].parameters[0]
+    assert own.low == pytest.approx(-3.6)
+    assert own.start == pytest.approx((5.0, -1.8))
+    deep = library_of(RigScale(shallowest_mm=shallowest))["inserted_offset"].parameters
+    assert deep == LIBRARY["inserted_offset"].parameters
+
+
 @pytest.mark.slow
 def test_a_fit_in_other_units_of_torque_comes_to_the_same_answer(log):
     found = []

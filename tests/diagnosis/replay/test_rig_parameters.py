@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, Past, RigParameters
+from diagnosis.replay.sensors import driven, sensed
 
 
 def setup(rig, one=None):
@@ -25,7 +26,12 @@ def test_the_nominal_rig_is_that_of_rig_yaml():
     assert found.drive.stiffness_n_mm_per_rad is None
 
 
-SENSORS = {"tip_bias_deg", "tip_scale", "tip_delay_s", "torque_bias_n_mm"}
+SENSORS = {
+    *("tip_bias_deg", "tip_scale", "tip_delay_s"),
+    *("torque_bias_n_mm", "torque_scale", "torque_delay_s", "drive_friction_n_mm"),
+    *("tip_clock_ratio", "torque_clock_ratio", "torque_low_pass_s"),
+}
+INPUTS = {"base_scale", "inserted_offset_mm"}
 NEEDS = {  # what a field shows beside only
     "static_excess_n_mm_per_mm": {"kinetic_n_mm_per_mm": 0.001},
     "stribeck_rad_s": {"kinetic_n_mm_per_mm": 0.001, "static_excess_n_mm_per_mm": 0.001},
@@ -35,7 +41,7 @@ NEEDS = {  # what a field shows beside only
 }
 
 
-@pytest.mark.parametrize("name", [f.name for f in fields(RigParameters)])
+@pytest.mark.parametrize("name", [f.name for f in fields(RigParameters) if f.name != "pasts"])
 def test_every_parameter_changes_the_needle_or_its_sensors(name):
     about = replace(NOMINAL, **NEEDS.get(name, {}))
     changed = replace(about, **{name: 0.7 * getattr(about, name) or 0.001})
@@ -46,10 +52,23 @@ def test_every_parameter_changes_the_needle_or_its_sensors(name):
         assert setup(changed, deeper) != setup(about, deeper)
     elif name in SENSORS:
         time = np.linspace(0, 1, 11)
-        before, after = (np.concatenate(r.sensed(time, time, time)) for r in (about, changed))
+        before, after = (np.concatenate(sensed(r, time, time, time, time)) for r in (about, changed))
         assert not np.array_equal(before, after)
+    elif name in INPUTS:
+        logged = prepared(trial(turns())).schedule
+        assert driven(about, logged) is logged
+        assert driven(changed, logged) is not logged
     else:
         assert setup(changed) != setup(about)
+
+
+def test_a_trial_sees_its_own_past_alone():
+    one, other = Past(trial="one", wound_deg=5.0), Past(trial="other", turned_deg=3.0)
+    rig = RigParameters(pasts=(one, other))
+    assert rig.past_of("other") == other
+    assert rig.past_of("third") == Past(trial="third")
+    assert rig.on_trial("one") == RigParameters(pasts=(one,))
+    assert rig.on_trial("third") == NOMINAL
 
 
 def test_two_layers_keep_the_total_damping():
@@ -57,12 +76,3 @@ def test_two_layers_keep_the_total_damping():
     shallow, deep = (layer.interface.viscous_n_mm_s_per_mm for layer in layers)
     assert deep == pytest.approx(3 * shallow)
     assert 0.4 * shallow + 0.6 * deep == pytest.approx(RIG.tissue.damping_n_mm_s_per_mm)
-
-
-def test_a_delayed_sensor_shows_what_was():
-    time = np.linspace(0, 10, 1001)
-    tip, torque = RigParameters(tip_delay_s=0.5, tip_scale=2.0, tip_bias_deg=3.0).sensed(
-        time, time, time
-    )
-    np.testing.assert_allclose(tip, 3 + 2 * np.maximum(time - 0.5, 0.0))
-    np.testing.assert_array_equal(torque, time)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.prepare.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -52,6 +52,7 @@ def test_the_stages_are_these_in_this_order():
         "coloured_noise",
         "finer_mesh",
         "pairs",
+        "one_more_imperfection",
         "effects_of_the_best_alone",
         "scatter_of_the_best",
         "finer_mesh",
@@ -64,6 +65,7 @@ def test_each_stage_goes_on_from_the_last(monkeypatch, dry_start):
 
     stages = tuple(partial(counted, stage.__name__) for stage in STAGES)
     monkeypatch.setattr(module, "STAGES", stages)
+    monkeypatch.setattr(module, "with_drift", lambda state, *_: state)
     assert search(dry_start, Workers()).record == tuple(stage.__name__ for stage in STAGES)
 
 
@@ -199,7 +201,7 @@ def test_the_record_of_a_whole_search_tells_who_made_what_and_why_others_are_out
 
 
 def test_every_effect_that_may_be_tried_is_in_the_record(dry):
-    testable = {name for name, effect in LIBRARY.items() if effect.needs != "tip_torque_n_mm"}
+    testable = {name for name, effect in FITTED.items() if effect.needs != "tip_torque_n_mm"}
     assert {e.effects[0] for e in dry.found.record if len(e.effects) == 1} == testable
 
 

@@ -1,0 +1,23 @@
+"""What the encoder of the base reads over what the drive shaft turns."""
+
+from dataclasses import replace
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.replay.rig_parameters import RigParameters
+
+
+def _apply(rig: RigParameters, scale: float) -> RigParameters:
+    return replace(rig, base_scale=scale)
+
+
+EFFECT = Effect(
+    name="base_angle_scale",
+    title="a wrong gain of the base's encoder (gear ratio)",
+    place=Place.SENSOR,
+    parameters=(
+        Parameter(
+            name="scale", unit="-", low=0.3, high=3.0, start=(0.95, 1.05), logarithmic=True, neutral=1.0
+        ),
+    ),
+    apply=_apply,
+)

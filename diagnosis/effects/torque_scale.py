@@ -1,0 +1,24 @@
+"""Gain of the torque sensor."""
+
+from dataclasses import replace
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.replay.rig_parameters import RigParameters
+
+
+def _apply(rig: RigParameters, scale: float) -> RigParameters:
+    return replace(rig, torque_scale=scale)
+
+
+EFFECT = Effect(
+    name="torque_scale",
+    title="a wrong gain of the torque sensor",
+    place=Place.SENSOR,
+    parameters=(
+        Parameter(
+            name="scale", unit="-", low=0.3, high=3.0, start=(0.9, 1.1), logarithmic=True, neutral=1.0
+        ),
+    ),
+    apply=_apply,
+    needs="base_torque_n_mm",
+)
