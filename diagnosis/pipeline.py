@@ -26,7 +26,15 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
-from diagnosis.progress import in_words
+from diagnosis.progress import (
+    ASSESSING,
+    CHECKING,
+    REPLAYING,
+    ProgressClock,
+    Watcher,
+    in_words,
+    silent,
+)
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
@@ -36,7 +44,7 @@ from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, verdict_on
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
-from diagnosis.workers import Watcher, Workers, process_pool, silent
+from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
 
 Array = NDArray[np.float64]
@@ -86,20 +94,24 @@ def diagnose(
       workers: processes.
       limit_s: time after which the best so far is told; None: as long as it takes.
       stop: a signal with a limit of its own, which others may give at any time.
-      progress: is told the stage, its tasks that are done, and all of them.
+      progress: is told how far it is: at every stage and task, and ten times a second between.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
       StoppedEarly: the end came before the nominal rig was replayed.
     """
     stop = StopSignal(limit_s) if stop is None else stop
+    heard = ProgressClock(progress, stop).heard
+    heard(REPLAYING, 0, 1)
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
     log = nominal.log
-    with process_pool(workers, progress, stop) as pool, listening(stop):
+    with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
         cut = bool(stop.left_out)
+        heard(CHECKING, 0, 1)
         last = _judged(found, cut=cut)
+        heard(ASSESSING, 0, 1)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
