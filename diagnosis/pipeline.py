@@ -106,15 +106,18 @@ def diagnose(
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
     log = nominal.log
+    heard(REPLAYING, 1, 1)
     with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
         cut = bool(stop.left_out)
         heard(CHECKING, 0, 1)
         last = _judged(found, cut=cut)
+        heard(CHECKING, 1, 1)
         heard(ASSESSING, 0, 1)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
+        heard(ASSESSING, 1, 1)
     return Diagnosis(
         log=log,
         noise=last.problem.noise,
