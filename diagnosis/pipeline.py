@@ -27,7 +27,15 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
-from diagnosis.progress import in_words
+from diagnosis.progress import (
+    ASSESSING,
+    CHECKING,
+    REPLAYING,
+    ProgressClock,
+    Watcher,
+    in_words,
+    silent,
+)
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
@@ -38,7 +46,7 @@ from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, provisional
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
-from diagnosis.workers import Watcher, Workers, process_pool, silent
+from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
 
 Array = NDArray[np.float64]
@@ -95,24 +103,31 @@ def diagnose(
       workers: processes.
       limit_s: time after which the best so far is told; None: as long as it takes.
       stop: a signal with a limit of its own, which others may give at any time.
-      progress: is told the stage, its tasks that are done, and all of them.
+      progress: is told how far it is: at every stage and task, and ten times a second between.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
       StoppedEarly: the end came before the nominal rig was replayed.
     """
     stop = StopSignal(limit_s) if stop is None else stop
+    heard = ProgressClock(progress, stop).heard
+    heard(REPLAYING, 0, 1)
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
     log = without_unused(nominal.log, nominal.problem.log)
-    with process_pool(workers, progress, stop) as pool, listening(stop):
+    heard(REPLAYING, 1, 1)
+    with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
         told = told_apart(found, pool)
         cut = bool(stop.left_out)
+        heard(CHECKING, 0, 1)
         last = _judged(told, cut=cut)
+        heard(CHECKING, 1, 1)
+        heard(ASSESSING, 0, 1)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
+        heard(ASSESSING, 1, 1)
     return Diagnosis(
         log=log,
         noise=last.problem.noise,

@@ -18,14 +18,14 @@ from typing import Any, TypeVar
 from diagnosis.stopping import NEVER, StoppedEarly, StopSignal, listen
 from sim.simulation import SimulationFailed
 
-Watcher = Callable[[str, int, int], None]
+Heard = Callable[[str, int, int], None]
 """Is told the stage, its tasks that are done, and all of them."""
 T = TypeVar("T")
 
 _LOOK_S = 0.1  # between two looks at the signal to stop
 
 
-def silent(stage: str, done: int, tasks: int) -> None:
+def unheard(stage: str, done: int, tasks: int) -> None:
     """Progress that nobody watches."""
 
 
@@ -61,7 +61,7 @@ class Workers:
     """
 
     pool: Executor | None = None
-    progress: Watcher = silent
+    progress: Heard = unheard
     stop: StopSignal = NEVER
 
     def each(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
@@ -119,7 +119,7 @@ def _undone(task: Task) -> Failure:
 
 
 @contextmanager
-def process_pool(count: int, progress: Watcher = silent, stop: StopSignal = NEVER) -> Iterator[Workers]:
+def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER) -> Iterator[Workers]:
     """Processes that share what this one has loaded, and end with the block; 1 works in this one."""
     if count <= 1:
         yield Workers(progress=progress, stop=stop)

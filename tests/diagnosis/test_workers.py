@@ -1,6 +1,9 @@
 """Every call comes back, in order, as a value or as a failure that names its effects."""
 
+import os
+import signal
 import time
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from multiprocessing import active_children
 
@@ -155,3 +158,21 @@ def test_processes_end_with_their_pool():
         assert len(ours) == 2
         two.pool.submit(long, 60.0)
     assert not any(process.is_alive() for process in ours)
+
+
+def killed(seconds_s):
+    """A process that the system takes away, as it does where memory runs out; or one that is busy."""
+    time.sleep(seconds_s)
+    if not seconds_s:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_process_that_is_lost_is_an_error_and_the_others_end_too():
+    """The other one is busy and hears no signal but that which nobody can ignore."""
+    others = active_children()
+    tasks = [Task(effects=(), arguments=(seconds_s,)) for seconds_s in (60.0, 0.0)]
+    start = time.perf_counter()
+    with pytest.raises(BrokenProcessPool), process_pool(2) as two:
+        two.each("", killed, tasks)
+    assert time.perf_counter() - start < 30.0
+    assert active_children() == others
