@@ -57,7 +57,8 @@ class NominalReplay:
     """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
 
     Attributes:
-      log: as it is diagnosed: averaged, if it has more samples than are of use.
+      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
+        readings of trials that began late.
       problem: the log, its noise, and what is left open of the rig.
       fit: of what came before trials that began late, and of nothing else.
       predictions: of the nominal rig, by trial of the problem.
@@ -114,7 +115,7 @@ def diagnose(
     heard(REPLAYING, 0, 1)
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
-    log = without_unused(nominal.log, nominal.problem.log)
+    log = nominal.log
     heard(REPLAYING, 1, 1)
     with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
@@ -175,8 +176,9 @@ def replay_nominal(log: RigLog) -> NominalReplay:
         fit = nominal_fit(nominal_residuals(problem, predictions))
         return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
     fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
-    rig = fit.parameterization.rig(fit.x)
-    return NominalReplay(log=log, problem=problem, fit=fit, predictions=replay(begun, rig))
+    predictions = replay(begun, fit.parameterization.rig(fit.x))
+    known = without_unused(log, begun)
+    return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
 
 
 def _residuals(

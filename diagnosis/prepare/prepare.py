@@ -16,7 +16,8 @@ from diagnosis.prepare.sensor_noise import base_noise_deg
 
 def prepare(log: RigLog) -> tuple[PreparedLog, float]:
     """The log to replay, and the noise of the base's encoder, deg, that was taken off."""
-    filled = [fill_gaps(trial) for trial in log.trials]
+    sigma_deg = base_noise_deg(log.rig, log.trials)
+    filled = [fill_gaps(trial, sigma_deg) for trial in log.trials]
     sigma_deg = base_noise_deg(log.rig, filled)
     each = zip(log.trials, filled, strict=True)
     trials = tuple(_with_inertia(_prepared(trial, rows, sigma_deg), log.rig) for trial, rows in each)

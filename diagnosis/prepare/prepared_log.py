@@ -15,7 +15,7 @@ from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.drift import drift_whitening
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
-from diagnosis.prepare.late_start import LateStart
+from diagnosis.prepare.late_start import LateStart, late_start_warning
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -111,9 +111,9 @@ class PreparedLog:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Trials whose samples are too rare for what they have to carry, and that began late."""
-        each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
-        late = (t.late_start.warning(t.name) for t in self.trials if t.late_start)
-        return (*(warning for warning in each if warning), *late)
+        each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
+        late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
+        return tuple(warning for warning in (*each, late_start_warning(late)) if warning)
 
 
 def _steadied(depth_mm: Array) -> Array:
