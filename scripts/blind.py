@@ -26,6 +26,7 @@ def make(
     count: int,
     kinds: Sequence[str] | None,
     effects: Sequence[str] | None,
+    roughness: Sequence[str] | None,
     signature: tuple[float, float],
     short: bool,
     console: Console,
@@ -44,6 +45,7 @@ def make(
             count=count,
             kinds=kinds,
             effects=effects,
+            roughness=roughness,
             signature=signature,
             short=short,
         )

@@ -92,9 +92,18 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--seed", type=int, default=1, help="the same seed gives the same bytes")
     make.add_argument("--count", type=int, default=40, help="number of logs (default: 40)")
     make.add_argument(
-        "--kinds", nargs="+", metavar="KIND", help="some of: none single pair off_nominal outside"
+        "--kinds",
+        nargs="+",
+        metavar="KIND",
+        help="some of: none single pair off_nominal outside (drawn by default), rough_none rough_single",
     )
     make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these effects")
+    make.add_argument(
+        "--roughness",
+        nargs="+",
+        metavar="NAME",
+        help="of the rough kinds, each of these in turn and alone (default: pairs of all ten)",
+    )
     make.add_argument(
         "--signature",
         nargs=2,
@@ -187,6 +196,7 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 count=args.count,
                 kinds=args.kinds,
                 effects=args.effects,
+                roughness=args.roughness,
                 signature=(args.signature[0], args.signature[1]),
                 short=args.short,
                 console=console,

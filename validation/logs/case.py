@@ -17,7 +17,9 @@ from validation.logs.alternatives import Alternatives, find_alternatives
 from validation.logs.comparison import RigComparison
 from validation.logs.motions import LogPlan, draw_motions, draw_plan
 from validation.logs.rig_draw import draw_rig
-from validation.logs.sensors import LogSensors, draw_sensors
+from validation.logs.roughness.recording import ROUGHNESSES
+from validation.logs.roughness.roughness import Roughness
+from validation.logs.sensors import LogSensors, draw_sensors, plain
 from validation.logs.strengths import without
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
@@ -56,6 +58,7 @@ class ValidationCase:
     gap: float
     signals: list[IdealSignals]
     alternatives: Alternatives
+    roughness: tuple[Roughness, ...] = ()
 
 
 def draw_case(
@@ -66,17 +69,19 @@ def draw_case(
     short: bool,
     signature: tuple[float, float],
     alternatives: bool = False,
+    roughness: Sequence[str] = (),
 ) -> ValidationCase:
     """Draw until every effect's signature is in its range.
 
     Args:
       alternatives: look for all alternatives of explained cases, too (slow).
+      roughness: names of what is rough in the recording; sensors are plain otherwise.
 
     Raises:
       ImpossibleDraw: no draw has given these effects such signatures.
     """
     for _ in range(DRAWS):
-        case = _attempt(rng, kind, names, short, signature, alternatives)
+        case = _attempt(rng, kind, names, short, signature, alternatives, roughness)
         if case is not None:
             return case
     raise ImpossibleDraw(
@@ -92,10 +97,17 @@ def _attempt(
     short: bool,
     ends: tuple[float, float],
     alternatives: bool,
+    rough: Sequence[str],
 ) -> ValidationCase | None:
     slides, loads = bool(NEEDS_SLIDING & {*names}), bool(NEEDS_LOAD & {*names})
     plan = draw_plan(rng, short=short, slides=slides, loads=loads)
+    roughness = tuple(ROUGHNESSES[name](rng) for name in rough)
+    for one in roughness:
+        plan = one.plan(plan)
     motions, sensors = draw_motions(rng, plan), draw_sensors(rng)
+    sensors = plain(sensors) if roughness else sensors
+    for one in roughness:
+        motions = one.motions(rng, motions)
     if kind == "outside":
         ends = (max(ends[0], LEAST_UNMODELLED), max(ends[1], MOST_UNMODELLED))
     coarse = RigComparison(motions, sensors, coarse=True)
@@ -116,6 +128,7 @@ def _attempt(
         signatures={name: comparison.signature(rig, without(rig, name)) for name in names},
         gap=float(np.hypot(1.0, comparison.signature(rig, replace(rig, effects={}, outside={})))),
         alternatives=found,
+        roughness=roughness,
     )
     return case if all(ends[0] <= value <= ends[1] for value in case.signatures.values()) else None
 

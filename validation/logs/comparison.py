@@ -61,7 +61,7 @@ class RigComparison:
         for motion, signals in zip(self.motions, all_signals, strict=True):
             values = {TIP: signals.tip_deg, TORQUE: signals.torque_n_mm}
             for signal in self.sensors.shown:
-                parts.append(values[signal][:: motion.per_sample] / self.sensors.noise[signal])
+                parts.append(values[signal][motion.recorded] / self.sensors.noise[signal])
         return np.concatenate(parts)
 
 
@@ -77,6 +77,7 @@ def _decimated(motion: TrialMotion) -> TrialMotion:
     return TrialMotion(
         dt_s=motion.dt_s * every,
         per_sample=1,
+        lead=motion.lead // every,
         base_deg=motion.base_deg[::every],
         inserted_mm=motion.inserted_mm[::every],
         free_mm=motion.free_mm[::every],

@@ -8,7 +8,7 @@ from validation.logs.case import ValidationCase
 from validation.rig.motion import TrialMotion
 
 Answer = dict[str, Any]
-VERDICTS = {"none": "none", "outside": "unknown"}
+VERDICTS = {"none": "none", "rough_none": "none", "outside": "unknown"}
 """Verdict that is right for a kind; `explained` for all others."""
 
 
@@ -25,6 +25,8 @@ def ground_truth(kind: str, case: ValidationCase) -> Answer:
     }
     if case.rig.outside:
         answer["outside"] = next(iter(case.rig.outside))
+    if case.roughness:
+        answer["roughness"] = {one.name: dict(one.numbers) for one in case.roughness}
     if case.alternatives.alone:
         best = dict(list(case.alternatives.alone.items())[:3])
         answer["rivals"] = {name: round(value, 3) for name, value in best.items()}
@@ -41,9 +43,9 @@ def ground_truth(kind: str, case: ValidationCase) -> Answer:
 
 def _trial(motion: TrialMotion) -> dict[str, Any]:
     return {
-        "duration_s": round(float(motion.time_s[-1]), 2),
-        "depth_mm": [round(float(depth), 1) for depth in motion.inserted_mm[[0, -1]]],
-        "sliding": bool(np.any(motion.speed_mm_s)),
+        "duration_s": round(float(motion.time_s[-1] - motion.time_s[motion.lead]), 2),
+        "depth_mm": [round(float(depth), 1) for depth in motion.inserted_mm[[motion.lead, -1]]],
+        "sliding": bool(np.any(motion.speed_mm_s[motion.lead :])),
         "growing": motion.growing,
         "loaded": motion.tip_torque_n_mm is not None,
     }

@@ -7,12 +7,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from validation.logs.roughness.recording import PAIRS
 from validation.rig.modelled import MODELLED
 from validation.rig.unmodelled import UNMODELLED
 
 BLOCK = 33
 SHARES = {"none": 0.12, "single": 0.45, "pair": 0.18, "off_nominal": 0.13, "outside": 0.12}
 KINDS = tuple(SHARES)
+"""Drawn by default."""
+ROUGH_SHARES = {"rough_none": 0.2, "rough_single": 0.8}
+SHARES_OF_ALL = SHARES | ROUGH_SHARES
+ALL_KINDS = tuple(SHARES_OF_ALL)
+"""All, the others of which are drawn if they are asked for; shares are relative."""
 PARAMETER_ERRORS = ("stiffness_error", "damping_error")
 
 LOCATIONS = {
@@ -52,8 +58,8 @@ def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, in
 
 def _block(seed: int, block: int, kinds: Sequence[str]) -> list[str]:
     """Kinds of one block: shares by largest remainder, shuffled."""
-    total = sum(SHARES[kind] for kind in kinds)
-    ideal = {kind: BLOCK * SHARES[kind] / total for kind in kinds}
+    total = sum(SHARES_OF_ALL[kind] for kind in kinds)
+    ideal = {kind: BLOCK * SHARES_OF_ALL[kind] / total for kind in kinds}
     counts = {kind: int(value) for kind, value in ideal.items()}
     for kind in sorted(kinds, key=lambda k: counts[k] - ideal[k])[: BLOCK - sum(counts.values())]:
         counts[kind] += 1
@@ -70,7 +76,7 @@ def name_in_turn(seed: int, earlier: int, names: Sequence[str]) -> str:
 
 def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None) -> tuple[str, ...]:
     """Names of the effects of a log; of kind `outside`, of an unmodelled one."""
-    if kind == "none":
+    if kind in ("none", "rough_none"):
         return ()
     known = UNMODELLED if kind == "outside" else MODELLED
     names = [name for name in known if allowed is None or name in allowed] or list(known)
@@ -93,3 +99,13 @@ def _partner(seed: int, earlier: int, first: str) -> str:
     ]
     fit = fit or [name for name in MODELLED if LOCATIONS[name] != LOCATIONS[first]]
     return fit[int(rng.integers(len(fit)))]
+
+
+def roughness_of(seed: int, kind: str, case: int, asked: Sequence[str] | None) -> tuple[str, ...]:
+    """Names of the roughnesses of a log: each pair in turn, or each one that is asked for, alone."""
+    if kind not in ROUGH_SHARES:
+        return ()
+    if asked:
+        return (asked[case % len(asked)],)
+    order = np.random.default_rng([seed, case // len(PAIRS), 4]).permutation(len(PAIRS))
+    return PAIRS[int(order[case % len(PAIRS)])]
