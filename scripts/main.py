@@ -95,7 +95,8 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
         "--kinds",
         nargs="+",
         metavar="KIND",
-        help="some of: none single pair off_nominal outside (drawn by default), rough_none rough_single",
+        help="some of: none single pair off_nominal outside (default: these five), rough_none"
+        " rough_single wrong_constant wrong_outside, or all",
     )
     make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these effects")
     make.add_argument(
@@ -115,6 +116,7 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
     score = actions.add_parser("score", help="diagnose the logs, then compare with the ground truth")
     score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
+    score.add_argument("--limit", type=float, metavar="SECONDS", help="time for each diagnosis")
     score.add_argument(
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
     )
@@ -205,7 +207,12 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             from scripts import blind
 
             return blind.run_score(
-                args.folder, args.out, trials=args.trials, force=args.force, console=console
+                args.folder,
+                args.out,
+                trials=args.trials,
+                limit_s=args.limit,
+                force=args.force,
+                console=console,
             )
         case "import":
             from scripts import import_log

@@ -32,10 +32,11 @@ class RigComparison:
     def signals(
         self, rig: IndependentRig, driven_as: list[IdealSignals] | None = None
     ) -> list[IdealSignals]:
-        """Ideal signals of every trial; `driven_as`: with the base angles of these signals instead."""
+        """Ideal signals of every trial; `driven_as`: with the shown base angles of these instead."""
         key = json.dumps([rig.effects, rig.outside], sort_keys=True)
         if driven_as is not None:
-            base = [signals.base_deg for signals in driven_as]
+            scale = rig.sensor("base_angle_scale", "scale")
+            base = [signals.base_deg / scale for signals in driven_as]
             if any(np.any(b != m.base_deg) for b, m in zip(base, self.motions, strict=True)):
                 motions = [replace(m, base_deg=b) for m, b in zip(self.motions, base, strict=True)]
                 return [ideal_signals(rig, motion, self._cells) for motion in motions]

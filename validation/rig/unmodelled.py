@@ -133,3 +133,6 @@ SENSOR_EFFECTS: dict[str, Callable[[IdealSignals, Parameters], IdealSignals]] = 
     "axial_crosstalk": axial_crosstalk,
 }
 UNMODELLED = (*LAW_EFFECTS, *SENSOR_EFFECTS)
+UNLISTED = ("free_length_error", "diameter_error")
+"""Wrong constants that no effect is named after: `offset`, true less logged free length, mm; `share`, by
+which the needle is thicker than stated."""

@@ -48,7 +48,12 @@ def jittered(rng: Generator, times: Array, rms_s: float) -> Array:
 
 
 def sensor_clock(
-    rng: Generator, low: float = 2e-4, high: float = 0.01, signals: tuple[str, ...] = ()
+    rng: Generator,
+    low: float = 2e-4,
+    high: float = 0.01,
+    signals: tuple[str, ...] = (),
+    *,
+    name: str = "sensor_clock",
 ) -> Roughness:
     """Tip or torque shows what was, or will be, at t (1 + error), t from the start of each trial.
 
@@ -68,9 +73,7 @@ def sensor_clock(
         }
         return IdealSignals(**{n: values[kept] for n, values in (fields | read).items()})
 
-    return Roughness(
-        name="sensor_clock", numbers={"signals": list(chosen), "error": float(error)}, signals=shown
-    )
+    return Roughness(name=name, numbers={"signals": list(chosen), "error": float(error)}, signals=shown)
 
 
 def dropped_samples(rng: Generator) -> Roughness:
