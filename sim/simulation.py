@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from models import units
 from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
+from sim.callback_loop import run_callback
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
-from sim.needles import batch_of, compile_model, models_of
+from sim.needles import batch_of, models_of
 from sim.schedule import Schedule
 from sim.spec import Setup
 
@@ -152,6 +153,7 @@ def simulate(
     models: Sequence[mujoco.MjModel] | None = None,
     keep_shape: bool = False,
     threads: int = 1,
+    callback_alone: bool = False,
 ) -> list[Run]:
     """Run needles of one model size side by side, through the same inputs or each through its own.
 
@@ -163,6 +165,7 @@ def simulate(
         stiffness, inertia, servos and time step are what is simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
+      callback_alone: without MuJoCo's steps, as differences between runs may be (sim.callback_loop).
 
     Raises:
       InvalidValue: the setups differ in elements or rows of the law table; the inputs are not as many
@@ -182,13 +185,16 @@ def simulate(
             )
     stepped = _at_steps(inputs, len(setups), first.opt.timestep)
     ctrl = np.stack([controls(own, setup) for own, setup in zip(stepped, setups, strict=True)])
-    batch = batch_of(models, threads)
     starts = [_start(setup, own[0], first.nq) for setup, own in zip(setups, ctrl, strict=True)]
-    batch.state[:] = 0.0
-    batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
-    batch.forward()
-    record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
-    raw = batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record)
+    if callback_alone:
+        raw = {"sensordata": run_callback(models, starts, ctrl)}
+    else:
+        batch = batch_of(models, threads)
+        batch.state[:] = 0.0
+        batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
+        batch.forward()
+        record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
+        raw = batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record)
     return [
         _run(setups[i], stepped[i], starts[i], ctrl[i, 0], {k: v[i] for k, v in raw.items()})
         for i in range(len(setups))
@@ -208,9 +214,7 @@ def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) 
     return [stepped[id(own)] for own in each]
 
 
-def _run(
-    setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]
-) -> Run:
+def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]) -> Run:
     """What came of a rollout that set off at some joints `start`, under the inputs `ctrl`."""
     outputs = np.vstack([_at_rest(setup, start, ctrl), raw["sensordata"]])
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:

@@ -82,7 +82,7 @@ def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
     rig = fit.parameterization.rig(fit.x)
     found = []
     for _ in range(_REPLICATES):
-        runs = _noisier(problem, rng).residuals([rig])
+        runs = _noisier(problem, rng).residuals([rig], callback_alone=True)
         moved = [run[0] - residual for run, residual in zip(runs, fit.by_trial, strict=True)]
         found.append(_answer(fit, inverse, moved))
     return np.array(found)

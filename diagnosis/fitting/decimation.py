@@ -26,6 +26,8 @@ from diagnosis.replay.rig_parameters import NOMINAL
 
 Array = NDArray[np.float64]
 
+_TOLERANCE = 0.1  # of fits that only tell which ones to do again on the log itself
+
 
 def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
     """The problem for a coarse needle, given the fine nominal predictions of its trials.
@@ -43,6 +45,7 @@ def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
         log=PreparedLog(rig=log.rig, trials=trials),
         noise=replace(problem.noise, sigma=sigma),
         resolution=COARSE,
+        tolerance=_TOLERANCE,
     )
 
 

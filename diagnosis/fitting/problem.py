@@ -25,6 +25,7 @@ class FitProblem:
     Attributes:
       nuisance: what every fit leaves open.
       library: effects with bounds and starts for a rig of this size.
+      tolerance: within which fits converge, in standard deviations of their parameters.
     """
 
     log: PreparedLog
@@ -32,20 +33,28 @@ class FitProblem:
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: LIBRARY)
+    tolerance: float = 0.02
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
         return parameterization_of(names, self.nuisance, self.library)
 
-    def residuals(self, rigs: Sequence[RigParameters]) -> list[list[Array]]:
+    def residuals(
+        self, rigs: Sequence[RigParameters], *, callback_alone: bool = False
+    ) -> list[list[Array]]:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
+
+        Args:
+          callback_alone: for differences between residuals alone (sim.callback_loop).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.
         """
         found = []
         for trial in self.log.trials:
-            predictions = predict(self.log.rig, trial, rigs, self.resolution)
+            predictions = predict(
+                self.log.rig, trial, rigs, self.resolution, callback_alone=callback_alone
+            )
             found.append([residuals(trial, p, self.noise) for p in predictions])
         return found
 

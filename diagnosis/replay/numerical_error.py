@@ -37,7 +37,7 @@ def refinement_change(
     changes = []
     for trial, here in zip(log.trials, predictions, strict=True):
         finer = Resolution(elements=2 * resolution.elements, step_s=0.5 * resolution.step_of(trial))
-        there = predict(log.rig, trial, [rig], finer)[0]
+        there = predict(log.rig, trial, [rig], finer, callback_alone=True)[0]
         change = {s: (there[s] - here[s]) / noise[s] for s in SENSORS if trial.has(s)}
         changes.append({s: c[np.isfinite(trial.readings[s])] for s, c in change.items()})
     return changes

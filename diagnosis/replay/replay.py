@@ -55,14 +55,20 @@ def predict(
     trial: PreparedTrial,
     rigs: Sequence[RigParameters],
     resolution: Resolution = FINE,
+    *,
+    callback_alone: bool = False,
 ) -> list[Prediction]:
     """Predictions of one trial by several rigs, in their order.
+
+    Args:
+      callback_alone: without MuJoCo's steps, for differences between predictions (sim.callback_loop).
 
     Raises:
       SimulationFailed: one of them cannot be simulated.
     """
     needles = list(dict.fromkeys(rig.without_sensors() for rig in rigs))
-    runs = dict(zip(needles, _run(nominal, trial, needles, resolution), strict=True))
+    done = _run(nominal, trial, needles, resolution, callback_alone=callback_alone)
+    runs = dict(zip(needles, done, strict=True))
     return [_sensed(rig, runs[rig.without_sensors()], trial.time_s) for rig in rigs]
 
 
@@ -90,6 +96,7 @@ def _run(
     resolution: Resolution,
     *,
     keep_shape: bool = False,
+    callback_alone: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
     inputs = [driven(rig, trial.schedule) for rig in rigs]
@@ -97,7 +104,7 @@ def _run(
         rig.setup(nominal, own, elements=elements, step_s=step_s)
         for rig, own in zip(rigs, inputs, strict=True)
     ]
-    return simulate(setups, inputs, keep_shape=keep_shape)
+    return simulate(setups, inputs, keep_shape=keep_shape, callback_alone=callback_alone)
 
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
