@@ -32,11 +32,18 @@ _FUTILE = 10.0  # times what the linear model promises
 _MOST_TRIES = 12  # steps along one direction, each shorter
 
 
+_WORDS = {
+    Termination.OFFSET: "relative offset < tol.",
+    Termination.STALLED: "insufficient reduction.",
+    Termination.BEHIND: "cannot come near the best.",
+}
+
+
 class Ended(Exception):
     """The end of a fit: where, and why."""
 
-    def __init__(self, x: Array, termination: Termination) -> None:
-        super().__init__(termination.value)
+    def __init__(self, x: Array, termination: Termination, iterations: int) -> None:
+        super().__init__(f"Terminated after {iterations} iterations: {_WORDS[termination]}")
         self.x, self.termination = x, termination
 
 
@@ -58,7 +65,7 @@ class Stopping:
     def __call__(self, x: Array) -> Array:
         """Residuals with the prior, (N,)."""
         if self._tries == (1 if self._last else _MOST_TRIES):
-            raise Ended(self._there, Termination.OFFSET if self._last else Termination.STALLED)
+            raise self._ended(self._there, Termination.OFFSET if self._last else Termination.STALLED)
         self._tries += 1
         self._tried = x.ravel().copy()
         return self.objective(x)
@@ -70,19 +77,23 @@ class Stopping:
         self._jacobians += 1
         cost, promised = float(at_x.ravel() @ at_x.ravel()), self._promised(at_x.ravel(), slopes)
         if self._jacobians > 1 and cost - _FUTILE * promised > self.enough:
-            raise Ended(self._there, Termination.BEHIND)
+            raise self._ended(self._there, Termination.BEHIND)
         freedom = slopes.shape[1]
         noise = cost / max(at_x.size - freedom, 1)
         offset = np.sqrt(promised / (freedom * noise)) if noise > 0 else 0.0
         if offset <= self.tolerance:
-            raise Ended(self._there, Termination.OFFSET)
+            raise self._ended(self._there, Termination.OFFSET)
         self._last = bool(offset <= _ONE_MORE * self.tolerance)
         return slopes
 
     def after_step(self, trace: Sequence[minimize.IterLog]) -> None:
         """What `mujoco.minimize` calls after every step that reduced the cost."""
         if self._last and trace[-1].reduction > 0 and trace[-1].regularizer < _DAMPED:
-            raise Ended(self._tried, Termination.OFFSET)
+            raise self._ended(self._tried, Termination.OFFSET, more=1)
+
+    def _ended(self, x: Array, termination: Termination, more: int = 0) -> Ended:
+        """After as many steps as Jacobians were taken before this one, and perhaps one more."""
+        return Ended(x, termination, self._jacobians - 1 + more)
 
     def _promised(self, residual: Array, slopes: Array) -> float:
         """What the linear model takes off the cost, within bounds."""
