@@ -21,11 +21,9 @@ from numpy.typing import NDArray
 from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.kernel.struct_offsets import read_struct_offsets
+from sim.needles import data_of
 
 Array = NDArray[np.float64]
-
-_DATA: dict[tuple[int, ...], mujoco.MjData] = {}  # one of each size
-
 
 @intrinsic
 def _call(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
@@ -40,7 +38,7 @@ def _call(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
     return types.void(types.intp, types.intp, types.intp), codegen
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _loop(
     callback: int,
     model: int,
@@ -86,13 +84,14 @@ def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl
     """
     shown = np.empty((len(models), ctrl.shape[1] - 1, memory_map.OUTPUTS))
     for i, (model, start) in enumerate(zip(models, starts, strict=True)):
-        _run(model, start, ctrl[i], shown[i])
+        with data_of(model) as data:
+            _run(model, data, start, ctrl[i], shown[i])
     return shown
 
 
-def _run(model: mujoco.MjModel, start: Array, ctrl: Array, shown: Array) -> None:
-    data = _DATA.setdefault((model.nq, model.nuserdata), mujoco.MjData(model))
-    mujoco.mj_resetData(model, data)
+def _run(
+    model: mujoco.MjModel, data: mujoco.MjData, start: Array, ctrl: Array, shown: Array
+) -> None:
     data.qpos[:], data.ctrl[:] = start, ctrl[0]
     mujoco.mj_forward(model, data)
     head = model.numeric_data[: memory_map.HEADER]

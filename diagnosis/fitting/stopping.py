@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
 _FUTILE = 10.0  # times what the linear model promises
-_MOST_TRIES = 12  # steps along one direction, each shorter
+_MOST_TRIES = 9  # steps along one direction, each shorter
 
 
 _WORDS = {

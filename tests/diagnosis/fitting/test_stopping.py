@@ -44,7 +44,7 @@ def test_at_the_minimum_to_within_the_tolerance_it_has_converged():
 
 def test_close_to_the_minimum_one_step_is_left_and_a_second_is_not_tried():
     line = Line()
-    for sigmas, steps in ((0.3, 1), (0.7, 12)):
+    for sigmas, steps in ((0.3, 1), (0.7, 9)):
         stopping, x = Stopping(line, 0.1), offset_by(line, sigmas * np.sqrt(2))
         stopping.jacobian(x, line(x))
         for _ in range(steps):
