@@ -25,6 +25,7 @@ from sim.needles import data_of
 
 Array = NDArray[np.float64]
 
+
 @intrinsic
 def _call(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
     """Call a C function (model, data) at an address."""
@@ -89,9 +90,7 @@ def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl
     return shown
 
 
-def _run(
-    model: mujoco.MjModel, data: mujoco.MjData, start: Array, ctrl: Array, shown: Array
-) -> None:
+def _run(model: mujoco.MjModel, data: mujoco.MjData, start: Array, ctrl: Array, shown: Array) -> None:
     data.qpos[:], data.ctrl[:] = start, ctrl[0]
     mujoco.mj_forward(model, data)
     head = model.numeric_data[: memory_map.HEADER]

@@ -37,7 +37,7 @@ class Kept(Generic[T]):
         yield one, new
         free.append(one)
         if len(self._free) > self._most:
-            self._free.pop(next(iter(self._free)), None)
+            self._free.pop(list(self._free)[0], None)
 
 
 _MODELS: Kept[mujoco.MjModel] = Kept()

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
-from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -50,13 +51,14 @@ class FitProblem:
         Raises:
           SimulationFailed: a rig cannot be simulated.
         """
-        found = []
-        for trial in self.log.trials:
+
+        def of(trial: PreparedTrial) -> list[Array]:
             predictions = predict(
                 self.log.rig, trial, rigs, self.resolution, callback_alone=callback_alone
             )
-            found.append([residuals(trial, p, self.noise) for p in predictions])
-        return found
+            return [residuals(trial, p, self.noise) for p in predictions]
+
+        return side_by_side(of, self.log.trials)
 
     def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
         """The same with its noise changed as another problem's was, from `before` to `noise`."""

@@ -18,6 +18,7 @@ from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, sensed
+from diagnosis.workers import side_by_side
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
@@ -47,7 +48,7 @@ def replay(
     Raises:
       SimulationFailed: the rig cannot be simulated.
     """
-    return [predict(log.rig, trial, [rig], resolution)[0] for trial in log.trials]
+    return side_by_side(lambda trial: predict(log.rig, trial, [rig], resolution)[0], log.trials)
 
 
 def predict(
