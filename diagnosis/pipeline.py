@@ -106,7 +106,9 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
-    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
+    noise = estimate_noise(
+        log.rig, _residuals(prepared, predictions), base_sigma_deg, told, prepared.rounded
+    )
     library = library_of(scale_of(prepared))
     problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
     return NominalReplay(log=log, problem=problem, predictions=predictions)

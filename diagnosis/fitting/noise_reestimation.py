@@ -25,7 +25,10 @@ Array = NDArray[np.float64]
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors as the best fit leaves it."""
     change = {s: _change(own) for s, own in _by_sensor(problem, best.by_trial).items()}
-    sigma = {s: own * change.get(s, 1.0) for s, own in problem.noise.sigma.items()}
+    least = problem.noise.least
+    sigma = {
+        s: max(own * change.get(s, 1.0), least.get(s, 0.0)) for s, own in problem.noise.sigma.items()
+    }
     return replace(problem.noise, sigma=sigma)
 
 

@@ -5,7 +5,7 @@ it (`base_motion_deg` here) are two things: a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -81,10 +81,15 @@ class PreparedTrial:
 
 @dataclass(frozen=True, kw_only=True)
 class PreparedLog:
-    """The nominal rig and its trials, ready for replay."""
+    """The nominal rig and its trials, ready for replay.
+
+    Attributes:
+      rounded: least noise of columns that are read in coarse steps.
+    """
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
+    rounded: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -24,10 +24,15 @@ _UNKNOWN = 1.0  # where nothing is claimed and too little was read
 
 @dataclass(frozen=True, kw_only=True)
 class Noise:
-    """One standard deviation by sensor and of the base's encoder, and what was odd about it."""
+    """One standard deviation by sensor and of the base's encoder, and what was odd about it.
+
+    Attributes:
+      least: what readings in coarse steps have at least.
+    """
 
     sigma: Mapping[str, float]
     warnings: tuple[str, ...] = field(default=())
+    least: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
@@ -38,6 +43,7 @@ def estimate_noise(
     residuals: Mapping[str, Sequence[Array]],
     base_sigma_deg: float,
     told: Collection[str] = (),
+    least: Mapping[str, float] | None = None,
 ) -> Noise:
     """Noise of a log.
 
@@ -45,7 +51,9 @@ def estimate_noise(
       residuals: measured minus nominal, by sensor and trial.
       base_sigma_deg: of the base's encoder.
       told: columns whose claim has been doubted before.
+      least: noise of columns in coarse steps, which differences of standing readings do not show.
     """
+    least = least or {}
     claims = rig.sensors.by_column()
     sigma, warnings = (
         {BASE: base_sigma_deg},
@@ -55,12 +63,13 @@ def estimate_noise(
         found = white_noise(residuals.get(sensor, ()), order=_ORDER)
         if not np.isfinite(found) or found <= 0:
             found = claims[sensor] or _UNKNOWN
+        found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
         warnings[sensor] = _scatters_otherwise(sensor, found, claims[sensor]) or _below_noise(
             sensor, residuals.get(sensor, ()), found
         )
     said = tuple(warning for column, warning in warnings.items() if warning and column not in told)
-    return Noise(sigma=sigma, warnings=said)
+    return Noise(sigma=sigma, warnings=said, least=least)
 
 
 def _scatters_otherwise(column: str, found: float, claimed: float) -> str:
