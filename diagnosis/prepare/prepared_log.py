@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.between_samples import between_samples
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
 from sim.schedule import Schedule
 
@@ -53,9 +54,8 @@ class PreparedTrial:
     def schedule(self) -> Schedule:
         """What was done to the needle."""
         torque = self.tip_torque_n_mm
-        time, motion = self.time_s, self.base_motion_deg
-        if self.inertia.counts:
-            time, motion = smooth_motion(time, motion)
+        finer = smooth_motion if self.inertia.counts else between_samples
+        time, motion = finer(self.time_s, self.base_motion_deg)
 
         def at(values: Array) -> Array:
             return values if time is self.time_s else np.interp(time, self.time_s, values)

@@ -3,17 +3,18 @@
 Rounding to steps of q adds q / sqrt(12) of noise. Where a signal moves across steps, or noise of half a
 step and more shakes it across, that is as white as other noise. Where neither is so, the error is one
 constant, up to q / 2: a hundred readings say no more than one. So of readings that stand still, one in
-a quarter of a second counts. The base is a reading too: while a coarse encoder stands still, base,
+half a second counts. The base is a reading too: while a coarse encoder stands still, base,
 tip and torque are all off by what it does not show.
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COARSE_STEP_SIGMA, HELD_COUNTED_S, HELD_STEPS, SHAKEN_STEP_SIGMA
+from diagnosis.criteria import COARSE_STEP_SIGMA, HELD_COUNTED_S, HELD_S, HELD_STEPS, SHAKEN_STEP_SIGMA
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.sensor_faults import quantum
 from diagnosis.log.trial import SENSORS, Trial
@@ -63,16 +64,19 @@ def _standing(column: str, step: float, claims: Mapping[str, float]) -> bool:
 
 
 def _held(trial: Trial, column: str, step: float) -> Mask:
-    """Where a reading, averaged over a quarter of a second, stays within a part of a step."""
-    width = max(round(HELD_COUNTED_S / float(np.median(np.diff(trial["time_s"])))), 2)
-    means = (
-        pd.Series(trial[column]).interpolate(limit_direction="both").rolling(width, center=True).mean()
-    )
-    ranges = means.rolling(width, center=True).max() - means.rolling(width, center=True).min()
-    return np.asarray(ranges <= HELD_STEPS * step)
+    """Where a reading, averaged over a tenth of a second, stays within a step for longer than that."""
+    width = max(round(HELD_S / float(np.median(np.diff(trial["time_s"])))), 2)
+    read = pd.Series(trial[column]).interpolate(limit_direction="both")
+
+    def rolled(values: "pd.Series[float]") -> Any:
+        return values.rolling(width, center=True, min_periods=1)
+
+    means = rolled(read).mean()
+    ranges = rolled(means).max() - rolled(means).min()
+    return np.asarray(rolled(ranges).min() <= HELD_STEPS * step)
 
 
 def _counted(trial: Trial) -> Mask:
-    """One sample in every quarter of a second."""
+    """One sample in every half of a second."""
     part = np.floor((trial["time_s"] - trial["time_s"][0]) / HELD_COUNTED_S)
     return np.diff(part, prepend=-1.0) > 0
