@@ -14,10 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import EQUIVALENT_FITS, EQUIVALENT_LEAVES, EQUIVALENT_SIZE, SCATTER, SIMPLE_LEAD
+from diagnosis.criteria import EQUIVALENT_FITS, EQUIVALENT_LEAVES, EQUIVALENT_SIZE, SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.nuisance import CONVENTIONS
 from diagnosis.fitting.parameterization import starts
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.prepared_log import PreparedTrial
@@ -115,9 +116,9 @@ def covers(names: Sequence[str], others: Sequence[str]) -> bool:
 
 
 def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
-    """Without the scatter that it does not name: what is alike is alike without it."""
+    """Without scatter and pasts, which it does not name: what is alike is alike without them."""
     sensors = (coarse.library[name] for name in best.names if name not in LIBRARY)
-    open_ = (*sensors, *(e for e in coarse.nuisance if e.name not in SCATTER))
+    open_ = (*sensors, *(e for e in coarse.nuisance if e.name in CONVENTIONS))
     own = {name: best.fit.parts[name] for name in best.named}
     kept = {e.name: best.fit.parts[e.name] for e in open_}
     problem = replace(coarse, nuisance=open_)

@@ -8,7 +8,7 @@ be equal, and no log can tell.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from diagnosis.effects import IMPERFECTIONS
+from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
@@ -48,7 +48,11 @@ def told_apart(found: SearchState, workers: Workers) -> ToldApart:
     first = _judged(found)
     if not first.verdict.effects:
         return first
-    equal = equivalent_sets(first.coarse, first.verdict.best, found.effects, workers)
+    if workers.stop.due:
+        workers.stop.leave_out(_STAGE)
+        return first
+    effects = [name for name in found.effects if name in LIBRARY]
+    equal = equivalent_sets(first.coarse, first.verdict.best, effects, workers)
     few = [e for e in equal if len(e.names) <= len(first.verdict.effects)]
     wider = _fitted(found, first.verdict.best, few, workers)
     last = first if wider is found else _judged(wider, first.checked)
