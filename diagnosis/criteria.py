@@ -238,17 +238,17 @@ GAP_ERASED_TWISTS = 2.0
 twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
 BETWEEN_SAMPLES_S = 0.015
 STRAIGHT_DEG = 0.1
-"""Samples this far apart leave the motion between them open; and by how much the rate of the base may change
-from sample to sample, in degrees, where it is straight."""
+"""Samples this far apart leave the motion between them open; and by how much the rate of the base may
+change from sample to sample, in degrees, where it is straight."""
 COARSE_STEP_SIGMA = 2.0
 """Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them."""
 SHAKEN_STEP_SIGMA = 3.0
-"""Derived: noise shakes a reading across steps so that its mean is off by exp(-2 (pi sigma / q)^2) q / pi: a
-tenth of sigma at three, seven tenths at five."""
+"""Derived: noise shakes a reading across steps so that its mean is off by exp(-2 (pi sigma / q)^2) q / pi:
+a tenth of sigma at three, seven tenths at five."""
 HELD_S, HELD_STEPS = 0.12, 1.0
 HELD_COUNTED_S = 0.5
-"""A coarse reading whose means change by less than a step in so long stands still, and counts so often. Set
-on fresh logs that were rounded: there it leaves 1.16 and less as slow part where all of them left 2.3."""
+"""A coarse reading whose means change by less than a step in so long stands still, and counts so often.
+Set on fresh logs that were rounded: it leaves 1.16 and less as slow part where all of them left 2.3."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
 TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)

@@ -79,4 +79,4 @@ def _held(trial: Trial, column: str, step: float) -> Mask:
 def _counted(trial: Trial) -> Mask:
     """One sample in every half of a second."""
     part = np.floor((trial["time_s"] - trial["time_s"][0]) / HELD_COUNTED_S)
-    return np.diff(part, prepend=-1.0) > 0
+    return np.asarray(np.diff(part, prepend=-1.0) > 0)
