@@ -243,8 +243,8 @@ change from sample to sample, in degrees, where it is straight."""
 COARSE_STEP_SIGMA = 2.0
 """Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them."""
 SHAKEN_STEP_SIGMA = 3.0
-"""Derived: noise shakes a reading across steps so that its mean is off by exp(-2 (pi sigma / q)^2) q / pi:
-a tenth of sigma at three, seven tenths at five."""
+"""Derived: noise shakes a reading across steps, so that its mean is off by
+exp(-2 (pi sigma / q)^2) q / pi: a tenth of sigma at three, seven tenths at five."""
 HELD_S, HELD_STEPS = 0.12, 1.0
 HELD_COUNTED_S = 0.5
 """A coarse reading whose means change by less than a step in so long stands still, and counts so often.
