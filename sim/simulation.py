@@ -1,24 +1,26 @@
 """Running needles in MuJoCo: one, or many side by side."""
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from models import units
 from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
+from sim.callback_loop import run_callback
+from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
+from sim.needles import batch_of, models_of
 from sim.schedule import Schedule
-from sim.spec import Setup, needle_spec, renumbered
+from sim.spec import Setup
 
 Array = NDArray[np.float64]
 
-_INTEGRATION = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _LANDING_TOLERANCE_RAD = 1e-8
 _SAME_TIME = 1e-6  # of a step
 
@@ -121,28 +123,6 @@ def passive_torques(model: mujoco.MjModel, data: mujoco.MjData) -> PassiveTorque
     )
 
 
-def compile_model(setup: Setup) -> mujoco.MjModel:
-    """The compiled model, with the tissue callback installed."""
-    install()
-    return needle_spec(setup).compile()
-
-
-_TEMPLATES: dict[tuple[object, ...], mujoco.MjModel] = {}
-_MOST_TEMPLATES = 64
-
-
-def _model(setup: Setup) -> mujoco.MjModel:
-    """A model of its own; where the bodies are known already, a copy with other numbers."""
-    key = setup.bodies
-    if key is None:
-        return compile_model(setup)
-    if key not in _TEMPLATES:
-        if len(_TEMPLATES) >= _MOST_TEMPLATES:
-            _TEMPLATES.clear()
-        _TEMPLATES[key] = compile_model(setup)
-    return renumbered(_TEMPLATES[key], setup)
-
-
 def controls(inputs: Schedule, setup: Setup) -> Array:
     """`ctrl` at every sample, SI, (N, inputs)."""
     ctrl = np.zeros((inputs.time_s.size, memory_map.INPUTS))
@@ -162,13 +142,23 @@ def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjD
       ctrl: the inputs at the start, SI, (inputs,).
     """
     data = mujoco.MjData(model)
-    if setup.drive.kind is DriveKind.ANGLE:
-        chain = model.numeric("needle").data[memory_map.H_CHAIN] != 0
-        data.qpos[1 : 2 if chain else None] = ctrl[memory_map.U_DRIVE]
-    data.qpos[0] = ctrl[memory_map.U_CARRIAGE]
+    data.qpos[:] = _start(setup, ctrl, model.nq)
     data.ctrl[:] = ctrl
     mujoco.mj_forward(model, data)
     return data
+
+
+def _start(setup: Setup, ctrl: Array, joints: int) -> Array:
+    """Joints of an untwisted needle, the carriage's first: m, then rad, (joints,)."""
+    qpos = np.zeros(joints)
+    qpos[0] = ctrl[memory_map.U_CARRIAGE]
+    if setup.drive.kind is DriveKind.ANGLE:
+        qpos[1 : 2 if _is_chain(setup) else None] = ctrl[memory_map.U_DRIVE]
+    return qpos
+
+
+def _is_chain(setup: Setup) -> bool:
+    return setup.discretisation.arrangement is Arrangement.CHAIN
 
 
 def simulate(
@@ -178,6 +168,7 @@ def simulate(
     models: Sequence[mujoco.MjModel] | None = None,
     keep_shape: bool = False,
     threads: int = 1,
+    callback_alone: bool = False,
 ) -> list[Run]:
     """Run needles of one model size side by side, through the same inputs or each through its own.
 
@@ -189,14 +180,33 @@ def simulate(
         stiffness, inertia, servos and time step are what is simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
+      callback_alone: without MuJoCo's steps, as differences between runs may be
+        (sim.callback_loop); no shape is kept.
 
     Raises:
       InvalidValue: the setups differ in elements or rows of the law table; the inputs are not as many
         as the set-ups, or last differently long.
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
-    models = [_model(setup) for setup in setups] if models is None else list(models)
     install()
+    with models_of(setups) if models is None else nullcontext(list(models)) as own:
+        first = own[0]
+        _refuse_other_sizes(own)
+        stepped = _at_steps(inputs, len(setups), first.opt.timestep)
+        ctrl = np.stack([controls(each, setup) for each, setup in zip(stepped, setups, strict=True)])
+        starts = [_start(setup, each[0], first.nq) for setup, each in zip(setups, ctrl, strict=True)]
+        if callback_alone:
+            raw = {"sensordata": run_callback(own, starts, ctrl)}
+        else:
+            raw = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
+    return [
+        _run(setups[i], stepped[i], starts[i], ctrl[i, 0], {k: v[i] for k, v in raw.items()})
+        for i in range(len(setups))
+    ]
+
+
+def _refuse_other_sizes(models: Sequence[mujoco.MjModel]) -> None:
+    """A batch is of models of one size."""
     first = models[0]
     for model in models:
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):
@@ -206,23 +216,28 @@ def simulate(
                 f"the same number of elements and rows in every set-up, {first.nq, first.nuserdata}",
                 "set `rows` to the largest number of rows",
             )
-    stepped = _at_steps(inputs, len(setups), first.opt.timestep)
-    ctrl = np.stack([controls(own, setup) for own, setup in zip(stepped, setups, strict=True)])
-    batch = Batch(first, len(setups), threads)
-    batch.set_models(models)
-    starts = []
-    for i, (setup, model) in enumerate(zip(setups, models, strict=True)):
-        data = initial_data(model, setup, ctrl[i, 0])
-        starts.append(data)
-        state = np.empty(mujoco.mj_stateSize(model, _INTEGRATION))
-        mujoco.mj_getState(model, data, state, _INTEGRATION)
-        batch.state[i] = state
+
+
+def _rollout(
+    models: Sequence[mujoco.MjModel],
+    starts: Sequence[Array],
+    ctrl: Array,
+    *,
+    keep_shape: bool,
+    threads: int,
+) -> dict[str, Array]:
+    """What MuJoCo records at the ends of steps, (needles, N, ...) each.
+
+    Args:
+      starts: joints at the start, (joints,) each.
+      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+    """
     record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
-    raw = batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record)
-    return [
-        _run(setups[i], stepped[i], starts[i], {k: v[i] for k, v in raw.items()})
-        for i in range(len(setups))
-    ]
+    with batch_of(models, threads) as batch:
+        batch.state[:] = 0.0
+        batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
+        batch.forward()
+        return dict(batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record))
 
 
 def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) -> list[Schedule]:
@@ -238,22 +253,23 @@ def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) 
     return [stepped[id(own)] for own in each]
 
 
-def _run(setup: Setup, inputs: Schedule, start: mujoco.MjData, raw: dict[str, Array]) -> Run:
-    outputs = np.vstack([_at_rest(start, setup), raw["sensordata"]])
+def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]) -> Run:
+    """What came of a rollout that set off at some joints `start`, under the inputs `ctrl`."""
+    outputs = np.vstack([_at_rest(setup, start, ctrl), raw["sensordata"]])
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:
         _centre_inertia(outputs)
     refuse_untrustworthy(outputs, inputs.time_s, setup.discretisation.step_s)
     if "qpos" not in raw:
         return Run(setup=setup, inputs=inputs, outputs=outputs)
-    angles = np.vstack([start.qpos[None, 1:], raw["qpos"][:, 1:]])
-    if start.model.numeric("needle").data[memory_map.H_CHAIN] != 0:
+    angles = np.vstack([start[1:], raw["qpos"][:, 1:]])
+    if _is_chain(setup):
         angles = np.cumsum(angles, axis=1)
     return Run(
         setup=setup,
         inputs=inputs,
         outputs=outputs,
         angles_rad=angles,
-        tissue_rad=_tissue(start, raw["userdata"]),
+        tissue_rad=_tissue(setup, raw["userdata"]),
     )
 
 
@@ -287,19 +303,18 @@ def _centre_inertia(outputs: Array) -> None:
     outputs[:-1, memory_map.O_BASE_TORQUE] += inertia[1:] - inertia[:-1]
 
 
-def _at_rest(start: mujoco.MjData, setup: Setup) -> Array:
+def _at_rest(setup: Setup, start: Array, ctrl: Array) -> Array:
     """The outputs before anything has moved."""
     row = np.zeros(memory_map.OUTPUTS)
-    row[[memory_map.O_BASE_ANGLE, memory_map.O_TIP_ANGLE]] = start.qpos[1]
-    row[memory_map.O_TIP_TORQUE] = start.ctrl[memory_map.U_TIP]
+    row[[memory_map.O_BASE_ANGLE, memory_map.O_TIP_ANGLE]] = start[1]
+    row[memory_map.O_TIP_TORQUE] = ctrl[memory_map.U_TIP]
     if setup.drive.kind is DriveKind.TORQUE:
-        row[memory_map.O_BASE_TORQUE] = start.ctrl[memory_map.U_DRIVE]
+        row[memory_map.O_BASE_TORQUE] = ctrl[memory_map.U_DRIVE]
     return row
 
 
-def _tissue(start: mujoco.MjData, userdata: Array) -> Array:
-    head = start.model.numeric("needle").data
-    n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+def _tissue(setup: Setup, userdata: Array) -> Array:
+    n, rows = setup.nodes_mm.size - 1, len(setup.law)
     size = memory_map.block(n, rows)
     at = memory_map.CLOCK + size + memory_map.B_ANGLES + 2 * (n + 1)
     sites = userdata[:, at : at + memory_map.SITE * 2 * n * rows].reshape(

@@ -12,8 +12,8 @@ The inputs (`ctrl`) are, in order: drive (rad or N m), carriage (m), inserted
 length (m), axial speed (m/s), torque at the tip (N m, positive resists).
 """
 
-import copy
 from dataclasses import dataclass
+from functools import cached_property
 
 import mujoco
 import numpy as np
@@ -74,7 +74,12 @@ class Setup:
     @property
     def nodes_mm(self) -> Array:
         """Node positions from the chuck at the start, mm, (n + 1,)."""
-        return self._mesh()[0]
+        return self._mesh[0]
+
+    @cached_property
+    def law(self) -> Array:
+        """The law table, (rows, columns) of `sim.kernel.memory_map`."""
+        return law_table(self.needle, self.drive, self.tissue, rows=self.rows)
 
     @property
     def bodies(self) -> tuple[object, ...] | None:
@@ -84,19 +89,19 @@ class Setup:
         """
         if self.discretisation.arrangement is Arrangement.CHAIN:
             return None
-        law = law_table(self.needle, self.drive, self.tissue, rows=self.rows)
         rotor = (self.drive.rotor_inertia_kg_m2, self.drive.torque_limit_n_mm)
         own = (self.needle.rotary_inertia_kg_m, self.needle.tip_inertia_kg_m2)
         inertia = (self.needle.mass_kg_per_m, *own, *rotor)
-        nodes, stretching = self._mesh()
+        nodes, stretching = self._mesh
         radius = self.needle.radius_mm
-        return (self.discretisation, self.drive.kind, inertia, radius, len(law), stretching, *nodes)
+        return (self.discretisation, self.drive.kind, inertia, radius, len(self.law), stretching, *nodes)
 
     @property
     def stretching(self) -> int:
         """Elements that share the free length."""
-        return self._mesh()[1]
+        return self._mesh[1]
 
+    @cached_property
     def _mesh(self) -> tuple[Array, int]:
         return node_positions_mm(
             self.discretisation,
@@ -141,26 +146,21 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
             name=name,
             type=mujoco.mjtSensor.mjSENS_USER,
             dim=1,
-            needstage=mujoco.mjtStage.mjSTAGE_ACC,
+            needstage=mujoco.mjtStage.mjSTAGE_VEL,  # after the passive force, before accelerations
         )
     return spec
 
 
-def renumbered(model: mujoco.MjModel, setup: Setup) -> mujoco.MjModel:
-    """A copy of a model of the same bodies, with the numbers of a set-up.
+def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
+    """Give a model of the same bodies the numbers of a set-up.
 
     Siblings have no torsion in their joints: all that a rig changes in MuJoCo's own
-    numbers is then the servo. It costs a tenth of compiling.
+    numbers is then the servo.
     """
-    law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
-    changed = copy.copy(model)
-    changed.numeric("needle").data[:] = header(setup, rows=len(law))
-    changed.numeric("needle_law").data[:] = law.ravel()
-    changed.numeric("needle_springs").data[:] = springs_n_m_per_rad(setup)
-    changed.joint("twist_0").stiffness[0] = setup.servo_n_m_per_rad
+    model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
+    model.jnt_stiffness[memory_map.FIRST_JOINT] = setup.servo_n_m_per_rad
     if setup.drive.kind is DriveKind.ANGLE:
-        changed.actuator("drive").gear[0] = setup.servo_n_m_per_rad
-    return changed
+        model.actuator_gear[memory_map.U_DRIVE, 0] = setup.servo_n_m_per_rad
 
 
 def _mass_kg(setup: Setup) -> float:
@@ -204,19 +204,22 @@ def springs_n_m_per_rad(setup: Setup) -> Array:
     return stiffness
 
 
-def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
-    law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
-    nodes = setup.nodes_mm * units.MM
+def _numbers(setup: Setup) -> dict[str, Array]:
+    """The numeric fields of `sim.kernel.memory_map` by name, in their order."""
     fields = {
-        "needle": header(setup, rows=len(law)),
-        "needle_mesh": nodes,
-        "needle_law": law.ravel(),
+        "needle": header(setup, rows=len(setup.law)),
+        "needle_mesh": setup.nodes_mm * units.MM,
+        "needle_law": setup.law.ravel(),
     }
     if setup.discretisation.arrangement is Arrangement.SIBLINGS:
         fields["needle_springs"] = springs_n_m_per_rad(setup)
-    for name, values in fields.items():
+    return fields
+
+
+def _add_numbers(spec: mujoco.MjSpec, setup: Setup) -> None:
+    for name, values in _numbers(setup).items():
         spec.add_numeric(name=name, data=values, size=values.size)
-    spec.nuserdata = memory_map.userdata(nodes.size - 1, len(law))
+    spec.nuserdata = memory_map.userdata(setup.nodes_mm.size - 1, len(setup.law))
 
 
 def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:

@@ -20,11 +20,14 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
+
+_TOLERANCE = 0.1  # of fits that only tell which ones to do again on the log itself
 
 
 def decimated(
@@ -41,14 +44,29 @@ def decimated(
     log = problem.log
     each = zip(log.trials, nominal, strict=True)
     trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
-    share = sum(t.time_s.size for t in trials) / sum(t.time_s.size for t in log.trials)
-    sigma = {sensor: s * np.sqrt(share) for sensor, s in problem.noise.sigma.items()}
-    return replace(
-        problem,
-        log=PreparedLog(rig=log.rig, trials=trials),
-        noise=replace(problem.noise, sigma=sigma),
-        resolution=COARSE,
-    )
+    rare = PreparedLog(rig=log.rig, trials=trials)
+    noise = decimated_noise(problem.noise, log, rare)
+    return replace(problem, log=rare, noise=noise, resolution=COARSE, tolerance=_TOLERANCE)
+
+
+def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
+    """Noise of the decimated log whose spectral density at frequency 0 is that of the log's.
+
+    What is white of it falls with the number of samples. What is coloured is slower than a window
+    or not: samples of it at the wider steps keep their correlation time, and as much of their
+    variance as leaves the density what it was.
+    """
+    share = sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)
+    step_s = float(np.median([trial.sample_s for trial in rare.trials]))
+    sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in noise.sigma.items()}
+    colour = {}
+    for sensor, own in noise.colour.items():
+        alone = replace(own, share=1.0)
+        coloured = own.share * alone.density(step_s * share) / alone.density(step_s)
+        total = 1 - own.share + coloured
+        sigma[sensor] *= float(np.sqrt(total))
+        colour[sensor] = replace(own, share=coloured / total)
+    return replace(noise, sigma=sigma, colour=colour)
 
 
 def _decimated(

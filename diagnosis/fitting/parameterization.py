@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.fitting.nuisance import prior_sigma
 from diagnosis.replay.rig_parameters import RigParameters
@@ -100,7 +100,7 @@ class Parameterization:
 def parameterization_of(
     names: Sequence[str],
     nuisance: Sequence[Effect] = (),
-    library: Mapping[str, Effect] = LIBRARY,
+    library: Mapping[str, Effect] = FITTED,
 ) -> Parameterization:
     """Of a set of effects by name; nuisance among them is theirs."""
     others = tuple(e for e in nuisance if e.name not in names)

@@ -153,7 +153,7 @@ def _erased_s(trial: Trial, after_s: float) -> float:
 
 
 def _usual_twist_deg(trial: Trial) -> float:
-    """What the shaft is twisted by while the base is slow, which dry friction holds; else at any time."""
+    """What the shaft is twisted by while the base is slow, which dry friction holds, or at any time."""
     if not trial.has(_TIP):
         return _UNKNOWN_TWIST_DEG
     twist = np.abs(trial[_BASE] - trial[_TIP])

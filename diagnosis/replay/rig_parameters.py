@@ -77,6 +77,9 @@ class RigParameters:
     tip_scale: float = 1.0
     tip_delay_s: float = 0.0
     torque_bias_n_mm: float = 0.0
+    tip_clock_ratio: float = 1.0
+    torque_clock_ratio: float = 1.0
+    torque_low_pass_s: float = 0.0
     torque_scale: float = 1.0
     torque_delay_s: float = 0.0
     drive_friction_n_mm: float = 0.0
@@ -144,6 +147,9 @@ class RigParameters:
             tip_scale=1.0,
             tip_delay_s=0.0,
             torque_bias_n_mm=0.0,
+            tip_clock_ratio=1.0,
+            torque_clock_ratio=1.0,
+            torque_low_pass_s=0.0,
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,

@@ -11,9 +11,10 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.experiment import perform
+from sim.needles import compile_model
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
-from sim.simulation import SimulationFailed, compile_model, simulate
+from sim.simulation import SimulationFailed, simulate
 from sim.spec import Setup
 
 BETA = 0.01725

@@ -16,8 +16,9 @@ from models.statespace import modal_system
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
+from sim.needles import compile_model
 from sim.schedule import Schedule
-from sim.simulation import compile_model, controls, initial_data, prepare_processes, simulate
+from sim.simulation import controls, initial_data, prepare_processes, simulate
 from sim.spec import Setup
 from studies.crosscheck import motion
 

@@ -29,6 +29,7 @@ def test_the_nominal_rig_is_that_of_rig_yaml():
 SENSORS = {
     *("tip_bias_deg", "tip_scale", "tip_delay_s"),
     *("torque_bias_n_mm", "torque_scale", "torque_delay_s", "drive_friction_n_mm"),
+    *("tip_clock_ratio", "torque_clock_ratio", "torque_low_pass_s"),
 }
 INPUTS = {"base_scale", "inserted_offset_mm"}
 NEEDS = {  # what a field shows beside only

@@ -9,8 +9,9 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.law_table import law_table
+from sim.needles import compile_model
 from sim.schedule import Schedule
-from sim.simulation import compile_model, controls, initial_data
+from sim.simulation import controls, initial_data
 from sim.spec import Setup, header
 
 TISSUE = Tissue.uniform(

@@ -10,8 +10,9 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
+from sim.needles import compile_model
 from sim.schedule import Schedule
-from sim.simulation import compile_model, controls, initial_data, passive_torques, simulate
+from sim.simulation import controls, initial_data, passive_torques, simulate
 from sim.spec import Setup
 
 BETA = 0.01725  # N m s / rad / m, which is N mm s / rad / mm
