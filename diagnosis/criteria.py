@@ -240,9 +240,38 @@ INERTIA_LOST_SIGMA = 0.5
 """Part of that torque that samples half as frequent would lose, from which a warning is given."""
 INSERTED_AT_LEAST = 0.1
 """Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
+START_LOOK_S = 0.25
+START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
+START_OUTLIER_SIGMA = 5.0
+START_TORQUE_FACTOR = 2.0
+"""A late start: a parabola through the first readings of the tip begins off the base by so many standard
+deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
+within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
+START_DECAYS = 10.0
+START_MOST_UNUSED = 0.25
+"""Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
+not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
+START_SPREAD_DEG = 90.0
+"""One standard deviation of what the base turned by before a late start, about the twist that is read. A
+choice, so broad that a second of any trial outweighs it."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 
+COLOUR_WINDOW_S, COLOUR_ABOVE_HZ = 2.0, 1.5
+COLOUR_WINDOWS = 12
+COLOUR_LONGEST_S = 0.3
+COLOUR_CHI_SQUARE = 20.0
+COLOUR_LEAST_SHARE = 0.2
+COLOUR_OPEN = 4.0
+"""Noise is coloured where white noise alone fits its spectrum worse by so much chi-square (derived: of
+two more parameters, once in 20 000 sensors by chance) and so large a share of its variance is: what
+effects leave of the nominal rig passes for less. The spectrum is taken from at least so many windows of
+so many seconds, from the frequency on above which effects leave little; colours within so much
+chi-square of the best are open. Physical: what is correlated for longer is drift and not noise."""
+COLOURED_BLOCK_S = 2.0
+"""Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
+correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
+and SLOW_BLOCK alone, some tenths of a second, would not see them."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
@@ -340,6 +369,17 @@ costs to 5 % only."""
 NOMINAL_LEAD = 10.0
 """Score by which the scatter of stiffness and damping has to improve on the exact nominal rig before it
 is kept beside it."""
+
+# What no log can tell apart (selection/equivalence/)
+
+EQUIVALENT_SIZE, EQUIVALENT_FITS = 3, 3
+EQUIVALENT_LEAVES = 0.01
+"""Effects of an equivalent set at most, sets of one size that are fitted, and share of what the chosen
+explanation changes, as a sum of squares, by which the two may differ: a tenth as an amplitude. Beside
+it SIMPLE_LEAD is the largest cost, which is the smaller from a gap of 1.03 sigma on; without the share
+a weak effect would have the whole library for company. A choice; no log was looked at."""
+EQUIVALENT_PART = 0.5
+"""Share of the rest that one more effect of a set may leave: what takes less off is none."""
 
 # How fine a replay has to be (replay/, selection/mesh_refinement.py)
 

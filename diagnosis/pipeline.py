@@ -14,14 +14,15 @@ from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
-from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import nominal_fit
-from diagnosis.fitting.nuisance import nuisance_of
+from diagnosis.fitting.decimation import decimated, decimated_noise
+from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
+from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.averaging import averaged
+from diagnosis.prepare.late_start_detection import with_late_starts, without_unused
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
@@ -36,13 +37,15 @@ from diagnosis.progress import (
     silent,
 )
 from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
 from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
+from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, verdict_on
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
@@ -57,12 +60,19 @@ class NominalReplay:
     Attributes:
       log: as it is diagnosed: averaged, if it has more samples than are of use.
       problem: the log, its noise, and what is left open of the rig.
+      fit: of what came before trials that began late, and of nothing else.
       predictions: of the nominal rig, by trial of the problem.
     """
 
     log: RigLog
     problem: FitProblem
+    fit: Fit
     predictions: list[Prediction]
+
+    @property
+    def rig(self) -> RigParameters:
+        """The nominal rig, with what came before trials that began late."""
+        return self.fit.parameterization.rig(self.fit.x)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -105,13 +115,13 @@ def diagnose(
     heard(REPLAYING, 0, 1)
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
-    log = nominal.log
     heard(REPLAYING, 1, 1)
+    log = without_unused(nominal.log, nominal.problem.log)
     with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
-        cut = bool(stop.left_out)
         heard(CHECKING, 0, 1)
-        last = _judged(found, cut=cut)
+        last = _judged(found, pool)
+        cut = bool(stop.left_out)
         heard(CHECKING, 1, 1)
         heard(ASSESSING, 0, 1)
         assessment = assess(
@@ -156,16 +166,25 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
-    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
-    library = library_of(scale_of(prepared))
-    problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
-    return NominalReplay(log=log, problem=problem, predictions=predictions)
+    left = _residuals(prepared, predictions)
+    noise = estimate_noise(log.rig, left, base_sigma_deg, told)
+    begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
+    library = library_of(scale_of(begun))
+    problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
+    if not late_starts_of(begun):
+        fit = nominal_fit(nominal_residuals(problem, predictions))
+        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
+    fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
+    rig = fit.parameterization.rig(fit.x)
+    return NominalReplay(log=log, problem=problem, fit=fit, predictions=replay(begun, rig))
 
 
-def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
-    """Measured minus nominal, in units of the sensor, by sensor and trial."""
+def _residuals(
+    log: PreparedLog, predictions: Sequence[Prediction]
+) -> dict[str, list[tuple[Array, Array]]]:
+    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
     each = list(zip(log.trials, predictions, strict=True))
-    return {s: [t.readings[s] - p[s] for t, p in each if t.has(s)] for s in SENSORS}
+    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
 
 
 def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
@@ -173,26 +192,27 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     problem = nominal.problem
     start = SearchState(
         problem=problem,
-        coarse=decimated(problem, nominal.predictions),
+        coarse=decimated(problem, nominal.predictions, nominal.rig),
         effects=testable_effects(log),
-        nominal=nominal_fit(nominal_residuals(problem, nominal.predictions)),
+        nominal=nominal.fit,
     )
     return search(start, workers)
 
 
-def _judged(found: SearchState, *, cut: bool) -> Judged:
+def _judged(found: SearchState, workers: Workers) -> Judged:
     """The verdict on what the search found; provisional if it was cut short."""
-    before = found.problem.noise
     checked = check(found.problem, found.candidates, found.checked)
+    checked, verdict, alike = told_apart(found, checked, workers)
     problem = replace(found.problem, noise=checked.noise)
-    verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
-    if cut:
+    if workers.stop.left_out:
         verdict = provisional(verdict, checked.candidates)
     return Judged(
         problem=problem,
-        coarse=found.coarse.renoised(checked.noise, before=before),
+        coarse=replace(
+            found.coarse, noise=decimated_noise(checked.noise, problem.log, found.coarse.log)
+        ),
         verdict=verdict,
-        record=(*found.record, *judged(checked.candidates)),
+        record=(*found.record, *alike, *judged(checked.candidates)),
     )

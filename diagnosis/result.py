@@ -35,7 +35,7 @@ class Diagnosis:
         return (
             *([self.stopped.warning] if self.stopped else ()),
             *self.log.warnings,
-            *self.noise.warnings,
+            *self.noise.notes,
             *self._failures,
             *self.assessment.warnings,
         )

@@ -15,7 +15,7 @@ from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sensors import imperfections
-from diagnosis.report.sentences import headline, largest_parts, largest_residual, nearest
+from diagnosis.report.sentences import alike, headline, largest_parts, largest_residual, nearest
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
@@ -82,7 +82,7 @@ def run(
 def _summary(found: Diagnosis, console: Console) -> None:
     told = found.assessment
     console.print(f"[bold]{escape(headline(found))}[/]", highlight=False)
-    if sentence := nearest(found):
+    for sentence in filter(None, (alike(found), nearest(found))):
         console.print(escape(sentence), highlight=False)
     if sentence := imperfections(found):
         console.print(escape(sentence), highlight=False)

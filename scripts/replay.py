@@ -14,7 +14,6 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.pipeline import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
-from diagnosis.replay.rig_parameters import NOMINAL
 from sim.files import refuse_existing, writing
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
@@ -108,7 +107,7 @@ def write(nominal: NominalReplay, folder: Path, *, force: bool) -> None:
             pd.DataFrame(columns).to_csv(part, index=False, float_format="%.6g")
     _draw(replayed, picture, force=force)
     first = nominal.problem.log.trials[0]
-    shape = shape_of(log.rig, first, NOMINAL)
+    shape = shape_of(log.rig, first, nominal.rig)
     results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
     parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
     log_recording(record(shape, parameters), rrd, results=results, force=force)

@@ -1,7 +1,7 @@
 """Everything that is told beside the verdict."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from diagnosis.assessment.intervals import Interval, intervals
 from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.drift import drift_range_sigma, with_drift
@@ -118,7 +119,10 @@ def assess(
     own = intervals(problem, near.fit, change, left=_above_noise(near))
     if stop.due:
         stop.leave_out(REPLICATES)
-    gap = gap_reduction(nominal_residuals(problem, nominal), after)
+    plain = problem.noise.uncoloured
+    gap = gap_reduction(
+        nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
+    )
     named = verdict.effects or strongest_first(problem, near)
     return Assessment(
         gap=gap,

@@ -65,6 +65,11 @@ class Fit:
         return sum(len(FITTED[n].reported) for n in self.names)
 
     @property
+    def prior(self) -> float:
+        """Cost of the nuisance alone."""
+        return float(np.sum((self.parameterization.weights * self.x) ** 2))
+
+    @property
     def parts(self) -> dict[str, Array]:
         """The vector by effect."""
         return self.parameterization.parts(self.x)

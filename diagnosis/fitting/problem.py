@@ -52,8 +52,3 @@ class FitProblem:
     def drifting(self, size_n_mm: float) -> "FitProblem":
         """The same with a torque sensor that may drift by so much within a trial."""
         return replace(self, log=self.log.drifting(size_n_mm / self.noise["base_torque_n_mm"]))
-
-    def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
-        """The same with its noise changed as another problem's was, from `before` to `noise`."""
-        sigma = {s: own * noise[s] / before[s] if own else own for s, own in self.noise.sigma.items()}
-        return replace(self, noise=replace(self.noise, sigma=sigma))

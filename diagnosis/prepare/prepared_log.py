@@ -15,6 +15,7 @@ from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.drift import drift_whitening
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
+from diagnosis.prepare.late_start import LateStart
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -33,6 +34,7 @@ class PreparedTrial:
       logged: rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
       torque_drift_sigma: what its torque sensor may drift by, in sigma of its noise.
+      late_start: None: it begins untwisted and at rest.
     """
 
     name: str
@@ -46,6 +48,7 @@ class PreparedTrial:
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
     torque_drift_sigma: float = 0.0
+    late_start: LateStart | None = None
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
@@ -107,9 +110,10 @@ class PreparedLog:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Trials whose samples are too rare for what they have to carry."""
+        """Trials whose samples are too rare for what they have to carry, and that began late."""
         each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
-        return tuple(warning for warning in each if warning)
+        late = (t.late_start.warning(t.name) for t in self.trials if t.late_start)
+        return (*(warning for warning in each if warning), *late)
 
 
 def _steadied(depth_mm: Array) -> Array:

@@ -23,7 +23,7 @@ def refinement_change(
     predictions: Sequence[Prediction],
     resolution: Resolution,
 ) -> list[dict[str, Array]]:
-    """What half the step and twice the elements change, / sigma, by trial and sensor.
+    """What half the step and twice the elements change, / sigma and whitened, by trial and sensor.
 
     The method is of second order in the step and of higher order in the elements: the
     error that is left is about a third of the change.
@@ -39,7 +39,10 @@ def refinement_change(
         finer = Resolution(elements=2 * resolution.elements, step_s=0.5 * resolution.step_of(trial))
         there = predict(log.rig, trial, [rig], finer)[0]
         change = {s: (there[s] - here[s]) / noise[s] for s in SENSORS if trial.has(s)}
-        changes.append({s: c[np.isfinite(trial.readings[s])] for s, c in change.items()})
+        read = {s: np.isfinite(trial.readings[s]) for s in change}
+        changes.append(
+            {s: noise.whitened(s, trial.time_s[read[s]], c[read[s]]) for s, c in change.items()}
+        )
     return changes
 
 

@@ -47,6 +47,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "cannot_tell": list(unidentifiable(diagnosis.log)),
         "replay_error": told.numerical_error,
         "noise": dict(diagnosis.noise.sigma),
+        "noise_colour": {s: asdict(colour) for s, colour in diagnosis.noise.colour.items()},
         "search": [_entry(entry) for entry in diagnosis.record],
         "warnings": list(diagnosis.warnings),
     }

@@ -72,6 +72,18 @@ def nearest(found: Diagnosis) -> str:
     )
 
 
+def alike(found: Diagnosis) -> str:
+    """What the accepted effects cannot be told from, in one sentence; else empty."""
+    verdict = found.verdict
+    if verdict.kind is not VerdictKind.EXPLAINED or not verdict.confusable:
+        return ""
+    others = "; or ".join(titles(names) for names in verdict.confusable[1:])
+    return (
+        f"Cannot be told from: {others}. These change every reading of this log in the same way; "
+        "what is named is the likelier cause, not the only one"
+    )
+
+
 def titles(effects: Sequence[str]) -> str:
     """Effects in plain words."""
     *others, last = [LIBRARY[name].title for name in effects] or [""]

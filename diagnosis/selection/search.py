@@ -24,7 +24,9 @@ from diagnosis.criteria import (
     WORTH_FITTING,
 )
 from diagnosis.effects import IMPERFECTIONS
+from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.noise_reestimation import rescaled, with_colour
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import check
@@ -38,12 +40,8 @@ from diagnosis.workers import Failure, Task, Workers
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; where nothing explains the log, with drift of the torque as well.
-
-    After a stop it is that of the stages that there was time for; the nominal rig is in any.
-    """
-    found = _all_stages(state, workers)
-    return found if workers.stop.left_out else with_drift(found, workers, _all_stages)
+    """The state after all stages; where nothing explains the log, with drift of the torque as well."""
+    return with_drift(_all_stages(state, workers), workers, _all_stages)
 
 
 def _all_stages(state: SearchState, workers: Workers) -> SearchState:
@@ -96,11 +94,31 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_finalists("finalists", state.problem, singles, workers))
 
 
+def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
+    """Where what the best effect leaves shows other colours than the nominal rig did: once more."""
+    noise = with_colour(state.problem, state.best.fit)
+    if noise.colour.keys() == state.problem.noise.colour.keys():
+        return state
+    again = replace(
+        state,
+        problem=replace(state.problem, noise=noise),
+        coarse=replace(state.coarse, noise=decimated_noise(noise, state.problem.log, state.coarse.log)),
+        nominal=rescaled(state.nominal, state.problem, noise),
+        candidates=(),
+        singles=(),
+    ).noting(*dropped("coloured noise", state.candidates, "the noise has another colour"))
+    for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
+        again = stage(again, workers)
+    if workers.stop.due and not again.singles:
+        return state.noting(*_stopped(again.record[len(state.record) :]))  # no effect was fitted
+    return again
+
+
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
     """A replay as fine as the log asks, and candidates fitted to it."""
     problem, found, record = refined_mesh(state.problem, state.candidates, workers)
-    if any(entry.decision is Decision.STOPPED for entry in record):
-        return state.noting(*record)  # costs at two resolutions do not compare
+    if stopped := _stopped(record):
+        return state.noting(*stopped)  # costs at two resolutions do not compare
     return replace(state, problem=problem, candidates=tuple(found)).noting(*record)
 
 
@@ -164,6 +182,7 @@ STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,
+    coloured_noise,
     finer_mesh,
     pairs,
     one_more_imperfection,
@@ -171,6 +190,10 @@ STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
     scatter_of_the_best,
     finer_mesh,
 )
+
+
+def _stopped(record: Sequence[RecordEntry]) -> list[RecordEntry]:
+    return [entry for entry in record if entry.decision is Decision.STOPPED]
 
 
 def _screened(

@@ -6,9 +6,10 @@ DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SHARE, DRIFT_SIZE_SIGMA, FINALISTS
-from diagnosis.fitting.fit import Fit, nominal_fit
+from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.drift import drift_range_sigma
 from diagnosis.replay.replay import replay
@@ -65,11 +66,12 @@ def _drifting(state: SearchState) -> SearchState:
     size_n_mm = _size_n_mm(state.problem)
     problem = state.problem.drifting(size_n_mm)
     rig = state.nominal.parameterization.rig(state.nominal.x)
+    left = tuple(own[0] for own in problem.residuals([rig]))
     return SearchState(
         problem=problem,
         coarse=state.coarse.drifting(size_n_mm),
         effects=state.effects,
-        nominal=nominal_fit([own[0] for own in problem.residuals([rig])]),
+        nominal=replace(state.nominal, by_trial=left, cost=sum(float(own @ own) for own in left)),
         record=(*state.record, _entry(Decision.KEPT, "it would take off most of what is left")),
     )
 

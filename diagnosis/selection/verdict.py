@@ -2,7 +2,8 @@
 
 none        the nominal rig is at the noise floor, or what is left of it is the rig's
             own scatter in stiffness and damping
-explained   the best candidate is at the noise floor and nothing else comes near it
+explained   the best candidate is at the noise floor and nothing else comes near it, but for what
+            asks the rig's constants to be off by chance
 undecided   another candidate, not a richer relative of the best, fits alike
 unknown     nothing that was tried brings the residual to the noise floor
 """
@@ -32,7 +33,7 @@ class Verdict:
 
     Attributes:
       effects: accepted, strongest first.
-      confusable: sets of effects that fit alike.
+      confusable: sets of effects that fit alike, the accepted one first.
       best: the candidate that predictions and parameters are of.
       rivals: candidates that explain the log as well as the best.
       ranking: single effects, none and unknown with probabilities that add up to 1.
@@ -63,9 +64,10 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
             ranking=_ranking(candidates, known=False),
         )
     best = _simplest(at_floor)
-    rivals = [c for c in at_floor if c is not best and _alike(best, c)]
+    alike = [c for c in at_floor if c is not best and _alike(best, c)]
+    rivals = sorted(alike, key=lambda c: _asks_more_scatter(best, c))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
-    if rivals:
+    if not all(_asks_more_scatter(best, c) for c in rivals):
         kind = VerdictKind.UNDECIDED
     return Verdict(
         kind=kind,
@@ -90,8 +92,10 @@ def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
     if verdict.kind is VerdictKind.UNKNOWN:
         return verdict
     others = [c for c in candidates if c.explains and c is not verdict.best]
-    sets = {frozenset(names): names for names in (*(c.named for c in others[::-1]), verdict.effects)}
-    confusable = tuple(reversed(sets.values()))
+    sets: dict[frozenset[str], tuple[str, ...]] = {}
+    for names in (verdict.effects, *(c.named for c in others), *verdict.confusable):
+        sets.setdefault(frozenset(names), names)
+    confusable = tuple(sets.values())
     return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
 
 
@@ -128,6 +132,14 @@ def _alike(best: Candidate, other: Candidate) -> bool:
     if _nested(best, other):
         return best.fit.size < other.fit.size  # the other way round, NESTED_LEAD is enough
     return not _covers(other, best)
+
+
+def _asks_more_scatter(best: Candidate, other: Candidate) -> bool:
+    """Whether the other is behind by what stiffness and damping would have to be off for it.
+
+    That is known and no noise, so that less of a lead is enough: it is named beside the best.
+    """
+    return other.fit.prior - best.fit.prior > NESTED_LEAD and other.score > best.score
 
 
 def _nested(one: Candidate, other: Candidate) -> bool:

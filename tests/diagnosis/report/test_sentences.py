@@ -8,6 +8,7 @@ import pytest
 from diagnosis.assessment.advice import advise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
+    alike,
     headline,
     largest_parts,
     largest_residual,
@@ -117,6 +118,14 @@ def test_sets_that_fit_alike_are_told_in_words(dry):
     kind = VerdictKind.UNDECIDED
     said = headline(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",))))
     assert f"{titles(TWO)}; or {titles(('stiction',))}" in said
+
+
+def test_what_the_named_effect_cannot_be_told_from_stands_beside_it(dry):
+    assert alike(dry.found) == ""
+    said = alike(concluding(dry.found, confusable=(("coulomb_friction",), TWO, ("stiction",))))
+    assert said.startswith(f"Cannot be told from: {titles(TWO)}; or {titles(('stiction',))}. ")
+    kind = VerdictKind.UNDECIDED  # whose headline says it
+    assert alike(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",)))) == ""
 
 
 def test_one_trial_is_not_called_held_out(dry):

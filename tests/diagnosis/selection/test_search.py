@@ -47,6 +47,7 @@ def test_the_stages_are_these_in_this_order():
         "nominal_rig",
         "stiffness_or_damping_alone",
         "single_effects",
+        "coloured_noise",
         "finer_mesh",
         "pairs",
         "one_more_imperfection",

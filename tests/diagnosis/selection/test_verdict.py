@@ -92,6 +92,20 @@ def test_a_rig_whose_constants_are_off_is_named_by_no_effect_that_adds_nothing()
     assert set(found.confusable) == {("damping_error",), ("stiffness_error",)}
 
 
+@pytest.mark.parametrize(
+    ("off", "kind"), [(0.025, VerdictKind.EXPLAINED), (0.001, VerdictKind.UNDECIDED)]
+)
+def test_what_asks_the_rigs_constants_to_be_off_by_chance_is_named_beside_the_best(off, kind):
+    scales = tuple(LIBRARY[name] for name in SCATTER)
+    behind = replace(
+        scored(["base_angle_scale"], 107.0),
+        fit=fit_of(("base_angle_scale",), x=[0.03, off, off], nuisance=scales),
+    )
+    found = verdict_on([scored(["tip_angle_scale"], 100.0), behind])
+    assert (found.kind, found.effects) == (kind, ("tip_angle_scale",))
+    assert found.confusable == (("tip_angle_scale",), ("base_angle_scale",))
+
+
 def test_probabilities_are_those_of_the_scores():
     ranking = dict(verdict((["tip_drag"], 100.0), (["entry_friction"], 104.0)).ranking)
     assert sum(ranking.values()) == pytest.approx(1.0)
@@ -139,3 +153,9 @@ def test_the_same_effects_in_another_order_are_one_set():
 
 def test_nothing_at_the_floor_stays_unknown():
     assert cut(scored(["tip_drag"], 100.0, floor=TOO_MUCH)).kind is VerdictKind.UNKNOWN
+
+
+def test_what_cannot_be_told_apart_stays_beside_a_provisional_verdict():
+    best = scored(["tip_drag"], 100.0)
+    found = replace(verdict_on([best]), confusable=(("tip_drag",), ("torque_bias", "entry_friction")))
+    assert provisional(found, [best]).confusable == (("tip_drag",), ("torque_bias", "entry_friction"))
