@@ -24,76 +24,20 @@ from diagnosis.criteria import (
     WORTH_FITTING,
 )
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
-from diagnosis.fitting.noise_reestimation import rescaled, with_colour
+from diagnosis.fitting.noise_reestimation import with_colour
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import check
 from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists, fit_screened
 from diagnosis.selection.mesh_refinement import refined_mesh
 from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, kept, not_fitted
 from diagnosis.selection.screening import Screened, screen
-<<<<<<< HEAD
-from diagnosis.workers import Failure, Task, Workers, attempt
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class SearchState:
-    """What a search has come to.
-
-    Attributes:
-      problem: the log itself, replayed as finely as it asks.
-      coarse: the decimated log.
-      effects: that may be tried.
-      nominal: the nominal rig, exactly as rig.yaml says.
-      candidates: fitted on the log itself.
-      singles: single effects, fitted on the decimated log, best first.
-      checked: candidates as they were checked before pairs were tried.
-      record: of every stage so far.
-    """
-
-    problem: FitProblem
-    coarse: FitProblem
-    effects: tuple[str, ...]
-    nominal: Fit
-    candidates: tuple[Candidate, ...] = ()
-    singles: tuple[Candidate, ...] = ()
-    checked: Checked | None = None
-    record: tuple[RecordEntry, ...] = ()
-
-    @property
-    def best(self) -> Candidate:
-        """Of least score."""
-        return min(self.candidates, key=lambda c: c.score)
-
-    def adding(self, made: Made) -> "SearchState":
-        """The state with more candidates."""
-        found, record = made
-        return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
-
-    def renoised(self, noise: Noise) -> "SearchState":
-        """The state in units of another noise."""
-        fine, coarse = self.problem, self.coarse
-        rare = decimated_noise(noise, fine.log, coarse.log)
-        return replace(
-            self,
-            problem=replace(fine, noise=noise),
-            coarse=replace(coarse, noise=rare),
-            nominal=rescaled(self.nominal, fine, noise),
-            candidates=tuple(candidate(rescaled(c.fit, fine, noise)) for c in self.candidates),
-            singles=tuple(candidate(rescaled(c.fit, coarse, rare)) for c in self.singles),
-        )
-
-    def noting(self, *entries: RecordEntry) -> "SearchState":
-        """The state with a longer record."""
-        return replace(self, record=(*self.record, *entries))
-=======
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.torque_drift import with_drift
 from diagnosis.workers import Failure, Task, Workers
->>>>>>> origin/main
+
+Stage = Callable[[SearchState, Workers], SearchState]
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
@@ -106,8 +50,13 @@ def search(state: SearchState, workers: Workers) -> SearchState:
 
 
 def _all_stages(state: SearchState, workers: Workers) -> SearchState:
+    """The state after all stages."""
+    return _stages(STAGES, state, workers)
+
+
+def _stages(stages: Sequence[Stage], state: SearchState, workers: Workers) -> SearchState:
     """The state after those stages that there was time for; the nominal rig is in any."""
-    for stage in STAGES:
+    for stage in stages:
         if workers.stop.due and state.candidates:
             workers.stop.leave_out(stage.__name__.replace("_", " "))
         else:
@@ -165,9 +114,7 @@ def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
         return again
     out = dropped("coloured noise", state.candidates, "the noise has another colour")
     again = replace(again, candidates=(), singles=()).noting(*out)
-    for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
-        again = stage(again, workers)
-    return again
+    return _stages((nominal_rig, stiffness_or_damping_alone, single_effects), again, workers)
 
 
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
@@ -234,7 +181,7 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_all("scatter of the best", [(state.problem, names, start)], workers))
 
 
-STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
+STAGES: tuple[Stage, ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,
