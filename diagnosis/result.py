@@ -31,8 +31,9 @@ class Diagnosis:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Of the log, of its noise, of the search and of the replay."""
+        """Of a stop, of the log, of its noise, of the search and of the replay."""
         return (
+            *([self.stopped.warning] if self.stopped else ()),
             *self.log.warnings,
             *self.noise.notes,
             *self._failures,

@@ -48,6 +48,13 @@ class EarlyStop:
     left_out: tuple[str, ...]
     search: bool
 
+    @property
+    def warning(self) -> str:
+        """What was not done, and what that means."""
+        meant = "; what was not tried may explain the log as well, or better" if self.search else ""
+        left_out = ", ".join(self.left_out)
+        return f"stopped early ({self.why}); not done, or not to the end: {left_out}{meant}"
+
 
 class StopSignal:
     """When a diagnosis has to come to its end.

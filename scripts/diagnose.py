@@ -21,6 +21,7 @@ from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from diagnosis.stopping import StoppedEarly, StopSignal
+from scripts.progress_line import progress_line
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
 from sim.files import refuse_existing
 from sim.simulation import prepare_processes
@@ -61,7 +62,8 @@ def run(
     prepare_processes()  # compiles for half a minute the first time, before there is anything to tell
     with stops_on_signals(stop):
         try:
-            found = diagnose(log, stop=stop)
+            with progress_line(shown, stop) as show:
+                found = diagnose(log, stop=stop, progress=show)
         except StoppedEarly as early:
             if not stop.requested:
                 raise

@@ -8,6 +8,8 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
 
+_NOTHING = "the nominal model as it is"
+
 
 def headline(found: Diagnosis) -> str:
     """The verdict in one sentence, marked where the diagnosis was stopped early."""
@@ -18,23 +20,13 @@ def headline(found: Diagnosis) -> str:
     return f"Stopped early ({early.why}, while {early.stage}): best so far: {told}"
 
 
-def left_out(found: Diagnosis) -> str:
-    """What a stop left out; empty where nothing was."""
-    if found.stopped is None:
-        return ""
-    rivals = (
-        "; what was not tried may explain the log as well, or better" if found.stopped.search else ""
-    )
-    return f"stopped early ({found.stopped.why}): not done: {', '.join(found.stopped.left_out)}{rivals}"
-
-
 def _best_so_far(found: Diagnosis) -> str:
     """What a search that was cut short has come to: never that nothing else is there."""
     verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
     residual = f"residual {gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
     if verdict.kind is VerdictKind.UNKNOWN:
-        return f"{titles(near.effects) or NOTHING}, which does not explain the gap: {residual}"
-    sets = "; or ".join(titles(names) or NOTHING for names in verdict.confusable)
+        return f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
+    sets = "; or ".join(titles(names) or _NOTHING for names in verdict.confusable)
     return f"{sets}: undecided, as others were not tried: {residual}"
 
 
@@ -57,9 +49,6 @@ def _verdict(found: Diagnosis) -> str:
             )
 
 
-NOTHING = "the nominal model as it is"
-
-
 def nearest(found: Diagnosis) -> str:
     """What comes nearest to an explanation of an unknown log, in one sentence; else empty."""
     near, gap = found.assessment.nearest, found.assessment.gap
@@ -74,10 +63,11 @@ def nearest(found: Diagnosis) -> str:
     ]
     verb = "explain" if len(near.effects) > 1 else "explains"
     bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
+    tried = "that was tried so far " if found.stopped and found.stopped.search else ""
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is "
+        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise: what is left is "
         f"{found.assessment.breakdown_after.largest}{bound}"
     )
 
@@ -127,9 +117,11 @@ def with_one_more(found: Diagnosis) -> str:
 
 def replay_quality(found: Diagnosis) -> list[str]:
     """Noise and numerical error of each sensor."""
+    error = found.assessment.numerical_error
     lines = [
-        f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: {error:.3f} σ"
-        for sensor, error in found.assessment.numerical_error.items()
+        f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: "
+        + (f"{error[sensor]:.3f} σ" if sensor in error else "not looked at")
+        for sensor in found.assessment.breakdown.signal
     ]
     base = found.noise["base_angle_deg"]
     return [*lines, f"base_angle_deg: σ = {base:.3g}, smoothed out as far as the motion allows"]

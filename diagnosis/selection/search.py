@@ -99,7 +99,7 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
     missing = not candidate(start).floor.small
     worth = [s for s in screened if missing or s.gain >= WORTH_FITTING]
     state = state.noting(*_not_worth(stage, screened, worth))
-    singles, record = fit_screened(stage, state.coarse, worth, len(worth), workers)
+    singles, record = fit_screened(stage, state.coarse, worth, len(worth), workers, used=PAIR_BASES)
     state = replace(state.noting(*record), singles=tuple(singles))
     return state.adding(fit_finalists("finalists", state.problem, singles, workers))
 

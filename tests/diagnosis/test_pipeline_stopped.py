@@ -8,6 +8,7 @@ from diagnosis_fixtures import log_of
 from diagnosis import pipeline
 from diagnosis.assessment.assess import TO_ITS_END
 from diagnosis.pipeline import diagnose
+from diagnosis.progress import in_words
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sentences import headline
@@ -27,8 +28,8 @@ def stopped_at(monkeypatch):
     def stopped(stage, rig=DRY):
         stop = StopSignal()
 
-        def watch(at, *_):
-            if at == stage:
+        def watch(news):
+            if news.stage == in_words(stage):
                 stop.request(StopReason.INTERRUPTED)
 
         return diagnose(log_of(rig, speed=-1.0, seconds=8.0), workers=1, stop=stop, progress=watch)

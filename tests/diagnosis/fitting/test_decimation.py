@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, prepared
+from diagnosis_fixtures import RIG, log_of, prepared
 
 from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
@@ -104,3 +104,23 @@ def test_a_decimated_log_with_coloured_noise_weighs_an_explanation_as_the_log_do
     )
     gain = [w - r for w, r in zip(wrong, right, strict=True)]
     assert gain[1] == pytest.approx(gain[0], rel=0.1)
+
+
+def test_a_window_that_readings_begin_in_has_the_mean_of_what_was_read():
+    nominal = replay_nominal(log_of(NOMINAL, seconds=3.0))
+    (one,) = nominal.problem.log.trials
+    unused = one.time_s < 0.505
+    off = {s: np.where(unused, np.nan, p + 7.0) for s, p in _read(nominal).items()}
+    log = replace(nominal.problem.log, trials=(replace(one, readings=off),))
+    rare = decimated(replace(nominal.problem, log=log), nominal.predictions).log.trials[0]
+    (bare,) = predict(RIG, replace(rare, readings={}), [NOMINAL], COARSE)
+    left = rare.readings["tip_angle_deg"] - bare["tip_angle_deg"]
+    # Windows of 40 ms: those that end before the first reading are empty, the next half full.
+    assert np.isnan(left[rare.time_s < 0.48]).all()
+    np.testing.assert_allclose(left[rare.time_s >= 0.52], 7.0, atol=1e-9)
+    known = left[np.isfinite(left)]
+    np.testing.assert_allclose(known, 7.0, atol=1e-9)
+
+
+def _read(nominal):
+    return {s: nominal.predictions[0][s] for s in ("tip_angle_deg", "base_torque_n_mm")}
