@@ -13,7 +13,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from llvmlite import ir
+from llvmlite import ir  # type: ignore[import-untyped]
 from numba import njit, types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
@@ -64,7 +64,7 @@ def _loop(
     nodes = qpos.size - 1
     for k in range(inputs.shape[0]):
         ctrl[:], passive[:] = inputs[k], 0.0
-        _call(callback, model, data)
+        _call(callback, model, data)  # type: ignore[call-arg]
         shown[k] = user[at : at + shown.shape[1]]
         before = 0.0
         for i in range(nodes):

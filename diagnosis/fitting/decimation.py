@@ -26,7 +26,7 @@ from diagnosis.replay.rig_parameters import NOMINAL
 
 Array = NDArray[np.float64]
 
-_TOLERANCE = 0.1  # of fits that only tell which ones to do again on the log itself
+_TOLERANCE = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
 def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
