@@ -26,7 +26,7 @@ from diagnosis.replay.rig_parameters import NOMINAL
 
 Array = NDArray[np.float64]
 
-_TOLERANCE = 0.3  # of fits that only tell which ones to do again on the log itself
+_TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
 def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
@@ -45,7 +45,7 @@ def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
         log=PreparedLog(rig=log.rig, trials=trials),
         noise=replace(problem.noise, sigma=sigma),
         resolution=COARSE,
-        tolerance=_TOLERANCE,
+        tolerance_sigma=_TOLERANCE_SIGMA,
     )
 
 

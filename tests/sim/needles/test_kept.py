@@ -6,7 +6,7 @@ import pytest
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
-from sim.needles import Kept, batch_of, compile_model, data_of, models_of
+from sim.needles.kept import Kept, batch_of, compile_model, data_of, models_of
 from sim.schedule import Schedule
 from sim.simulation import SimulationFailed, simulate
 from sim.spec import Setup

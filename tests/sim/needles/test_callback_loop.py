@@ -8,6 +8,8 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
+from sim.needles.callback_loop import run_callback
+from sim.needles.kept import models_of
 from sim.schedule import Schedule
 from sim.simulation import simulate
 from sim.spec import Setup
@@ -64,3 +66,23 @@ def test_a_drive_that_gives_torque_is_mujocos_too():
     )
     mujoco, alone = both(setup)
     assert np.abs(mujoco.tip_deg - alone.tip_deg).max() < 1e-9 * np.abs(mujoco.tip_deg).max()
+
+
+def test_a_needle_at_rest_stays_there_whatever_ran_before():
+    setup = Setup(
+        needle=NITINOL,
+        tissue=Tissue.uniform(viscous_n_mm_s_per_mm=BETA, kinetic_n_mm_per_mm=0.001),
+        discretisation=Discretisation(elements=5, arrangement=Arrangement.SIBLINGS),
+        free_mm=50.0,
+        inserted_mm=100.0,
+    )
+    simulate([setup], INPUTS, callback_alone=True)
+    ctrl = np.zeros((1, 20, memory_map.INPUTS))
+    ctrl[..., memory_map.U_DRIVE], ctrl[..., memory_map.U_INSERTED] = 0.5, 0.1
+    with models_of([setup]) as models:
+        joints = np.full(models[0].nq, 0.5)
+        joints[0] = 0.0
+        outputs = run_callback(models, [joints], ctrl)
+    assert outputs.shape == (1, 19, memory_map.OUTPUTS)
+    np.testing.assert_allclose(outputs[0, :, memory_map.O_TIP_ANGLE], 0.5, rtol=1e-12)
+    np.testing.assert_allclose(outputs[0, :, memory_map.O_FRICTION], 0.0, atol=1e-12)
