@@ -26,7 +26,7 @@ class FitProblem:
     Attributes:
       nuisance: what every fit leaves open.
       library: effects with bounds and starts for a rig of this size.
-      tolerance: within which fits converge, in standard deviations of their parameters.
+      tolerance_sigma: within which fits converge, in standard deviations of their parameters.
     """
 
     log: PreparedLog
@@ -34,7 +34,7 @@ class FitProblem:
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
-    tolerance: float = 0.02
+    tolerance_sigma: float = 0.02
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
@@ -46,7 +46,7 @@ class FitProblem:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
 
         Args:
-          callback_alone: for differences between residuals alone (sim.callback_loop).
+          callback_alone: for differences between residuals alone (sim.needles.callback_loop).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.
