@@ -301,7 +301,7 @@ correlation time, so that they are as good as independent. Coloured noise is str
 and SLOW_BLOCK alone, some tenths of a second, would not see them."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
-unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
+unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
 DRIFT_SIZE_SIGMA = 2.0
 DRIFT_FASTEST_S = 1.5

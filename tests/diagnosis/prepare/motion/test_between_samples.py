@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagnosis.prepare.between_samples import between_samples
+from diagnosis.prepare.motion.between_samples import between_samples
 
 STEP_S = 0.05
 

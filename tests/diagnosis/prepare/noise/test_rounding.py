@@ -5,8 +5,8 @@ import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, log_with, trial, turns
 
 from diagnosis.log.trial import Trial
+from diagnosis.prepare.noise.rounding import rounded_noise, steps_of, without_repeats
 from diagnosis.prepare.prepare import prepare
-from diagnosis.prepare.rounding import rounded_noise, steps_of, without_repeats
 
 STEP = 5 * TIP
 

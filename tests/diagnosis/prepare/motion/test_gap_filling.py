@@ -4,7 +4,7 @@ import numpy as np
 from diagnosis_fixtures import BASE, trial, turns
 
 from diagnosis.log.trial import Trial
-from diagnosis.prepare.gap_filling import fill_gaps
+from diagnosis.prepare.motion.gap_filling import fill_gaps
 
 
 def with_gap(angle, start_s, end_s):
