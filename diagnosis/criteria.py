@@ -247,8 +247,8 @@ COARSE_LEAST_RUNS, COARSE_LEAST_KINDS = 20, 2
 And short runs of equal readings, or different multiples of a step that a reading moves by, either of
 which a coarse sensor shows: an exact ramp without noise has no short runs, and moves by one step."""
 SHAKEN_STEP_SIGMA = 3.0
-"""Derived: noise shakes a reading across steps, and its mean stays off by q / pi exp(-2 (pi sigma / q)^2):
-a tenth of sigma at three, seven tenths at five."""
+"""Derived: noise shakes a reading across steps; its mean stays off by q / pi exp(-2 (pi sigma / q)^2), a
+tenth of sigma at three, seven tenths at five."""
 HELD_S, HELD_STEPS = 0.12, 1.0
 HELD_COUNTED_S = 0.5
 """A coarse reading whose means change by less than a step in so long stands still, and counts so often.
