@@ -69,6 +69,7 @@ _STAGES = {
     "scatter of the best": _Usual(words="fitting the scatter of the best"),
     "mesh refinement": _Usual(words="fitting with a finer mesh"),
     "finer mesh": _Usual(words="fitting with a finer mesh"),
+    "what cannot be told apart": _Usual(words="looking for what cannot be told apart"),
     CHECKING: _Usual(words="checking on held-out trials", share_percent=1.0),
     ASSESSING: _Usual(words="assessing the best explanation", share_percent=2.0),
     "adding another effect": _Usual(words="adding another effect", share_percent=5.0),

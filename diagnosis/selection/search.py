@@ -37,19 +37,22 @@ from diagnosis.selection.state import SearchState
 from diagnosis.selection.torque_drift import with_drift
 from diagnosis.workers import Failure, Task, Workers
 
+Stage = Callable[[SearchState, Workers], SearchState]
+
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; where nothing explains the log, with drift of the torque as well.
-
-    After a stop it is that of the stages that there was time for; the nominal rig is in any.
-    """
-    found = _all_stages(state, workers)
-    return found if workers.stop.left_out else with_drift(found, workers, _all_stages)
+    """The state after all stages; where nothing explains the log, with drift of the torque as well."""
+    return with_drift(_all_stages(state, workers), workers, _all_stages)
 
 
 def _all_stages(state: SearchState, workers: Workers) -> SearchState:
+    """The state after all stages."""
+    return _stages(STAGES, state, workers)
+
+
+def _stages(stages: Sequence[Stage], state: SearchState, workers: Workers) -> SearchState:
     """The state after those stages that there was time for; the nominal rig is in any."""
-    for stage in STAGES:
+    for stage in stages:
         if workers.stop.due and state.candidates:
             workers.stop.leave_out(stage.__name__.replace("_", " "))
         else:
@@ -107,16 +110,17 @@ def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
         return again
     out = dropped("coloured noise", state.candidates, "the noise has another colour")
     again = replace(again, candidates=(), singles=()).noting(*out)
-    for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
-        again = stage(again, workers)
+    again = _stages((nominal_rig, stiffness_or_damping_alone, single_effects), again, workers)
+    if workers.stop.due and not again.singles:
+        return state.noting(*_stopped(again.record[len(state.record) :]))  # no effect was fitted
     return again
 
 
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
     """A replay as fine as the log asks, and candidates fitted to it."""
     problem, found, record = refined_mesh(state.problem, state.candidates, workers)
-    if any(entry.decision is Decision.STOPPED for entry in record):
-        return state.noting(*record)  # costs at two resolutions do not compare
+    if stopped := _stopped(record):
+        return state.noting(*stopped)  # costs at two resolutions do not compare
     return replace(state, problem=problem, candidates=tuple(found)).noting(*record)
 
 
@@ -176,7 +180,7 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_all("scatter of the best", [(state.problem, names, start)], workers))
 
 
-STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
+STAGES: tuple[Stage, ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,
@@ -188,6 +192,10 @@ STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
     scatter_of_the_best,
     finer_mesh,
 )
+
+
+def _stopped(record: Sequence[RecordEntry]) -> list[RecordEntry]:
+    return [entry for entry in record if entry.decision is Decision.STOPPED]
 
 
 def _screened(

@@ -92,8 +92,10 @@ def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
     if verdict.kind is VerdictKind.UNKNOWN:
         return verdict
     others = [c for c in candidates if c.explains and c is not verdict.best]
-    sets = {frozenset(names): names for names in (*(c.named for c in others[::-1]), verdict.effects)}
-    confusable = tuple(reversed(sets.values()))
+    sets: dict[frozenset[str], tuple[str, ...]] = {}
+    for names in (verdict.effects, *(c.named for c in others), *verdict.confusable):
+        sets.setdefault(frozenset(names), names)
+    confusable = tuple(sets.values())
     return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
 
 

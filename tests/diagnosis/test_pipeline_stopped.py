@@ -69,6 +69,12 @@ def test_the_best_of_the_decimated_log_is_told_where_no_time_is_left_for_finalis
     assert not [w for w in report["warnings"] if "not fully tried" in w]
 
 
+def test_a_search_that_has_not_seen_what_is_alike_is_not_said_to_explain(stopped_at):
+    found = stopped_at("what cannot be told apart")
+    assert found.stopped.left_out[0] == "what cannot be told apart"
+    assert (found.verdict.kind, found.verdict.effects) == (VerdictKind.UNDECIDED, ("coulomb_friction",))
+
+
 def test_a_verdict_stands_where_the_assessment_alone_is_cut_short(stopped_at):
     found = stopped_at("adding another effect")
     assert (found.verdict.kind, found.verdict.effects) == (VerdictKind.EXPLAINED, ("coulomb_friction",))

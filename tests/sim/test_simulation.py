@@ -16,7 +16,7 @@ from models.statespace import modal_system
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import controls, initial_data, prepare_processes, simulate
 from sim.spec import Setup

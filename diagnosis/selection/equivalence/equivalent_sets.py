@@ -107,7 +107,7 @@ def equivalent_sets(
     tasks = [Task(effects=(name,), arguments=(chosen, name)) for name in effects]
     results = workers.each("what cannot be told apart", _column, tasks)
     columns = [c for c in results if not isinstance(c, Failure) and c.change.any()]
-    return _fitted(chosen, _promising(chosen, columns), workers)
+    return _fitted(chosen, _promising(chosen, columns), workers) if columns else ()
 
 
 def covers(names: Sequence[str], others: Sequence[str]) -> bool:

@@ -153,3 +153,9 @@ def test_the_same_effects_in_another_order_are_one_set():
 
 def test_nothing_at_the_floor_stays_unknown():
     assert cut(scored(["tip_drag"], 100.0, floor=TOO_MUCH)).kind is VerdictKind.UNKNOWN
+
+
+def test_what_cannot_be_told_apart_stays_beside_a_provisional_verdict():
+    best = scored(["tip_drag"], 100.0)
+    found = replace(verdict_on([best]), confusable=(("tip_drag",), ("torque_bias", "entry_friction")))
+    assert provisional(found, [best]).confusable == (("tip_drag",), ("torque_bias", "entry_friction"))
