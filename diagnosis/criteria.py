@@ -100,8 +100,8 @@ noise, of which they may leave twice the variance by chance; the share of it by 
 alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
 in a row: what lasts longer is an event."""
 PULSES_SHARE = 0.5
-"""Share of the outliers of the base that another signal answers to, from which they are motion: by
-chance those of two sensors meet in some hundredths of them."""
+"""Share of the outliers of the base that others answer to, from which they are motion; by chance
+those of two sensors meet in some hundredths of them."""
 
 # Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
@@ -219,13 +219,36 @@ AVERAGED_LEAST_SHARE = 0.5
 their place; and the share of its samples that a window has to have."""
 STEADY_DEPTH_MM = 0.2
 """A depth that changes by less is constant: what is left is the reading of the stage."""
-GAP_STEPS = 2.5
-"""Median steps that are a gap: one missing sample is interpolated, two are bridged."""
+GAP_STEPS = 1.7
+"""Median steps that are a gap, between one sample and two."""
+GAP_SHORT_S = 0.15
+GAP_MISFIT = 3.0
+"""Gaps in which a motion has no time for more than a curve through both sides shows; and the noise
+beyond which a curve does not fit these."""
 GAP_CERTAIN_DEG = 0.2
 GAP_FORGOTTEN_S = 1.0
+GAP_FORGOTTEN_LENGTHS = 5.0
 GAP_SIDE_SAMPLES = 12
-"""Where a cubic through 12 readings on each side and a line differ by more, the readings of the second
-after the gap are not used: by then the needle has mostly relaxed. Set on blind logs of seeds 1 and 2."""
+"""Where a curve through the readings on both sides (12 each at most) is uncertain by more, the readings
+after the gap are not used for a second, or five lengths of a short gap: by then the needle has mostly
+relaxed. Set on blind logs of seeds 1 and 2."""
+GAP_LOST_DEG = 1.0
+GAP_ERASED_TWISTS = 2.0
+"""Beyond a degree of uncertainty dry friction keeps a gap in mind, until the base has turned one way by
+twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
+BETWEEN_SAMPLES_S = 0.015
+STRAIGHT_DEG = 0.1
+"""Samples this far apart leave the motion between them open; and by how much the rate of the base may
+change from sample to sample, in degrees, where it is straight."""
+COARSE_STEP_SIGMA = 2.0
+"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them."""
+SHAKEN_STEP_SIGMA = 3.0
+"""Derived: noise shakes a reading across steps, so that its mean is off by
+exp(-2 (pi sigma / q)^2) q / pi: a tenth of sigma at three, seven tenths at five."""
+HELD_S, HELD_STEPS = 0.12, 1.0
+HELD_COUNTED_S = 0.5
+"""A coarse reading whose means change by less than a step in so long stands still, and counts so often.
+Set on fresh logs that were rounded: it leaves 1.16 and less as slow part where all of them left 2.3."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
 TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)

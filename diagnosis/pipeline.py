@@ -14,7 +14,7 @@ from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
-from diagnosis.fitting.decimation import decimated, decimated_noise
+from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
 from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
@@ -39,9 +39,8 @@ from diagnosis.progress import (
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
-from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
-from diagnosis.selection.equivalence.told_apart import told_apart
+from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import RecordEntry, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
@@ -58,7 +57,8 @@ class NominalReplay:
     """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
 
     Attributes:
-      log: as it is diagnosed: averaged, if it has more samples than are of use.
+      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
+        readings of trials that began late.
       problem: the log, its noise, and what is left open of the rig.
       fit: of what came before trials that began late, and of nothing else.
       predictions: of the nominal rig, by trial of the problem.
@@ -115,13 +115,14 @@ def diagnose(
     heard(REPLAYING, 0, 1)
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
+    log = nominal.log
     heard(REPLAYING, 1, 1)
-    log = without_unused(nominal.log, nominal.problem.log)
     with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
-        heard(CHECKING, 0, 1)
-        last = _judged(found, pool)
+        told = told_apart(found, pool)
         cut = bool(stop.left_out)
+        heard(CHECKING, 0, 1)
+        last = _judged(told, cut=cut)
         heard(CHECKING, 1, 1)
         heard(ASSESSING, 0, 1)
         assessment = assess(
@@ -167,7 +168,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
     left = _residuals(prepared, predictions)
-    noise = estimate_noise(log.rig, left, base_sigma_deg, told)
+    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded)
     begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
     library = library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
@@ -175,8 +176,9 @@ def replay_nominal(log: RigLog) -> NominalReplay:
         fit = nominal_fit(nominal_residuals(problem, predictions))
         return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
     fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
-    rig = fit.parameterization.rig(fit.x)
-    return NominalReplay(log=log, problem=problem, fit=fit, predictions=replay(begun, rig))
+    predictions = replay(begun, fit.parameterization.rig(fit.x))
+    known = without_unused(log, begun)
+    return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
 
 
 def _residuals(
@@ -199,20 +201,17 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
-def _judged(found: SearchState, workers: Workers) -> Judged:
+def _judged(told: ToldApart, *, cut: bool) -> Judged:
     """The verdict on what the search found; provisional if it was cut short."""
-    checked = check(found.problem, found.candidates, found.checked)
-    checked, verdict, alike = told_apart(found, checked, workers)
+    found, checked, verdict = told.state, told.checked, told.verdict
     problem = replace(found.problem, noise=checked.noise)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
-    if workers.stop.left_out:
+    if cut:
         verdict = provisional(verdict, checked.candidates)
     return Judged(
         problem=problem,
-        coarse=replace(
-            found.coarse, noise=decimated_noise(checked.noise, problem.log, found.coarse.log)
-        ),
+        coarse=told.coarse,
         verdict=verdict,
-        record=(*found.record, *alike, *judged(checked.candidates)),
+        record=(*found.record, *judged(checked.candidates)),
     )

@@ -3,13 +3,24 @@
 Every call comes back, in order: as its value, or as a `Failure` that names what could not be
 simulated, or what a stop has left undone. Misuse is no failure of a simulation: it is raised, from
 a worker too. Worker processes end with this one, however it ends.
+
+Where there are fewer calls than processes, the cores that are left go to threads within a call
+(`side_by_side`): simulations run without Python's lock. Results depend on neither.
 """
 
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from multiprocessing import active_children, parent_process
 from threading import Thread
@@ -21,6 +32,10 @@ from sim.simulation import SimulationFailed
 Heard = Callable[[str, int, int], None]
 """Is told the stage, its tasks that are done, and all of them."""
 T = TypeVar("T")
+S = TypeVar("S")
+
+_THREADS: ContextVar[int] = ContextVar("threads", default=1)
+"""That a call may use here and now."""
 
 _LOOK_S = 0.1  # between two looks at the signal to stop
 
@@ -58,9 +73,11 @@ class Workers:
 
     Attributes:
       pool: None works in this process.
+      count: of processes.
     """
 
     pool: Executor | None = None
+    count: int = 1
     progress: Heard = unheard
     stop: StopSignal = NEVER
 
@@ -92,7 +109,8 @@ class Workers:
     def _over_processes(
         self, pool: Executor, stage: str, function: Callable[..., T], tasks: Sequence[Task]
     ) -> list[T | Failure]:
-        calls = [pool.submit(attempt, function, task) for task in tasks]
+        threads = max(1, self.count // max(len(tasks), 1))
+        calls = [pool.submit(_attempt_on, threads, function, task) for task in tasks]
         running: set[Future[T | Failure]] = set(calls)
         while running and not self.stop.due:
             self.progress(stage, len(calls) - len(running), len(calls))
@@ -118,17 +136,37 @@ def _undone(task: Task) -> Failure:
     return Failure(effects=task.effects, reason="stopped early: not tried", stopped=True)
 
 
+def _attempt_on(threads: int, function: Callable[..., T], task: Task) -> T | Failure:
+    """The same in a process of the pool, which has so many cores to itself."""
+    _THREADS.set(threads)
+    return attempt(function, task)
+
+
+def side_by_side(function: Callable[[S], T], items: Sequence[S]) -> list[T]:
+    """The function of each item, in order, on the threads that this call may use.
+
+    Raises:
+      Exception: what the first item raises that raises anything.
+    """
+    threads = min(_THREADS.get(), len(items))
+    if threads <= 1:
+        return [function(item) for item in items]
+    with ThreadPoolExecutor(threads) as pool:
+        return list(pool.map(function, items))
+
+
 @contextmanager
 def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER) -> Iterator[Workers]:
     """Processes that share what this one has loaded, and end with the block; 1 works in this one."""
     if count <= 1:
         yield Workers(progress=progress, stop=stop)
         return
-    others = active_children()
+    others, before = active_children(), _THREADS.set(count)
     pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop,))
     try:
-        yield Workers(pool=pool, progress=progress, stop=stop)
+        yield Workers(pool=pool, count=count, progress=progress, stop=stop)
     finally:
+        _THREADS.reset(before)
         pool.shutdown(wait=False, cancel_futures=True)
         ours = [process for process in active_children() if process not in others]
         for process in ours:

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
+from rich.table import Column, Table
 
 from models.errors import InvalidValue, NeedleError
 from sim.files import refuse_existing, write_text, writing
@@ -118,8 +119,9 @@ def _list(scores: pd.DataFrame, what: str, console: Console) -> None:
 
 
 def _by_kind(summary: pd.DataFrame) -> Table:
-    shown = ("confidently wrong", "exact", "undecided", "unknown", "median s", "worst s")
-    table = Table("kind", "logs", *shown, title="By kind of log")
+    shown = ("logs", "confidently\nwrong", "exact", "undecided", "unknown", "median\ns", "worst\ns")
+    kind_column = Column("kind", no_wrap=True)
+    table = Table(kind_column, *shown, title="By kind of log", box=SIMPLE_HEAD, collapse_padding=True)
     for kind, row in summary.iterrows():
         shares = [f"{100 * row[c]:.1f} %" for c in ("exact", "undecided", "unknown")]
         counts = [f"{row[c]:.0f}" for c in ("logs", "confidently_wrong")]

@@ -1,6 +1,7 @@
 """Running needles in MuJoCo: one, or many side by side."""
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 import mujoco
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from models import units
 from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
+from sim.callback_loop import run_callback
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
@@ -166,6 +168,7 @@ def simulate(
     models: Sequence[mujoco.MjModel] | None = None,
     keep_shape: bool = False,
     threads: int = 1,
+    callback_alone: bool = False,
 ) -> list[Run]:
     """Run needles of one model size side by side, through the same inputs or each through its own.
 
@@ -177,6 +180,8 @@ def simulate(
         stiffness, inertia, servos and time step are what is simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
+      callback_alone: without MuJoCo's steps, as differences between runs may be
+        (sim.callback_loop); no shape is kept.
 
     Raises:
       InvalidValue: the setups differ in elements or rows of the law table; the inputs are not as many
@@ -184,7 +189,24 @@ def simulate(
       SimulationFailed: MuJoCo stopped, or its step did not land where it should.
     """
     install()
-    models = models_of(setups) if models is None else list(models)
+    with models_of(setups) if models is None else nullcontext(list(models)) as own:
+        first = own[0]
+        _refuse_other_sizes(own)
+        stepped = _at_steps(inputs, len(setups), first.opt.timestep)
+        ctrl = np.stack([controls(each, setup) for each, setup in zip(stepped, setups, strict=True)])
+        starts = [_start(setup, each[0], first.nq) for setup, each in zip(setups, ctrl, strict=True)]
+        if callback_alone:
+            raw = {"sensordata": run_callback(own, starts, ctrl)}
+        else:
+            raw = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
+    return [
+        _run(setups[i], stepped[i], starts[i], ctrl[i, 0], {k: v[i] for k, v in raw.items()})
+        for i in range(len(setups))
+    ]
+
+
+def _refuse_other_sizes(models: Sequence[mujoco.MjModel]) -> None:
+    """A batch is of models of one size."""
     first = models[0]
     for model in models:
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):
@@ -194,19 +216,28 @@ def simulate(
                 f"the same number of elements and rows in every set-up, {first.nq, first.nuserdata}",
                 "set `rows` to the largest number of rows",
             )
-    stepped = _at_steps(inputs, len(setups), first.opt.timestep)
-    ctrl = np.stack([controls(own, setup) for own, setup in zip(stepped, setups, strict=True)])
-    batch = batch_of(models, threads)
-    starts = [_start(setup, own[0], first.nq) for setup, own in zip(setups, ctrl, strict=True)]
-    batch.state[:] = 0.0
-    batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
-    batch.forward()
+
+
+def _rollout(
+    models: Sequence[mujoco.MjModel],
+    starts: Sequence[Array],
+    ctrl: Array,
+    *,
+    keep_shape: bool,
+    threads: int,
+) -> dict[str, Array]:
+    """What MuJoCo records at the ends of steps, (needles, N, ...) each.
+
+    Args:
+      starts: joints at the start, (joints,) each.
+      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+    """
     record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
-    raw = batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record)
-    return [
-        _run(setups[i], stepped[i], starts[i], ctrl[i, 0], {k: v[i] for k, v in raw.items()})
-        for i in range(len(setups))
-    ]
+    with batch_of(models, threads) as batch:
+        batch.state[:] = 0.0
+        batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
+        batch.forward()
+        return dict(batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record))
 
 
 def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) -> list[Schedule]:

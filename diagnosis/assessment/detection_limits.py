@@ -66,7 +66,7 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
             return name, {}
         own = np.array([p.to_fit(v) for p, v in zip(parameters, values, strict=True)])
         rig = parameterization.rig(parameterization.joined(base.parts | {name: own}))
-        moved = projection.beyond([run[0] for run in coarse.residuals([rig])])
+        moved = projection.beyond([run[0] for run in coarse.residuals([rig], callback_alone=True)])
         more = asked / max(float(np.linalg.norm(moved)), 1e-9)
         share *= float(np.clip(more, 1 / _MOST, _MOST))
     return name, {p.name: p.towards_neutral(p.start[0], share) for p in parameters if p.reported}

@@ -84,7 +84,7 @@ def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
     rig = fit.parameterization.rig(fit.x)
     found = [np.zeros(fit.x.size)] if stopping() else []
     while not stopping() and len(found) < _REPLICATES:
-        runs = _noisier(problem, rng).residuals([rig])
+        runs = _noisier(problem, rng).residuals([rig], callback_alone=True)
         moved = [run[0] - residual for run, residual in zip(runs, fit.by_trial, strict=True)]
         found.append(_answer(fit, inverse, moved))
     return np.array(found)

@@ -13,7 +13,9 @@ from diagnosis.fitting.bounded_least_squares import bounded_least_squares
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.nuisance import CONVENTIONS
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import predict, residuals
+from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -39,12 +41,14 @@ def held_out_residuals(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
     Raises:
       SimulationFailed: the others lead to where the needle cannot be simulated.
     """
-    found = []
-    for trial, step in zip(problem.log.trials, _steps(fit), strict=True):
+
+    def left(trial: PreparedTrial, step: Array) -> Array:
         rig = fit.parameterization.rig(fit.x + step)
         prediction = predict(problem.log.rig, trial, [rig], problem.resolution)[0]
-        found.append(residuals(trial, prediction, problem.noise))
-    return tuple(found)
+        return residuals(trial, prediction, problem.noise)
+
+    each = list(zip(problem.log.trials, _steps(fit), strict=True))
+    return tuple(side_by_side(lambda pair: left(*pair), each))
 
 
 def shift_statistic(fit: Fit) -> float:

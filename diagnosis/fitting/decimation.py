@@ -27,6 +27,8 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
+_TOLERANCE = 0.1  # of fits that only tell which ones to do again on the log itself
+
 
 def decimated(
     problem: FitProblem, nominal: Sequence[Prediction], nominal_rig: RigParameters = NOMINAL
@@ -44,7 +46,7 @@ def decimated(
     trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
     rare = PreparedLog(rig=log.rig, trials=trials)
     noise = decimated_noise(problem.noise, log, rare)
-    return replace(problem, log=rare, noise=noise, resolution=COARSE)
+    return replace(problem, log=rare, noise=noise, resolution=COARSE, tolerance=_TOLERANCE)
 
 
 def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:

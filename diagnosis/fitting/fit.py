@@ -9,7 +9,7 @@ by MuJoCo's own box-bounded Gauss-Newton; the columns of one Jacobian run as a b
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from mujoco import minimize
@@ -20,6 +20,7 @@ from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.fitting.stopping import Ended, Stopping
 
 Array = NDArray[np.float64]
 
@@ -79,6 +80,7 @@ def fit_effects(
     problem: FitProblem,
     names: Sequence[str],
     start: Array | None = None,
+    enough: float = np.inf,
     *,
     most_iterations: int = _MOST_ITERATIONS,
 ) -> Fit:
@@ -86,6 +88,7 @@ def fit_effects(
 
     Args:
       start: the vector to start from; None is neutral.
+      enough: cost that the fit has to come below to be of use: one that cannot is given up.
       most_iterations: of Gauss-Newton.
 
     Raises:
@@ -100,9 +103,12 @@ def fit_effects(
     x = np.clip(parameterization.joined({}) if start is None else start, objective.low, objective.high)
     for difference in max((e.differences for e in parameterization.all), key=len):
         objective = Objective(problem, parameterization, difference)
-        x, message = _minimised(objective, x, most_iterations)
-    at_bound = _at_bound(objective, x)
-    return _fit(objective, names, x, FitStatus.of_message(message, at_bound))
+        x, status = _minimised(
+            objective, x, Stopping(objective, problem.tolerance, enough), most_iterations
+        )
+        if status.termination is Termination.BEHIND:
+            break
+    return _fit(objective, names, x, replace(status, at_bound=_at_bound(objective, x)))
 
 
 def nominal_fit(by_trial: Sequence[Array]) -> Fit:
@@ -118,24 +124,30 @@ def nominal_fit(by_trial: Sequence[Array]) -> Fit:
     )
 
 
-def _minimised(objective: Objective, start: Array, most_iterations: int) -> tuple[Array, str]:
-    """Where Gauss-Newton comes to from a start, and what it says of its end."""
+def _minimised(
+    objective: Objective, start: Array, stopping: Stopping, most_iterations: int
+) -> tuple[Array, FitStatus]:
+    """Where Gauss-Newton comes to from a start, and how it ended."""
     said = io.StringIO()
-    x, _ = minimize.least_squares(
-        start,
-        objective,
-        bounds=[objective.low, objective.high],
-        jacobian=objective.jacobian,
-        x_scale="jac",
-        gtol=_GRADIENT_TOLERANCE,
-        xtol=_STEP_TOLERANCE,
-        max_iter=most_iterations,
-        mu_min=1e-3,
-        mu_factor=8.0,
-        verbose=minimize.Verbosity.FINAL,
-        output=said,
-    )
-    return np.asarray(x).ravel(), said.getvalue()
+    try:
+        x, _ = minimize.least_squares(
+            start,
+            stopping,
+            bounds=[objective.low, objective.high],
+            jacobian=stopping.jacobian,
+            x_scale="jac",
+            gtol=_GRADIENT_TOLERANCE,
+            xtol=_STEP_TOLERANCE,
+            max_iter=most_iterations,
+            mu_min=1e-3,
+            mu_factor=8.0,
+            verbose=minimize.Verbosity.FINAL,
+            output=said,
+            iter_callback=stopping.after_step,
+        )
+    except Ended as ended:
+        return ended.x, FitStatus(termination=ended.termination, message=str(ended))
+    return np.asarray(x).ravel(), FitStatus.of_message(said.getvalue())
 
 
 def _at_bound(objective: Objective, x: Array) -> tuple[str, ...]:

@@ -9,8 +9,10 @@ class Termination(StrEnum):
 
     GRADIENT = "converged: gradient"
     STEP = "converged: step"
+    OFFSET = "converged: relative offset"
     STALLED = "stalled: no further reduction"
     ITERATIONS = "stopped: most iterations"
+    BEHIND = "stopped: cannot come near the best"
     FACTORIZATION = "failed: factorization"
     NOTHING_TO_FIT = "nothing to fit"
     OTHER = "other"
@@ -42,7 +44,12 @@ class FitStatus:
     @property
     def converged(self) -> bool:
         """Whether the optimiser met its tolerance."""
-        return self.termination in (Termination.GRADIENT, Termination.STEP, Termination.NOTHING_TO_FIT)
+        return self.termination in (
+            Termination.GRADIENT,
+            Termination.STEP,
+            Termination.OFFSET,
+            Termination.NOTHING_TO_FIT,
+        )
 
     @classmethod
     def of_message(cls, said: str, at_bound: tuple[str, ...] = ()) -> "FitStatus":

@@ -39,7 +39,8 @@ def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     first = with_colour(problem, best) if problem.noise.colour else problem.noise
     left = _by_sensor(problem, in_units_of(problem, best.by_trial, first))
     change = {s: _change([values for _, values in own]) for s, own in left.items()}
-    return replace(first, sigma={s: own * change.get(s, 1.0) for s, own in first.sigma.items()})
+    sigma = {s: max(own * change.get(s, 1.0), first.least.get(s, 0.0)) for s, own in first.sigma.items()}
+    return replace(first, sigma=sigma)
 
 
 def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, NoiseFloor]:

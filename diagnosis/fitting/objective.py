@@ -18,7 +18,7 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
-_KEPT = 8  # vectors whose residuals are kept: more than a search along one direction takes
+_KEPT = 16  # vectors whose residuals are kept: more than a search along one direction takes
 
 
 class Objective:
@@ -57,33 +57,27 @@ class Objective:
         return self._known[key]
 
     def __call__(self, x: Array) -> Array:
-        """(n, M) or (n,) to residuals with the prior, (N, M) or (N,).
+        """(n,) or (n, 1) to residuals with the prior, (N,) or (N, 1).
+
+        NaN: one step too far, to be taken back.
 
         Raises:
+          SimulationFailed: the rig cannot be simulated at the first vector.
           StoppedEarly: there is no time left for the fit.
         """
         raise_if_stopped()
-        columns = x.reshape(x.shape[0], -1)
-        trials = self._trials(columns)
-        if trials is None:
-            return np.full((self._rows or 0, *x.shape[1:]), np.nan)
-        rows = [
-            np.concatenate([*(t[i] for t in trials), self.parameterization.weights * columns[:, i]])
-            for i in range(columns.shape[1])
-        ]
-        self._rows = rows[0].size
-        return np.stack(rows, axis=-1).reshape(-1, *x.shape[1:])
-
-    def _trials(self, columns: Array) -> Sequence[Sequence[Array]] | None:
-        """Residuals trial by trial, then column by column; None: one step too far, to be taken back."""
-        if columns.shape[1] > 1:
-            return self.problem.residuals([self.parameterization.rig(x) for x in columns.T])
+        flat = np.ascontiguousarray(x.ravel())
         try:
-            return [[residual] for residual in self.by_trial(np.ascontiguousarray(columns[:, 0]))]
+            rows = self._with_prior(self.by_trial(flat), flat)
         except SimulationFailed:
             if self._rows is None:
                 raise
-            return None
+            rows = np.full(self._rows, np.nan)
+        self._rows = rows.size
+        return rows.reshape(-1, *x.shape[1:])
+
+    def _with_prior(self, trials: Sequence[Array], x: Array) -> Array:
+        return np.concatenate([*trials, self.parameterization.weights * x])
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """By differences away from the bounds, (N, n)."""
@@ -94,10 +88,17 @@ class Objective:
         if self._fresh_at is None or self._is_far(flat - self._fresh_at):
             taken, self._fresh_at = np.arange(flat.size), flat
         if taken.size:
-            moved = self(flat[:, None] + np.diag(steps)[:, taken])
+            moved = self._side_by_side(flat + np.diag(steps)[taken])
             slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
         self.slopes = slopes
         return slopes
 
     def _is_far(self, way: Array) -> bool:
         return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)
+
+    def _side_by_side(self, vectors: Array) -> Array:
+        """Residuals with the prior at several vectors, (k, n), for differences: (N, k)."""
+        rigs = [self.parameterization.rig(x) for x in vectors]
+        trials = self.problem.residuals(rigs, callback_alone=True)
+        columns = [self._with_prior([t[i] for t in trials], x) for i, x in enumerate(vectors)]
+        return np.stack(columns, axis=-1)

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
-from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -25,6 +26,7 @@ class FitProblem:
     Attributes:
       nuisance: what every fit leaves open.
       library: effects with bounds and starts for a rig of this size.
+      tolerance: within which fits converge, in standard deviations of their parameters.
     """
 
     log: PreparedLog
@@ -32,22 +34,31 @@ class FitProblem:
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
+    tolerance: float = 0.02
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
         return parameterization_of(names, self.nuisance, self.library)
 
-    def residuals(self, rigs: Sequence[RigParameters]) -> list[list[Array]]:
+    def residuals(
+        self, rigs: Sequence[RigParameters], *, callback_alone: bool = False
+    ) -> list[list[Array]]:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
+
+        Args:
+          callback_alone: for differences between residuals alone (sim.callback_loop).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.
         """
-        found = []
-        for trial in self.log.trials:
-            predictions = predict(self.log.rig, trial, rigs, self.resolution)
-            found.append([residuals(trial, p, self.noise) for p in predictions])
-        return found
+
+        def of(trial: PreparedTrial) -> list[Array]:
+            predictions = predict(
+                self.log.rig, trial, rigs, self.resolution, callback_alone=callback_alone
+            )
+            return [residuals(trial, p, self.noise) for p in predictions]
+
+        return side_by_side(of, self.log.trials)
 
     def drifting(self, size_n_mm: float) -> "FitProblem":
         """The same with a torque sensor that may drift by so much within a trial."""

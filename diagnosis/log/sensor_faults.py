@@ -66,7 +66,11 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
                 warnings.append(
                     _told(trial.name, name, what, rows, _EMPTIED if name in SENSORS else done)
                 )
-        table[name] = np.where(saturated | frozen, np.nan, values) if name in SENSORS else off.expected
+        table[name] = (
+            np.where(saturated | frozen, np.nan, values)
+            if name in SENSORS
+            else _as_read(off.expected, values, claim)
+        )
     return replace(trial, table=table), warnings
 
 
@@ -119,6 +123,17 @@ def lines(rows: Mask) -> str:
 
 def _told(file: str, column: str, what: str, rows: Mask, done: str) -> str:
     return f"{file}: {column} {what} in {rows.sum()} of {rows.size} samples, {lines(rows)}; {done}"
+
+
+def _as_read(expected: Array, values: Array, claim: float) -> Array:
+    """What is expected in place of empty readings, in the steps of a coarse encoder."""
+    step = quantum(values)
+    whole = np.round((expected - values[np.isfinite(values)][0]) / step) if step > claim > 0 else None
+    return (
+        expected
+        if whole is None
+        else np.where(np.isfinite(values), values, values[np.isfinite(values)][0] + whole * step)
+    )
 
 
 def _outlier_scale(values: Array, claim: float) -> float:

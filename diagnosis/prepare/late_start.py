@@ -1,5 +1,6 @@
 """How a trial begins whose recording began late: twisted, or moving."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from diagnosis.criteria import TURNING_DEG_S
@@ -19,12 +20,20 @@ class LateStart:
     rate_deg_s: float
     unused_s: float
 
-    def warning(self, trial: str) -> str:
-        """What was done with the trial, in a sentence of the report."""
+    @property
+    def words(self) -> str:
+        """The twist, the rate if the base moves, and what is not used."""
         rate_deg_s = abs(self.rate_deg_s)
-        moving = f", moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
-        return (
-            f"{trial}: begins wound up by about {abs(self.twist_deg):.2g} deg{moving}: what the base "
-            "turned by before is fitted, and what its sensors read in the first "
-            f"{self.unused_s:.2g} s is not used"
-        )
+        moving = f" and moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
+        return f"by about {abs(self.twist_deg):.2g} deg{moving} (first {self.unused_s:.2g} s)"
+
+
+def late_start_warning(starts: Mapping[str, LateStart]) -> str:
+    """What was done with trials that began late, by their names; empty: none did."""
+    if not starts:
+        return ""
+    each = "; ".join(f"{trial} {start.words}" for trial, start in starts.items())
+    return (
+        f"begins wound up: {each}: what the base turned by before is fitted, and what the sensors read "
+        "in the time in brackets is not used"
+    )

@@ -5,7 +5,7 @@ it (`base_motion_deg` here) are two things: a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.between_samples import between_samples
 from diagnosis.prepare.drift import drift_whitening
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
-from diagnosis.prepare.late_start import LateStart
+from diagnosis.prepare.late_start import LateStart, late_start_warning
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -59,9 +60,8 @@ class PreparedTrial:
     def schedule(self) -> Schedule:
         """What was done to the needle."""
         torque = self.tip_torque_n_mm
-        time, motion = self.time_s, self.base_motion_deg
-        if self.inertia.counts:
-            time, motion = smooth_motion(time, motion)
+        finer = smooth_motion if self.inertia.counts else between_samples
+        time, motion = finer(self.time_s, self.base_motion_deg)
 
         def at(values: Array) -> Array:
             return values if time is self.time_s else np.interp(time, self.time_s, values)
@@ -98,10 +98,15 @@ class PreparedTrial:
 
 @dataclass(frozen=True, kw_only=True)
 class PreparedLog:
-    """The nominal rig and its trials, ready for replay."""
+    """The nominal rig and its trials, ready for replay.
+
+    Attributes:
+      rounded: least noise of columns that are read in coarse steps.
+    """
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
+    rounded: Mapping[str, float] = field(default_factory=dict)
 
     def drifting(self, size_sigma: float) -> "PreparedLog":
         """The log with a torque sensor that may drift by so much within a trial."""
@@ -111,9 +116,9 @@ class PreparedLog:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Trials whose samples are too rare for what they have to carry, and that began late."""
-        each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
-        late = (t.late_start.warning(t.name) for t in self.trials if t.late_start)
-        return (*(warning for warning in each if warning), *late)
+        each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
+        late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
+        return tuple(warning for warning in (*each, late_start_warning(late)) if warning)
 
 
 def _steadied(depth_mm: Array) -> Array:

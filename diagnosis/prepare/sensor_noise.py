@@ -34,12 +34,14 @@ class Noise:
       warnings: what was odd about it.
       colour: of the sensors whose noise is not white.
       white: one standard deviation by sensor, if all noise is taken for white.
+      least: what readings in coarse steps have at least.
     """
 
     sigma: Mapping[str, float]
     warnings: tuple[str, ...] = field(default=())
     colour: Mapping[str, NoiseColour] = field(default_factory=dict)
     white: Mapping[str, float] = field(default_factory=dict)
+    least: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
@@ -90,6 +92,7 @@ def estimate_noise(
     residuals: Mapping[str, Sequence[TimedArray]],
     base_sigma_deg: float,
     told: Collection[str] = (),
+    least: Mapping[str, float] | None = None,
 ) -> Noise:
     """Noise of a log.
 
@@ -97,7 +100,9 @@ def estimate_noise(
       residuals: times, s, and measured minus nominal, by sensor and trial, (N,) each.
       base_sigma_deg: of the base's encoder.
       told: columns whose claim has been doubted before.
+      least: noise of columns in coarse steps, which differences of standing readings do not show.
     """
+    least = least or {}
     claims = rig.sensors.by_column()
     sigma, warnings = (
         {BASE: base_sigma_deg},
@@ -108,6 +113,7 @@ def estimate_noise(
         found = white_noise(left[sensor], order=_ORDER)
         if not np.isfinite(found) or found <= 0:
             found = claims[sensor] or _UNKNOWN
+        found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
     noise = Noise(sigma=sigma, white=sigma).with_colour(residuals)
     for sensor in SENSORS:
@@ -115,7 +121,7 @@ def estimate_noise(
             sensor, left[sensor], noise[sensor]
         )
     said = tuple(warning for column, warning in warnings.items() if warning and column not in told)
-    return replace(noise, warnings=said)
+    return replace(noise, warnings=said, least=least)
 
 
 def _scatters_otherwise(column: str, found: float, claimed: float) -> str:

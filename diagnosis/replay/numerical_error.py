@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import NUMERICAL_ERROR_WARNED
 from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 
@@ -34,16 +35,15 @@ def refinement_change(
     Raises:
       SimulationFailed: the rig cannot be simulated so finely.
     """
-    changes = []
-    for trial, here in zip(log.trials, predictions, strict=True):
+
+    def change(trial: PreparedTrial, here: Prediction) -> dict[str, Array]:
         finer = Resolution(elements=2 * resolution.elements, step_s=0.5 * resolution.step_of(trial))
-        there = predict(log.rig, trial, [rig], finer)[0]
-        change = {s: (there[s] - here[s]) / noise[s] for s in SENSORS if trial.has(s)}
-        read = {s: np.isfinite(trial.readings[s]) for s in change}
-        changes.append(
-            {s: noise.whitened(s, trial.time_s[read[s]], c[read[s]]) for s, c in change.items()}
-        )
-    return changes
+        there = predict(log.rig, trial, [rig], finer, callback_alone=True)[0]
+        moved = {s: (there[s] - here[s]) / noise[s] for s in SENSORS if trial.has(s)}
+        read = {s: np.isfinite(trial.readings[s]) for s in moved}
+        return {s: noise.whitened(s, trial.time_s[read[s]], c[read[s]]) for s, c in moved.items()}
+
+    return side_by_side(lambda pair: change(*pair), list(zip(log.trials, predictions, strict=True)))
 
 
 def numerical_error(changes: Sequence[Mapping[str, Array]]) -> dict[str, float]:

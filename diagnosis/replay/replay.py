@@ -19,6 +19,7 @@ from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, sensed
+from diagnosis.workers import side_by_side
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
@@ -52,7 +53,7 @@ def replay(
     Raises:
       SimulationFailed: the rig cannot be simulated.
     """
-    return [predict(log.rig, trial, [rig], resolution)[0] for trial in log.trials]
+    return side_by_side(lambda trial: predict(log.rig, trial, [rig], resolution)[0], log.trials)
 
 
 def predict(
@@ -60,15 +61,21 @@ def predict(
     trial: PreparedTrial,
     rigs: Sequence[RigParameters],
     resolution: Resolution = FINE,
+    *,
+    callback_alone: bool = False,
 ) -> list[Prediction]:
     """Predictions of one trial by several rigs, in their order.
+
+    Args:
+      callback_alone: without MuJoCo's steps, for differences between predictions (sim.callback_loop).
 
     Raises:
       SimulationFailed: one of them cannot be simulated.
     """
     seen = [rig.on_trial(trial.name).without_sensors() for rig in rigs]
     needles = list(dict.fromkeys(seen))
-    runs = dict(zip(needles, _run(nominal, trial, needles, resolution), strict=True))
+    done = _run(nominal, trial, needles, resolution, callback_alone=callback_alone)
+    runs = dict(zip(needles, done, strict=True))
     each = zip(rigs, seen, strict=True)
     return [_sensed(rig, runs[needle], trial.time_s) for rig, needle in each]
 
@@ -100,6 +107,7 @@ def _run(
     resolution: Resolution,
     *,
     keep_shape: bool = False,
+    callback_alone: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
     inputs = [driven(rig, schedule_with_past(rig, trial)) for rig in rigs]
@@ -107,7 +115,7 @@ def _run(
         rig.setup(nominal, own, elements=elements, step_s=step_s)
         for rig, own in zip(rigs, inputs, strict=True)
     ]
-    return simulate(setups, inputs, keep_shape=keep_shape)
+    return simulate(setups, inputs, keep_shape=keep_shape, callback_alone=callback_alone)
 
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:

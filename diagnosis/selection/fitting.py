@@ -11,6 +11,7 @@ from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.complexity import complexity_penalty
 from diagnosis.selection.record import RecordEntry, dropped, failed, made, not_fitted
 from diagnosis.selection.screening import Screened
 from diagnosis.stopping import NEVER, listening
@@ -21,7 +22,7 @@ Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
 
 
 def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> Made:
-    """Candidates of calls of `fit_effects` (problem, names, start), in their order."""
+    """Candidates of calls of `fit_effects` (problem, names, start, enough), in their order."""
     tasks = [Task(effects=tuple(call[1]), arguments=call) for call in calls]
     results = workers.each(stage, fit_effects, tasks)
     found = [candidate(fit) for fit in results if not isinstance(fit, Failure)]
@@ -30,18 +31,28 @@ def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> M
 
 
 def fit_screened(
-    stage: str, problem: FitProblem, screened: Sequence[Screened], most: int, workers: Workers
+    stage: str,
+    problem: FitProblem,
+    screened: Sequence[Screened],
+    most: int,
+    workers: Workers,
+    *,
+    used: int = 1,
 ) -> Made:
     """Fits of the most promising sets, the best of each set, best first.
 
     Once something brings the residual to the noise floor, only what promises to come near it
-    is still fitted, and what that contains.
+    is still fitted, and what that contains. A fit that cannot come near enough to be of use is given up.
+
+    Args:
+      used: how many sets are of use, where none comes to the noise floor.
     """
     waiting = sorted(screened, key=lambda s: s.cost)[:most]
     found, record, skipped = list[Candidate](), list[RecordEntry](), list[Screened]()
     while waiting:
         batch, waiting = waiting[:FITS_AT_ONCE], waiting[FITS_AT_ONCE:]
-        new, entries = fit_all(stage, [(problem, s.names, s.start) for s in batch], workers)
+        calls = [(problem, s.names, s.start, _enough(s.names, found, used)) for s in batch]
+        new, entries = fit_all(stage, calls, workers)
         found += new
         record += entries
         at_floor = [c for c in found if c.floor.small]
@@ -95,6 +106,17 @@ def _in_short(
         return [], (*record, *failed(stage, [fit]))
     found = [candidate(fit)]
     return found, (*record, *made(stage, found))
+
+
+def _enough(names: tuple[str, ...], found: Sequence[Candidate], used: int) -> float:
+    """Cost that a fit of these effects has to come below to be of use beside what was found."""
+    best = _best_of_each_set(found)
+    at_floor = any(c.floor.small for c in best)
+    if not best or (len(best) < used and not at_floor):
+        return np.inf
+    last = best[0] if at_floor else best[used - 1]
+    score = max(best[0].score + CONTENDING, last.score)
+    return score - complexity_penalty(names, best[0].fit.samples)
 
 
 def _still(one: Screened, floor: float, inner: set[str]) -> bool:

@@ -69,7 +69,7 @@ def _matters(problem: FitProblem, best: Fit, resolution: Resolution) -> bool:
         return False
     finer = replace(problem, resolution=resolution)
     try:
-        runs = finer.residuals([best.parameterization.rig(best.x)])
+        runs = finer.residuals([best.parameterization.rig(best.x)], callback_alone=True)
     except SimulationFailed:
         return False  # what cannot be simulated so finely stays as it is
     return any(_is_much(r[0] - left, left) for r, left in zip(runs, best.by_trial, strict=True))

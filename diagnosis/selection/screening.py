@@ -50,7 +50,7 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
     found = [base.parts[name]] if name in base.parts else []
     own = [*found, *starts(effect)[:most_starts]]
     columns = [parameterization.joined(base.parts | {name: s}) for s in own]
-    runs = problem.residuals([parameterization.rig(x) for x in columns])
+    runs = problem.residuals([parameterization.rig(x) for x in columns], callback_alone=True)
     projection = Projection(base, name)
     without = projection.reachable_cost()
     # What the nuisance took over from a missing effect is no good start with it.

@@ -24,9 +24,8 @@ from diagnosis.criteria import (
     WORTH_FITTING,
 )
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
-from diagnosis.fitting.noise_reestimation import rescaled, with_colour
+from diagnosis.fitting.noise_reestimation import with_colour
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import check
@@ -89,24 +88,21 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
     missing = not candidate(start).floor.small
     worth = [s for s in screened if missing or s.gain >= WORTH_FITTING]
     state = state.noting(*_not_worth(stage, screened, worth))
-    singles, record = fit_screened(stage, state.coarse, worth, len(worth), workers)
+    singles, record = fit_screened(stage, state.coarse, worth, len(worth), workers, used=PAIR_BASES)
     state = replace(state.noting(*record), singles=tuple(singles))
     return state.adding(fit_finalists("finalists", state.problem, singles, workers))
 
 
 def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
-    """Where what the best effect leaves shows other colours than the nominal rig did: once more."""
+    """The noise as the best effect leaves it; where other sensors' is coloured, all once more."""
     noise = with_colour(state.problem, state.best.fit)
-    if noise.colour.keys() == state.problem.noise.colour.keys():
+    if noise.same(state.problem.noise):
         return state
-    again = replace(
-        state,
-        problem=replace(state.problem, noise=noise),
-        coarse=replace(state.coarse, noise=decimated_noise(noise, state.problem.log, state.coarse.log)),
-        nominal=rescaled(state.nominal, state.problem, noise),
-        candidates=(),
-        singles=(),
-    ).noting(*dropped("coloured noise", state.candidates, "the noise has another colour"))
+    again = state.renoised(noise)
+    if noise.colour.keys() == state.problem.noise.colour.keys():
+        return again
+    out = dropped("coloured noise", state.candidates, "the noise has another colour")
+    again = replace(again, candidates=(), singles=()).noting(*out)
     for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
         again = stage(again, workers)
     if workers.stop.due and not again.singles:

@@ -2,9 +2,12 @@
 
 from dataclasses import dataclass, replace
 
+from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.selection.candidate import Candidate
+from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import Checked
 from diagnosis.selection.fitting import Made
 from diagnosis.selection.record import RecordEntry
@@ -45,6 +48,19 @@ class SearchState:
         """The state with more candidates."""
         found, record = made
         return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
+
+    def renoised(self, noise: Noise) -> "SearchState":
+        """The state in units of another noise."""
+        fine, coarse = self.problem, self.coarse
+        rare = decimated_noise(noise, fine.log, coarse.log)
+        return replace(
+            self,
+            problem=replace(fine, noise=noise),
+            coarse=replace(coarse, noise=rare),
+            nominal=rescaled(self.nominal, fine, noise),
+            candidates=tuple(candidate(rescaled(c.fit, fine, noise)) for c in self.candidates),
+            singles=tuple(candidate(rescaled(c.fit, coarse, rare)) for c in self.singles),
+        )
 
     def noting(self, *entries: RecordEntry) -> "SearchState":
         """The state with a longer record."""

@@ -67,7 +67,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     alike = [c for c in at_floor if c is not best and _alike(best, c)]
     rivals = sorted(alike, key=lambda c: _asks_more_scatter(best, c))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
-    if not all(_asks_more_scatter(best, c) for c in rivals):
+    if rivals and not (best.named and all(_asks_more_scatter(best, c) for c in rivals)):
         kind = VerdictKind.UNDECIDED
     return Verdict(
         kind=kind,

@@ -83,8 +83,11 @@ def cover(
     end = _clip(end, top, x[n])
     near = 1e-9 * (x[n] - x[0])
     for e in range(n):
-        a = x[e + 1] - x[e]
         out = loads[e]
+        if x[e + 1] <= top or x[e] >= end:
+            out[0] = out[1] = out[2] = out[3] = 0.0
+            continue
+        a = x[e + 1] - x[e]
         if x[e] >= top - near and x[e + 1] <= end + near:
             first = e == 0 or x[e - 1] < top - near
             last = tip_loaded if e == n - 1 else x[e + 2] > end + near

@@ -23,6 +23,7 @@ from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
     add_viscous,
     drive_torque,
+    is_idle,
     is_linear,
     slack,
     twist_of,
@@ -65,6 +66,8 @@ def _prepare(
         w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
     nonlinear = head[memory_map.H_BACKLASH] > 0.0
     for r in range(law.shape[0]):
+        if is_idle(law[r]):
+            continue
         cover(law[r], w.x, free, inserted, tip_loaded, w.loads[r], w.point[r])
         if is_linear(law[r]):
             add_viscous(w, w.loads[r], law[r, memory_map.L_VISCOUS])

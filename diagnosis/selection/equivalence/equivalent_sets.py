@@ -80,7 +80,9 @@ class _Chosen:
     @property
     def prior(self) -> float:
         """Cost of what is open besides."""
-        return float(sum((part @ part) / CONVENTIONS[name] ** 2 for name, part in self.kept.items()))
+        parameterization = self.problem.parameterization(())
+        weighted = parameterization.weights * parameterization.joined(self.kept)
+        return float(weighted @ weighted)
 
     @property
     def halved(self) -> Parts:
@@ -115,7 +117,8 @@ def covers(names: Sequence[str], others: Sequence[str]) -> bool:
 
 def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
     """Without scatter and pasts, which it does not name: what is alike is alike without them."""
-    open_ = tuple(e for e in coarse.nuisance if e.name in CONVENTIONS)
+    sensors = (coarse.library[name] for name in best.names if name not in LIBRARY)
+    open_ = (*sensors, *(e for e in coarse.nuisance if e.name in CONVENTIONS))
     own = {name: best.fit.parts[name] for name in best.named}
     kept = {e.name: best.fit.parts[e.name] for e in open_}
     problem = replace(coarse, nuisance=open_)
@@ -129,11 +132,6 @@ def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
 
 def _halved(problem: FitProblem, parts: Parts) -> Parts:
     return {name: _moved(problem.library[name], part, 0.5) for name, part in parts.items()}
-
-
-def _beside(share: Array) -> Array:
-    """A share between 0 and 1, moved a little and still between."""
-    return np.abs(share - _DIFFERENCE)
 
 
 def _reading(problem: FitProblem, trial: PreparedTrial, rig: RigParameters) -> PreparedTrial:
@@ -175,12 +173,10 @@ def _column(chosen: _Chosen, name: str) -> _Column:
 
 def _promising(chosen: _Chosen, columns: Sequence[_Column]) -> list[tuple[tuple[str, ...], Parts]]:
     """Sets of effects, and where to start their fits: by linear algebra."""
-    problem, half = chosen.problem, chosen.halved
-    slopes = np.zeros((chosen.middle.size, len(chosen.kept)))
-    for i, (name, share) in enumerate(chosen.kept.items()):
-        moved = _readings(problem, half | {name: _beside(share)})
-        slopes[:, i] = (chosen.middle - moved) / _DIFFERENCE
-    weights = np.array([1 / CONVENTIONS[name] for name in chosen.kept])
+    problem = chosen.problem
+    if not columns:
+        return []
+    slopes, weights = _open(chosen)
     changes = np.stack([chosen.changed, *(c.change for c in columns)], axis=1)
     target, *others = beside(slopes, weights, changes).T
     one_sided = np.array([_one_sided(problem.library[c.name]) for c in columns])
@@ -195,6 +191,19 @@ def _promising(chosen: _Chosen, columns: Sequence[_Column]) -> list[tuple[tuple[
             each = zip(own, one.amounts, strict=True)
             found.append((names, {c.name: _moved(problem.library[c.name], c.part, a) for c, a in each}))
     return found
+
+
+def _open(chosen: _Chosen) -> tuple[Array, Array]:
+    """What is open besides: slopes of the readings, (N, k), and weights of the prior, (k,)."""
+    parameterization, half = chosen.problem.parameterization(()), chosen.halved
+    x = parameterization.joined(chosen.kept)
+    _, high = parameterization.bounds()
+    steps = np.where(x + _DIFFERENCE > high, -_DIFFERENCE, _DIFFERENCE)
+    slopes = np.zeros((chosen.middle.size, x.size))
+    for i, step in enumerate(np.diag(steps)):
+        moved = _readings(chosen.problem, half | parameterization.parts(x + step))
+        slopes[:, i] = (chosen.middle - moved) / steps[i]
+    return slopes, parameterization.weights
 
 
 def _one_sided(effect: Effect) -> bool:

@@ -6,48 +6,78 @@ be equal, and no log can tell.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import Checked, check
-from diagnosis.selection.equivalence.equivalent_sets import covers, equivalent_sets
+from diagnosis.selection.equivalence.equivalent_sets import Equivalent, covers, equivalent_sets
 from diagnosis.selection.fitting import fit_all
-from diagnosis.selection.record import RecordEntry
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
 from diagnosis.workers import Workers
 
 _STAGE = "what cannot be told apart"
 
-Told = tuple[Checked, Verdict, tuple[RecordEntry, ...]]
-"""Candidates as they were checked, the verdict on them, and the record of what was fitted besides."""
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ToldApart:
+    """A verdict, with what cannot be told from it.
+
+    Attributes:
+      state: of the search, with the equivalent sets that were fitted.
+      checked: its candidates.
+    """
+
+    state: SearchState
+    checked: Checked
+    verdict: Verdict
+
+    @property
+    def coarse(self) -> FitProblem:
+        """The decimated log, with the noise that the best explanation leaves."""
+        coarse = self.state.coarse
+        noise = decimated_noise(self.checked.noise, self.state.problem.log, coarse.log)
+        return replace(coarse, noise=noise)
 
 
-def told_apart(found: SearchState, checked: Checked, workers: Workers) -> Told:
+def told_apart(found: SearchState, workers: Workers) -> ToldApart:
     """The verdict on what a search found, with what cannot be told from it."""
-    verdict = verdict_on(checked.candidates)
-    if verdict.effects and workers.stop.due:
+    first = _judged(found)
+    if not first.verdict.effects:
+        return first
+    if workers.stop.due:
         workers.stop.leave_out(_STAGE)
-    if not verdict.effects or workers.stop.due:
-        return checked, verdict, ()
-    noise = decimated_noise(checked.noise, found.problem.log, found.coarse.log)
+        return first
     effects = [name for name in found.effects if name in LIBRARY]
-    equal = equivalent_sets(replace(found.coarse, noise=noise), verdict.best, effects, workers)
-    known = {frozenset(c.names) for c in checked.candidates}
-    few = [e for e in equal if len(e.names) <= len(verdict.effects)]
+    equal = equivalent_sets(first.coarse, first.verdict.best, effects, workers)
+    few = [e for e in equal if len(e.names) <= len(first.verdict.effects)]
+    wider = _fitted(found, first.verdict.best, few, workers)
+    last = first if wider is found else _judged(wider, first.checked)
+    alike = [first.verdict.effects, *(e.names for e in equal)]
+    return replace(last, verdict=_beside(last.verdict, alike))
+
+
+def _judged(found: SearchState, known: Checked | None = None) -> ToldApart:
+    checked = check(found.problem, found.candidates, known or found.checked)
+    return ToldApart(state=found, checked=checked, verdict=verdict_on(checked.candidates))
+
+
+def _fitted(
+    found: SearchState, best: Candidate, equal: Sequence[Equivalent], workers: Workers
+) -> SearchState:
+    """The state with equivalent sets fitted to the log itself; the same if all of them are known."""
+    known = {frozenset(c.names) for c in found.candidates}
+    sensors = tuple(name for name in best.names if name in IMPERFECTIONS)
+    sets = [((*e.names, *sensors), e.parts) for e in equal]
     calls = [
-        (found.problem, e.names, found.problem.parameterization(e.names).joined(e.parts))
-        for e in few
-        if frozenset(e.names) not in known
+        (found.problem, names, found.problem.parameterization(names).joined(parts))
+        for names, parts in sets
+        if frozenset(names) not in known
     ]
-    record: tuple[RecordEntry, ...] = ()
-    alike = [verdict.effects, *(e.names for e in equal)]
-    if calls:
-        made, record = fit_all(_STAGE, calls, workers)
-        checked = check(found.problem, (*found.candidates, *made), checked)
-        verdict = verdict_on(checked.candidates)
-    return checked, _beside(verdict, alike), record
+    return found.adding(fit_all(_STAGE, calls, workers)) if calls else found
 
 
 def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:

@@ -34,6 +34,12 @@ def is_linear(row: Array) -> bool:
 
 
 @inlined
+def is_idle(row: Array) -> bool:
+    """Whether a row does nothing: rows that make tables of different rigs equally long."""
+    return is_linear(row) and row[memory_map.L_VISCOUS] == 0.0
+
+
+@inlined
 def add_viscous(w: Workspace, loads: Array, beta: float) -> None:
     """Damping of a viscous row: what the rates at the sites load the nodes with."""
     for e in range(loads.shape[0]):

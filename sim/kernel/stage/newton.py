@@ -35,7 +35,7 @@ def _add_other_rows(
     recoverable, stored = 0.0, 0.0
     for r in range(law.shape[0]):
         if is_linear(law[r]):
-            if frame.drift != 0.0:
+            if frame.drift != 0.0 and law[r, memory_map.L_VISCOUS] != 0.0:
                 add_viscous_advection(w, w.loads[r], law[r, memory_map.L_VISCOUS], frame)
         else:
             power, energy = add_row(w, r, law[r], frame, tip_torque, cautious)

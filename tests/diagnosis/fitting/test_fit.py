@@ -31,7 +31,7 @@ def test_a_fit_finds_what_the_log_has_and_converges(dry):
     # N readings of one unit each: 1 / sqrt(2 N) of chance, and 2 % of the noise's estimate.
     assert fit.gap == pytest.approx(1.0, abs=4 / np.sqrt(2 * fit.samples) + 0.04)
     assert fit.status.converged
-    assert fit.status.termination is Termination.GRADIENT
+    assert fit.status.termination is Termination.OFFSET
     assert fit.status.message.startswith("Terminated after ")
     assert fit.status.at_bound == ()
     assert fit.size == 1
@@ -54,6 +54,18 @@ def test_a_fit_that_is_stopped_early_says_so(dry):
     assert fit.status.termination is Termination.ITERATIONS
     assert "maximum iterations" in fit.status.message
     assert not fit.status.converged
+
+
+def test_a_fit_that_cannot_come_below_what_is_enough_is_given_up(dry):
+    """A bias of the tip takes nothing off what dry friction leaves; dry friction takes all of it."""
+    nominal = fit_effects(dry, ())
+    enough = 0.5 * nominal.cost
+    behind = fit_effects(dry, ("tip_angle_bias",), start_of(dry, "tip_angle_bias"), enough)
+    assert behind.status.termination is Termination.BEHIND
+    assert not behind.status.converged
+    useful = fit_effects(dry, ("coulomb_friction",), start_of(dry, "coulomb_friction"), enough)
+    assert useful.status.converged
+    assert useful.cost < enough
 
 
 def test_a_parameter_that_stops_at_a_bound_is_named():

@@ -1,5 +1,7 @@
 """Residuals as a function of the fit's vector."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ class ClosedForm:
     def __init__(self, most_drag=np.inf):
         self.most_drag, self.rigs = most_drag, []
 
-    def residuals(self, rigs):
+    def residuals(self, rigs, *, callback_alone=False):
         self.rigs += rigs
         if any(rig.tip_drag_n_mm_s_per_rad > self.most_drag for rig in rigs):
             raise SimulationFailed("too much drag")
@@ -39,14 +41,6 @@ def test_residuals_are_trial_after_trial_and_then_the_prior():
     drag = DRAG.rig(x).tip_drag_n_mm_s_per_rad
     expected = [drag, drag**2, np.exp(0.01), 0.0, 0.01 / SCATTER["stiffness_error"]]
     np.testing.assert_allclose(Objective(ClosedForm(), DRAG)(x), expected)
-
-
-def test_columns_are_simulated_as_one_batch():
-    objective, x = Objective(ClosedForm(), DRAG), middle()
-    both = objective(np.stack([x, middle(0.02)], axis=-1))
-    np.testing.assert_array_equal(both[:, 0], objective(x))
-    np.testing.assert_array_equal(both[:, 1], objective(middle(0.02)))
-    assert len(objective.problem.rigs) == 4
 
 
 def test_slopes_are_those_of_the_closed_form():
@@ -76,6 +70,19 @@ def test_slopes_of_the_nuisance_are_taken_again_only_far_away():
         objective.jacobian(there, at_there)
         asked.append(len(objective.problem.rigs) - before)
     assert asked == [2, 1, 2]
+
+
+def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():
+    late = replace(LIBRARY["damping_error"], name="start", trial="trial_01.csv")
+    parameterization = parameterization_of(("tip_drag",), (*OPEN, late))
+    problem = ClosedForm()
+    objective = Objective(problem, parameterization)
+    x = np.append(middle(), 0.0)
+    objective.jacobian(x, objective(x))
+    before = len(problem.rigs)
+    objective.jacobian(x + 0.01, objective(x + 0.01))
+    # The vector itself, and the columns of drag and of the start; stiffness is as it was.
+    assert len(problem.rigs) - before == 3
 
 
 def test_a_step_too_far_is_no_number_and_a_start_that_fails_is_an_error():

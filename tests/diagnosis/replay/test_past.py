@@ -4,8 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import RIG, prepared, trial, turns
+from diagnosis_fixtures import RIG, TIP, TORQUE, log_with, prepared, trial, turns
 
+from diagnosis.fitting.cross_validation import information
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.noise_floor import floor_of
+from diagnosis.fitting.nuisance import nuisance_of
+from diagnosis.pipeline import replay_nominal
 from diagnosis.prepare.late_start import LateStart
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.replay import predict, shape_of
@@ -86,3 +91,54 @@ def test_recorded_shapes_begin_with_the_trial():
     assert run.angles_rad.shape[0] == run.time_s.size
     # Wound up by 30 and 40 deg before: what is left of it is there at the first sample.
     assert abs(run.tip_deg[0]) > 3.0
+
+
+def cut_log(begin):
+    """Exact readings of a needle in tissue 1.2 times as viscous, from a row on."""
+    rng = np.random.default_rng(3)
+    whole = trial(turns())
+    held = InsertedNeedle(
+        needle=Needle(**dict(RIG.needle)),
+        damping_n_mm_s_per_mm=1.2 * RIG.tissue.damping_n_mm_s_per_mm,
+        inserted_mm=90.0,
+        free_mm=60.0,
+    )
+    exact = held.respond(whole["time_s"], np.radians(whole["base_angle_deg"]))
+    size = whole["time_s"].size
+    table = whole.table.assign(
+        tip_angle_deg=np.degrees(exact.tip_rad) + rng.normal(0, TIP, size),
+        base_torque_n_mm=exact.base_torque_n_mm + rng.normal(0, TORQUE, size),
+    ).iloc[begin:]
+    return log_with(replace(whole, table=table.reset_index(drop=True)))
+
+
+def damping_of(log):
+    """The fitted scale of damping, its standard error, and the noise floor."""
+    problem = replay_nominal(log).problem
+    fit = fit_effects(problem, ("damping_error",))
+    spread = np.sqrt(np.linalg.inv(information(fit))[0, 0])
+    return fit.x[0], spread, floor_of(fit.by_trial), problem.log.trials[0].late_start
+
+
+# In the middle of the first turn, at rest after it, and at the second turn.
+@pytest.mark.parametrize("begin", [130, 170, 530])
+def test_a_log_that_is_cut_says_what_the_whole_log_does(begin):
+    log_scale, spread, floor, start = damping_of(cut_log(begin))
+    assert start is not None
+    assert abs(log_scale - np.log(1.2)) < 3.5 * spread
+    assert floor.reached
+
+
+def test_the_whole_log_begins_at_rest():
+    log_scale, spread, floor, start = damping_of(cut_log(0))
+    assert start is None
+    assert abs(log_scale - np.log(1.2)) < 3.5 * spread
+    assert floor.reached
+
+
+def test_without_a_past_a_log_that_is_cut_is_above_the_floor():
+    nominal = replay_nominal(cut_log(130)).problem
+    (late,) = nominal.log.trials
+    forgotten = replace(nominal.log, trials=(replace(late, late_start=None),))
+    blind = replace(nominal, log=forgotten, nuisance=nuisance_of(forgotten))
+    assert not floor_of(fit_effects(blind, ("damping_error",)).by_trial).reached

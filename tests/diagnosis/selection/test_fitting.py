@@ -18,12 +18,18 @@ SAMPLES = 1000
 PROBLEM = FitProblem(log=PreparedLog(rig=None, trials=()), noise=None, nuisance=())
 
 
+class Names(list):
+    """Names that were fitted, in order; `allowed`: the costs that they had to come below."""
+
+
 @pytest.fixture
 def made(monkeypatch):
     """Fits that end with the cost that their start says, and the names that were fitted."""
-    names = []
+    names, allowed = Names(), []
+    names.allowed = allowed
 
-    def fit_effects(_, effects, start=None):
+    def fit_effects(_, effects, start=None, enough=np.inf):
+        allowed.append(enough)
         names.append(tuple(effects))
         if start is not None and np.isnan(start[0]):
             raise SimulationFailed("lost its numbers")
@@ -33,6 +39,9 @@ def made(monkeypatch):
 
     monkeypatch.setattr(fitting, "fit_effects", fit_effects)
     return names
+
+
+FOUR = ("tip_drag", "torque_bias", "tip_angle_bias", "coulomb_friction")
 
 
 def screened(name, promise, fitted=None):
@@ -78,6 +87,25 @@ def test_once_something_is_at_the_floor_only_what_comes_near_or_is_contained_is_
     out = decisions(record)[("entry_friction",), Decision.DROPPED]
     assert "far above" in out.reason
     assert out.score is None
+
+
+def test_a_fit_has_to_come_near_the_best_once_that_is_at_the_floor(made):
+    """Of what comes later: the cost of the best, and what may be contended."""
+    at_floor = [screened(name, 1.0 + i, 0.9 * SAMPLES) for i, name in enumerate(FOUR)]
+    later = [screened("entry_friction", 9.0, 2 * SAMPLES)]
+    fit_screened("single", PROBLEM, [*at_floor, *later], 9, Workers(), used=6)
+    assert made.allowed[:4] == [np.inf] * 4
+    # Both have one parameter and are singles, so that their penalties are the same.
+    assert made.allowed[4] == pytest.approx(0.9 * SAMPLES + CONTENDING)
+
+
+def test_as_many_as_are_of_use_are_fitted_to_their_end(made):
+    above = [screened(name, 1.0 + i, (4.0 + i) * SAMPLES) for i, name in enumerate(FOUR)]
+    later = [screened("entry_friction", 9.0, 9 * SAMPLES)]
+    for used, allowed in ((6, np.inf), (2, max(4.0 * SAMPLES + CONTENDING, 5.0 * SAMPLES))):
+        made.allowed.clear()
+        fit_screened("single", PROBLEM, [*above, *later], 9, Workers(), used=used)
+        assert made.allowed[4] == pytest.approx(allowed)
 
 
 def test_the_best_start_of_a_set_is_kept(made):

@@ -146,7 +146,7 @@ def test_where_no_finer_fit_can_be_simulated_the_usual_ones_stand(monkeypatch):
 
 
 def test_a_resolution_that_cannot_be_simulated_does_not_matter(monkeypatch):
-    def failing(*_):
+    def failing(*_, **__):
         raise SimulationFailed("lost its numbers")
 
     problem = small()

@@ -53,6 +53,15 @@ def test_each_roughness_can_be_asked_for_alone(tmp_path):
     assert [[*answer["roughness"]] for answer in answers.values()] == [["outliers"], ["torque_drift"]]
 
 
+def test_all_kinds_can_be_asked_for_at_once(tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr("validation.logs.make._make_one", lambda job: seen.append(job[3]) or ("a", {}))
+    make_logs(tmp_path / "set", seed=12, count=1, kinds=["all"], workers=1)
+    assert seen == [ALL_KINDS]
+    make_logs(tmp_path / "default", seed=12, count=1, workers=1)
+    assert seen[1:] == [KINDS]
+
+
 def test_logs_do_not_tell_their_ground_truth(made, answers):
     cases = sorted(path.name for path in (made / "logs").iterdir())
     assert cases == sorted(answers)

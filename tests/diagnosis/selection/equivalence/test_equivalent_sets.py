@@ -8,6 +8,7 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.equivalence.equivalent_sets import covers, equivalent_sets
+from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
 
 SCALES = ("base_angle_scale", "damping_error", "stiffness_error", "tip_angle_scale", "torque_scale")
@@ -74,3 +75,11 @@ def test_the_nominal_rig_is_like_nothing(coarse):
 def test_a_set_covers_what_is_in_it_or_contained_in_it():
     assert covers(("stiction", "tip_drag"), ("coulomb_friction",))
     assert not covers(("coulomb_friction",), ("stiction",))
+
+
+def test_after_a_stop_nothing_is_told(coarse):
+    start = coarse.parameterization(("torque_scale",)).joined({"torque_scale": np.log([1.1])})
+    best = candidate(fit_effects(coarse, ("torque_scale",), start, most_iterations=0))
+    stop = StopSignal()
+    stop.request(StopReason.INTERRUPTED)
+    assert equivalent_sets(coarse, best, SCALES, Workers(stop=stop)) == ()

@@ -9,23 +9,24 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.checked import check
 from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.verdict import VerdictKind
+from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
 
 EFFECTS = ("damping_error", "stiffness_error", "torque_scale", "coulomb_friction")
+WORKERS = Workers()
 ALIKE = frozenset(("damping_error", "stiffness_error"))
 
 
-def verdict_of(rig, *names, **values):
+def verdict_of(rig, *names, workers=WORKERS, **values):
     """The verdict on a log of a rig, where a search has tried one set of effects alone."""
     log = joined(log_of(rig, seconds=6.0), log_of(rig, seed=1, speed=-1.0, seconds=6.0))
     state = start_of_search(log, EFFECTS)
     parts = {name: np.log([value]) for name, value in values.items()}
     start = state.problem.parameterization(names).joined(parts)
     found = replace(state, candidates=(candidate(fit_effects(state.problem, names, start)),))
-    return told_apart(found, check(found.problem, found.candidates), Workers())[1]
+    return told_apart(found, workers).verdict
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +44,15 @@ def test_one_cause_is_named_with_the_two_beside_it(gain):
     found = verdict_of(gain, "torque_scale", torque_scale=1.1)
     assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("torque_scale",))
     assert [frozenset(names) for names in found.confusable] == [{"torque_scale"}, ALIKE]
+
+
+def test_after_a_stop_what_was_left_out_is_noted(gain):
+    stop = StopSignal()
+    stop.request(StopReason.INTERRUPTED)
+    workers = Workers(stop=stop)
+    found = verdict_of(gain, "torque_scale", workers=workers, torque_scale=1.1)
+    assert (found.effects, found.confusable) == (("torque_scale",), ())
+    assert stop.left_out == ["what cannot be told apart"]
 
 
 def test_two_that_are_off_differently_are_undecided_between_all_pairs():

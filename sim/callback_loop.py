@@ -1,0 +1,121 @@
+"""The steps of the tissue callback by itself, without MuJoCo: for differences between runs.
+
+The callback finds the end of a step, and MuJoCo's step lands there: within 1e-8 rad, or the run is
+refused, and usually within 1e-13 rad. What a change of a parameter changes is therefore the same
+whether MuJoCo steps or nobody does, and a step costs a fraction. Values are MuJoCo's; differences
+between runs (slopes of a fit) may be the callback's.
+"""
+
+import ctypes
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import mujoco
+import numpy as np
+from llvmlite import ir  # type: ignore[import-untyped]
+from numba import njit, types
+from numba.extending import intrinsic
+from numpy.typing import NDArray
+
+from sim.kernel import memory_map
+from sim.kernel.callback import install
+from sim.kernel.struct_offsets import read_struct_offsets
+from sim.needles import data_of
+
+Array = NDArray[np.float64]
+
+
+@intrinsic
+def _calling(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
+    """Call a C function (model, data) at an address."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        word = args[1].type
+        kind = ir.FunctionType(ir.VoidType(), [word, word]).as_pointer()
+        builder.call(builder.inttoptr(args[0], kind), args[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, types.intp), codegen
+
+
+_call: Any = _calling
+
+
+@njit(cache=True, nogil=True)
+def _loop(
+    callback: int,
+    model: int,
+    data: int,
+    at: int,
+    chain: bool,
+    step_s: float,
+    clock: Array,
+    qpos: Array,
+    qvel: Array,
+    ctrl: Array,
+    user: Array,
+    passive: Array,
+    inputs: Array,
+    shown: Array,
+) -> None:
+    """Step through `inputs`, (N, inputs); `shown` receives the outputs, (N, outputs).
+
+    Args:
+      at: of the block that receives the end of a step in `user`.
+    """
+    nodes = qpos.size - 1
+    for k in range(inputs.shape[0]):
+        ctrl[:], passive[:] = inputs[k], 0.0
+        _call(callback, model, data)
+        shown[k] = user[at : at + shown.shape[1]]
+        before = 0.0
+        for i in range(nodes):
+            end = user[at + memory_map.B_ANGLES + i]
+            joint = end - before if chain else end
+            before = end
+            qvel[1 + i] = (joint - qpos[1 + i]) / step_s
+            qpos[1 + i] = joint
+        clock[0] += step_s
+
+
+def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl: Array) -> Array:
+    """Outputs at the end of every step, (needles, N, outputs).
+
+    Args:
+      starts: joints at the start, (joints,) each.
+      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+    """
+    shown = np.empty((len(models), ctrl.shape[1] - 1, memory_map.OUTPUTS))
+    for i, (model, start) in enumerate(zip(models, starts, strict=True)):
+        with data_of(model) as data:
+            _run(model, data, start, ctrl[i], shown[i])
+    return shown
+
+
+def _run(model: mujoco.MjModel, data: mujoco.MjData, start: Array, ctrl: Array, shown: Array) -> None:
+    data.qpos[:], data.ctrl[:] = start, ctrl[0]
+    mujoco.mj_forward(model, data)
+    head = model.numeric_data[: memory_map.HEADER]
+    n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    _loop(
+        install()[0].address,
+        model._address,
+        data._address,
+        memory_map.CLOCK + memory_map.block(n, rows),
+        head[memory_map.H_CHAIN] != 0,
+        model.opt.timestep,
+        np.ctypeslib.as_array((ctypes.c_double * 1).from_address(data._address + _time_at())),
+        data.qpos,
+        data.qvel,
+        data.ctrl,
+        data.userdata,
+        data.qfrc_passive,
+        ctrl[1:],
+        shown,
+    )
+
+
+@cache
+def _time_at() -> int:
+    return read_struct_offsets().data["time"]
