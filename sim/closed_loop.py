@@ -22,7 +22,7 @@ from sim.loop.hardware import LoopHardware
 from sim.loop.measurement import CHANNELS, Measurement, MeasurementNoise, SensorReadings
 from sim.loop.servo_loop import ServoLoop
 from sim.loop.shaft import CommandedShaft
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import Run, controls, initial_data, refuse_untrustworthy
 from sim.spec import Setup

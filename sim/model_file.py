@@ -13,7 +13,7 @@ from models import units
 from models.errors import InvalidValue
 from sim.kernel import memory_map
 from sim.law_table import law_table
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.spec import Setup
 
 _SAME = 1e-4  # a file holds six digits

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from models import units
 from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
-from sim.callback_loop import run_callback
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
-from sim.needles import batch_of, models_of
+from sim.needles.callback_loop import run_callback
+from sim.needles.kept import batch_of, models_of
 from sim.schedule import Schedule
 from sim.spec import Setup
 
@@ -181,7 +181,7 @@ def simulate(
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
       callback_alone: without MuJoCo's steps, as differences between runs may be
-        (sim.callback_loop); no shape is kept.
+        (sim.needles.callback_loop); no shape is kept.
 
     Raises:
       InvalidValue: the setups differ in elements or rows of the law table; the inputs are not as many

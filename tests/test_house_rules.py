@@ -30,6 +30,7 @@ MAY_IMPORT_INSIDE = {
     "sim.kernel": {"sim.kernel", "sim.kernel.stage"},
     "sim.kernel.stage": {"sim.kernel", "sim.kernel.stage"},
     "sim.loop": {"sim.loop"},
+    "sim.needles": {"sim", "sim.kernel", "sim.needles"},
     "sim.recording": {"sim", "sim.kernel", "sim.recording"},
     "studies.crosscheck": {"studies.crosscheck"},
     "controllers.steering": {"controllers", "controllers.steering"},

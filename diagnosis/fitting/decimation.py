@@ -19,15 +19,15 @@ from scipy.integrate import cumulative_trapezoid
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
-_TOLERANCE = 0.1  # of fits that only tell which ones to do again on the log itself
+_TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
 def decimated(
@@ -46,7 +46,7 @@ def decimated(
     trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
     rare = PreparedLog(rig=log.rig, trials=trials)
     noise = decimated_noise(problem.noise, log, rare)
-    return replace(problem, log=rare, noise=noise, resolution=COARSE, tolerance=_TOLERANCE)
+    return replace(problem, log=rare, noise=noise, resolution=COARSE, tolerance_sigma=_TOLERANCE_SIGMA)
 
 
 def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:

@@ -16,11 +16,10 @@ from mujoco import minimize
 from numpy.typing import NDArray
 
 from diagnosis.effects import FITTED
-from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.fitting.stopping import Ended, Stopping
 
 Array = NDArray[np.float64]
 
@@ -104,7 +103,7 @@ def fit_effects(
     for difference in max((e.differences for e in parameterization.all), key=len):
         objective = Objective(problem, parameterization, difference)
         x, status = _minimised(
-            objective, x, Stopping(objective, problem.tolerance, enough), most_iterations
+            objective, x, Stopping(objective, problem.tolerance_sigma, enough), most_iterations
         )
         if status.termination is Termination.BEHIND:
             break

@@ -1,7 +1,36 @@
-"""How the optimiser of a fit ended, in its own words."""
+"""How a fit ends: in the words of the optimiser, or because it has come far enough or has no hope.
 
+At every Jacobian J the linear model promises that the cost S = |r|^2 of N residuals may still fall by
+
+    P = S - min |r + J dx|^2,    dx within bounds of the p parameters.
+
+converged   sqrt(P / p) <= tolerance * sqrt(S / (N - p)), the relative offset of Bates and Watts (1981):
+            parameters are within so many of their own standard deviations of the minimum. Within
+            five times the tolerance one more step is taken, without another Jacobian.
+behind      S - 10 P is above the cost that a fit has to come below to be of use.
+stalled     no step along the search direction reduces the cost, however short.
+
+Where a model leaves much, a gradient that is small beside noise cannot be reached by differences: its
+error grows with what is left. The relative offset is measured against just that.
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+
+import numpy as np
+from mujoco import minimize
+from numpy.typing import NDArray
+
+from diagnosis.fitting.bounded_least_squares import bounded_least_squares
+from diagnosis.fitting.objective import Objective
+
+Array = NDArray[np.float64]
+
+_ONE_MORE = 5.0  # tolerances within which one more step is enough
+_DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
+_FUTILE = 10.0  # times what the linear model promises
+_MOST_TRIES = 9  # steps along one direction, each shorter
 
 
 class Termination(StrEnum):
@@ -58,3 +87,75 @@ class FitStatus:
         message = ended.split(" y: ")[0]
         meant = (end for words, end in _WORDS.items() if words in message)
         return cls(termination=next(meant, Termination.OTHER), message=message, at_bound=at_bound)
+
+
+_OWN_WORDS = {
+    Termination.OFFSET: "relative offset < tol.",
+    Termination.STALLED: "insufficient reduction.",
+    Termination.BEHIND: "cannot come near the best.",
+}
+
+
+class Ended(Exception):
+    """The end of a fit: where, and why."""
+
+    def __init__(self, x: Array, termination: Termination, iterations: int) -> None:
+        super().__init__(f"Terminated after {iterations} iterations: {_OWN_WORDS[termination]}")
+        self.x, self.termination = x, termination
+
+
+class Stopping:
+    """An objective that ends its own minimisation, by raising `Ended`."""
+
+    def __init__(self, objective: Objective, tolerance: float, enough: float = np.inf) -> None:
+        """Of an objective.
+
+        Args:
+          tolerance: relative offset at which it has converged.
+          enough: cost that the fit has to come below to be of use.
+        """
+        self.objective, self.tolerance, self.enough = objective, tolerance, enough
+        self._there = self._tried = np.zeros(0)
+        self._tries = self._jacobians = 0
+        self._last = False
+
+    def __call__(self, x: Array) -> Array:
+        """Residuals with the prior, (N,)."""
+        if self._tries == (1 if self._last else _MOST_TRIES):
+            raise self._ended(self._there, Termination.OFFSET if self._last else Termination.STALLED)
+        self._tries += 1
+        self._tried = x.ravel().copy()
+        return self.objective(x)
+
+    def jacobian(self, x: Array, at_x: Array) -> Array:
+        """(N, n)."""
+        slopes = self.objective.jacobian(x, at_x)
+        self._there, self._tries = x.ravel().copy(), 0
+        self._jacobians += 1
+        cost, promised = float(at_x.ravel() @ at_x.ravel()), self._promised(at_x.ravel(), slopes)
+        if self._jacobians > 1 and cost - _FUTILE * promised > self.enough:
+            raise self._ended(self._there, Termination.BEHIND)
+        freedom = slopes.shape[1]
+        noise = cost / max(at_x.size - freedom, 1)
+        offset = np.sqrt(promised / (freedom * noise)) if noise > 0 else 0.0
+        if offset <= self.tolerance:
+            raise self._ended(self._there, Termination.OFFSET)
+        self._last = bool(offset <= _ONE_MORE * self.tolerance)
+        return slopes
+
+    def after_step(self, trace: Sequence[minimize.IterLog]) -> None:
+        """What `mujoco.minimize` calls after every step that reduced the cost."""
+        if self._last and trace[-1].reduction > 0 and trace[-1].regularizer < _DAMPED:
+            raise self._ended(self._tried, Termination.OFFSET, more=1)
+
+    def _ended(self, x: Array, termination: Termination, more: int = 0) -> Ended:
+        """After as many steps as Jacobians were taken before this one, and perhaps one more."""
+        return Ended(x, termination, self._jacobians - 1 + more)
+
+    def _promised(self, residual: Array, slopes: Array) -> float:
+        """What the linear model takes off the cost, within bounds."""
+        basis, root = np.linalg.qr(slopes)
+        seen = basis.T @ residual
+        low, high = self.objective.low - self._there, self.objective.high - self._there
+        step = bounded_least_squares(root, -seen, low, high)
+        return float(seen @ seen - np.sum((seen + root @ step) ** 2))

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import RigParameters
@@ -26,7 +26,7 @@ class FitProblem:
     Attributes:
       nuisance: what every fit leaves open.
       library: effects with bounds and starts for a rig of this size.
-      tolerance: within which fits converge, in standard deviations of their parameters.
+      tolerance_sigma: within which fits converge, in standard deviations of their parameters.
     """
 
     log: PreparedLog
@@ -34,7 +34,7 @@ class FitProblem:
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
-    tolerance: float = 0.02
+    tolerance_sigma: float = 0.02
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
@@ -46,7 +46,7 @@ class FitProblem:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
 
         Args:
-          callback_alone: for differences between residuals alone (sim.callback_loop).
+          callback_alone: for differences between residuals alone (sim.needles.callback_loop).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.

@@ -39,11 +39,10 @@ def _clip(value: float, low: float, high: float) -> float:
 
 
 @inlined
-def _match(total: float, moment: float, out: Array, at: int) -> None:
+def _match(total: float, moment: float) -> tuple[float, float]:
     """Loads of the two sites with a given sum and first moment, none negative."""
     right = _clip((moment - XI_LEFT * total) / (XI_RIGHT - XI_LEFT), 0.0, total)
-    out[at] = total - right
-    out[at + 1] = right
+    return total - right, right
 
 
 @inlined
@@ -83,27 +82,26 @@ def cover(
     end = _clip(end, top, x[n])
     near = 1e-9 * (x[n] - x[0])
     for e in range(n):
-        out = loads[e]
         if x[e + 1] <= top or x[e] >= end:
-            out[0] = out[1] = out[2] = out[3] = 0.0
+            loads[e, 0] = loads[e, 1] = loads[e, 2] = loads[e, 3] = 0.0
             continue
         a = x[e + 1] - x[e]
         if x[e] >= top - near and x[e + 1] <= end + near:
             first = e == 0 or x[e - 1] < top - near
             last = tip_loaded if e == n - 1 else x[e + 2] > end + near
             if first:
-                _match(0.5 * a, a / 6.0, out, 0)
+                loads[e, 0], loads[e, 1] = _match(0.5 * a, a / 6.0)
             else:
-                out[0], out[1] = 0.5 * a * XI_RIGHT, 0.5 * a * XI_LEFT
+                loads[e, 0], loads[e, 1] = 0.5 * a * XI_RIGHT, 0.5 * a * XI_LEFT
             if last:
-                _match(0.5 * a, a / 3.0, out, 2)
+                loads[e, 2], loads[e, 3] = _match(0.5 * a, a / 3.0)
             else:
-                out[2], out[3] = 0.5 * a * XI_LEFT, 0.5 * a * XI_RIGHT
+                loads[e, 2], loads[e, 3] = 0.5 * a * XI_LEFT, 0.5 * a * XI_RIGHT
             continue
         s0 = _clip((top - x[e]) / a, 0.0, 1.0)
         s1 = _clip((end - x[e]) / a, 0.0, 1.0)
         length = s1 - s0
         square = 0.5 * (s1 * s1 - s0 * s0)
         cube = (s1 * s1 * s1 - s0 * s0 * s0) / 3.0
-        _match(a * (length - square), a * (square - cube), out, 0)
-        _match(a * square, a * cube, out, 2)
+        loads[e, 0], loads[e, 1] = _match(a * (length - square), a * (square - cube))
+        loads[e, 2], loads[e, 3] = _match(a * square, a * cube)

@@ -52,29 +52,33 @@ def _prepare(
     tip_loaded: bool,
 ) -> bool:
     """Fill in what the step starts from; returns whether iteration is needed."""
-    n = w.omega.size - 1
-    place_nodes(head, mesh, free, w.x)
+    springs, inertias, angles, rest, omega = w.spring, w.inertia, w.theta, w.rest, w.omega
+    damp_lower, damp_diagonal, damp_upper = w.damp_lower, w.damp_diagonal, w.damp_upper
+    loads, point, start, end, x = w.loads, w.point, w.start, w.end, w.x
+    spring, inertia = shaft.spring, shaft.inertia
+    n = omega.size - 1
+    place_nodes(head, mesh, free, x)
     stretching = int(head[memory_map.H_STRETCHING])
     for i in range(n):
-        w.spring[i] = shaft.spring[i]
+        springs[i] = spring[i]
         if i < stretching:  # torsion falls as the length of the element grows
-            w.spring[i] *= head[memory_map.H_FREE_REF] / free
+            springs[i] *= head[memory_map.H_FREE_REF] / free
     for i in range(n + 1):
-        w.inertia[i] = shaft.inertia[i] / frame.g
-        w.theta[i] = theta[i]
-        w.rest[i] = w.omega[i] = rates[i]
-        w.damp_lower[i] = w.damp_diagonal[i] = w.damp_upper[i] = 0.0
+        inertias[i] = inertia[i] / frame.g
+        angles[i] = theta[i]
+        rest[i] = omega[i] = rates[i]
+        damp_lower[i] = damp_diagonal[i] = damp_upper[i] = 0.0
     nonlinear = head[memory_map.H_BACKLASH] > 0.0
     for r in range(law.shape[0]):
         if is_idle(law[r]):
             continue
-        cover(law[r], w.x, free, inserted, tip_loaded, w.loads[r], w.point[r])
+        cover(law[r], x, free, inserted, tip_loaded, loads[r], point[r])
         if is_linear(law[r]):
-            add_viscous(w, w.loads[r], law[r, memory_map.L_VISCOUS])
+            add_viscous(w, loads[r], law[r, memory_map.L_VISCOUS])
         else:
             nonlinear = True
-            w.start[r] = before[r]
-            w.end[r] = before[r]
+            start[r] = before[r]
+            end[r] = before[r]
     return nonlinear
 
 
@@ -83,31 +87,33 @@ def _second_stage(
     law: Array, theta: Array, rates: Array, before: Array, w: Workspace, frame: Frame
 ) -> None:
     """Carry everything that is remembered into the second stage."""
-    n = w.omega.size - 1
+    angles, omega, rest = w.theta, w.omega, w.rest
+    n = omega.size - 1
     for i in range(n + 1):
-        reached = w.theta[i] + frame.g * w.omega[i]
-        w.theta[i] = theta[i] + _CARRY * (reached - theta[i])
-        w.rest[i] = rates[i] + _CARRY * (w.omega[i] - rates[i])
+        reached = angles[i] + frame.g * omega[i]
+        angles[i] = theta[i] + _CARRY * (reached - theta[i])
+        rest[i] = rates[i] + _CARRY * (omega[i] - rates[i])
+    start, end = w.start, w.end
     for r in range(law.shape[0]):
-        if is_linear(law[r]):
-            continue
-        for e in range(n):
-            for k in range(2):
-                _carry_site(w, r, e, k, before, frame.yield_angle)
+        if not is_linear(law[r]):
+            _carry_sites(before[r], start[r], end[r], frame.yield_angle)
 
 
-@inlined
-def _carry_site(w: Workspace, r: int, e: int, k: int, before: Array, limit: float) -> None:
-    for j in range(memory_map.SITE):
-        old = before[r, e, k, j]
-        w.start[r, e, k, j] = old + _CARRY * (w.end[r, e, k, j] - old)
-    dry, turn = w.start[r, e, k, memory_map.Z_DRY], w.start[r, e, k, memory_map.Z_TURN]
-    axial = w.start[r, e, k, memory_map.Z_AXIAL]
-    w.start[r, e, k, memory_map.Z_DRY] = min(max(dry, -limit), limit)
-    size = math.sqrt(turn * turn + axial * axial)
-    if size > limit:
-        w.start[r, e, k, memory_map.Z_TURN] = turn * limit / size
-        w.start[r, e, k, memory_map.Z_AXIAL] = axial * limit / size
+@compiled
+def _carry_sites(before: Array, start: Array, end: Array, limit: float) -> None:
+    """The memory of a row's sites, (n, 2, SITE) each."""
+    for e in range(before.shape[0]):
+        for k in range(2):
+            for j in range(memory_map.SITE):
+                old = before[e, k, j]
+                start[e, k, j] = old + _CARRY * (end[e, k, j] - old)
+            dry, turn = start[e, k, memory_map.Z_DRY], start[e, k, memory_map.Z_TURN]
+            axial = start[e, k, memory_map.Z_AXIAL]
+            start[e, k, memory_map.Z_DRY] = min(max(dry, -limit), limit)
+            size = math.sqrt(turn * turn + axial * axial)
+            if size > limit:
+                start[e, k, memory_map.Z_TURN] = turn * limit / size
+                start[e, k, memory_map.Z_AXIAL] = axial * limit / size
 
 
 @inlined
@@ -120,14 +126,15 @@ def _friction(
     take of the external torques is friction. `tissue` gains what it does to every node,
     times the weight of the stage.
     """
-    n = w.omega.size - 1
+    theta, omega, rest, spring, inertia = w.theta, w.omega, w.rest, w.spring, w.inertia
+    n = omega.size - 1
     torque, _ = drive_torque(w, frame, drive)
     friction, power, arriving = 0.0, 0.0, torque
     for i in range(n + 1):
-        leaving = -w.spring[i] * twist_of(w, i, frame.g) if i < n else tip_torque
-        share = arriving - leaving - w.inertia[i] * (w.omega[i] - w.rest[i])
+        leaving = -spring[i] * twist_of(theta, omega, i, frame.g) if i < n else tip_torque
+        share = arriving - leaving - inertia[i] * (omega[i] - rest[i])
         friction += share
-        power += share * w.omega[i]
+        power += share * omega[i]
         tissue[i] -= weight * share
         arriving = leaving
     return torque, friction, power
@@ -251,10 +258,11 @@ def advance(
 @inlined
 def _show_shaft(w: Workspace, end: Array, nxt: Array) -> None:
     """Energy that the shaft stores, and the largest torque that one of its elements carries."""
+    spring = w.spring
     energy, largest = 0.0, 0.0
     for e in range(end.size - 1):
         twist = end[e + 1] - end[e]
-        energy += 0.5 * w.spring[e] * twist * twist
-        largest = max(largest, abs(w.spring[e] * twist))
+        energy += 0.5 * spring[e] * twist * twist
+        largest = max(largest, abs(spring[e] * twist))
     nxt[memory_map.O_SHAFT_ENERGY] = energy
     nxt[memory_map.O_SHAFT_TORQUE] = largest

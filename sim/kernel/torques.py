@@ -40,13 +40,14 @@ def set_other(
       servo_slack: play of the drive that is taken up, rad.
       end: angles at the end of the step, rad.
     """
+    springs = shaft.spring
     n = end.size - 1
     for i in range(n + 1):
         other[i] = 0.0
     for e in range(n):
         twist = end[e + 1] - end[e]
         if chain:
-            other[e + 1] = (shaft.spring[e] - spring[e]) * twist
+            other[e + 1] = (springs[e] - spring[e]) * twist
         else:
             other[e] += spring[e] * twist
             other[e + 1] -= spring[e] * twist
@@ -58,17 +59,18 @@ def landing_torque(
     chain: bool, shaft: Shaft, h: float, theta: Array, rates: Array, end: Array, ctrl: Array, out: Array
 ) -> None:
     """M a + K q_end - motor of every hinge: what makes MuJoCo's step end at the angles `end`."""
+    inertia, spring = shaft.inertia, shaft.spring
     n = end.size - 1
     tip = motor_force(shaft.tip, ctrl[memory_map.U_TIP])
     inertial = 0.0
     for i in range(n, -1, -1):
         acceleration = ((end[i] - theta[i]) / h - rates[i]) / h
-        inertial = shaft.inertia[i] * acceleration + (inertial if chain else 0.0)
+        inertial = inertia[i] * acceleration + (inertial if chain else 0.0)
         torque = inertial
         if i == 0:
             torque += shaft.servo * end[0] - motor_force(shaft.motor, ctrl[memory_map.U_DRIVE])
         elif chain:
-            torque += shaft.spring[i - 1] * (end[i] - end[i - 1])
+            torque += spring[i - 1] * (end[i] - end[i - 1])
         if chain or i == n:
             torque -= tip
         out[i] = torque
@@ -91,8 +93,9 @@ def inertia_torque(shaft: Shaft, h: float, theta: Array, rates: Array, state: Ar
     Args:
       state: block with the angles at the end of this step.
     """
+    inertia = shaft.inertia
     total = 0.0
     for i in range(theta.size):
         end = state[memory_map.B_ANGLES + i]
-        total += shaft.inertia[i] * ((end - theta[i]) / h - rates[i]) / h
+        total += inertia[i] * ((end - theta[i]) / h - rates[i]) / h
     return total

@@ -24,7 +24,7 @@ from models.needle import NITINOL, Needle
 from models.tip_drag_modes import TipDragNeedle
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.simulation import simulate
 from sim.spec import Setup
 from studies.crosscheck.findings import Check

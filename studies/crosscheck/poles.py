@@ -18,7 +18,7 @@ from models.modes import InsertedNeedle
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.spec import Setup
 from studies.crosscheck import native_needle
 from studies.crosscheck.findings import Check, Pole, PoleSource

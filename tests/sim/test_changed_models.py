@@ -11,7 +11,7 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.experiment import perform
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
 from sim.simulation import SimulationFailed, simulate

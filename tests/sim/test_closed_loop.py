@@ -11,7 +11,7 @@ from sim.closed_loop import MeasurementNoise, run_closed_loop
 from sim.discretisation import Discretisation, Mesh
 from sim.loop.hardware import LoopHardware, Sensors
 from sim.loop.shaft import CommandedShaft
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import SimulationFailed, simulate
 from sim.spec import Setup

@@ -11,7 +11,7 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.model_file import read_model
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import simulate
 from sim.spec import Setup, needle_spec

@@ -16,7 +16,7 @@ from models.statespace import modal_system
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import controls, initial_data, prepare_processes, simulate
 from sim.spec import Setup
@@ -119,6 +119,15 @@ def test_different_tissues_run_side_by_side_as_they_do_alone():
     together = simulate(setups, TURN, threads=2)
     for one, beside in zip(setups, together, strict=True):
         assert np.array_equal(simulate([one], TURN)[0].outputs, beside.outputs)
+
+
+def test_a_run_from_a_time_on_is_its_last_rows():
+    (whole,) = simulate([setup()], TURN, keep_shape=True)
+    part = whole.since(1.0)
+    assert part.time_s[0] == pytest.approx(1.0)
+    assert np.array_equal(part.tip_deg, whole.tip_deg[-part.time_s.size :])
+    assert np.array_equal(part.angles_rad, whole.angles_rad[-part.time_s.size :])
+    assert whole.since(0.0) is whole
 
 
 def test_set_ups_may_each_have_inputs_of_their_own():

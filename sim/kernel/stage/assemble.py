@@ -4,6 +4,9 @@
 
 What is linear (inertia, torsion, viscous rows) is assembled once per step; the
 sites of every other row add their torque and slope at each iteration.
+
+Arrays of the workspace are named once, outside of loops: each access through the tuple
+would count references, which costs as much as the arithmetic.
 """
 
 import math
@@ -42,12 +45,13 @@ def is_idle(row: Array) -> bool:
 @inlined
 def add_viscous(w: Workspace, loads: Array, beta: float) -> None:
     """Damping of a viscous row: what the rates at the sites load the nodes with."""
+    lower, diagonal, upper = w.damp_lower, w.damp_diagonal, w.damp_upper
     for e in range(loads.shape[0]):
         l0, l1, r0, r1 = loads[e, 0], loads[e, 1], loads[e, 2], loads[e, 3]
-        w.damp_diagonal[e] += beta * (XI_RIGHT * l0 + XI_LEFT * l1)
-        w.damp_upper[e] += beta * (XI_LEFT * l0 + XI_RIGHT * l1)
-        w.damp_lower[e + 1] += beta * (XI_RIGHT * r0 + XI_LEFT * r1)
-        w.damp_diagonal[e + 1] += beta * (XI_LEFT * r0 + XI_RIGHT * r1)
+        diagonal[e] += beta * (XI_RIGHT * l0 + XI_LEFT * l1)
+        upper[e] += beta * (XI_LEFT * l0 + XI_RIGHT * l1)
+        lower[e + 1] += beta * (XI_RIGHT * r0 + XI_LEFT * r1)
+        diagonal[e + 1] += beta * (XI_LEFT * r0 + XI_RIGHT * r1)
 
 
 @inlined
@@ -57,46 +61,52 @@ def add_viscous_advection(w: Workspace, loads: Array, beta: float, frame: Frame)
     The slip gains drift dtheta/dx: linear in the angles at the end of the stage,
     its part in the rates enters the matrix and its part in theta* the residual.
     """
+    x, theta, omega = w.x, w.theta, w.omega
+    rhs, lower, diagonal, upper = w.rhs, w.lower, w.diagonal, w.upper
     for e in range(loads.shape[0]):
-        per_length = beta * frame.drift / (w.x[e + 1] - w.x[e])
+        per_length = beta * frame.drift / (x[e + 1] - x[e])
         left = per_length * (loads[e, 0] + loads[e, 1])
         right = per_length * (loads[e, 2] + loads[e, 3])
-        twist = twist_of(w, e, frame.g)
-        w.rhs[e] -= left * twist
-        w.rhs[e + 1] -= right * twist
-        w.diagonal[e] -= frame.g * left
-        w.upper[e] += frame.g * left
-        w.lower[e + 1] -= frame.g * right
-        w.diagonal[e + 1] += frame.g * right
+        twist = twist_of(theta, omega, e, frame.g)
+        rhs[e] -= left * twist
+        rhs[e + 1] -= right * twist
+        diagonal[e] -= frame.g * left
+        upper[e] += frame.g * left
+        lower[e + 1] -= frame.g * right
+        diagonal[e + 1] += frame.g * right
 
 
 @inlined
-def twist_of(w: Workspace, e: int, g: float) -> float:
+def twist_of(theta: Array, omega: Array, e: int, g: float) -> float:
     """Twist of element e at the end of the stage, rad."""
-    return w.theta[e + 1] - w.theta[e] + g * (w.omega[e + 1] - w.omega[e])
+    return theta[e + 1] - theta[e] + g * (omega[e + 1] - omega[e])
 
 
 @inlined
 def add_linear(w: Workspace, g: float, with_matrix: bool) -> None:
     """Inertia, torsion and viscous rows: the residual, and the matrix if wanted."""
-    n = w.omega.size - 1
+    theta, omega, rest, rhs = w.theta, w.omega, w.rest, w.rhs
+    spring, inertia = w.spring, w.inertia
+    damp_lower, damp_diagonal, damp_upper = w.damp_lower, w.damp_diagonal, w.damp_upper
+    lower, diagonal, upper = w.lower, w.diagonal, w.upper
+    n = omega.size - 1
     arriving, before, previous = 0.0, 0.0, 0.0
     for i in range(n):
-        here, ahead = w.omega[i], w.omega[i + 1]
-        after = g * w.spring[i]
-        leaving = -w.spring[i] * (w.theta[i + 1] - w.theta[i]) - after * (ahead - here)
-        damping = w.damp_lower[i] * previous + w.damp_diagonal[i] * here + w.damp_upper[i] * ahead
-        w.rhs[i] = arriving - leaving - damping - w.inertia[i] * (here - w.rest[i])
+        here, ahead = omega[i], omega[i + 1]
+        after = g * spring[i]
+        leaving = -spring[i] * (theta[i + 1] - theta[i]) - after * (ahead - here)
+        damping = damp_lower[i] * previous + damp_diagonal[i] * here + damp_upper[i] * ahead
+        rhs[i] = arriving - leaving - damping - inertia[i] * (here - rest[i])
         if with_matrix:
-            w.lower[i] = w.damp_lower[i] - before
-            w.upper[i] = w.damp_upper[i] - after
-            w.diagonal[i] = w.damp_diagonal[i] + w.inertia[i] + before + after
+            lower[i] = damp_lower[i] - before
+            upper[i] = damp_upper[i] - after
+            diagonal[i] = damp_diagonal[i] + inertia[i] + before + after
         arriving, before, previous = leaving, after, here
-    damping = w.damp_lower[n] * previous + w.damp_diagonal[n] * w.omega[n]
-    w.rhs[n] = arriving - damping - w.inertia[n] * (w.omega[n] - w.rest[n])
+    damping = damp_lower[n] * previous + damp_diagonal[n] * omega[n]
+    rhs[n] = arriving - damping - inertia[n] * (omega[n] - rest[n])
     if with_matrix:
-        w.lower[n] = w.damp_lower[n] - before
-        w.diagonal[n] = w.damp_diagonal[n] + w.inertia[n] + before
+        lower[n] = damp_lower[n] - before
+        diagonal[n] = damp_diagonal[n] + inertia[n] + before
 
 
 @inlined
@@ -122,8 +132,7 @@ def add_row(
     """Every covered site of a row that is more than viscous.
 
     Returns the power that goes into twisted tissue and bent shaft, W, and the
-    energy stored in the tissue, J. (Arrays are named once, outside the loop: each
-    access through the tuple would count references.)
+    energy stored in the tissue, J.
     """
     x, theta, omega, lag, spring = w.x, w.theta, w.omega, w.lag, w.spring
     lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs

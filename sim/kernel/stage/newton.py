@@ -70,18 +70,19 @@ def newton(
     Without nonlinear rows both stages have the same matrix, and one iteration is
     exact: the second stage uses the factors of the first.
     """
-    n = w.omega.size
+    lag, omega, rhs, diagonal = w.lag, w.omega, w.rhs, w.diagonal
+    n = omega.size
     for i in range(n):
-        w.lag[i] = w.omega[i]
+        lag[i] = omega[i]
     recoverable, stored = 0.0, 0.0
     search = Search(0.0, 0.0, 0.0, 1.0, 0.0, 1.0)
     for iteration in range(_ITERATIONS):
         add_linear(w, frame.g, not factored)
         torque, slope = drive_torque(w, frame, drive)
-        w.rhs[0] += torque
-        w.rhs[n - 1] -= tip_torque
+        rhs[0] += torque
+        rhs[n - 1] -= tip_torque
         if not factored:
-            w.diagonal[0] += slope
+            diagonal[0] += slope
             recoverable, stored = _add_other_rows(law, w, frame, tip_torque, iteration >= _PLAIN)
         if iteration > 0:
             searching, search = _search(w, search)
@@ -109,11 +110,12 @@ def _search(w: Workspace, search: Search) -> tuple[bool, Search]:
     lies before: regula falsi with Illinois' halving, until little force is left.
     Returns whether the rates have moved.
     """
-    n = w.omega.size
+    rhs, step, omega = w.rhs, w.step, w.omega
+    n = omega.size
     met, length = 0.0, 0.0
     for i in range(n):
-        met += w.rhs[i] * w.step[i]
-        length = max(length, abs(w.step[i]))
+        met += rhs[i] * step[i]
+        length = max(length, abs(step[i]))
     low, pull, high, push = search.low, search.pull, search.high, search.push
     calm = abs(met) <= _OVERSHOOT * search.force or (met > 0.0 and push == 0.0)
     if calm or (high - low) * length <= _TOLERANCE:
@@ -125,15 +127,16 @@ def _search(w: Workspace, search: Search) -> tuple[bool, Search]:
         high, push = search.at, -met
     at = low + (high - low) * pull / (pull + push)
     for i in range(n):
-        w.omega[i] += (at - search.at) * w.step[i]
+        omega[i] += (at - search.at) * step[i]
     return True, Search(search.force, low, pull, high, push, at)
 
 
 @inlined
 def _balanced(w: Workspace) -> bool:
     """Whether so little force is left that another step would only confirm the last."""
-    for i in range(w.omega.size):
-        if abs(w.rhs[i]) > _BALANCE * w.diagonal[i] * max(1.0, abs(w.omega[i])):
+    rhs, diagonal, omega = w.rhs, w.diagonal, w.omega
+    for i in range(omega.size):
+        if abs(rhs[i]) > _BALANCE * diagonal[i] * max(1.0, abs(omega[i])):
             return False
     return True
 
@@ -141,14 +144,15 @@ def _balanced(w: Workspace) -> bool:
 @inlined
 def _take_step(w: Workspace) -> tuple[float, float, float]:
     """Newton's step; returns its size, that of the rates, and the force along it."""
-    n = w.omega.size
+    step, rhs, omega = w.step, w.rhs, w.omega
+    n = omega.size
     for i in range(n):
-        w.step[i] = w.rhs[i]
+        step[i] = rhs[i]
     substitute(w.lower, w.diagonal, w.upper, w.step)
     change, size, force = 0.0, 1.0, 0.0
     for i in range(n):
-        w.omega[i] += w.step[i]
-        force += w.rhs[i] * w.step[i]
-        change = max(change, abs(w.step[i]))
-        size = max(size, abs(w.omega[i]))
+        omega[i] += step[i]
+        force += rhs[i] * step[i]
+        change = max(change, abs(step[i]))
+        size = max(size, abs(omega[i]))
     return change, size, force

@@ -1,4 +1,4 @@
-"""How the optimiser of a fit ended: its real messages, each provoked."""
+"""How a fit ended: the real messages of the optimiser, each provoked, and ends on closed forms."""
 
 import io
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mujoco import minimize
 
-from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination
 
 
 def said(residual, **options):
@@ -54,3 +54,75 @@ def test_a_message_that_is_not_known_is_kept():
     assert status.message == "something else"
     assert status.at_bound == ("stiction.stribeck",)
     assert not status.converged
+
+
+class Line:
+    """Residuals of a straight line through noise: y - (a + b t), of 200 samples."""
+
+    def __init__(self):
+        rng = np.random.default_rng(3)
+        self.time = np.linspace(-1, 1, 200)
+        self.read = 1.0 + 2.0 * self.time + rng.normal(size=200)
+        self.low, self.high = np.full(2, -10.0), np.full(2, 10.0)
+        self.slopes = -np.stack([np.ones(200), self.time], axis=-1)
+        self.best = np.linalg.lstsq(-self.slopes, self.read, rcond=None)[0]
+
+    def __call__(self, x):
+        return self.read + self.slopes @ x.ravel()
+
+    def jacobian(self, x, at_x):
+        return self.slopes
+
+
+def offset_by(objective, sigmas):
+    """A vector so many of its own standard deviations from the minimum, in the first entry."""
+    left = objective(objective.best)
+    noise = np.sqrt(left @ left / 198)
+    return objective.best + np.array([sigmas * noise / np.sqrt(200), 0.0])
+
+
+def test_at_the_minimum_to_within_the_tolerance_it_has_converged():
+    line = Line()
+    # The offset is the root mean square over two parameters, of which one is off.
+    x = offset_by(line, 0.09 * np.sqrt(2))
+    with pytest.raises(Ended, match="relative offset") as ended:
+        Stopping(line, 0.1).jacobian(x, line(x))
+    assert ended.value.termination is Termination.OFFSET
+    np.testing.assert_array_equal(ended.value.x, x)
+
+
+def test_close_to_the_minimum_one_step_is_left_and_a_second_is_not_tried():
+    line = Line()
+    for sigmas, steps in ((0.3, 1), (0.7, 9)):
+        stopping, x = Stopping(line, 0.1), offset_by(line, sigmas * np.sqrt(2))
+        stopping.jacobian(x, line(x))
+        for _ in range(steps):
+            stopping(x)
+        with pytest.raises(Ended) as ended:
+            stopping(x)
+        close = Termination.OFFSET if steps == 1 else Termination.STALLED
+        assert ended.value.termination is close
+
+
+def test_what_cannot_come_below_what_is_enough_is_behind_from_the_second_jacobian():
+    line = Line()
+    x = line.best + 0.1
+    cost, least = float(line(x) @ line(x)), float(line(line.best) @ line(line.best))
+    reach = cost - 10 * (cost - least)
+    for enough, ends in ((reach - 1.0, True), (reach + 1.0, False)):
+        stopping = Stopping(line, 1e-3, enough)
+        stopping.jacobian(x, line(x))
+        if ends:
+            with pytest.raises(Ended, match="cannot come near"):
+                stopping.jacobian(x, line(x))
+        else:
+            stopping.jacobian(x, line(x))
+
+
+def test_what_bounds_forbid_is_not_promised():
+    line = Line()
+    line.low = line.best + 1.0
+    x = line.low.copy()
+    with pytest.raises(Ended) as ended:
+        Stopping(line, 0.1).jacobian(x, line(x))
+    assert ended.value.termination is Termination.OFFSET

@@ -11,7 +11,7 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.rig_scale import RigScale, scale_of
 from diagnosis.replay.rig_parameters import RigParameters

@@ -9,7 +9,7 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.law_table import law_table
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import controls, initial_data
 from sim.spec import Setup, header

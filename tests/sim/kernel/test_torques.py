@@ -10,7 +10,7 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
-from sim.needles import compile_model
+from sim.needles.kept import compile_model
 from sim.schedule import Schedule
 from sim.simulation import controls, initial_data, passive_torques, simulate
 from sim.spec import Setup

@@ -36,8 +36,8 @@ class Kept(Generic[T]):
             one, new = make(), True
         yield one, new
         free.append(one)
-        if len(self._free) > self._most:
-            self._free.pop(next(iter(self._free)), None)
+        for oldest in list(self._free)[: -self._most]:
+            self._free.pop(oldest, None)
 
 
 _MODELS: Kept[mujoco.MjModel] = Kept()

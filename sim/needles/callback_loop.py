@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.kernel.struct_offsets import read_struct_offsets
-from sim.needles import data_of
+from sim.needles.kept import data_of
 
 Array = NDArray[np.float64]
 

@@ -1,0 +1,103 @@
+"""Models and batches are used again, never by two at once, and never with old numbers."""
+
+import numpy as np
+import pytest
+
+from models.needle import NITINOL
+from models.tissue import Tissue
+from sim.discretisation import Arrangement, Discretisation
+from sim.needles.kept import Kept, batch_of, compile_model, data_of, models_of
+from sim.schedule import Schedule
+from sim.simulation import SimulationFailed, simulate
+from sim.spec import Setup
+
+TIME = np.array([0.0, 0.3, 1.0])
+TURN = Schedule(
+    time_s=TIME,
+    drive=np.array([0.0, 90.0, 90.0]),
+    free_mm=np.full(3, 50.0),
+    inserted_mm=np.full(3, 100.0),
+    speed_mm_s=np.zeros(3),
+)
+
+
+def setup(damping=0.01725, inserted=100.0, arrangement=Arrangement.SIBLINGS):
+    return Setup(
+        needle=NITINOL,
+        tissue=Tissue.uniform(viscous_n_mm_s_per_mm=damping),
+        discretisation=Discretisation(elements=4, arrangement=arrangement),
+        free_mm=50.0,
+        inserted_mm=inserted,
+    )
+
+
+def test_what_is_taken_is_nobody_elses_and_comes_back():
+    kept, made = Kept(), iter(range(9))
+    with (
+        kept.taken("kind", lambda: next(made)) as first,
+        kept.taken("kind", lambda: next(made)) as other,
+    ):
+        assert (first, other) == ((0, True), (1, True))
+    with kept.taken("kind", lambda: next(made)) as again:
+        assert again == (0, False)
+    with kept.taken("another kind", lambda: next(made)) as new:
+        assert new == (2, True)
+
+
+def test_the_oldest_kind_makes_room():
+    kept, made = Kept(most=2), iter(range(9))
+    for kind in "abc":
+        with kept.taken(kind, lambda: next(made)):
+            pass
+    for kind, new in (("b", False), ("c", False), ("a", True)):
+        with kept.taken(kind, lambda: next(made)) as (_, is_new):
+            assert is_new is new
+
+
+def test_what_failed_in_use_is_not_used_again():
+    kept, made = Kept(), iter(range(9))
+    with pytest.raises(SimulationFailed), kept.taken("kind", lambda: next(made)):
+        raise SimulationFailed("lost its numbers")
+    with kept.taken("kind", lambda: next(made)) as (one, new):
+        assert (one, new) == (1, True)
+
+
+def test_a_model_that_is_used_again_has_the_numbers_of_its_set_up():
+    for damping in (0.01, 0.02, 0.01):
+        wanted = compile_model(setup(damping))
+        with models_of([setup(damping), setup(2 * damping)]) as (model, other):
+            assert model is not other
+            np.testing.assert_array_equal(model.numeric_data, wanted.numeric_data)
+            np.testing.assert_array_equal(model.jnt_stiffness, wanted.jnt_stiffness)
+            np.testing.assert_array_equal(model.actuator_gear, wanted.actuator_gear)
+            assert not np.array_equal(other.numeric_data, wanted.numeric_data)
+
+
+def test_needles_of_other_bodies_share_no_model():
+    with models_of([setup()]) as (one,), models_of([setup(inserted=80.0)]) as (other,):
+        assert one is not other
+        assert one.body_inertia[-1, 0] != other.body_inertia[-1, 0]
+
+
+def test_batches_and_data_of_one_size_are_used_again():
+    with models_of([setup(), setup(0.02)]) as models:
+        with batch_of(models, 1) as first:
+            pass
+        with batch_of(models, 1) as again, batch_of(models, 1) as other:
+            assert again is first
+            assert other is not first
+        with batch_of(models, 2) as threaded:
+            assert threaded is not first
+        with data_of(models[0]) as data:
+            data.time, data.qpos[1] = 3.0, 1.0
+        with data_of(models[1]) as later:
+            assert later is data
+            assert (later.time, later.qpos[1]) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("arrangement", Arrangement)
+def test_runs_do_not_depend_on_what_ran_before(arrangement):
+    first = simulate([setup(arrangement=arrangement)], TURN)[0]
+    simulate([setup(0.1, arrangement=arrangement)], TURN)
+    again = simulate([setup(arrangement=arrangement)], TURN)[0]
+    np.testing.assert_array_equal(first.outputs, again.outputs)
