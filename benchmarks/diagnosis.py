@@ -28,6 +28,7 @@ from benchmarks import report
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.prepare.prepare import prepare
+from diagnosis.progress import Progress
 from diagnosis.replay.replay import replay
 from diagnosis.report.write import write_report
 from sim.simulation import prepare_processes
@@ -92,9 +93,9 @@ class Stages:
         self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self._last
         self._last = now
 
-    def heard(self, what: str, share: float) -> None:
+    def heard(self, news: Progress) -> None:
         """A report of progress; up to the first there is all that comes before the search."""
-        self.mark(what if _BEFORE in self.seconds else _BEFORE)
+        self.mark(news.stage if _BEFORE in self.seconds else _BEFORE)
 
 
 def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over: int = 1) -> Path:

@@ -62,6 +62,15 @@ NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
 
+# Time stamps that jitter (log/time_stamps.py)
+
+EVEN_MOST_STEPS = 1.0
+"""Steps by which stamps may be off an even grid, root mean square: beyond, the grid has lost count."""
+EVEN_TELLING_SIGMA = 3.0
+EVEN_SIGMA = 6.0
+"""Derived: a sample tells which axis is the true one where both disagree by three of their standard
+deviations; samples have to tell for even times by six of those of a fair coin, once in 10^9 logs."""
+
 # Sensor faults: which readings are set aside (log/sensor_faults.py)
 
 FALSE_ALARM_CHANCE = 1e-9
@@ -78,9 +87,21 @@ SATURATED_BESIDE = 10
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""
-SPIKE_SIGMA = 20.0
-SPIKE_SHARE = 0.2
-"""A lone sample so far off its neighbours, which agree within this share of its jump."""
+OUTLIER_FALSE_ALARMS = 0.05
+"""Derived: samples of a column of a trial that white noise makes outliers of, on average; below one in a
+log. Of 3000 samples that asks for 4.5 sigma."""
+OUTLIER_CLEARANCE = 8.0
+OUTLIER_MISFIT = 2.0
+OUTLIER_ONE_SIDED = 0.5
+OUTLIER_MOST_BESIDE = 4
+OUTLIER_MOST_RUN = 5
+"""How far an outlier is off, in what its neighbours leave of one curve (a corner comes to 4) beyond the
+noise, of which they may leave twice the variance by chance; the share of it by which it is off each side
+alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
+in a row: what lasts longer is an event."""
+PULSES_SHARE = 0.5
+"""Share of the outliers of the base that others answer to, from which they are motion; by chance
+those of two sensors meet in some hundredths of them."""
 
 # Consistency: columns that no passive needle can have produced together (log/checks/consistency.py)
 
@@ -191,15 +212,43 @@ alone, as a question."""
 
 # Preparing a log for replay (prepare/)
 
+AVERAGED_ABOVE_HZ = 220.0
+AVERAGING_S = 0.01
+AVERAGED_LEAST_SHARE = 0.5
+"""Samples a second from which means over a hundredth of a second, a step of the replay, are diagnosed in
+their place; and the share of its samples that a window has to have."""
 STEADY_DEPTH_MM = 0.2
 """A depth that changes by less is constant: what is left is the reading of the stage."""
-GAP_STEPS = 2.5
-"""Median steps that are a gap: one missing sample is interpolated, two are bridged."""
+GAP_STEPS = 1.7
+"""Median steps that are a gap, between one sample and two."""
+GAP_SHORT_S = 0.15
+GAP_MISFIT = 3.0
+"""Gaps in which a motion has no time for more than a curve through both sides shows; and the noise
+beyond which a curve does not fit these."""
 GAP_CERTAIN_DEG = 0.2
 GAP_FORGOTTEN_S = 1.0
+GAP_FORGOTTEN_LENGTHS = 5.0
 GAP_SIDE_SAMPLES = 12
-"""Where a cubic through 12 readings on each side and a line differ by more, the readings of the second
-after the gap are not used: by then the needle has mostly relaxed. Set on blind logs of seeds 1 and 2."""
+"""Where a curve through the readings on both sides (12 each at most) is uncertain by more, the readings
+after the gap are not used for a second, or five lengths of a short gap: by then the needle has mostly
+relaxed. Set on blind logs of seeds 1 and 2."""
+GAP_LOST_DEG = 1.0
+GAP_ERASED_TWISTS = 2.0
+"""Beyond a degree of uncertainty dry friction keeps a gap in mind, until the base has turned one way by
+twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
+BETWEEN_SAMPLES_S = 0.015
+STRAIGHT_DEG = 0.1
+"""Samples this far apart leave the motion between them open; and by how much the rate of the base may
+change from sample to sample, in degrees, where it is straight."""
+COARSE_STEP_SIGMA = 2.0
+"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them."""
+SHAKEN_STEP_SIGMA = 3.0
+"""Derived: noise shakes a reading across steps, so that its mean is off by
+exp(-2 (pi sigma / q)^2) q / pi: a tenth of sigma at three, seven tenths at five."""
+HELD_S, HELD_STEPS = 0.12, 1.0
+HELD_COUNTED_S = 0.5
+"""A coarse reading whose means change by less than a step in so long stands still, and counts so often.
+Set on fresh logs that were rounded: it leaves 1.16 and less as slow part where all of them left 2.3."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
 TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)
@@ -214,12 +263,47 @@ INERTIA_LOST_SIGMA = 0.5
 """Part of that torque that samples half as frequent would lose, from which a warning is given."""
 INSERTED_AT_LEAST = 0.1
 """Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
+START_LOOK_S = 0.25
+START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
+START_OUTLIER_SIGMA = 5.0
+START_TORQUE_FACTOR = 2.0
+"""A late start: a parabola through the first readings of the tip begins off the base by so many standard
+deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
+within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
+START_DECAYS = 10.0
+START_MOST_UNUSED = 0.25
+"""Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
+not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
+START_SPREAD_DEG = 90.0
+"""One standard deviation of what the base turned by before a late start, about the twist that is read. A
+choice, so broad that a second of any trial outweighs it."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 
+COLOUR_WINDOW_S, COLOUR_ABOVE_HZ = 2.0, 1.5
+COLOUR_WINDOWS = 12
+COLOUR_LONGEST_S = 0.3
+COLOUR_CHI_SQUARE = 20.0
+COLOUR_LEAST_SHARE = 0.2
+COLOUR_OPEN = 4.0
+"""Noise is coloured where white noise alone fits its spectrum worse by so much chi-square (derived: of
+two more parameters, once in 20 000 sensors by chance) and so large a share of its variance is: what
+effects leave of the nominal rig passes for less. The spectrum is taken from at least so many windows of
+so many seconds, from the frequency on above which effects leave little; colours within so much
+chi-square of the best are open. Physical: what is correlated for longer is drift and not noise."""
+COLOURED_BLOCK_S = 2.0
+"""Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
+correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
+and SLOW_BLOCK alone, some tenths of a second, would not see them."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
+
+DRIFT_SIZE_SIGMA = 2.0
+DRIFT_FASTEST_S = 1.5
+DRIFT_MOST_SHAPES = 40
+"""Physical: what the torque sensor of a lab drifts by within a trial, in sigma of its noise; period of
+the fastest shape of drift, and shapes at most: of a random walk so many leave less than 0.1 sigma."""
 # Where the residual is (residuals/)
 
 TURNING_DEG_S = 1.0
@@ -293,6 +377,13 @@ NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
+DRIFT_SHARE = 0.3
+"""Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
+DRIFT_RANGE_SIGMA = 6.0
+"""Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
+no roughness but a fault, and the answer stays unknown."""
+IMPERFECT_BASES = 4
+"""Leading explanations with an imperfection of a sensor, to which another one is added."""
 FINALISTS = 4
 CONTENDING = 60.0
 """Candidates that are fitted on the log itself, and the score behind the best beyond which they are out
@@ -301,6 +392,17 @@ costs to 5 % only."""
 NOMINAL_LEAD = 10.0
 """Score by which the scatter of stiffness and damping has to improve on the exact nominal rig before it
 is kept beside it."""
+
+# What no log can tell apart (selection/equivalence/)
+
+EQUIVALENT_SIZE, EQUIVALENT_FITS = 3, 3
+EQUIVALENT_LEAVES = 0.01
+"""Effects of an equivalent set at most, sets of one size that are fitted, and share of what the chosen
+explanation changes, as a sum of squares, by which the two may differ: a tenth as an amplitude. Beside
+it SIMPLE_LEAD is the largest cost, which is the smaller from a gap of 1.03 sigma on; without the share
+a weak effect would have the whole library for company. A choice; no log was looked at."""
+EQUIVALENT_PART = 0.5
+"""Share of the rest that one more effect of a set may leave: what takes less off is none."""
 
 # How fine a replay has to be (replay/, selection/mesh_refinement.py)
 
@@ -331,3 +433,9 @@ ALMOST_NOTHING_SIGMA = 0.01
 leaves above the noise."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
+
+# Stopping early (pipeline.py)
+
+REPLAYS_AFTER_STOP = 8.0
+"""Replays of the log for which a limit keeps time: one step of a fit, held-out trials of what is at the
+floor, predictions. Set on examples/rig-log-dry; it decides on when a search is cut short alone."""

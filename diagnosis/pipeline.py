@@ -3,6 +3,7 @@
 RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -> Assessment -> Diagnosis
 """
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -11,26 +12,41 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
+from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.effects import library_of
 from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import nominal_fit
-from diagnosis.fitting.nuisance import nuisance_of
+from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
+from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.averaging import averaged
+from diagnosis.prepare.late_start_detection import with_late_starts, without_unused
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.sensor_noise import estimate_noise
+from diagnosis.progress import (
+    ASSESSING,
+    CHECKING,
+    REPLAYING,
+    ProgressClock,
+    Watcher,
+    in_words,
+    silent,
+)
 from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
-from diagnosis.selection.checked import check
 from diagnosis.selection.contributions import strongest_first
+from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import RecordEntry, judged
-from diagnosis.selection.search import SearchState, search
-from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
-from diagnosis.workers import Progress, Workers, process_pool, silent
+from diagnosis.selection.search import search
+from diagnosis.selection.state import SearchState
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional
+from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
+from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
 
 Array = NDArray[np.float64]
@@ -41,12 +57,22 @@ class NominalReplay:
     """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
 
     Attributes:
+      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
+        readings of trials that began late.
       problem: the log, its noise, and what is left open of the rig.
+      fit: of what came before trials that began late, and of nothing else.
       predictions: of the nominal rig, by trial of the problem.
     """
 
+    log: RigLog
     problem: FitProblem
+    fit: Fit
     predictions: list[Prediction]
+
+    @property
+    def rig(self) -> RigParameters:
+        """The nominal rig, with what came before trials that began late."""
+        return self.fit.parameterization.rig(self.fit.x)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,24 +90,45 @@ class Judged:
     record: tuple[RecordEntry, ...]
 
 
-def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> Diagnosis:
-    """Diagnose a log.
+def diagnose(
+    log: RigLog,
+    *,
+    workers: int = 2,
+    limit_s: float | None = None,
+    stop: StopSignal | None = None,
+    progress: Watcher = silent,
+) -> Diagnosis:
+    """Diagnose a log, to the end or as far as there is time.
 
     Args:
       workers: processes.
-      progress: is told the stage and its share that is done.
+      limit_s: time after which the best so far is told; None: as long as it takes.
+      stop: a signal with a limit of its own, which others may give at any time.
+      progress: is told how far it is: at every stage and task, and ten times a second between.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
+      StoppedEarly: the end came before the nominal rig was replayed.
     """
+    stop = StopSignal(limit_s) if stop is None else stop
+    heard = ProgressClock(progress, stop).heard
+    heard(REPLAYING, 0, 1)
     prepare_processes()
-    nominal = replay_nominal(log)
-    with process_pool(workers, progress) as pool:
+    nominal = _nominal_in_time(log, stop)
+    log = nominal.log
+    heard(REPLAYING, 1, 1)
+    with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
-        last = _judged(found)
+        told = told_apart(found, pool)
+        cut = bool(stop.left_out)
+        heard(CHECKING, 0, 1)
+        last = _judged(told, cut=cut)
+        heard(CHECKING, 1, 1)
+        heard(ASSESSING, 0, 1)
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
+        heard(ASSESSING, 1, 1)
     return Diagnosis(
         log=log,
         noise=last.problem.noise,
@@ -89,7 +136,25 @@ def diagnose(log: RigLog, *, workers: int = 2, progress: Progress = silent) -> D
         verdict=last.verdict,
         assessment=assessment,
         record=last.record,
+        stopped=_early_stop(stop, cut),
     )
+
+
+def _nominal_in_time(log: RigLog, stop: StopSignal) -> NominalReplay:
+    """The nominal replay, from whose time that of the end is known."""
+    began_s = time.monotonic()
+    nominal = replay_nominal(log)
+    if stop.over:
+        raise StoppedEarly(f"{stop.why}: stopped before the nominal rig was replayed; nothing to tell")
+    stop.reserve(REPLAYS_AFTER_STOP * (time.monotonic() - began_s))
+    return nominal
+
+
+def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
+    if not stop.left_out:
+        return None
+    stage, left_out = in_words(stop.left_out[0]), tuple(stop.left_out)
+    return EarlyStop(why=stop.why, stage=stage, left_out=left_out, search=search)
 
 
 def replay_nominal(log: RigLog) -> NominalReplay:
@@ -98,19 +163,30 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
+    log = averaged(log)
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
-    noise = estimate_noise(log.rig, _residuals(prepared, predictions), base_sigma_deg, told)
-    library = library_of(scale_of(prepared))
-    problem = FitProblem(log=prepared, noise=noise, nuisance=nuisance_of(prepared), library=library)
-    return NominalReplay(problem=problem, predictions=predictions)
+    left = _residuals(prepared, predictions)
+    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded)
+    begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
+    library = library_of(scale_of(begun))
+    problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
+    if not late_starts_of(begun):
+        fit = nominal_fit(nominal_residuals(problem, predictions))
+        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
+    fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
+    predictions = replay(begun, fit.parameterization.rig(fit.x))
+    known = without_unused(log, begun)
+    return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
 
 
-def _residuals(log: PreparedLog, predictions: Sequence[Prediction]) -> dict[str, list[Array]]:
-    """Measured minus nominal, in units of the sensor, by sensor and trial."""
+def _residuals(
+    log: PreparedLog, predictions: Sequence[Prediction]
+) -> dict[str, list[tuple[Array, Array]]]:
+    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
     each = list(zip(log.trials, predictions, strict=True))
-    return {s: [t.readings[s] - p[s] for t, p in each if t.has(s)] for s in SENSORS}
+    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
 
 
 def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
@@ -118,24 +194,24 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     problem = nominal.problem
     start = SearchState(
         problem=problem,
-        coarse=decimated(problem, nominal.predictions),
+        coarse=decimated(problem, nominal.predictions, nominal.rig),
         effects=testable_effects(log),
-        nominal=nominal_fit(nominal_residuals(problem, nominal.predictions)),
+        nominal=nominal.fit,
     )
     return search(start, workers)
 
 
-def _judged(found: SearchState) -> Judged:
-    """The verdict on what the search found."""
-    before = found.problem.noise
-    checked = check(found.problem, found.candidates, found.checked)
+def _judged(told: ToldApart, *, cut: bool) -> Judged:
+    """The verdict on what the search found; provisional if it was cut short."""
+    found, checked, verdict = told.state, told.checked, told.verdict
     problem = replace(found.problem, noise=checked.noise)
-    verdict = verdict_on(checked.candidates)
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
+    if cut:
+        verdict = provisional(verdict, checked.candidates)
     return Judged(
         problem=problem,
-        coarse=found.coarse.renoised(checked.noise, before=before),
+        coarse=told.coarse,
         verdict=verdict,
         record=(*found.record, *judged(checked.candidates)),
     )

@@ -8,6 +8,7 @@ from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.verdict import Verdict
+from diagnosis.stopping import EarlyStop
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,6 +18,7 @@ class Diagnosis:
     Attributes:
       nominal: readings that the nominal rig predicts, at the samples of the log, by trial.
       record: of the search, stage by stage.
+      stopped: what a stop left out; None: it went to its end.
     """
 
     log: RigLog
@@ -25,13 +27,15 @@ class Diagnosis:
     verdict: Verdict
     assessment: Assessment
     record: tuple[RecordEntry, ...]
+    stopped: EarlyStop | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Of the log, of its noise, of the search and of the replay."""
+        """Of a stop, of the log, of its noise, of the search and of the replay."""
         return (
+            *([self.stopped.warning] if self.stopped else ()),
             *self.log.warnings,
-            *self.noise.warnings,
+            *self.noise.notes,
             *self._failures,
             *self.assessment.warnings,
         )

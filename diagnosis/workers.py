@@ -1,31 +1,46 @@
 """Running one function on many arguments, over processes where there are several.
 
 Every call comes back, in order: as its value, or as a `Failure` that names what could not be
-simulated. Misuse is no failure of a simulation: it is raised, from a worker too.
+simulated, or what a stop has left undone. Misuse is no failure of a simulation: it is raised, from
+a worker too. Worker processes end with this one, however it ends.
 
 Where there are fewer calls than processes, the cores that are left go to threads within a call
 (`side_by_side`): simulations run without Python's lock. Results depend on neither.
 """
 
+import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from multiprocessing import active_children, parent_process
+from threading import Thread
 from typing import Any, TypeVar
 
+from diagnosis.stopping import NEVER, StoppedEarly, StopSignal, listen
 from sim.simulation import SimulationFailed
 
-Progress = Callable[[str, float], None]
+Heard = Callable[[str, int, int], None]
+"""Is told the stage, its tasks that are done, and all of them."""
 T = TypeVar("T")
 S = TypeVar("S")
 
 _THREADS: ContextVar[int] = ContextVar("threads", default=1)
 """That a call may use here and now."""
 
+_LOOK_S = 0.1  # between two looks at the signal to stop
 
-def silent(stage: str, share: float) -> None:
+
+def unheard(stage: str, done: int, tasks: int) -> None:
     """Progress that nobody watches."""
 
 
@@ -36,10 +51,12 @@ class Failure:
     Attributes:
       effects: that it was about.
       reason: why, in the words of what failed.
+      stopped: whether there was no time for it.
     """
 
     effects: tuple[str, ...]
     reason: str
+    stopped: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +69,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Workers:
-    """Processes, and who is told how far they are.
+    """Processes, who is told how far they are, and when they have to end.
 
     Attributes:
       pool: None works in this process.
@@ -61,33 +78,62 @@ class Workers:
 
     pool: Executor | None = None
     count: int = 1
-    progress: Progress = silent
+    progress: Heard = unheard
+    stop: StopSignal = NEVER
 
     def each(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
         """Values or failures, in the order of the tasks.
 
+        After a stop what waits is not begun, and what runs is not waited for.
+
         Raises:
           Exception: whatever a call raises but SimulationFailed.
         """
-        threads = max(1, self.count // max(len(tasks), 1))
-        pending = (
-            [self.pool.submit(_attempt_on, threads, function, task) for task in tasks]
+        found = (
+            self._over_processes(self.pool, stage, function, tasks)
             if self.pool
-            else None
+            else self._here(stage, function, tasks)
         )
-        results: list[T | Failure] = []
-        for i, task in enumerate(tasks):
-            results.append(pending[i].result() if pending else attempt(function, task))
-            self.progress(stage, (i + 1) / len(tasks))
-        return results
+        if any(isinstance(result, Failure) and result.stopped for result in found):
+            self.stop.leave_out(stage)
+        return found
+
+    def _here(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
+        found: list[T | Failure] = []
+        for task in tasks:
+            self.progress(stage, len(found), len(tasks))
+            found.append(_undone(task) if self.stop.due else attempt(function, task))
+        self.progress(stage, len(found), len(tasks))
+        return found
+
+    def _over_processes(
+        self, pool: Executor, stage: str, function: Callable[..., T], tasks: Sequence[Task]
+    ) -> list[T | Failure]:
+        threads = max(1, self.count // max(len(tasks), 1))
+        calls = [pool.submit(_attempt_on, threads, function, task) for task in tasks]
+        running: set[Future[T | Failure]] = set(calls)
+        while running and not self.stop.due:
+            self.progress(stage, len(calls) - len(running), len(calls))
+            running = wait(running, timeout=_LOOK_S, return_when=FIRST_COMPLETED).not_done
+        for call in running:
+            call.cancel()
+        self.progress(stage, len(calls) - len(running), len(calls))
+        each = zip(calls, tasks, strict=True)
+        return [_undone(task) if call in running else call.result() for call, task in each]
 
 
 def attempt(function: Callable[..., T], task: Task) -> T | Failure:
-    """The value of a call, or why it could not be simulated."""
+    """The value of a call, or why it could not be simulated, or not in time."""
     try:
         return function(*task.arguments)
     except SimulationFailed as failed:
         return Failure(effects=task.effects, reason=str(failed))
+    except StoppedEarly as stopped:
+        return Failure(effects=task.effects, reason=str(stopped), stopped=True)
+
+
+def _undone(task: Task) -> Failure:
+    return Failure(effects=task.effects, reason="stopped early: not tried", stopped=True)
 
 
 def _attempt_on(threads: int, function: Callable[..., T], task: Task) -> T | Failure:
@@ -110,21 +156,36 @@ def side_by_side(function: Callable[[S], T], items: Sequence[S]) -> list[T]:
 
 
 @contextmanager
-def process_pool(count: int, progress: Progress = silent) -> Iterator[Workers]:
-    """Processes that share what this one has loaded; 1 works in this one."""
+def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER) -> Iterator[Workers]:
+    """Processes that share what this one has loaded, and end with the block; 1 works in this one."""
     if count <= 1:
-        yield Workers(progress=progress)
+        yield Workers(progress=progress, stop=stop)
         return
-    before = _THREADS.set(count)
-    with ProcessPoolExecutor(count, initializer=_leave_interrupts_to_the_parent) as pool:
-        try:
-            yield Workers(pool=pool, count=count, progress=progress)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)  # after what runs, some seconds at the most
-            raise
-        finally:
-            _THREADS.reset(before)
+    others, before = active_children(), _THREADS.set(count)
+    pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop,))
+    try:
+        yield Workers(pool=pool, count=count, progress=progress, stop=stop)
+    finally:
+        _THREADS.reset(before)
+        pool.shutdown(wait=False, cancel_futures=True)
+        ours = [process for process in active_children() if process not in others]
+        for process in ours:
+            process.kill()
+        for process in ours:
+            process.join()
 
 
-def _leave_interrupts_to_the_parent() -> None:
+def _begin(stop: StopSignal) -> None:
+    """Signals go to the whole group of processes: what they mean is the parent's to decide."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    listen(stop)
+    Thread(target=_end_with_the_parent, daemon=True).start()
+
+
+def _end_with_the_parent() -> None:
+    """Also where the parent is killed, and can tell nobody."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(1)

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
+from rich.table import Column, Table
 
 from models.errors import InvalidValue, NeedleError
 from sim.files import refuse_existing, write_text, writing
@@ -26,6 +27,7 @@ def make(
     count: int,
     kinds: Sequence[str] | None,
     effects: Sequence[str] | None,
+    roughness: Sequence[str] | None,
     signature: tuple[float, float],
     short: bool,
     console: Console,
@@ -44,6 +46,7 @@ def make(
             count=count,
             kinds=kinds,
             effects=effects,
+            roughness=roughness,
             signature=signature,
             short=short,
         )
@@ -54,15 +57,24 @@ def make(
 
 
 def run_score(
-    folder: Path, out: Path | None, *, trials: int | None, force: bool, console: Console
+    folder: Path,
+    out: Path | None,
+    *,
+    trials: int | None,
+    limit_s: float | None,
+    force: bool,
+    console: Console,
 ) -> int:
     """Diagnose the logs that have no report yet, then compare the reports with the ground truth.
 
     Raises:
-      InvalidValue: `trials` is below 1, or the folder has no logs or no usable ground truth.
+      InvalidValue: `trials` or the limit is out of range, or the folder has no logs or no usable
+        ground truth.
     """
     if trials is not None and trials < 1:
         raise InvalidValue("trials", trials, "at least 1", "leave it out for all trials")
+    if limit_s is not None and not limit_s > 0:
+        raise InvalidValue("limit", limit_s, "seconds above 0", "leave it out for no limit")
     if not (folder / "logs").is_dir() or not (folder / "answers" / "answers.json").is_file():
         raise InvalidValue(
             "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
@@ -72,11 +84,12 @@ def run_score(
     read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
     diagnose_all(
         folder / "logs",
-        reports_in(folder, trials),
+        reports_in(folder, trials, limit_s),
         trials=trials,
+        limit_s=limit_s,
         watched=lambda tasks: track(tasks, description="logs"),
     )
-    scores = read_scores(folder, trials)
+    scores = read_scores(folder, trials, limit_s)
     _print(scores, console)
     if paths:
         write_text(paths[0], scores.to_csv(index_label="case", float_format="%.4g"), force=force)
@@ -88,21 +101,32 @@ def run_score(
 
 
 def _print(scores: pd.DataFrame, console: Console) -> None:
-    console.print(_by_kind(calibration.summary(scores)))
+    wrong = calibration.confidently_wrong(scores)
+    by_kind = [calibration.summary(scores), calibration.summary(scores.assign(kind="all"))]
+    console.print(_by_kind(pd.concat(by_kind)))
+    _list(scores[wrong], "confidently wrong: ", console)
     limits = detection_limits(scores).dropna()
     if len(limits):
         console.print(_limits(limits))
     console.print(_calibration(scores))
-    for case, row in scores[~scores["exact"]].iterrows():
-        line = f"{case}: true {row['truth']}, diagnosed {row['said']} ({row['verdict']})"
+    _list(scores[~scores["exact"] & ~wrong], "", console)
+
+
+def _list(scores: pd.DataFrame, what: str, console: Console) -> None:
+    for case, row in scores.iterrows():
+        line = f"{what}{case}: true {row['truth']}, diagnosed {row['said']} ({row['verdict']})"
         console.print(line, highlight=False)
 
 
 def _by_kind(summary: pd.DataFrame) -> Table:
-    table = Table("kind", "logs", "exact", "undecided", "unknown", "seconds", title="By kind of log")
+    shown = ("logs", "confidently\nwrong", "exact", "undecided", "unknown", "median\ns", "worst\ns")
+    kind_column = Column("kind", no_wrap=True)
+    table = Table(kind_column, *shown, title="By kind of log", box=SIMPLE_HEAD, collapse_padding=True)
     for kind, row in summary.iterrows():
         shares = [f"{100 * row[c]:.1f} %" for c in ("exact", "undecided", "unknown")]
-        table.add_row(str(kind), f"{row['logs']:.0f}", *shares, f"{row['seconds']:.0f}")
+        counts = [f"{row[c]:.0f}" for c in ("logs", "confidently_wrong")]
+        seconds = [f"{row[c]:.0f}" for c in ("seconds", "worst_seconds")]
+        table.add_row(str(kind), *counts, *shares, *seconds)
     return table
 
 

@@ -53,17 +53,17 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
 
     _announce(console, 4, f"replay of {len(log.trials)} trials of a rig")
     nominal = replay_nominal(log)
-    replaying.write(log, nominal, folder / "replay", force=force)
+    replaying.write(nominal, folder / "replay", force=force)
     console.print(replaying.table(nominal))
 
     _announce(console, 5, "what a rig has that its model lacks")
-    diagnosing.run(DRY, folder / "gap", json_only=False, force=force, console=console)
+    stopped = diagnosing.run(DRY, folder / "gap", json_only=False, force=force, console=console)
 
     console.print(_written(paths))
     console.print(f"done in {time.monotonic() - began:.0f} s; look at a recording with")
     console.print(f"  needle inspect {folder / (protocol.name + '.rrd')}", highlight=False)
     console.print(f"and open {folder / 'gap' / 'report.html'}", highlight=False)
-    return 0 if findings.passed else 1
+    return stopped or (0 if findings.passed else 1)
 
 
 def _announce(console: Console, stage: int, what: str) -> None:

@@ -1,56 +1,90 @@
 """`needle diagnose`: what a rig has that its nominal model lacks."""
 
 import json
+import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
-from diagnosis.report.sentences import headline, largest_parts, largest_residual, nearest
+from diagnosis.report.sensors import imperfections
+from diagnosis.report.sentences import alike, headline, largest_parts, largest_residual, nearest
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
+from diagnosis.stopping import StoppedEarly, StopSignal
+from scripts.progress_line import progress_line
+from scripts.stop_signals import EXIT_CODES, stops_on_signals
 from sim.files import refuse_existing
+from sim.simulation import prepare_processes
 
 _SHOWN = 0.0005  # what rounds to more than 0.000
+_REPORT_LEAST_S = 3.0  # kept of a limit for the report
+_REPORT_STARTS = 1.0  # times what Python took to start: on a busy machine both are slow
 
 
-def run(log_folder: Path, folder: Path | None, *, json_only: bool, force: bool, console: Console) -> int:
-    """Diagnose a log; prints a summary, or `report.json`."""
+def run(
+    log_folder: Path,
+    folder: Path | None,
+    *,
+    json_only: bool,
+    force: bool,
+    console: Console,
+    limit_s: float | None = None,
+    began_s: float | None = None,
+) -> int:
+    """Diagnose a log; prints a summary, or `report.json`.
+
+    Args:
+      limit_s: for all of it; None: no limit.
+      began_s: `time.monotonic()` from which the limit counts; None: now.
+
+    Returns:
+      0, or 128 and the number of the signal that asked for the best so far.
+    """
+    used_s = time.monotonic() - began_s if began_s else 0.0
+    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if folder else 0.0
+    stop = StopSignal(limit_s, began_s=began_s, reserve_s=reserve_s)
     log = read_rig_log(log_folder)
     if folder:
         refuse_existing(output_paths(log, folder), force=force)
     shown = Console(stderr=True)
     for warning in log.warnings:
         shown.print(f"warning: {escape(warning)}", highlight=False)
-    with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
-        task = bar.add_task("replaying the nominal rig", total=1.0)
-        found = diagnose(
-            log, progress=lambda stage, share: bar.update(task, description=stage, completed=share)
-        )
-    paths = write_report(found, folder, force=force) if folder else []
-    if json_only:
-        console.print_json(json.dumps(as_json(found)))
-        return 0
-    _summary(found, console)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
-    return 0
+    prepare_processes()  # compiles for half a minute the first time, before there is anything to tell
+    with stops_on_signals(stop):
+        try:
+            with progress_line(shown, stop) as show:
+                found = diagnose(log, stop=stop, progress=show)
+        except StoppedEarly as early:
+            if not stop.requested:
+                raise
+            shown.print(f"needle diagnose: {early}")
+            return EXIT_CODES[stop.requested]
+        paths = write_report(found, folder, force=force) if folder else []
+        if json_only:
+            console.print_json(json.dumps(as_json(found)))
+        else:
+            _summary(found, console)
+            for path in paths:
+                console.print(f"wrote      {path}", highlight=False)
+    return EXIT_CODES[stop.requested]
 
 
 def _summary(found: Diagnosis, console: Console) -> None:
     told = found.assessment
     console.print(f"[bold]{escape(headline(found))}[/]", highlight=False)
-    if sentence := nearest(found):
+    for sentence in filter(None, (alike(found), nearest(found))):
+        console.print(escape(sentence), highlight=False)
+    if sentence := imperfections(found):
         console.print(escape(sentence), highlight=False)
     for warning in found.warnings:
         console.print(f"warning: {escape(warning)}", highlight=False)

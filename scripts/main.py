@@ -1,10 +1,12 @@
 """The console command `needle`: arguments, errors and exit codes.
 
-0: done; 1: a bound of `needle validate` fails; 2: bad input, or nothing written.
+0: done; 1: a bound of `needle validate` fails; 2: bad input, or nothing written; 130 and 143: stopped
+by Ctrl-C or SIGTERM.
 """
 
 import argparse
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -62,6 +64,12 @@ def parser() -> argparse.ArgumentParser:
         "--paper", action="store_true", help="the published tables and figures instead"
     )
     diagnose.add_argument("--json", action="store_true", help="print report.json instead")
+    diagnose.add_argument(
+        "--limit",
+        type=float,
+        metavar="SECONDS",
+        help="time for all of it: what explains the log best by then is told, marked as such",
+    )
     _add_output(diagnose, default=None)
 
     _add_blind(commands.add_parser("blind", help="validate the diagnosis on rigs that it has not met"))
@@ -92,9 +100,19 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--seed", type=int, default=1, help="the same seed gives the same bytes")
     make.add_argument("--count", type=int, default=40, help="number of logs (default: 40)")
     make.add_argument(
-        "--kinds", nargs="+", metavar="KIND", help="some of: none single pair off_nominal outside"
+        "--kinds",
+        nargs="+",
+        metavar="KIND",
+        help="some of: none single pair off_nominal outside (default: these five), rough_none"
+        " rough_single wrong_constant wrong_outside, or all",
     )
     make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these effects")
+    make.add_argument(
+        "--roughness",
+        nargs="+",
+        metavar="NAME",
+        help="of the rough kinds, each of these in turn and alone (default: pairs of all ten)",
+    )
     make.add_argument(
         "--signature",
         nargs=2,
@@ -106,6 +124,7 @@ def _add_blind(blind: argparse.ArgumentParser) -> None:
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
     score = actions.add_parser("score", help="diagnose the logs, then compare with the ground truth")
     score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
+    score.add_argument("--limit", type=float, metavar="SECONDS", help="time for each diagnosis")
     score.add_argument(
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
     )
@@ -120,10 +139,11 @@ def _add_output(command: argparse.ArgumentParser, *, default: Path | None) -> No
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a subcommand; returns the exit code."""
+    began_s = time.monotonic()
     args = parser().parse_args(arguments)
     console = Console()
     try:
-        return _run(args, console)
+        return _run(args, console, began_s)
     except NeedleError as error:
         shown = f"[bold red]needle {args.command}:[/] {escape(str(error))}"
         Console(stderr=True).print(shown, highlight=False)
@@ -133,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 130
 
 
-def _run(args: argparse.Namespace, console: Console) -> int:
+def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:
     # Imported here, for one command alone: `needle --help` need not wait for MuJoCo.
     match args.command:
         case "demo":
@@ -176,7 +196,13 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             from scripts import diagnose
 
             return diagnose.run(
-                args.log, args.out, json_only=args.json, force=args.force, console=console
+                args.log,
+                args.out,
+                limit_s=args.limit,
+                began_s=began_s,
+                json_only=args.json,
+                force=args.force,
+                console=console,
             )
         case "blind" if args.action == "make":
             from scripts import blind
@@ -187,6 +213,7 @@ def _run(args: argparse.Namespace, console: Console) -> int:
                 count=args.count,
                 kinds=args.kinds,
                 effects=args.effects,
+                roughness=args.roughness,
                 signature=(args.signature[0], args.signature[1]),
                 short=args.short,
                 console=console,
@@ -195,7 +222,12 @@ def _run(args: argparse.Namespace, console: Console) -> int:
             from scripts import blind
 
             return blind.run_score(
-                args.folder, args.out, trials=args.trials, force=args.force, console=console
+                args.folder,
+                args.out,
+                trials=args.trials,
+                limit_s=args.limit,
+                force=args.force,
+                console=console,
             )
         case "import":
             from scripts import import_log

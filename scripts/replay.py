@@ -14,7 +14,6 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.pipeline import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
-from diagnosis.replay.rig_parameters import NOMINAL
 from sim.files import refuse_existing, writing
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
@@ -41,10 +40,11 @@ def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int
         console.print(f"warning: {warning}", highlight=False, markup=False)
     with console.status(f"replaying {len(log.trials)} trials"):
         nominal = replay_nominal(log)
-    for warning in (*nominal.problem.log.warnings, *nominal.problem.noise.warnings):
+    later = nominal.log.warnings[len(log.warnings) :]
+    for warning in (*later, *nominal.problem.log.warnings, *nominal.problem.noise.warnings):
         console.print(f"warning: {warning}", highlight=False, markup=False)
     console.print(table(nominal))
-    write(log, nominal, folder, force=force)
+    write(nominal, folder, force=force)
     for path in paths:
         console.print(f"wrote      {path}", highlight=False)
     return 0
@@ -90,8 +90,9 @@ def _chosen(each: list[Pair], trial: int | None) -> list[Pair]:
     return each if trial is None else [each[trial]]
 
 
-def write(log: RigLog, nominal: NominalReplay, folder: Path, *, force: bool) -> None:
+def write(nominal: NominalReplay, folder: Path, *, force: bool) -> None:
     """Predictions as CSV, residuals as a picture, the first trial as a recording."""
+    log = nominal.log
     picture, rrd, *predictions = output_paths(log, folder)
     each = zip(log.trials, nominal.problem.log.trials, nominal.predictions, strict=True)
     replayed = [
@@ -99,13 +100,14 @@ def write(log: RigLog, nominal: NominalReplay, folder: Path, *, force: bool) -> 
         for trial, prepared, prediction in each
     ]
     for one, path in zip(replayed, predictions, strict=True):
-        columns = {"time_s": one.trial["time_s"]}
-        columns |= {f"{name}_nominal": one.prediction[name] for name in SENSORS}
+        rows = one.trial.file_rows
+        there = one.prediction.at(rows.taken_s, one.trial["time_s"])
+        columns = {"time_s": rows.stamps_s} | {f"{name}_nominal": there[name] for name in SENSORS}
         with writing(path, force=force) as part:
             pd.DataFrame(columns).to_csv(part, index=False, float_format="%.6g")
     _draw(replayed, picture, force=force)
     first = nominal.problem.log.trials[0]
-    shape = shape_of(log.rig, first, NOMINAL)
+    shape = shape_of(log.rig, first, nominal.rig)
     results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
     parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
     log_recording(record(shape, parameters), rrd, results=results, force=force)

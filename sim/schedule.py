@@ -83,6 +83,11 @@ class Schedule:
         constant = np.ptp(self.inserted_mm) <= LENGTH_TOLERANCE_MM
         return Mesh.EULERIAN if constant and self.inserted_mm[0] > 0 else Mesh.LAGRANGIAN
 
+    def rows(self, kept: NDArray[np.bool_]) -> "Schedule":
+        """The inputs at some of their times, two at least."""
+        names = ("time_s", "drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm")
+        return Schedule(**{name: getattr(self, name)[kept] for name in names})
+
     def at_steps(self, step_s: float) -> "Schedule":
         """The same inputs at the ends of equal steps, the last at or after the end."""
         steps = max(1, int(np.ceil(self.duration_s / step_s - 1e-9)))

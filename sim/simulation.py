@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
@@ -22,6 +22,7 @@ from sim.spec import Setup
 Array = NDArray[np.float64]
 
 _LANDING_TOLERANCE_RAD = 1e-8
+_SAME_TIME = 1e-6  # of a step
 
 
 class SimulationFailed(NeedleError):
@@ -65,6 +66,19 @@ class Run:
     def base_torque_n_mm(self) -> Array:
         """Torque that the drive puts in, N mm, (N,)."""
         return self.outputs[:, memory_map.O_BASE_TORQUE] / units.N_MM
+
+    def since(self, start_s: float) -> "Run":
+        """The run from a time on; itself if it begins there."""
+        kept = self.time_s >= start_s - _SAME_TIME * self.setup.discretisation.step_s
+        if kept.all():
+            return self
+        return replace(
+            self,
+            inputs=self.inputs.rows(kept),
+            outputs=self.outputs[kept],
+            angles_rad=None if self.angles_rad is None else self.angles_rad[kept],
+            tissue_rad=None if self.tissue_rad is None else self.tissue_rad[kept],
+        )
 
     @property
     def unconverged(self) -> int:

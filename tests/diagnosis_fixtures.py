@@ -31,7 +31,7 @@ from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import check
-from diagnosis.selection.search import SearchState
+from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import verdict_on
 
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02

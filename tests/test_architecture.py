@@ -10,6 +10,8 @@ ROOT = Path(__file__).parent.parent
 PACKAGES = ("models", "sim", "controllers", "diagnosis", "studies", "validation", "scripts")
 ROOMS = (
     "criteria",
+    "stopping",
+    "progress",
     "workers",
     "log",
     "lab_files",

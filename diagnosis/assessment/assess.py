@@ -1,7 +1,7 @@
 """Everything that is told beside the verdict."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,12 @@ from diagnosis.assessment.forward_step import forward_selection, gap_with_one_mo
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, intervals
 from diagnosis.assessment.nearest import Nearest, nearest_of
+from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
+from diagnosis.replay.drift import drift_range_sigma, with_drift
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay, residuals
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
@@ -23,6 +26,7 @@ from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.stopping import StopSignal
 from diagnosis.workers import Failure, Task, Workers, attempt
 from sim.simulation import SimulationFailed
 
@@ -32,6 +36,12 @@ ONE_TRIAL = (
     "the log has one trial, and none can be held out: the gap after is that on the trial of the fit, "
     "and nothing tells whether its parameters hold elsewhere; add a second trial"
 )
+
+TO_ITS_END = "diagnose this log to its end first: what was not tried may explain it as well, or better"
+"""In place of a next experiment where the search was cut short."""
+FINER, REPLICATES = "numerical error", "noise of the base angle in the intervals"
+ONE_MORE, LIMITS, NEXT = "adding another effect", "detection limits", "next experiment"
+"""Parts that a stop leaves out."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,11 +55,13 @@ class Assessment:
       breakdown_after: of what the nearest explanation leaves.
       shape, shape_after: of the same two residuals.
       parameters: by effect that was accepted.
+      imperfections: of sensors that the nearest explanation rests on, with their parameters.
+      torque_drift_sigma: largest range of the drift within a trial that was allowed for.
       with_one_more: gap that one more effect may bring it down to, by effect.
       detection_limits: parameters at the largest strength that may go unseen, by effect; empty where
         the log is not explained, or by two effects.
       next_experiment: in words; empty where nothing is left to tell apart.
-      numerical_error: of the replay, in sigma, by sensor.
+      numerical_error: of the replay, in sigma, by sensor; empty where there was no time for it.
       explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
     """
 
@@ -60,6 +72,8 @@ class Assessment:
     shape: ResidualShape
     shape_after: ResidualShape
     parameters: dict[str, dict[str, Interval]]
+    imperfections: dict[str, dict[str, Interval]]
+    torque_drift_sigma: float
     with_one_more: dict[str, float]
     detection_limits: dict[str, dict[str, float]]
     next_experiment: str
@@ -77,7 +91,7 @@ def assess(
     effects: Sequence[str],
     workers: Workers,
 ) -> Assessment:
-    """Assess a verdict.
+    """Assess a verdict; after a stop, what needs many simulations is left out.
 
     Args:
       problem: the log itself, as finely replayed and with the noise that the verdict rests on.
@@ -88,19 +102,27 @@ def assess(
     Raises:
       SimulationFailed: the best explanation cannot be simulated.
     """
+    stop = workers.stop
+    complete = not stop.left_out
     near = _nearest_candidate(problem, coarse, verdict, effects, workers)
     rig = near.fit.parameterization.rig(near.fit.x)
     predictions = replay(problem.log, rig, problem.resolution)
-    change = refinement_change(problem.log, problem.noise, rig, predictions, problem.resolution)
-    error = numerical_error(change)
-    explained = at_samples(problem, predictions)
+    arguments = (problem.log, problem.noise, rig, predictions, problem.resolution)
+    change = stop.unless_due(FINER, lambda: refinement_change(*arguments)) or []
+    error = numerical_error(change) if change else {}
+    explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
     after, lost = _held_out(problem, near)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
     own = intervals(problem, near.fit, change, left=_above_noise(near))
-    gap = gap_reduction(nominal_residuals(problem, nominal), after)
+    if stop.due:
+        stop.leave_out(REPLICATES)
+    plain = problem.noise.uncoloured
+    gap = gap_reduction(
+        nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
+    )
     named = verdict.effects or strongest_first(problem, near)
     return Assessment(
         gap=gap,
@@ -110,9 +132,11 @@ def assess(
         shape=residual_shape(before),
         shape_after=residual_shape(left),
         parameters={e: p for e, p in own.items() if e in verdict.effects},
+        imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
+        torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,
         detection_limits=limits,
-        next_experiment=advise(coarse, verdict, *where),
+        next_experiment=_next_experiment(coarse, verdict, where, stop) if complete else TO_ITS_END,
         numerical_error=error,
         explained=explained,
         warnings=(
@@ -134,8 +158,23 @@ def _nearest_candidate(
     """The best of the verdict; of an unknown log, with the further effects that bring it nearer."""
     if verdict.kind is not VerdictKind.UNKNOWN:
         return verdict.best
+    if workers.stop.due:
+        workers.stop.leave_out(ONE_MORE)
+        return verdict.best
     fit = forward_selection(problem, coarse, verdict.best.fit, effects, workers)
     return verdict.best if fit is verdict.best.fit else candidate(fit)
+
+
+def _next_experiment(
+    coarse: FitProblem,
+    verdict: Verdict,
+    where: tuple[ResidualBreakdown, ResidualBreakdown],
+    stop: StopSignal,
+) -> str:
+    """Only what tells two explanations apart has to be simulated, and takes time."""
+    if verdict.kind is not VerdictKind.UNDECIDED:
+        return advise(coarse, verdict, *where)
+    return stop.unless_due(NEXT, lambda: advise(coarse, verdict, *where)) or ""
 
 
 def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
@@ -156,14 +195,19 @@ def _further_effects(
     coarse: FitProblem, verdict: Verdict, effects: Sequence[str], workers: Workers
 ) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
     """The gap with one more effect, and detection limits where the log is explained."""
-    best = verdict.best.fit
+    best, stop = verdict.best.fit, workers.stop
     base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
     if isinstance(base, Failure):
+        if base.stopped:
+            stop.leave_out(ONE_MORE)
+        if base.stopped and verdict.settled:
+            stop.leave_out(LIMITS)
         return {}, {}
-    left = gap_with_one_more(coarse, best, base, effects, workers)
+    arguments = (coarse, best, base, effects, workers)
+    left = stop.unless_due(ONE_MORE, lambda: gap_with_one_more(*arguments)) or {}
     if not verdict.settled:
         return left, {}
-    return left, detection_limits(coarse, best, base, effects, workers)
+    return left, stop.unless_due(LIMITS, lambda: detection_limits(*arguments)) or {}
 
 
 def at_samples(problem: FitProblem, predictions: Sequence[Prediction]) -> list[Prediction]:

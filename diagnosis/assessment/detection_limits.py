@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diagnosis.criteria import DETECTION_SIGMA, SCATTER, SECOND_LEAVES, SIMPLE_LEAD
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
@@ -34,7 +35,7 @@ def detection_limits(
     """
     if len(best.names) > 1:
         return {}
-    others = [name for name in effects if name not in (*best.names, *SCATTER)]
+    others = [name for name in effects if name in LIBRARY and name not in (*best.names, *SCATTER)]
     tasks = [Task(effects=(name,), arguments=(coarse, best, base, name)) for name in others]
     results = workers.each("detection limits", detection_limit, tasks)
     return dict(limit for limit in results if not isinstance(limit, Failure))

@@ -3,15 +3,15 @@
 from collections.abc import Iterator
 
 from diagnosis.criteria import SAME_DEPTH_MM, SLIDING_MM_S
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.log.rig_log import RigLog
 
 
 def testable_effects(log: RigLog) -> tuple[str, ...]:
-    """Effects that the columns of a log can show at all."""
+    """What a fit may use that the columns of a log can show at all."""
     return tuple(
         name
-        for name, effect in LIBRARY.items()
+        for name, effect in FITTED.items()
         if not effect.needs or any(trial.has(effect.needs) for trial in log.trials)
     )
 

@@ -19,6 +19,7 @@ from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.base_smoothing import smooth_base
+from diagnosis.stopping import stopping
 
 Array = NDArray[np.float64]
 
@@ -47,14 +48,15 @@ def intervals(
     """By effect and parameter, nuisance included.
 
     Args:
-      change: of the prediction with a finer replay, / sigma, by trial and sensor.
+      change: of the prediction with a finer replay, / sigma, by trial and sensor; none: not looked at.
       left: by how much the residual is above the noise; noise is taken to be as much larger.
     """
     if fit.x.size == 0:
         return {}
     inverse = np.asarray(np.linalg.pinv(information(fit)), float)
     again = _shifts(problem, fit, inverse)
-    finer = _answer(fit, inverse, [np.concatenate([*c.values(), _NOTHING]) for c in change])
+    moved = [np.concatenate([*c.values(), _NOTHING]) for c in change]
+    finer = _answer(fit, inverse, moved) if moved else np.zeros(fit.x.size)
     spread = np.sqrt(left**2 * np.diag(inverse) + np.mean(again**2, axis=0) + finer**2)
     parameterization = fit.parameterization
     low, high = parameterization.bounds()
@@ -80,8 +82,8 @@ def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
     """How far the fit moves with the noise that is left in the base angle, (K, n)."""
     rng = np.random.default_rng(_SEED)
     rig = fit.parameterization.rig(fit.x)
-    found = []
-    for _ in range(_REPLICATES):
+    found = [np.zeros(fit.x.size)] if stopping() else []
+    while not stopping() and len(found) < _REPLICATES:
         runs = _noisier(problem, rng).residuals([rig], callback_alone=True)
         moved = [run[0] - residual for run, residual in zip(runs, fit.by_trial, strict=True)]
         found.append(_answer(fit, inverse, moved))

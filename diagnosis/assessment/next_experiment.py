@@ -64,7 +64,9 @@ def _outlook(problem: FitProblem, trial: PreparedTrial, fit: Fit) -> tuple[Array
     per_sample = float(np.sqrt(SAMPLE_S / problem.log.trials[0].sample_s))
     seen = [s for s in SENSORS if any(t.has(s) for t in problem.log.trials)]
     readings = [
-        np.concatenate([p[s] / problem.noise[s] * per_sample for s in seen])
+        np.concatenate(
+            [problem.noise.whitened(s, trial.time_s, p[s] / problem.noise[s]) * per_sample for s in seen]
+        )
         for p in predict(problem.log.rig, trial, rigs, COARSE)
     ]
     slopes = [(moved - readings[0]) / _DIFFERENCE for moved in readings[1:]]

@@ -1,26 +1,39 @@
 """The library of effects: one small file each, found by looking into this folder.
 
-`LIBRARY` is written for needles like the paper's; `library_of` is the same for a rig of another size.
+`LIBRARY` is the vocabulary of verdicts, `IMPERFECTIONS` what sensors do beside noise; fits may use both.
+They are written for needles like the paper's; `library_of` is the same for a rig of another size.
 """
 
 import pkgutil
+import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
+from types import ModuleType
 
 from diagnosis.criteria import INSERTED_AT_LEAST
+from diagnosis.effects import imperfections
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.prepare.rig_scale import RigScale
 
-LIBRARY: dict[str, Effect] = {}
-for _file in sorted(m.name for m in pkgutil.iter_modules(__path__)):
-    if _file != "effect":
-        _effect: Effect = import_module(f"{__name__}.{_file}").EFFECT
-        LIBRARY[_effect.name] = _effect
+
+def _found_in(package: ModuleType) -> dict[str, Effect]:
+    """Effects of the modules of a folder, by name."""
+    files = sorted(m.name for m in pkgutil.iter_modules(package.__path__) if not m.ispkg)
+    modules = (import_module(f"{package.__name__}.{file}") for file in files if file != "effect")
+    return {module.EFFECT.name: module.EFFECT for module in modules}
+
+
+LIBRARY = _found_in(sys.modules[__name__])
+"""Effects that a verdict may name."""
+IMPERFECTIONS = _found_in(imperfections)
+"""What sensors do beside noise: fitted where a log asks, told in the report, never named."""
+FITTED = LIBRARY | IMPERFECTIONS
+"""All that a fit may use."""
 
 
 def library_of(scale: RigScale) -> Mapping[str, Effect]:
-    """The library with the bounds and starts of a rig of this size."""
+    """All that a fit may use, with the bounds and starts of a rig of this size."""
 
     def sized(parameter: Parameter) -> Parameter:
         own = parameter.scaled(torque=scale.torque_scale, rate=scale.rate_scale)
@@ -31,5 +44,5 @@ def library_of(scale: RigScale) -> Mapping[str, Effect]:
 
     return {
         name: replace(effect, parameters=tuple(sized(p) for p in effect.parameters))
-        for name, effect in LIBRARY.items()
+        for name, effect in FITTED.items()
     }

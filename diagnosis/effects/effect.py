@@ -113,6 +113,7 @@ class Effect:
       needs: column of a log without which it cannot show; empty: none beyond the usual.
       differences: that slopes are taken over, in the units of the fit, one fit after the
         other. Where stick and slip make a residual rough, a wide one sees past that.
+      trial: the one trial that it is about; empty: all.
     """
 
     name: str
@@ -123,6 +124,7 @@ class Effect:
     contains: tuple[str, ...] = ()
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
+    trial: str = ""
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

@@ -2,7 +2,8 @@
 
 Each trial is left out in turn: one Gauss-Newton step on the others moves the
 parameters, and the left-out trial is simulated with them. Which rate the tissue
-resists is a convention of the rig, not a finding: it stays as fitted.
+resists is a convention of the rig, not a finding: it stays as fitted. What came before a trial that
+began late shows in that trial alone: it is fitted there to what the others say of the rest.
 """
 
 import numpy as np
@@ -59,28 +60,46 @@ def shift_statistic(fit: Fit) -> float:
     """
     moved, explained = 0.0, 0.0
     low, high = fit.parameterization.bounds()
-    for i, (jacobian, step) in enumerate(zip(fit.jacobian, _steps(fit), strict=True)):
+    for i, step in enumerate(_steps(fit)):
         there = fit.x + step
-        known = _open(fit)
+        known = _known(fit, i)
         known = known[(there > low + _AT_BOUND)[known] & (there < high - _AT_BOUND)[known]]
         spread = np.linalg.pinv(information(fit, without=i)[np.ix_(known, known)])
-        moved += float(np.sum((jacobian @ step) ** 2))
-        explained += float(np.sum((jacobian[:, known] @ spread) * jacobian[:, known]))
+        slopes = fit.jacobian[i][:, known] + fit.jacobian[i][:, _own(fit, i)] @ _answers(fit, i, known)
+        moved += float(np.sum((fit.jacobian[i] @ step) ** 2))
+        explained += float(np.sum((slopes @ spread) * slopes))
     return moved / explained if explained > 0 else 0.0
 
 
-def _open(fit: Fit) -> NDArray[np.int_]:
+def _own(fit: Fit, trial: int) -> NDArray[np.int_]:
+    """Entries that show in one trial alone."""
+    seen = fit.jacobian[trial].any(axis=0)
+    return np.flatnonzero(fit.parameterization.about_one_trial & seen)
+
+
+def _known(fit: Fit, without: int) -> NDArray[np.int_]:
     """Entries that are found again without a trial."""
-    return np.array([i for i, o in enumerate(fit.parameterization.owners) if o not in CONVENTIONS], int)
+    found = np.array([owner not in CONVENTIONS for owner in fit.parameterization.owners], bool)
+    found[_own(fit, without)] = False
+    return np.flatnonzero(found)
+
+
+def _answers(fit: Fit, trial: int, known: NDArray[np.int_]) -> Array:
+    """How a trial's own entries move with the others, (own, known): least squares on that trial."""
+    own = _own(fit, trial)
+    slopes = np.vstack([fit.jacobian[trial][:, own], np.diag(fit.parameterization.weights[own])])
+    moved = np.vstack([fit.jacobian[trial][:, known], np.zeros((own.size, known.size))])
+    return np.asarray(-np.linalg.pinv(slopes) @ moved)
 
 
 def _steps(fit: Fit) -> list[Array]:
     """How the parameters move without each trial: the least squares of the others, within bounds."""
-    known = _open(fit)
     found = [np.zeros(fit.x.size) for _ in fit.by_trial]
-    if known.size and len(fit.by_trial) > 1:
-        for i, step in enumerate(found):
+    for i, step in enumerate(found):
+        known = _known(fit, i)
+        if known.size and len(found) > 1:
             step[known] = _bounded(fit, known, i)
+            step[_own(fit, i)] = _answers(fit, i, known) @ step[known]
     return found
 
 

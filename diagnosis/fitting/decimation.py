@@ -20,38 +20,60 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import COARSE
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
 _TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
-def decimated(problem: FitProblem, nominal: Sequence[Prediction]) -> FitProblem:
+def decimated(
+    problem: FitProblem, nominal: Sequence[Prediction], nominal_rig: RigParameters = NOMINAL
+) -> FitProblem:
     """The problem for a coarse needle, given the fine nominal predictions of its trials.
+
+    Args:
+      nominal_rig: that made these; with what came before trials that began late.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated so coarsely.
     """
     log = problem.log
     each = zip(log.trials, nominal, strict=True)
-    trials = tuple(_decimated(log.rig, trial, prediction) for trial, prediction in each)
-    share = sum(t.time_s.size for t in trials) / sum(t.time_s.size for t in log.trials)
-    sigma = {sensor: s * np.sqrt(share) for sensor, s in problem.noise.sigma.items()}
-    return replace(
-        problem,
-        log=PreparedLog(rig=log.rig, trials=trials),
-        noise=replace(problem.noise, sigma=sigma),
-        resolution=COARSE,
-        tolerance_sigma=_TOLERANCE_SIGMA,
-    )
+    trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
+    rare = PreparedLog(rig=log.rig, trials=trials)
+    noise = decimated_noise(problem.noise, log, rare)
+    return replace(problem, log=rare, noise=noise, resolution=COARSE, tolerance_sigma=_TOLERANCE_SIGMA)
 
 
-def _decimated(rig: NominalRig, trial: PreparedTrial, nominal: Prediction) -> PreparedTrial:
+def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
+    """Noise of the decimated log whose spectral density at frequency 0 is that of the log's.
+
+    What is white of it falls with the number of samples. What is coloured is slower than a window
+    or not: samples of it at the wider steps keep their correlation time, and as much of their
+    variance as leaves the density what it was.
+    """
+    share = sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)
+    step_s = float(np.median([trial.sample_s for trial in rare.trials]))
+    sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in noise.sigma.items()}
+    colour = {}
+    for sensor, own in noise.colour.items():
+        alone = replace(own, share=1.0)
+        coloured = own.share * alone.density(step_s * share) / alone.density(step_s)
+        total = 1 - own.share + coloured
+        sigma[sensor] *= float(np.sqrt(total))
+        colour[sensor] = replace(own, share=coloured / total)
+    return replace(noise, sigma=sigma, colour=colour)
+
+
+def _decimated(
+    rig: NominalRig, nominal_rig: RigParameters, trial: PreparedTrial, nominal: Prediction
+) -> PreparedTrial:
     bare, width_s = _without_readings(trial)
-    coarse = predict(rig, bare, [NOMINAL], COARSE)[0]
+    coarse = predict(rig, bare, [nominal_rig], COARSE)[0]
     readings = {}
     for sensor in SENSORS:
         if trial.has(sensor):
@@ -93,9 +115,12 @@ def _means(time_s: Array, values: Array, middles_s: Array, width_s: float) -> Ar
         return np.full(middles_s.shape, np.nan)
     half = np.minimum(0.5 * width_s, np.minimum(middles_s - time_s[0], time_s[-1] - middles_s))
     area = np.asarray(cumulative_trapezoid(known, at, initial=0), float)
-    means = np.interp(middles_s + half, at, area) - np.interp(middles_s - half, at, area)
-    narrow = half < 1e-9
-    means = np.where(narrow, np.interp(middles_s, at, known), means / np.where(narrow, 1.0, 2 * half))
+    # Where readings begin or end within a window, the mean is that of what was read.
+    last, first = (np.clip(middles_s + side * half, at[0], at[-1]) for side in (1, -1))
+    covered = last - first
+    means = np.interp(last, at, area) - np.interp(first, at, area)
+    narrow = covered < 1e-9
+    means = np.where(narrow, np.interp(middles_s, at, known), means / np.where(narrow, 1.0, covered))
     return np.where(_sparse(at, middles_s, half), np.nan, means)
 
 
@@ -103,4 +128,6 @@ def _sparse(at_s: Array, middles_s: Array, half_s: Array) -> NDArray[np.bool_]:
     """Windows with fewer than half of the usual number of samples."""
     reach = half_s + 1e-9
     count = np.searchsorted(at_s, middles_s + reach, "right") - np.searchsorted(at_s, middles_s - reach)
-    return np.asarray((count < 0.5 * np.median(count)) & (half_s > 1e-9))
+    few = (count < 0.5 * np.median(count)) & (half_s > 1e-9)
+    outside = (middles_s + reach < at_s[0]) | (middles_s - reach > at_s[-1])
+    return np.asarray(few | outside)

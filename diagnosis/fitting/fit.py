@@ -15,7 +15,7 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
@@ -62,7 +62,12 @@ class Fit:
     @property
     def size(self) -> int:
         """Parameters that the named effects have."""
-        return sum(len(LIBRARY[n].reported) for n in self.names)
+        return sum(len(FITTED[n].reported) for n in self.names)
+
+    @property
+    def prior(self) -> float:
+        """Cost of the nuisance alone."""
+        return float(np.sum((self.parameterization.weights * self.x) ** 2))
 
     @property
     def parts(self) -> dict[str, Array]:

@@ -48,16 +48,18 @@ class NoiseFloor:
         return self.small and self.slow <= self.slow_limit
 
 
-def floor_of(by_trial: Sequence[Array]) -> NoiseFloor:
-    """Gap and slow part of residuals / sigma, one array per trial."""
+def floor_of(by_trial: Sequence[Array], block: int = SLOW_BLOCK) -> NoiseFloor:
+    """Gap and slow part of residuals / sigma, one array per trial.
+
+    Args:
+      block: samples whose mean is slow.
+    """
     values = np.concatenate([r for r in by_trial if r.size]) if by_trial else np.zeros(0)
-    blocks = [
-        r[: r.size // SLOW_BLOCK * SLOW_BLOCK].reshape(-1, SLOW_BLOCK).mean(axis=1) for r in by_trial
-    ]
+    blocks = [r[: r.size // block * block].reshape(-1, block).mean(axis=1) for r in by_trial]
     means = np.concatenate(blocks) if blocks else np.zeros(0)
     return NoiseFloor(
         gap=float(np.sqrt(np.mean(values**2))) if values.size else float("nan"),
-        slow=float(np.sqrt(SLOW_BLOCK * np.mean(means**2))) if means.size else 1.0,
+        slow=float(np.sqrt(block * np.mean(means**2))) if means.size else 1.0,
         gap_limit=float(max(GAP_LIMIT, 1 + 0.5 * FLOOR_SIGMA / np.sqrt(max(values.size, 1)))),
         slow_limit=float(max(SLOW_LIMIT, 1 + FLOOR_SIGMA / np.sqrt(2 * max(means.size, 1)))),
     )

@@ -4,6 +4,10 @@ Fourth differences see the noise whatever the nominal model lacks, but use the d
 from some thousands of samples. What a good explanation leaves is white, and first differences of it
 tell the noise to 1 %. They are believed as far as they are within 8 % of the first estimate: beyond,
 something fast is left in them.
+
+Whether the noise is white at all is looked up in what a fitted effect leaves, and again in what the
+best explanation does: the nominal rig's residual has too much else in it (`prepare/noise_spectrum`).
+Differences of whitened residuals tell the size of coloured noise as those of white noise do.
 """
 
 from collections.abc import Sequence
@@ -12,37 +16,68 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import NOISE_TRUST
+from diagnosis.criteria import COLOURED_BLOCK_S, NOISE_TRUST, SLOW_BLOCK
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.sensor_noise import Noise
 
 Array = NDArray[np.float64]
+Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals, (N,) or (N, n)
+
+
+def with_colour(problem: FitProblem, best: Fit) -> Noise:
+    """Noise of the sensors, with the colour that what a fit leaves shows it to have."""
+    plain = replace(problem.noise, sigma=dict.fromkeys(problem.noise.sigma, 1.0), colour={})
+    return problem.noise.with_colour(_by_sensor(problem, in_units_of(problem, best.by_trial, plain)))
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors as the best fit leaves it."""
-    change = {s: _change(own) for s, own in _by_sensor(problem, best.by_trial).items()}
-    sigma = {s: own * change.get(s, 1.0) for s, own in problem.noise.sigma.items()}
-    return replace(problem.noise, sigma=sigma)
+    first = with_colour(problem, best) if problem.noise.colour else problem.noise
+    left = _by_sensor(problem, in_units_of(problem, best.by_trial, first))
+    change = {s: _change([values for _, values in own]) for s, own in left.items()}
+    sigma = {s: max(own * change.get(s, 1.0), first.least.get(s, 0.0)) for s, own in first.sigma.items()}
+    return replace(first, sigma=sigma)
+
+
+def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, NoiseFloor]:
+    """Noise floors of the sensors whose noise is coloured, with a slow part over seconds."""
+    step_s = float(np.median([trial.sample_s for trial in problem.log.trials]))
+    block = max(round(COLOURED_BLOCK_S / step_s), SLOW_BLOCK)
+    left = _by_sensor(problem, by_trial)
+    return {s: floor_of([r for _, r in left[s]], block) for s in problem.noise.colour}
 
 
 def rescaled(fit: Fit, problem: FitProblem, noise: Noise) -> Fit:
     """A fit of the problem with its residuals, slopes and cost in units of another noise."""
-    rows = [
-        np.concatenate([np.full(size, noise[s] / problem.noise[s]) for s, size in sizes.items()])
-        for sizes in _sizes(problem)
-    ]
-    by_trial = tuple(r / f for r, f in zip(fit.by_trial, rows, strict=True))
+    by_trial = in_units_of(problem, fit.by_trial, noise)
     prior = fit.parameterization.weights * fit.x
     return replace(
         fit,
         by_trial=by_trial,
-        jacobian=tuple(j / f[:, None] for j, f in zip(fit.jacobian, rows, strict=True)),
+        jacobian=in_units_of(problem, fit.jacobian, noise),
         cost=sum(float(r @ r) for r in by_trial) + float(prior @ prior),
     )
+
+
+def in_units_of(problem: FitProblem, by_trial: Sequence[Array], noise: Noise) -> tuple[Array, ...]:
+    """Residuals of the problem, or their slopes, in units of another noise, whitened as it asks."""
+    before = problem.noise
+    found = []
+    for parts in _read(problem, by_trial):
+        each = [_other_units(part, before, noise) for part in parts]
+        found.append(np.concatenate(each) if each else np.zeros(0))
+    return tuple(found)
+
+
+def _other_units(part: Read, before: Noise, noise: Noise) -> Array:
+    sensor, time_s, values = part
+    if before.colour.get(sensor) != noise.colour.get(sensor):
+        values = noise.whitened(sensor, time_s, before.restored(sensor, time_s, values))
+    return values / (noise[sensor] / before[sensor])
 
 
 def _change(parts: Sequence[Array]) -> float:
@@ -51,18 +86,21 @@ def _change(parts: Sequence[Array]) -> float:
     return float(np.clip(found if np.isfinite(found) else 1.0, 1 - NOISE_TRUST, 1 + NOISE_TRUST))
 
 
-def _sizes(problem: FitProblem) -> list[dict[str, int]]:
-    """Readings of each trial, by sensor."""
-    return [
-        {s: int(np.isfinite(trial.readings[s]).sum()) for s in SENSORS if trial.has(s)}
-        for trial in problem.log.trials
-    ]
+def _read(problem: FitProblem, by_trial: Sequence[Array]) -> list[list[Read]]:
+    """Rows of residuals or slopes by trial and sensor, with the times of their samples."""
+    found = []
+    for trial, rows in zip(problem.log.trials, by_trial, strict=True):
+        times = {s: trial.time_s[np.isfinite(trial.readings[s])] for s in SENSORS if trial.has(s)}
+        ends = np.cumsum([time.size for time in times.values()])
+        parts = np.split(rows, ends[:-1]) if times else []
+        found.append([(s, time, part) for (s, time), part in zip(times.items(), parts, strict=True)])
+    return found
 
 
-def _by_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, list[Array]]:
-    found: dict[str, list[Array]] = {}
-    for sizes, residual in zip(_sizes(problem), by_trial, strict=True):
-        ends = np.cumsum(list(sizes.values()))
-        for sensor, part in zip(sizes, np.split(residual, ends[:-1]), strict=True):
-            found.setdefault(sensor, []).append(part)
+def _by_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, list[tuple[Array, Array]]]:
+    """Times and residuals of every trial, by sensor."""
+    found: dict[str, list[tuple[Array, Array]]] = {}
+    for parts in _read(problem, by_trial):
+        for sensor, time_s, values in parts:
+            found.setdefault(sensor, []).append((time_s, values))
     return found

@@ -4,20 +4,30 @@ Stiffness and damping scatter by a few per cent about the nominal. And where the
 needle slides while it is twisted, it is open which rate the tissue resists: the spatial derivative at
 a fixed place, as in the paper's equation (9), or the material derivative of the shaft that slides past;
 for trials of constant depth and of growing depth apart.
+
+What the base turned by before a trial that began late is that trial's own.
 """
 
+import math
 from dataclasses import replace
+from functools import partial
 
-from diagnosis.criteria import SCATTER, SLIDING_MM_S
+from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.rig_parameters import Past, RigParameters
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
 CONVENTIONS = {"slip_constant_depth": 0.5, "slip_growing_depth": 0.5}
 PRIOR_SIGMA = SCATTER | CONVENTIONS
+_START_UNIT_DEG, _MOST_TURN_DEG = 30.0, 3600.0
+
+
+def prior_sigma(effect: Effect) -> float:
+    """One standard deviation of the prior on a nuisance, in the units of the fit; infinite: none."""
+    return START_SPREAD_DEG / _START_UNIT_DEG if effect.trial else PRIOR_SIGMA.get(effect.name, math.inf)
 
 
 def _constant_depth(rig: RigParameters, share: float) -> RigParameters:
@@ -28,6 +38,15 @@ def _growing_depth(rig: RigParameters, share: float) -> RigParameters:
     return replace(rig, material_share_growing_depth=share)
 
 
+_TURN = Parameter(
+    name="turned",
+    unit="deg",
+    low=-_MOST_TURN_DEG,
+    high=_MOST_TURN_DEG,
+    start=(0.0,),
+    scale=_START_UNIT_DEG,
+    reported=False,
+)
 _SHARE = Parameter(name="share", unit="-", low=0.0, high=1.0, start=(0.0,))
 SLIP_CONSTANT_DEPTH = Effect(
     name="slip_constant_depth",
@@ -45,10 +64,31 @@ SLIP_GROWING_DEPTH = Effect(
 )
 
 
+def _with_past(trial: str, rig: RigParameters, turned_deg: float, wound_deg: float) -> RigParameters:
+    past = Past(trial=trial, wound_deg=wound_deg, turned_deg=turned_deg)
+    return replace(rig, pasts=(*rig.pasts, past))
+
+
+def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
+    """What the base turned by before each trial that began late."""
+    return tuple(
+        Effect(
+            name=f"start of {trial.name}",
+            title=f"what the base turned by before {trial.name} began",
+            place=Place.DRIVE,
+            parameters=(_TURN, replace(_TURN, name="wound")),
+            apply=partial(_with_past, trial.name),
+            trial=trial.name,
+        )
+        for trial in log.trials
+        if trial.late_start is not None
+    )
+
+
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:
     """What every fit of a log leaves open."""
     sliding = [trial for trial in log.trials if (abs(trial.speed_mm_s) > SLIDING_MM_S).any()]
     growing = [trial.schedule.mesh is Mesh.LAGRANGIAN for trial in sliding]
     slips = [SLIP_CONSTANT_DEPTH] if not all(growing) else []
     slips += [SLIP_GROWING_DEPTH] if any(growing) else []
-    return (*(LIBRARY[name] for name in SCATTER), *slips)
+    return (*(LIBRARY[name] for name in SCATTER), *slips, *late_starts_of(log))

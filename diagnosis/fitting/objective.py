@@ -1,7 +1,8 @@
 """Residuals of a log as a function of the fit's vector, and their slopes.
 
 The nuisance moves by a few per cent at the most: its slopes are taken again only where the
-effects have moved far. A fit ends at a vector that it has been at: what was simulated there is kept.
+effects have moved far. What came before a late trial moves as far as effects do, and costs one trial.
+A fit ends at a vector that it has been at: what was simulated there is kept.
 """
 
 from collections.abc import Sequence
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.stopping import raise_if_stopped
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
@@ -35,6 +37,9 @@ class Objective:
         self.low, self.high = parameterization.bounds()
         self.slopes: Array | None = None
         self._fresh_at: Array | None = None
+        free = np.arange(parameterization.bounds()[0].size) < parameterization.free
+        self._effects = np.flatnonzero(free)
+        self._moving = np.flatnonzero(free | parameterization.about_one_trial)
         self._rows: int | None = None
         self._known: dict[bytes, tuple[Array, ...]] = {}
 
@@ -58,7 +63,9 @@ class Objective:
 
         Raises:
           SimulationFailed: the rig cannot be simulated at the first vector.
+          StoppedEarly: there is no time left for the fit.
         """
+        raise_if_stopped()
         flat = np.ascontiguousarray(x.ravel())
         try:
             rows = self._with_prior(self.by_trial(flat), flat)
@@ -76,15 +83,18 @@ class Objective:
         """By differences away from the bounds, (N, n)."""
         flat = x.ravel()
         steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
-        taken = np.arange(self.parameterization.free)
+        taken = self._moving
         slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
-        if self._fresh_at is None or np.abs(flat - self._fresh_at)[taken].max(initial=0.0) > _FAR:
+        if self._fresh_at is None or self._is_far(flat - self._fresh_at):
             taken, self._fresh_at = np.arange(flat.size), flat
         if taken.size:
             moved = self._side_by_side(flat + np.diag(steps)[taken])
             slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
         self.slopes = slopes
         return slopes
+
+    def _is_far(self, way: Array) -> bool:
+        return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)
 
     def _side_by_side(self, vectors: Array) -> Array:
         """Residuals with the prior at several vectors, (k, n), for differences: (N, k)."""

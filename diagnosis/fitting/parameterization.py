@@ -4,15 +4,16 @@ Positive parameters that span decades are fitted in their logarithm, others in a
 unit of their own, so that a step of 0.001 is small for each and not lost in rounding.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect, Parameter
-from diagnosis.fitting.nuisance import PRIOR_SIGMA
+from diagnosis.fitting.nuisance import prior_sigma
 from diagnosis.replay.rig_parameters import RigParameters
 
 Array = NDArray[np.float64]
@@ -86,16 +87,20 @@ class Parameterization:
     @property
     def weights(self) -> Array:
         """Of the prior on every entry: one over the spread of what scatters."""
-        open_ = {e.name for e in self.nuisance}
-        return np.array(
-            [1 / PRIOR_SIGMA[o] if o in open_ and o in PRIOR_SIGMA else 0.0 for o in self.owners]
-        )
+        spread = [math.inf] * self.free
+        spread += [prior_sigma(effect) for effect in self.nuisance for _ in effect.parameters]
+        return np.array([1.0 / own for own in spread])
+
+    @property
+    def about_one_trial(self) -> NDArray[np.bool_]:
+        """Entries that are about one trial alone."""
+        return np.array([bool(effect.trial) for effect in self.all for _ in effect.parameters], bool)
 
 
 def parameterization_of(
     names: Sequence[str],
     nuisance: Sequence[Effect] = (),
-    library: Mapping[str, Effect] = LIBRARY,
+    library: Mapping[str, Effect] = FITTED,
 ) -> Parameterization:
     """Of a set of effects by name; nuisance among them is theirs."""
     others = tuple(e for e in nuisance if e.name not in names)

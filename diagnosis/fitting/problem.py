@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
@@ -33,7 +33,7 @@ class FitProblem:
     noise: Noise
     nuisance: tuple[Effect, ...]
     resolution: Resolution = FINE
-    library: Mapping[str, Effect] = field(default_factory=lambda: LIBRARY)
+    library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
     tolerance_sigma: float = 0.02
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
@@ -60,7 +60,6 @@ class FitProblem:
 
         return side_by_side(of, self.log.trials)
 
-    def renoised(self, noise: Noise, *, before: Noise) -> "FitProblem":
-        """The same with its noise changed as another problem's was, from `before` to `noise`."""
-        sigma = {s: own * noise[s] / before[s] if own else own for s, own in self.noise.sigma.items()}
-        return replace(self, noise=replace(self.noise, sigma=sigma))
+    def drifting(self, size_n_mm: float) -> "FitProblem":
+        """The same with a torque sensor that may drift by so much within a trial."""
+        return replace(self, log=self.log.drifting(size_n_mm / self.noise["base_torque_n_mm"]))

@@ -18,6 +18,7 @@ from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.sensor_faults import without_faults
+from diagnosis.log.time_stamps import with_even_times
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 from diagnosis.log.trial_file import read_trial, refuse_too_large
 
@@ -45,12 +46,11 @@ def read_rig_log(folder: Path) -> RigLog:
     noise = rig.sensors.by_column()
     paths = [folder / entry.file for entry in rig.trials]
     refuse_too_large(paths)
-    trials, warnings = [], []
-    for path in paths:
-        read = read_trial(path)
-        refuse_wraps(path, read)
-        refuse_impossible_lengths(path, read, rig.needle.diameter_mm)
-        trial, found = without_faults(read, noise)
+    read = [_readable(path, rig) for path in paths]
+    timed, warnings = with_even_times(read)
+    trials = []
+    for path, one in zip(paths, timed, strict=True):
+        trial, found = without_faults(one, noise)
         refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)
         warnings += found
         trials.append(trial)
@@ -68,3 +68,11 @@ def read_rig_log(folder: Path) -> RigLog:
         *plausibility_warnings(trials, noise),
     ]
     return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings))
+
+
+def _readable(path: Path, rig: NominalRig) -> Trial:
+    """A trial as its file has it, that can be a trial of the rig at all."""
+    trial = read_trial(path)
+    refuse_wraps(path, trial)
+    refuse_impossible_lengths(path, trial, rig.needle.diameter_mm)
+    return trial

@@ -1,4 +1,4 @@
-"""Samples that a sensor cannot have meant: saturated, frozen, or a lone spike.
+"""Samples that a sensor cannot have meant: outliers, saturated or frozen ones.
 
 A working sensor scatters. A reading that repeats is frozen only where its scatter
 would have moved it: with white noise of standard deviation s read in steps of q, one
@@ -8,9 +8,9 @@ of n by p^(n-1). Where s is below q/2, repeats are the rule and nothing is concl
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from diagnosis.criteria import (
@@ -19,45 +19,79 @@ from diagnosis.criteria import (
     FROZEN_LEAST_RUN,
     FROZEN_LEAST_S,
     FROZEN_TIMES_USUAL_RUN,
+    NOISE_RATIO,
+    PULSES_SHARE,
     SATURATED_BESIDE,
     SATURATED_LEAST_RUN,
     SATURATED_NEAR_SIGMA,
     SATURATED_SHARE,
-    SPIKE_SHARE,
-    SPIKE_SIGMA,
 )
+from diagnosis.log.outliers import Outliers, find_outliers
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+BASE = "base_angle_deg"
+_EMPTIED = "these samples are not used"
+_REPLACED = "replaced by what their neighbours say"
+_KEPT = "used as it is: correct or cut these rows"
+
 
 def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, list[str]]:
-    """The trial with faulty readings emptied, in memory, and a warning for each kind of fault.
+    """The trial without faulty readings, in memory, and a warning for each kind of fault.
 
-    The base angle drives the needle and cannot be empty: its faults are told and kept.
+    Those of a sensor are emptied. The base angle drives the needle and cannot be empty: outliers are
+    replaced by what their neighbours say; where it stands still though it should scatter, it is kept.
 
     Args:
       trial: as read.
       noise: claimed standard deviation by column.
     """
     table, warnings = trial.table.copy(), []
-    spikes = {name: _spikes(trial[name], claim) for name, claim in noise.items() if trial.has(name)}
-    for name in spikes:
-        values, claim = trial[name], noise[name]
+    outliers = _outliers(trial, noise)
+    for name, off in outliers.items():
+        read, claim = trial[name], noise[name]
+        values = np.where(off.rows, np.nan, read)
         saturated = _saturated(values, claim)
         frozen = _frozen(trial["time_s"], np.where(saturated, np.nan, values), claim)
-        lone = _alone(name, spikes) & ~saturated & ~frozen
         faults = {
-            "stands at an end of its range, or beside it (saturated)": saturated,
-            "repeats one value where it should scatter (frozen)": frozen,
-            "jumps there and back (spikes)": lone,
+            "stands at an end of its range, or beside it (saturated)": (saturated, _KEPT),
+            "repeats one value where it should scatter (frozen)": (frozen, _KEPT),
+            "is off what the samples on both sides say (outliers)": (off.rows, _REPLACED),
         }
-        warnings += [_told(trial.name, name, what, rows) for what, rows in faults.items() if rows.any()]
-        if name in SENSORS:
-            table.loc[saturated | frozen | lone, name] = np.nan
-    return Trial(name=trial.name, table=table), warnings
+        for what, (rows, done) in faults.items():
+            if rows.any():
+                warnings.append(
+                    _told(trial.name, name, what, rows, _EMPTIED if name in SENSORS else done)
+                )
+        table[name] = (
+            np.where(saturated | frozen, np.nan, values)
+            if name in SENSORS
+            else _as_read(off.expected, values, claim)
+        )
+    return replace(trial, table=table), warnings
+
+
+def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
+    """Outliers by column; a pulse of the base that other signals answer to is motion, and none."""
+    time, having = trial["time_s"], [name for name in noise if trial.has(name)]
+    found = {n: find_outliers(time, trial[n], _outlier_scale(trial[n], noise[n])) for n in having}
+    base = found[BASE].rows
+    answers = np.logical_or.reduce(
+        [off.rows for name, off in found.items() if name != BASE] or [base & False]
+    )
+    pulses = base & _beside(answers)
+    if not pulses.any() or pulses.sum() < PULSES_SHARE * base.sum():
+        return found
+    near = _beside(pulses)
+    return {name: off.without(near, trial[name]) for name, off in found.items()}
+
+
+def _beside(rows: Mask) -> Mask:
+    """The rows, and one on each side."""
+    return np.asarray(np.convolve(rows, np.ones(3), "same") > 0)
 
 
 def scatter(values: Array) -> float:
@@ -87,11 +121,27 @@ def lines(rows: Mask) -> str:
     return f"{which} {', '.join(spans)}" + (f" and {more} more" if more else "")
 
 
-def _told(file: str, column: str, what: str, rows: Mask) -> str:
-    kept = (
-        "these samples are not used" if column in SENSORS else "used as it is: correct or cut these rows"
+def _told(file: str, column: str, what: str, rows: Mask, done: str) -> str:
+    return f"{file}: {column} {what} in {rows.sum()} of {rows.size} samples, {lines(rows)}; {done}"
+
+
+def _as_read(expected: Array, values: Array, claim: float) -> Array:
+    """What is expected in place of empty readings, in the steps of a coarse encoder."""
+    step = quantum(values)
+    whole = np.round((expected - values[np.isfinite(values)][0]) / step) if step > claim > 0 else None
+    return (
+        expected
+        if whole is None
+        else np.where(np.isfinite(values), values, values[np.isfinite(values)][0] + whole * step)
     )
-    return f"{file}: {column} {what} in {rows.sum()} of {rows.size} samples, {lines(rows)}; {kept}"
+
+
+def _outlier_scale(values: Array, claim: float) -> float:
+    """White noise of readings, not below half of the claim or what rounding alone makes."""
+    finite = values[np.isfinite(values)]
+    fresh = np.concatenate(([True], np.diff(finite) != 0))[: finite.size]
+    found = white_noise([finite[fresh]], order=4)
+    return float(np.nanmax([found, NOISE_RATIO[0] * claim, quantum(values) / math.sqrt(12)]))
 
 
 def _runs(values: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -138,31 +188,3 @@ def _frozen(time_s: Array, values: Array, claim: float) -> Mask:
     lasted = time_s[finite[starts + lengths - 1]] - time_s[finite[starts]]
     rows[finite[np.repeat((lengths >= least) & (lasted >= FROZEN_LEAST_S), lengths)]] = True
     return rows
-
-
-def _spikes(values: Array, claim: float) -> Mask:
-    """One or two samples far off, while the two before and the two after agree."""
-    rows = np.zeros(values.size, bool)
-    finite = np.flatnonzero(np.isfinite(values))
-    noise = np.nanmax([claim, scatter(values)])
-    for width in (1, 2):
-        if finite.size < width + 4 or not noise > 0:
-            continue
-        windows = sliding_window_view(values[finite], width + 4)
-        beside, inside = windows[:, [0, 1, -2, -1]], windows[:, 2:-2]
-        jump = np.abs(inside - np.median(beside, axis=1, keepdims=True)).min(axis=1)
-        found = np.flatnonzero(
-            (jump > SPIKE_SIGMA * noise) & (np.ptp(beside, axis=1) < SPIKE_SHARE * jump)
-        )
-        for k in range(width):
-            rows[finite[found + 2 + k]] = True
-    return rows
-
-
-def _alone(name: str, spikes: Mapping[str, Mask]) -> Mask:
-    """Spikes of one signal that base angle and others do not share: not motion."""
-    others = [rows for other, rows in spikes.items() if other != name]
-    shared = np.logical_or.reduce(others) if others else np.zeros_like(spikes[name])
-    shared[1:] |= shared[:-1].copy()
-    shared[:-1] |= shared[1:].copy()
-    return spikes[name] & ~shared

@@ -21,6 +21,19 @@ class UnusableLog(NeedleError):
     """A log that cannot be used: file, line or column, what was expected and found, the fix."""
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FileRows:
+    """The rows of a trial's file, whatever was done with their times and readings, (N,) each.
+
+    Attributes:
+      stamps_s: their times as the file says.
+      taken_s: when they were taken.
+    """
+
+    stamps_s: Array
+    taken_s: Array
+
+
 @dataclass(frozen=True, kw_only=True)
 class Trial:
     """One trial as the rig logged it: a table with the columns of the format, one row per sample.
@@ -28,14 +41,21 @@ class Trial:
     Attributes:
       name: of the file.
       table: required columns, and the optional ones that the file has.
+      rows: of the file, where its times are not those of the table; None: they are.
     """
 
     name: str
     table: pd.DataFrame
+    rows: FileRows | None = None
 
     def __getitem__(self, column: str) -> Array:
         """A column, (N,); `base_angle_deg` is what the encoder read."""
         return self._columns[column]
+
+    @property
+    def file_rows(self) -> FileRows:
+        """The rows of its file."""
+        return self.rows or FileRows(stamps_s=self["time_s"], taken_s=self["time_s"])
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""

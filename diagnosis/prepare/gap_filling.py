@@ -1,13 +1,17 @@
 """The motion of the base across gaps in a log.
 
-Where samples are missing the base went on moving, and the needle remembers. A cubic
-through the readings on both sides follows a smooth motion across the gap; rows
-without readings of the sensors hold it. Where the base turned so fast that a cubic and
-a straight line disagree, neither is certain: what the sensors read in the second after
-such a gap is not used.
+Where samples are missing the base went on moving, and the needle remembers. A cubic through the
+readings on both sides follows a smooth motion across the gap, two lines that meet in it a corner: the
+cubic is taken unless lines alone fit both sides. Rows without readings of the sensors hold the motion.
+
+A short gap has no room for more. In a longer one, or where neither fits, the difference of the two is
+uncertain. If that is much, what the sensors read after the gap is not used until the needle
+has forgotten it: viscous drag within a second, dry friction when the base has turned one way so far
+that the whole shaft slides.
 """
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -15,7 +19,12 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     GAP_CERTAIN_DEG,
+    GAP_ERASED_TWISTS,
+    GAP_FORGOTTEN_LENGTHS,
     GAP_FORGOTTEN_S,
+    GAP_LOST_DEG,
+    GAP_MISFIT,
+    GAP_SHORT_S,
     GAP_SIDE_SAMPLES,
     GAP_STEPS,
 )
@@ -23,40 +32,132 @@ from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]
 
+_BASE, _TIP = "base_angle_deg", "tip_angle_deg"
+_HELD = ("inserted_mm", "free_mm", "speed_mm_s", "tip_torque_n_mm")
+_LEAST_SIDE = 4  # samples that a curve goes through on each side
+_CUBIC = 3
+_USUAL_TWIST = 0.9  # quantile of the twist of the shaft, beyond which are outliers and fast turns
+_UNKNOWN_TWIST_DEG = 15.0  # where the tip is not measured
+_SLOW_DEG_S, _SLOW_SAMPLES, _LEAST_HELD = 5.0, 10, 50
 
-def fill_gaps(trial: Trial) -> Trial:
-    """The trial with rows in its gaps: what its encoder would have read, and nothing of the sensors."""
-    time = trial["time_s"]
-    steps = np.diff(time)
+
+@dataclass(frozen=True, kw_only=True)
+class Filling:
+    """What goes into a gap: times and motion of the base, (M,), and how uncertain that is."""
+
+    time_s: Array
+    base_deg: Array
+    uncertain_deg: float
+
+    @property
+    def length_s(self) -> float:
+        """About that of the gap."""
+        return float(self.time_s[-1] - self.time_s[0])
+
+
+def fill_gaps(trial: Trial, sigma_deg: float) -> Trial:
+    """The trial with rows in its gaps: what its encoder would have read, and nothing of the sensors.
+
+    Args:
+      sigma_deg: noise of the base's encoder.
+    """
+    steps = np.diff(trial["time_s"])
     usual = float(np.median(steps))
-    filled = [_fill(trial, int(i), usual) for i in np.flatnonzero(steps > GAP_STEPS * usual)]
-    if not filled:
+    gaps = np.flatnonzero(steps > GAP_STEPS * usual)
+    if not gaps.size:
         return trial
-    table = pd.concat([trial.table, *filled]).sort_values("time_s", ignore_index=True)
-    for rows in filled:
-        if _doubtful(trial, rows):
-            last = float(rows["time_s"].iloc[-1])
-            after = (table["time_s"] > last) & (table["time_s"] <= last + GAP_FORGOTTEN_S)
-            table.loc[after, [s for s in SENSORS if s in table]] = np.nan
+    fillings = [_filling(trial, int(before), usual, sigma_deg) for before in gaps]
+    table = pd.concat([trial.table, _rows(trial, fillings)]).sort_values("time_s", ignore_index=True)
+    lost = _lost(trial, fillings, np.asarray(table["time_s"]))
+    table.loc[lost, [sensor for sensor in SENSORS if sensor in table]] = np.nan
     return replace(trial, table=table)
 
 
-def _doubtful(trial: Trial, rows: pd.DataFrame) -> bool:
-    straight = np.interp(rows["time_s"], trial["time_s"], trial["base_angle_deg"])
-    return bool(np.abs(rows["base_angle_deg"] - straight).max() > GAP_CERTAIN_DEG)
-
-
-def _fill(trial: Trial, before: int, usual: float) -> pd.DataFrame:
-    """Rows between the samples `before` and the next."""
-    time = trial["time_s"]
-    start, end = time[before], time[before + 1]
-    inside = np.linspace(start, end, round((end - start) / usual) + 1)[1:-1]
-    near = slice(max(before + 1 - GAP_SIDE_SAMPLES, 0), before + 1 + GAP_SIDE_SAMPLES)
-    middle, scale = 0.5 * (start + end), end - start
-    cubic = np.polynomial.Polynomial.fit((time[near] - middle) / scale, trial["base_angle_deg"][near], 3)
-    rows = {"time_s": inside, "base_angle_deg": cubic((inside - middle) / scale)}
-    for name in ("inserted_mm", "free_mm", "speed_mm_s"):
-        rows[name] = np.interp(inside, time, trial[name])
-    if trial.has("tip_torque_n_mm"):
-        rows["tip_torque_n_mm"] = np.interp(inside, time, np.nan_to_num(trial["tip_torque_n_mm"]))
+def _rows(trial: Trial, fillings: Sequence[Filling]) -> pd.DataFrame:
+    time_s = np.concatenate([filling.time_s for filling in fillings])
+    rows = {"time_s": time_s, _BASE: np.concatenate([filling.base_deg for filling in fillings])}
+    for name in _HELD:
+        if name in trial.table:
+            rows[name] = np.interp(time_s, trial["time_s"], np.nan_to_num(trial[name]))
     return pd.DataFrame(rows)
+
+
+def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Filling:
+    """Between the samples `before` and the next."""
+    time, base = trial["time_s"], trial[_BASE]
+    start, end = time[before], time[before + 1]
+    inside = np.linspace(start, end, max(round((end - start) / usual_s), 2) + 1)[1:-1]
+    side = int(np.clip((end - start) / usual_s, _LEAST_SIDE, GAP_SIDE_SAMPLES))
+    left = slice(max(before + 1 - side, 0), before + 1)
+    right = slice(before + 1, before + 1 + side)
+    both = slice(left.start, right.stop)
+    smooth, off = _through(time[both], base[both], inside, _CUBIC)
+    corner, off_lines = _corner(time, base, left, right, inside)
+    fits = np.array([off, off_lines]) <= GAP_MISFIT * max(sigma_deg, 1e-9)
+    certain = fits.any() and end - start <= GAP_SHORT_S
+    return Filling(
+        time_s=inside,
+        base_deg=corner if fits[1] and not fits[0] else smooth,
+        uncertain_deg=0.0 if certain else float(np.abs(smooth - corner).max()),
+    )
+
+
+def _through(time_s: Array, base_deg: Array, at_s: Array, order: int) -> tuple[Array, float]:
+    """A polynomial at some times, and the root mean square that it misses its readings by."""
+    middle, scale = at_s.mean(), np.ptp(time_s) or 1.0
+    powers = np.vander((time_s - middle) / scale, order + 1)
+    factors = np.linalg.lstsq(powers, base_deg, rcond=None)[0]
+    freedom = max(time_s.size - order - 1, 1)
+    missed = float(np.sqrt(np.sum((base_deg - powers @ factors) ** 2) / freedom))
+    return np.vander((at_s - middle) / scale, order + 1) @ factors, missed
+
+
+def _corner(
+    time_s: Array, base_deg: Array, left: slice, right: slice, at_s: Array
+) -> tuple[Array, float]:
+    """Lines through both sides that meet in the gap, and what they miss; where they do not, one line."""
+    straight = np.interp(at_s, time_s, base_deg)
+    if min(left.stop - left.start, time_s[right].size) < _LEAST_SIDE:
+        return straight, np.inf
+    (one, off_one), (other, off_other) = (
+        _through(time_s[side], base_deg[side], at_s, 1) for side in (left, right)
+    )
+    ahead = one > other
+    if at_s.size < 2 or ahead[0] == ahead[-1]:
+        return straight, np.inf
+    return np.where(ahead == ahead[0], one, other), max(off_one, off_other)
+
+
+def _lost(trial: Trial, fillings: Sequence[Filling], time_s: Array) -> NDArray[np.bool_]:
+    """Rows of the filled trial that still remember what is uncertain, (N,)."""
+    rows = np.zeros(time_s.size, bool)
+    for filling in fillings:
+        if filling.uncertain_deg > GAP_CERTAIN_DEG:
+            last = filling.time_s[-1]
+            short = filling.length_s <= GAP_SHORT_S
+            forgotten = GAP_FORGOTTEN_LENGTHS * filling.length_s if short else GAP_FORGOTTEN_S
+            until = last + min(forgotten, GAP_FORGOTTEN_S)
+            if filling.uncertain_deg > GAP_LOST_DEG and not short:
+                until = max(until, _erased_s(trial, last))
+            rows |= (time_s > last) & (time_s <= until)
+    return rows
+
+
+def _erased_s(trial: Trial, after_s: float) -> float:
+    """When the base has turned one way, after a time, by so much that the shaft slides all along."""
+    rows = trial["time_s"] > after_s
+    time, base = trial["time_s"][rows], trial[_BASE][rows]
+    turned = np.maximum(base - np.minimum.accumulate(base), np.maximum.accumulate(base) - base)
+    far = np.flatnonzero(turned >= GAP_ERASED_TWISTS * _usual_twist_deg(trial))
+    return float(time[far[0]]) if far.size else np.inf
+
+
+def _usual_twist_deg(trial: Trial) -> float:
+    """What the shaft is twisted by while the base is slow, which dry friction holds, or at any time."""
+    if not trial.has(_TIP):
+        return _UNKNOWN_TWIST_DEG
+    twist = np.abs(trial[_BASE] - trial[_TIP])
+    about = np.convolve(trial[_BASE], np.ones(_SLOW_SAMPLES) / _SLOW_SAMPLES, "same")
+    slow = np.abs(np.gradient(about, trial["time_s"])) < _SLOW_DEG_S
+    held = slow & np.isfinite(twist)
+    return float(np.nanquantile(twist[held] if held.sum() > _LEAST_HELD else twist, _USUAL_TWIST))

@@ -11,16 +11,23 @@ from diagnosis.prepare.base_smoothing import smooth_base
 from diagnosis.prepare.gap_filling import fill_gaps
 from diagnosis.prepare.inertia import inertia_torque
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import base_noise_deg
+from diagnosis.prepare.rounding import rounded_noise, steps_of, without_repeats
+from diagnosis.prepare.sensor_noise import BASE, base_noise_deg
 
 
 def prepare(log: RigLog) -> tuple[PreparedLog, float]:
     """The log to replay, and the noise of the base's encoder, deg, that was taken off."""
-    filled = [fill_gaps(trial) for trial in log.trials]
-    sigma_deg = base_noise_deg(log.rig, filled)
-    each = zip(log.trials, filled, strict=True)
-    trials = tuple(_with_inertia(_prepared(trial, rows, sigma_deg), log.rig) for trial, rows in each)
-    return PreparedLog(rig=log.rig, trials=trials), sigma_deg
+    steps = steps_of(log.rig, log.trials)
+    rounded = rounded_noise(log.rig, steps)
+    sigma_deg = rounded.get(BASE) or base_noise_deg(log.rig, log.trials)
+    filled = [fill_gaps(trial, sigma_deg) for trial in log.trials]
+    sigma_deg = rounded.get(BASE) or base_noise_deg(log.rig, filled)
+    trials = []
+    for trial, rows in zip(log.trials, filled, strict=True):
+        ready = _prepared(trial, rows, sigma_deg)
+        counted = without_repeats(rows, log.rig, steps)
+        trials.append(_with_inertia(replace(ready, readings=counted), log.rig))
+    return PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded), sigma_deg
 
 
 def _with_inertia(trial: PreparedTrial, rig: NominalRig) -> PreparedTrial:

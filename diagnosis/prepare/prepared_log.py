@@ -5,7 +5,7 @@ it (`base_motion_deg` here) are two things: a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,7 +13,10 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.between_samples import between_samples
+from diagnosis.prepare.drift import drift_whitening
 from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
+from diagnosis.prepare.late_start import LateStart, late_start_warning
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -31,6 +34,8 @@ class PreparedTrial:
       readings: by sensor, in the unit of its name; NaN where it gave nothing.
       logged: rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
+      torque_drift_sigma: what its torque sensor may drift by, in sigma of its noise.
+      late_start: None: it begins untwisted and at rest.
     """
 
     name: str
@@ -43,6 +48,8 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
+    torque_drift_sigma: float = 0.0
+    late_start: LateStart | None = None
 
     def has(self, sensor: str) -> bool:
         """Whether the trial measured this at all."""
@@ -53,9 +60,8 @@ class PreparedTrial:
     def schedule(self) -> Schedule:
         """What was done to the needle."""
         torque = self.tip_torque_n_mm
-        time, motion = self.time_s, self.base_motion_deg
-        if self.inertia.counts:
-            time, motion = smooth_motion(time, motion)
+        finer = smooth_motion if self.inertia.counts else between_samples
+        time, motion = finer(self.time_s, self.base_motion_deg)
 
         def at(values: Array) -> Array:
             return values if time is self.time_s else np.interp(time, self.time_s, values)
@@ -74,6 +80,17 @@ class PreparedTrial:
         """Median time between samples."""
         return float(np.median(np.diff(self.time_s)))
 
+    def without_drift(self, sensor: str, left: Array) -> Array:
+        """What is left of a sensor's finite readings, in sigma, less what may be drift, (M,)."""
+        if not self.torque_drift_sigma or sensor != "base_torque_n_mm":
+            return left
+        return np.asarray(left - self._drift @ (self._drift.T @ left))
+
+    @cached_property
+    def _drift(self) -> Array:
+        kept = np.isfinite(self.readings["base_torque_n_mm"])
+        return drift_whitening(self.time_s, kept, self.torque_drift_sigma)
+
     @cached_property
     def _measured(self) -> frozenset[str]:
         return frozenset(name for name, values in self.readings.items() if np.isfinite(values).any())
@@ -81,16 +98,27 @@ class PreparedTrial:
 
 @dataclass(frozen=True, kw_only=True)
 class PreparedLog:
-    """The nominal rig and its trials, ready for replay."""
+    """The nominal rig and its trials, ready for replay.
+
+    Attributes:
+      rounded: least noise of columns that are read in coarse steps.
+    """
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
+    rounded: Mapping[str, float] = field(default_factory=dict)
+
+    def drifting(self, size_sigma: float) -> "PreparedLog":
+        """The log with a torque sensor that may drift by so much within a trial."""
+        trials = tuple(replace(trial, torque_drift_sigma=size_sigma) for trial in self.trials)
+        return replace(self, trials=trials)
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Trials whose samples are too rare for what they have to carry."""
-        each = (inertia_warning(trial.name, trial.inertia) for trial in self.trials)
-        return tuple(warning for warning in each if warning)
+        """Trials whose samples are too rare for what they have to carry, and that began late."""
+        each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
+        late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
+        return tuple(warning for warning in (*each, late_start_warning(late)) if warning)
 
 
 def _steadied(depth_mm: Array) -> Array:

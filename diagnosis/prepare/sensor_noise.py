@@ -5,7 +5,7 @@ is claimed, the data are believed, with a warning.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,11 @@ from diagnosis.criteria import LEAST_DIFFERENCES, LEAST_GAP, NOISE_RATIO
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
+from diagnosis.prepare.noise_colour import NoiseColour
+from diagnosis.prepare.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
+TimedArray = tuple[Array, Array]
 
 BASE = "base_angle_deg"
 _ORDER = 4  # of differences, which a residual of a wrong model asks for
@@ -24,43 +27,101 @@ _UNKNOWN = 1.0  # where nothing is claimed and too little was read
 
 @dataclass(frozen=True, kw_only=True)
 class Noise:
-    """One standard deviation by sensor and of the base's encoder, and what was odd about it."""
+    """Noise of the sensors and of the base's encoder.
+
+    Attributes:
+      sigma: one standard deviation, by sensor and of the encoder.
+      warnings: what was odd about it.
+      colour: of the sensors whose noise is not white.
+      white: one standard deviation by sensor, if all noise is taken for white.
+      least: what readings in coarse steps have at least.
+    """
 
     sigma: Mapping[str, float]
     warnings: tuple[str, ...] = field(default=())
+    colour: Mapping[str, NoiseColour] = field(default_factory=dict)
+    white: Mapping[str, float] = field(default_factory=dict)
+    least: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
 
+    def whitened(self, sensor: str, time_s: Array, values: Array) -> Array:
+        """Residuals of a sensor / sigma, (N,) or (N, n), without what their past tells of them."""
+        colour = self.colour.get(sensor)
+        return colour.whitened(time_s, values) if colour else values
+
+    def restored(self, sensor: str, time_s: Array, whitened: Array) -> Array:
+        """Residuals / sigma that were whitened."""
+        colour = self.colour.get(sensor)
+        return colour.restored(time_s, whitened) if colour else whitened
+
+    def with_colour(self, left: Mapping[str, Sequence[TimedArray]]) -> "Noise":
+        """The same with the colour that residuals show, in units of the sensors, by sensor and trial."""
+        sigma, colour = dict(self.sigma), {}
+        for sensor, parts in left.items():
+            found = noise_colour(parts)
+            if found:
+                sigma[sensor], colour[sensor] = found
+            elif sensor in self.colour:  # it was taken for coloured, and is not
+                sigma[sensor] = self.white[sensor]
+        return replace(self, sigma=sigma, colour=colour)
+
+    def same(self, other: "Noise") -> bool:
+        """Whether residuals are the same in units of both."""
+        return self.sigma == other.sigma and self.colour == other.colour
+
+    @property
+    def uncoloured(self) -> "Noise":
+        """Of the same size, as if it were white: for what is shown."""
+        return replace(self, colour={})
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was odd about it, and what is not white."""
+        each = (
+            f"{sensor}: {colour.share:.0%} of the noise's variance is correlated over "
+            f"{1000 * colour.correlation_time_s:.0f} ms; it is whitened for"
+            for sensor, colour in self.colour.items()
+        )
+        return (*self.warnings, *each)
+
 
 def estimate_noise(
     rig: NominalRig,
-    residuals: Mapping[str, Sequence[Array]],
+    residuals: Mapping[str, Sequence[TimedArray]],
     base_sigma_deg: float,
     told: Collection[str] = (),
+    least: Mapping[str, float] | None = None,
 ) -> Noise:
     """Noise of a log.
 
     Args:
-      residuals: measured minus nominal, by sensor and trial.
+      residuals: times, s, and measured minus nominal, by sensor and trial, (N,) each.
       base_sigma_deg: of the base's encoder.
       told: columns whose claim has been doubted before.
+      least: noise of columns in coarse steps, which differences of standing readings do not show.
     """
+    least = least or {}
     claims = rig.sensors.by_column()
     sigma, warnings = (
         {BASE: base_sigma_deg},
         {BASE: _scatters_otherwise(BASE, base_sigma_deg, claims[BASE])},
     )
+    left = {sensor: [values for _, values in residuals.get(sensor, ())] for sensor in SENSORS}
     for sensor in SENSORS:
-        found = white_noise(residuals.get(sensor, ()), order=_ORDER)
+        found = white_noise(left[sensor], order=_ORDER)
         if not np.isfinite(found) or found <= 0:
             found = claims[sensor] or _UNKNOWN
+        found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
-        warnings[sensor] = _scatters_otherwise(sensor, found, claims[sensor]) or _below_noise(
-            sensor, residuals.get(sensor, ()), found
+    noise = Noise(sigma=sigma, white=sigma).with_colour(residuals)
+    for sensor in SENSORS:
+        warnings[sensor] = _scatters_otherwise(sensor, noise[sensor], claims[sensor]) or _below_noise(
+            sensor, left[sensor], noise[sensor]
         )
     said = tuple(warning for column, warning in warnings.items() if warning and column not in told)
-    return Noise(sigma=sigma, warnings=said)
+    return replace(noise, warnings=said, least=least)
 
 
 def _scatters_otherwise(column: str, found: float, claimed: float) -> str:

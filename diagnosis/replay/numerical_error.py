@@ -24,7 +24,7 @@ def refinement_change(
     predictions: Sequence[Prediction],
     resolution: Resolution,
 ) -> list[dict[str, Array]]:
-    """What half the step and twice the elements change, / sigma, by trial and sensor.
+    """What half the step and twice the elements change, / sigma and whitened, by trial and sensor.
 
     The method is of second order in the step and of higher order in the elements: the
     error that is left is about a third of the change.
@@ -40,7 +40,8 @@ def refinement_change(
         finer = Resolution(elements=2 * resolution.elements, step_s=0.5 * resolution.step_of(trial))
         there = predict(log.rig, trial, [rig], finer, callback_alone=True)[0]
         moved = {s: (there[s] - here[s]) / noise[s] for s in SENSORS if trial.has(s)}
-        return {s: c[np.isfinite(trial.readings[s])] for s, c in moved.items()}
+        read = {s: np.isfinite(trial.readings[s]) for s in moved}
+        return {s: noise.whitened(s, trial.time_s[read[s]], c[read[s]]) for s, c in moved.items()}
 
     return side_by_side(lambda pair: change(*pair), list(zip(log.trials, predictions, strict=True)))
 

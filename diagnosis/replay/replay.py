@@ -15,6 +15,7 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, sensed
@@ -39,6 +40,10 @@ class Prediction:
         """The prediction at some of its samples."""
         return Prediction(**{sensor: self[sensor][kept] for sensor in SENSORS})
 
+    def at(self, wanted_s: Array, time_s: Array) -> "Prediction":
+        """The prediction at other times, given those of its samples."""
+        return Prediction(**{s: np.interp(wanted_s, time_s, self[s]) for s in SENSORS})
+
 
 def replay(
     log: PreparedLog, rig: RigParameters = NOMINAL, resolution: Resolution = FINE
@@ -62,31 +67,36 @@ def predict(
     """Predictions of one trial by several rigs, in their order.
 
     Args:
-      callback_alone: without MuJoCo's steps, for differences between predictions (sim.needles.callback_loop).
+      callback_alone: without MuJoCo's steps, for differences between predictions.
 
     Raises:
       SimulationFailed: one of them cannot be simulated.
     """
-    needles = list(dict.fromkeys(rig.without_sensors() for rig in rigs))
+    seen = [rig.on_trial(trial.name).without_sensors() for rig in rigs]
+    needles = list(dict.fromkeys(seen))
     done = _run(nominal, trial, needles, resolution, callback_alone=callback_alone)
     runs = dict(zip(needles, done, strict=True))
-    return [_sensed(rig, runs[rig.without_sensors()], trial.time_s) for rig in rigs]
+    each = zip(rigs, seen, strict=True)
+    return [_sensed(rig, runs[needle], trial.time_s) for rig, needle in each]
 
 
 def shape_of(
     nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
 ) -> Run:
-    """The whole simulated run of one trial, on its own steps, with the shape of the shaft."""
-    return _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    """The simulated run of one trial, on its own steps, with the shape of the shaft."""
+    run = _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    return run.since(float(trial.time_s[0]))
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
-    """Measured minus predicted / sigma, all sensors of the trial one after another, (M,)."""
+    """Measured minus predicted / sigma, whitened, all sensors of the trial one after another, (M,)."""
     parts = []
     for sensor in SENSORS:
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
-            parts.append(left[np.isfinite(left)])
+            read = np.isfinite(left)
+            beside = trial.without_drift(sensor, left[read])
+            parts.append(noise.whitened(sensor, trial.time_s[read], beside))
     return np.concatenate(parts) if parts else np.zeros(0)
 
 
@@ -100,7 +110,7 @@ def _run(
     callback_alone: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
-    inputs = [driven(rig, trial.schedule) for rig in rigs]
+    inputs = [driven(rig, schedule_with_past(rig, trial)) for rig in rigs]
     setups = [
         rig.setup(nominal, own, elements=elements, step_s=step_s)
         for rig, own in zip(rigs, inputs, strict=True)

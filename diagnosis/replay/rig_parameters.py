@@ -19,6 +19,21 @@ LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
 
 
 @dataclass(frozen=True, kw_only=True)
+class Past:
+    """What the base turned by before a trial began late.
+
+    Attributes:
+      trial: its name.
+      wound_deg: before a rest.
+      turned_deg: into the first sample, beyond the twist that its readings show.
+    """
+
+    trial: str
+    wound_deg: float = 0.0
+    turned_deg: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class RigParameters:
     """What may differ from the nominal rig.
 
@@ -35,6 +50,7 @@ class RigParameters:
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
+      pasts: of trials that began late.
     """
 
     stiffness_scale: float = 1.0
@@ -61,6 +77,9 @@ class RigParameters:
     tip_scale: float = 1.0
     tip_delay_s: float = 0.0
     torque_bias_n_mm: float = 0.0
+    tip_clock_ratio: float = 1.0
+    torque_clock_ratio: float = 1.0
+    torque_low_pass_s: float = 0.0
     torque_scale: float = 1.0
     torque_delay_s: float = 0.0
     drive_friction_n_mm: float = 0.0
@@ -68,6 +87,7 @@ class RigParameters:
     inserted_offset_mm: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
+    pasts: tuple[Past, ...] = ()
 
     def needle(self, rig: NominalRig, length_mm: float) -> Needle:
         """The needle, of the length that a trial needs."""
@@ -127,10 +147,21 @@ class RigParameters:
             tip_scale=1.0,
             tip_delay_s=0.0,
             torque_bias_n_mm=0.0,
+            tip_clock_ratio=1.0,
+            torque_clock_ratio=1.0,
+            torque_low_pass_s=0.0,
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,
         )
+
+    def past_of(self, trial: str) -> Past:
+        """What came before a trial that began late."""
+        return next((past for past in self.pasts if past.trial == trial), Past(trial=trial))
+
+    def on_trial(self, trial: str) -> "RigParameters":
+        """The rig that one trial sees: without the pasts of others."""
+        return replace(self, pasts=tuple(past for past in self.pasts if past.trial == trial))
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle that goes through a schedule, which is what the rig was `driven` by."""

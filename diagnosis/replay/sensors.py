@@ -4,7 +4,8 @@ On the way in, the encoder of the drive shaft and the logged depth say what is d
 
     drive shaft = reading / base_scale,    inserted length = logged + inserted_offset
 
-On the way out, the sensors of tip and torque say what it does, a delay ago:
+On the way out, the sensors of tip and torque say what it does, a delay ago, by clocks of their own; that
+of the torque may have a low pass of first order:
 
     reading = bias + scale * (tip angle),    reading = bias + scale * (torque at chuck + of bearing)
 """
@@ -13,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 from diagnosis.replay.bearing import bearing_torque_n_mm
 from diagnosis.replay.rig_parameters import RigParameters
@@ -51,12 +53,27 @@ def sensed(
     torque = torque_n_mm
     if rig.drive_friction_n_mm != 0.0:
         torque = torque + bearing_torque_n_mm(drive_deg, rig.drive_friction_n_mm)
-    return (
-        rig.tip_bias_deg + rig.tip_scale * _delayed(time_s, tip_deg, rig.tip_delay_s),
-        rig.torque_bias_n_mm + rig.torque_scale * _delayed(time_s, torque, rig.torque_delay_s),
-    )
+    tip = _late(time_s, tip_deg, rig.tip_clock_ratio, rig.tip_delay_s)
+    torque = _low_passed(time_s, torque, rig.torque_low_pass_s)
+    torque = _late(time_s, torque, rig.torque_clock_ratio, rig.torque_delay_s)
+    return rig.tip_bias_deg + rig.tip_scale * tip, rig.torque_bias_n_mm + rig.torque_scale * torque
 
 
-def _delayed(time_s: Array, values: Array, delay_s: float) -> Array:
-    """What was, a delay ago; before the first sample, that sample."""
-    return values if delay_s == 0.0 else np.interp(time_s - delay_s, time_s, values)
+def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:
+    """What was, a delay ago, by a clock that runs off; before the first sample, that sample."""
+    if clock_ratio == 1.0 and delay_s == 0.0:
+        return values
+    start_s = time_s[0]
+    return np.asarray(np.interp(start_s + (time_s - start_s) * clock_ratio - delay_s, time_s, values))
+
+
+def _low_passed(time_s: Array, values: Array, time_constant_s: float) -> Array:
+    """A low pass of first order, exact for values that run straight between even times."""
+    if time_constant_s <= 0.0 or values.size < 2:
+        return values
+    step = (time_s[1] - time_s[0]) / time_constant_s
+    decay = np.exp(-step)
+    ramp = -np.expm1(-step) / step
+    at_rest = [ramp * values[0]]
+    shown, _ = lfilter([1.0 - ramp, ramp - decay], [1.0, -decay], values, zi=at_rest)
+    return np.asarray(shown)

@@ -7,7 +7,9 @@ from typing import Any
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
 from diagnosis.report.figures.overview import draw_ranking, draw_trials
+from diagnosis.report.sensors import imperfections
 from diagnosis.report.sentences import (
+    alike,
     headline,
     nearest,
     reduction,
@@ -44,6 +46,8 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     parts = [
         html.heading(headline(found), level=1),
         *html.warnings(report["warnings"]),
+        *([html.paragraph(f"{alike(found)}.")] if alike(found) else []),
+        *([html.paragraph(sensors)] if (sensors := imperfections(found)) else []),
         *_nearest(found, report),
         *where_section(found),
         *_which(found, report),

@@ -16,6 +16,7 @@ from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import RecordEntry
+from diagnosis.stopping import EarlyStop
 
 FORMAT = "gap-report/1"
 
@@ -26,12 +27,17 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
     return {
         "format": FORMAT,
         "verdict": verdict.kind.value,
+        "stopped": _stopped(diagnosis.stopped),
         "effects": list(verdict.effects),
         "confusable": [list(names) for names in verdict.confusable],
         "ranking": [{"effect": n, "probability": p} for n, p in verdict.ranking],
         "parameters": _parameters(told.parameters),
         "gap": {**asdict(told.gap), "noise": 1.0},
         "nearest": _nearest(told.nearest),
+        "sensors": {
+            "imperfections": _parameters(told.imperfections),
+            "torque_drift_sigma": told.torque_drift_sigma,
+        },
         "where": _where(diagnosis),
         "next_experiment": told.next_experiment,
         "floor": _floor(verdict.best),
@@ -41,9 +47,16 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "cannot_tell": list(unidentifiable(diagnosis.log)),
         "replay_error": told.numerical_error,
         "noise": dict(diagnosis.noise.sigma),
+        "noise_colour": {s: asdict(colour) for s, colour in diagnosis.noise.colour.items()},
         "search": [_entry(entry) for entry in diagnosis.record],
         "warnings": list(diagnosis.warnings),
     }
+
+
+def _stopped(early: EarlyStop | None) -> dict[str, Any] | None:
+    if early is None:
+        return None
+    return {"why": early.why, "stage": early.stage, "left_out": list(early.left_out)}
 
 
 def _parameters(by_effect: Mapping[str, Mapping[str, Interval]]) -> dict[str, Any]:

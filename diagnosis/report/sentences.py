@@ -8,9 +8,29 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
 
+_NOTHING = "the nominal model as it is"
+
 
 def headline(found: Diagnosis) -> str:
-    """The verdict in one sentence."""
+    """The verdict in one sentence, marked where the diagnosis was stopped early."""
+    early = found.stopped
+    if early is None:
+        return _verdict(found)
+    told = _best_so_far(found) if early.search else _verdict(found)
+    return f"Stopped early ({early.why}, while {early.stage}): best so far: {told}"
+
+
+def _best_so_far(found: Diagnosis) -> str:
+    """What a search that was cut short has come to: never that nothing else is there."""
+    verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
+    residual = f"residual {gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
+    if verdict.kind is VerdictKind.UNKNOWN:
+        return f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
+    sets = "; or ".join(titles(names) or _NOTHING for names in verdict.confusable)
+    return f"{sets}: undecided, as others were not tried: {residual}"
+
+
+def _verdict(found: Diagnosis) -> str:
     gap, effects = found.assessment.gap, found.verdict.effects
     before, after = f"{gap.before:.2f} σ", f"{gap.after:.2f} σ (σ = sensor noise)"
     match found.verdict.kind:
@@ -43,11 +63,24 @@ def nearest(found: Diagnosis) -> str:
     ]
     verb = "explain" if len(near.effects) > 1 else "explains"
     bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
+    tried = "that was tried so far " if found.stopped and found.stopped.search else ""
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation reaches the noise: what is left is "
+        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise: what is left is "
         f"{found.assessment.breakdown_after.largest}{bound}"
+    )
+
+
+def alike(found: Diagnosis) -> str:
+    """What the accepted effects cannot be told from, in one sentence; else empty."""
+    verdict = found.verdict
+    if verdict.kind is not VerdictKind.EXPLAINED or not verdict.confusable:
+        return ""
+    others = "; or ".join(titles(names) for names in verdict.confusable[1:])
+    return (
+        f"Cannot be told from: {others}. These change every reading of this log in the same way; "
+        "what is named is the likelier cause, not the only one"
     )
 
 
@@ -84,9 +117,11 @@ def with_one_more(found: Diagnosis) -> str:
 
 def replay_quality(found: Diagnosis) -> list[str]:
     """Noise and numerical error of each sensor."""
+    error = found.assessment.numerical_error
     lines = [
-        f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: {error:.3f} σ"
-        for sensor, error in found.assessment.numerical_error.items()
+        f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: "
+        + (f"{error[sensor]:.3f} σ" if sensor in error else "not looked at")
+        for sensor in found.assessment.breakdown.signal
     ]
     base = found.noise["base_angle_deg"]
     return [*lines, f"base_angle_deg: σ = {base:.3g}, smoothed out as far as the motion allows"]

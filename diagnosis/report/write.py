@@ -52,8 +52,10 @@ def _write_predictions(diagnosis: Diagnosis, paths: list[Path]) -> None:
     explained = diagnosis.assessment.explained
     each = zip(diagnosis.log.trials, diagnosis.nominal, explained, paths, strict=True)
     for trial, before, after, path in each:
-        columns = {"time_s": trial["time_s"]}
+        rows = trial.file_rows
+        nominal, best = (p.at(rows.taken_s, trial["time_s"]) for p in (before, after))
+        columns = {"time_s": rows.stamps_s}
         for sensor in SENSORS:
-            columns[f"{sensor}_nominal"] = before[sensor]
-            columns[f"{sensor}_explained"] = after[sensor]
+            columns[f"{sensor}_nominal"] = nominal[sensor]
+            columns[f"{sensor}_explained"] = best[sensor]
         write_text(path, pd.DataFrame(columns).to_csv(index=False, float_format="%.6g"))

@@ -1,6 +1,7 @@
 """A fitted explanation: its score, what it names, and whether it explains the log."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,11 @@ from diagnosis.criteria import (
     SCATTER_NAMED,
     SHIFT_LIMIT,
 )
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.cross_validation import held_out_residuals, information, shift_statistic
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
+from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.complexity import complexity_penalty
 from sim.simulation import SimulationFailed
@@ -33,6 +36,7 @@ class Candidate:
       held_out_floor: how far these are above the noise.
       held_out_failure: why they could not be simulated; empty: they could, or were not looked at.
       shift: held-out shift statistic; about 1 where all trials tell the same.
+      coloured: floors of the sensors whose noise is, with a slow part over seconds.
     """
 
     fit: Fit
@@ -42,6 +46,7 @@ class Candidate:
     held_out_floor: NoiseFloor | None = None
     held_out_failure: str = ""
     shift: float = 0.0
+    coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
 
     @property
     def explains(self) -> bool:
@@ -58,6 +63,10 @@ class Candidate:
             return f"not white: slow part {floor.slow:.3f} sigma, limit {floor.slow_limit:.3f}"
         if self.held_out is None:
             return f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
+        for sensor, own in self.coloured.items():
+            if own.slow > own.slow_limit:
+                seen = f"slow part {own.slow:.2f} sigma over seconds, limit {own.slow_limit:.2f}"
+                return f"not the noise of {sensor}: {seen}"
         if self.shift > SHIFT_LIMIT:
             return f"held-out trials shift by {self.shift:.1f}, limit {SHIFT_LIMIT:g}"
         return "stiffness and damping are off, and which is open" if self.unidentifiable else ""
@@ -70,8 +79,13 @@ class Candidate:
             left = held_out_residuals(problem, self.fit)
         except SimulationFailed as failed:
             return replace(self, held_out_failure=str(failed))
-        shift = shift_statistic(self.fit)
-        return replace(self, held_out=left, held_out_floor=floor_of(left), shift=shift)
+        return replace(
+            self,
+            held_out=left,
+            held_out_floor=floor_of(left),
+            shift=shift_statistic(self.fit),
+            coloured=slow_where_coloured(problem, self.fit.by_trial),
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -83,9 +97,16 @@ class Candidate:
         """Its effects, and stiffness or damping of the rig where they are off by too much.
 
         Beside effects that is more than scatter explains. Alone it is whatever is
-        certain: the nominal rig does not fit, and this is why.
+        certain: the nominal rig does not fit, and this is why. Imperfections of sensors
+        are not named.
         """
-        return (*self.names, *(n for n in self._open_scatter() if self._is_off(n)))
+        own = (name for name in self.names if name in LIBRARY)
+        return (*own, *self.scatter_named)
+
+    @property
+    def scatter_named(self) -> tuple[str, ...]:
+        """Stiffness or damping of the rig, where they are off by too much."""
+        return tuple(n for n in self._open_scatter() if self._is_off(n))
 
     @property
     def only_scatter(self) -> bool:

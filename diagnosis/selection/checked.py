@@ -30,7 +30,7 @@ class Checked:
 
     def of(self, fit: Fit, noise: Noise) -> Candidate | None:
         """What was found of a fit under that noise; None: it was not checked."""
-        if noise.sigma != self.noise.sigma:
+        if not noise.same(self.noise):
             return None
         each = zip(self.fits, self.candidates, strict=True)
         return next((known for own, known in each if own is fit), None)

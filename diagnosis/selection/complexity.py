@@ -1,17 +1,17 @@
 """Complexity penalty of an explanation: what it has to take off the cost to be worth its freedom.
 
 log(samples) for every parameter (BIC; Schwarz 1978), plus what the choice among many costs, so that
-nothing, one of all effects and one of all pairs are equally likely before the data: one of 276 pairs
-fits by chance more often than one of 24 effects.
+nothing, one of all effects and one of all pairs are equally likely before the data: one of 351 pairs
+fits by chance more often than one of 27 effects.
 """
 
 import math
 from collections.abc import Sequence
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 
 
 def complexity_penalty(names: Sequence[str], samples: int) -> float:
     """Penalty of a set of effects on so many residuals, in cost."""
-    freedom = sum(len(LIBRARY[n].reported) for n in names)
-    return freedom * math.log(max(samples, 2)) + 2.0 * math.log(math.comb(len(LIBRARY), len(names)))
+    freedom = sum(len(FITTED[n].reported) for n in names)
+    return freedom * math.log(max(samples, 2)) + 2.0 * math.log(math.comb(len(FITTED), len(names)))

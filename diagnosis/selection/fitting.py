@@ -1,19 +1,21 @@
 """Fitting many sets of effects, with a record of what was made, dropped or failed."""
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.complexity import complexity_penalty
 from diagnosis.selection.record import RecordEntry, dropped, failed, made, not_fitted
 from diagnosis.selection.screening import Screened
-from diagnosis.workers import Failure, Task, Workers
+from diagnosis.stopping import NEVER, listening
+from diagnosis.workers import Failure, Task, Workers, attempt
 
 Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
 """Candidates, and the record of how they came about."""
@@ -55,7 +57,7 @@ def fit_screened(
         record += entries
         at_floor = [c for c in found if c.floor.small]
         floor = min((c.fit.cost for c in at_floor), default=np.inf)
-        inner = {i for c in at_floor for n in c.names for i in LIBRARY[n].contains}
+        inner = {i for c in at_floor for n in c.names for i in FITTED[n].contains}
         skipped += [s for s in waiting if not _still(s, floor, inner)]
         waiting = [s for s in waiting if _still(s, floor, inner)]
     record += not_fitted(stage, _sets(skipped), "promises to stay far above what is at the noise floor")
@@ -76,6 +78,8 @@ def fit_finalists(
     finalists, beyond = near[:FINALISTS], near[FINALISTS:]
     far = [c for c in contenders if c not in near]
     found, record = fit_all(stage, [(problem, c.names, c.fit.x) for c in finalists], workers)
+    if finalists and not found and workers.stop.due:
+        found, record = _in_short(stage, problem, finalists[0], record)
     lost = (
         *dropped(stage, beyond, f"{FINALISTS} others are better on the decimated log"),
         *dropped(stage, far, f"behind the best on the decimated log by more than {CONTENDING:g}"),
@@ -89,6 +93,19 @@ def fit_each_alone(
     """Each of what a candidate names alone, from where that is."""
     starts = [(n, problem.parameterization((n,)).joined(whole.fit.parts)) for n in names]
     return fit_all(stage, [(problem, (n,), start) for n, start in starts], workers)
+
+
+def _in_short(
+    stage: str, problem: FitProblem, first: Candidate, record: tuple[RecordEntry, ...]
+) -> Made:
+    """The best contender after one step on the log itself, where there was no time for more."""
+    step = partial(fit_effects, most_iterations=1)
+    with listening(NEVER):
+        fit = attempt(step, Task(effects=first.names, arguments=(problem, first.names, first.fit.x)))
+    if isinstance(fit, Failure):
+        return [], (*record, *failed(stage, [fit]))
+    found = [candidate(fit)]
+    return found, (*record, *made(stage, found))
 
 
 def _enough(names: tuple[str, ...], found: Sequence[Candidate], used: int) -> float:

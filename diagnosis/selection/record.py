@@ -15,6 +15,7 @@ class Decision(StrEnum):
     KEPT = "kept"
     DROPPED = "dropped"
     FAILED = "failed"
+    STOPPED = "stopped"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,9 +71,14 @@ def judged(candidates: Iterable[Candidate]) -> tuple[RecordEntry, ...]:
 
 
 def failed(stage: str, failures: Iterable[Failure]) -> tuple[RecordEntry, ...]:
-    """What a stage could not simulate."""
+    """What a stage could not simulate, or had no time for."""
     return tuple(
-        RecordEntry(stage=stage, effects=f.effects, decision=Decision.FAILED, reason=f.reason)
+        RecordEntry(
+            stage=stage,
+            effects=f.effects,
+            decision=Decision.STOPPED if f.stopped else Decision.FAILED,
+            reason=f.reason,
+        )
         for f in failures
     )
 

@@ -11,10 +11,11 @@ dropped.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 
 from diagnosis.criteria import (
+    IMPERFECT_BASES,
     MOST_PAIRS,
     NOMINAL_LEAD,
     PAIR_BASES,
@@ -22,60 +23,33 @@ from diagnosis.criteria import (
     SECOND_LEAVES,
     WORTH_FITTING,
 )
+from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.noise_reestimation import with_colour
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.checked import Checked, check
-from diagnosis.selection.fitting import Made, fit_all, fit_each_alone, fit_finalists, fit_screened
+from diagnosis.selection.checked import check
+from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists, fit_screened
 from diagnosis.selection.mesh_refinement import refined_mesh
-from diagnosis.selection.record import RecordEntry, dropped, failed, kept, not_fitted
+from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, kept, not_fitted
 from diagnosis.selection.screening import Screened, screen
-from diagnosis.workers import Failure, Task, Workers, attempt
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class SearchState:
-    """What a search has come to.
-
-    Attributes:
-      problem: the log itself, replayed as finely as it asks.
-      coarse: the decimated log.
-      effects: that may be tried.
-      nominal: the nominal rig, exactly as rig.yaml says.
-      candidates: fitted on the log itself.
-      singles: single effects, fitted on the decimated log, best first.
-      checked: candidates as they were checked before pairs were tried.
-      record: of every stage so far.
-    """
-
-    problem: FitProblem
-    coarse: FitProblem
-    effects: tuple[str, ...]
-    nominal: Fit
-    candidates: tuple[Candidate, ...] = ()
-    singles: tuple[Candidate, ...] = ()
-    checked: Checked | None = None
-    record: tuple[RecordEntry, ...] = ()
-
-    @property
-    def best(self) -> Candidate:
-        """Of least score."""
-        return min(self.candidates, key=lambda c: c.score)
-
-    def adding(self, made: Made) -> "SearchState":
-        """The state with more candidates."""
-        found, record = made
-        return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
-
-    def noting(self, *entries: RecordEntry) -> "SearchState":
-        """The state with a longer record."""
-        return replace(self, record=(*self.record, *entries))
+from diagnosis.selection.state import SearchState
+from diagnosis.selection.torque_drift import with_drift
+from diagnosis.workers import Failure, Task, Workers
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; its candidates are best first."""
+    """The state after all stages; where nothing explains the log, with drift of the torque as well."""
+    return with_drift(_all_stages(state, workers), workers, _all_stages)
+
+
+def _all_stages(state: SearchState, workers: Workers) -> SearchState:
+    """The state after those stages that there was time for; the nominal rig is in any."""
     for stage in STAGES:
-        state = stage(state, workers)
+        if workers.stop.due and state.candidates:
+            workers.stop.leave_out(stage.__name__.replace("_", " "))
+        else:
+            state = stage(state, workers)
     return state
 
 
@@ -102,7 +76,8 @@ def stiffness_or_damping_alone(state: SearchState, workers: Workers) -> SearchSt
 def single_effects(state: SearchState, workers: Workers) -> SearchState:
     """Every effect screened, the promising fitted on the decimated log, the best on the log itself."""
     stage = "single effects"
-    start = attempt(fit_effects, Task(effects=(), arguments=(state.coarse, ())))
+    alone = [Task(effects=(), arguments=(state.coarse, ()))]
+    (start,) = workers.each(f"screening {stage}", fit_effects, alone)
     if isinstance(start, Failure):
         return state.noting(*failed(stage, [start]))
     screened, record = _screened(
@@ -118,9 +93,28 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_finalists("finalists", state.problem, singles, workers))
 
 
+def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
+    """The noise as the best effect leaves it; where other sensors' is coloured, all once more."""
+    noise = with_colour(state.problem, state.best.fit)
+    if noise.same(state.problem.noise):
+        return state
+    again = state.renoised(noise)
+    if noise.colour.keys() == state.problem.noise.colour.keys():
+        return again
+    out = dropped("coloured noise", state.candidates, "the noise has another colour")
+    again = replace(again, candidates=(), singles=()).noting(*out)
+    for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
+        again = stage(again, workers)
+    if workers.stop.due and not again.singles:
+        return state.noting(*_stopped(again.record[len(state.record) :]))  # no effect was fitted
+    return again
+
+
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
     """A replay as fine as the log asks, and candidates fitted to it."""
     problem, found, record = refined_mesh(state.problem, state.candidates, workers)
+    if stopped := _stopped(record):
+        return state.noting(*stopped)  # costs at two resolutions do not compare
     return replace(state, problem=problem, candidates=tuple(found)).noting(*record)
 
 
@@ -136,11 +130,28 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]
     fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
     state = state.noting(*_not_worth(stage, screened, worth), *record)
+    state = replace(state, pairs=tuple(fitted))
     found, record = fit_finalists("finalists, pairs", state.problem, fitted, workers)
     enough = _takes_off_enough(found, state) if alone and state.singles else found
     out = [c for c in found if c not in enough]
     reason = f"its second effect leaves more than {SECOND_LEAVES:g} of the cost of one alone"
     return state.adding((enough, (*record, *dropped("finalists, pairs", out, reason))))
+
+
+def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
+    """Where nothing explains the log: one effect at most, with two imperfections of sensors."""
+    stage = "imperfections of sensors"
+    if check(state.problem, state.candidates, state.checked).explains:
+        return state
+    rough = [c for c in state.pairs if any(name in IMPERFECTIONS for name in c.names)]
+    more = [name for name in state.effects if name in IMPERFECTIONS]
+    bases = product(rough[:IMPERFECT_BASES], more)
+    calls = [(state.coarse, base.fit, name) for base, name in bases if name not in base.names]
+    screened, record = _screened(stage, calls, workers)
+    worth = [s for s in screened if s.gain >= WORTH_FITTING]
+    fitted, fits = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
+    state = state.noting(*record, *_not_worth(stage, screened, worth), *fits)
+    return state.adding(fit_finalists(f"finalists, {stage}", state.problem, fitted, workers))
 
 
 def effects_of_the_best_alone(state: SearchState, workers: Workers) -> SearchState:
@@ -156,22 +167,29 @@ def effects_of_the_best_alone(state: SearchState, workers: Workers) -> SearchSta
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     """What the best names of stiffness and damping, without the prior of scatter that pulls it."""
     best = state.best
-    if best.named == best.names:
+    if not best.scatter_named:
         return state
-    start = state.problem.parameterization(best.named).joined(best.fit.parts)
-    return state.adding(fit_all("scatter of the best", [(state.problem, best.named, start)], workers))
+    names = (*best.names, *best.scatter_named)
+    start = state.problem.parameterization(names).joined(best.fit.parts)
+    return state.adding(fit_all("scatter of the best", [(state.problem, names, start)], workers))
 
 
 STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,
+    coloured_noise,
     finer_mesh,
     pairs,
+    one_more_imperfection,
     effects_of_the_best_alone,
     scatter_of_the_best,
     finer_mesh,
 )
+
+
+def _stopped(record: Sequence[RecordEntry]) -> list[RecordEntry]:
+    return [entry for entry in record if entry.decision is Decision.STOPPED]
 
 
 def _screened(

@@ -2,18 +2,19 @@
 
 none        the nominal rig is at the noise floor, or what is left of it is the rig's
             own scatter in stiffness and damping
-explained   the best candidate is at the noise floor and nothing else comes near it
+explained   the best candidate is at the noise floor and nothing else comes near it, but for what
+            asks the rig's constants to be off by chance
 undecided   another candidate, not a richer relative of the best, fits alike
 unknown     nothing that was tried brings the residual to the noise floor
 """
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
 
@@ -32,7 +33,7 @@ class Verdict:
 
     Attributes:
       effects: accepted, strongest first.
-      confusable: sets of effects that fit alike.
+      confusable: sets of effects that fit alike, the accepted one first.
       best: the candidate that predictions and parameters are of.
       rivals: candidates that explain the log as well as the best.
       ranking: single effects, none and unknown with probabilities that add up to 1.
@@ -63,9 +64,10 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
             ranking=_ranking(candidates, known=False),
         )
     best = _simplest(at_floor)
-    rivals = [c for c in at_floor if c is not best and _alike(best, c)]
+    alike = [c for c in at_floor if c is not best and _alike(best, c)]
+    rivals = sorted(alike, key=lambda c: _asks_more_scatter(best, c))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
-    if rivals and kind is VerdictKind.EXPLAINED:
+    if rivals and not (best.named and all(_asks_more_scatter(best, c) for c in rivals)):
         kind = VerdictKind.UNDECIDED
     return Verdict(
         kind=kind,
@@ -75,6 +77,26 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         rivals=tuple(rivals),
         ranking=_ranking(candidates, known=True),
     )
+
+
+def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
+    """The verdict of a search that was cut short: no more than what was tried can say.
+
+    An explanation at the noise floor may have rivals that nobody tried, and the nominal rig effects
+    that nobody looked for. So it is `undecided` between all that explain the log so far, that of the
+    verdict first, or `unknown`.
+
+    Args:
+      candidates: that were checked, best first.
+    """
+    if verdict.kind is VerdictKind.UNKNOWN:
+        return verdict
+    others = [c for c in candidates if c.explains and c is not verdict.best]
+    sets: dict[frozenset[str], tuple[str, ...]] = {}
+    for names in (verdict.effects, *(c.named for c in others), *verdict.confusable):
+        sets.setdefault(frozenset(names), names)
+    confusable = tuple(sets.values())
+    return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
 
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
@@ -99,12 +121,25 @@ def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
 
 
 def _alike(best: Candidate, other: Candidate) -> bool:
-    """Whether another explanation fits as well, and is not the best with more beside it."""
-    if not best.named or not other.named or abs(other.score - best.score) > SIMPLE_LEAD:
+    """Whether another explanation fits as well, and is not the best with more beside it.
+
+    An effect may be taken for an imperfection of a sensor, so that these count here.
+    """
+    if not _says(best) or not _says(other) or abs(other.score - best.score) > SIMPLE_LEAD:
+        return False
+    if set(best.named) == set(other.named):
         return False
     if _nested(best, other):
         return best.fit.size < other.fit.size  # the other way round, NESTED_LEAD is enough
     return not _covers(other, best)
+
+
+def _asks_more_scatter(best: Candidate, other: Candidate) -> bool:
+    """Whether the other is behind by what stiffness and damping would have to be off for it.
+
+    That is known and no noise, so that less of a lead is enough: it is named beside the best.
+    """
+    return other.fit.prior - best.fit.prior > NESTED_LEAD and other.score > best.score
 
 
 def _nested(one: Candidate, other: Candidate) -> bool:
@@ -113,13 +148,18 @@ def _nested(one: Candidate, other: Candidate) -> bool:
     if len(mine) != 1 or len(theirs) != 1:
         return False
     a, b = mine.pop(), theirs.pop()
-    return a in LIBRARY[b].contains or b in LIBRARY[a].contains
+    return a in FITTED[b].contains or b in FITTED[a].contains
 
 
 def _covers(other: Candidate, best: Candidate) -> bool:
     """Whether each effect of the best is there, or contained in one that is."""
-    within = {name for o in other.named for name in (o, *LIBRARY[o].contains)}
-    return set(best.named) <= within
+    within = {name for o in _says(other) for name in (o, *FITTED[o].contains)}
+    return set(_says(best)) <= within
+
+
+def _says(one: Candidate) -> tuple[str, ...]:
+    """What is named, and imperfections of sensors."""
+    return (*one.named, *(name for name in one.names if name in IMPERFECTIONS))
 
 
 def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:

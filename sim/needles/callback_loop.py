@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 @intrinsic
-def _call(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
+def _calling(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
     """Call a C function (model, data) at an address."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -37,6 +37,9 @@ def _call(typingctx: Any, function: Any, model: Any, data: Any) -> Any:
         return context.get_dummy_value()
 
     return types.void(types.intp, types.intp, types.intp), codegen
+
+
+_call: Any = _calling
 
 
 @njit(cache=True, nogil=True)

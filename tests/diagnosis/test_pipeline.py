@@ -120,8 +120,9 @@ def test_where_nothing_but_the_nominal_rig_can_be_simulated_there_is_a_verdict(r
 def test_progress_is_told_by_stage():
     told = []
     log = log_of(NOMINAL, seconds=2.0)
-    diagnose(log, workers=1, progress=lambda stage, share: told.append((stage, share)))
-    stages = list(dict.fromkeys(stage for stage, _ in told))
-    assert stages[:2] == ["nominal rig", "screening single effects"]
-    assert stages[-1] == "detection limits"
-    assert all(0 < share <= 1 for _, share in told)
+    diagnose(log, workers=1, progress=told.append)
+    stages = list(dict.fromkeys(news.stage for news in told))
+    begin = ["replaying the nominal rig", "fitting the nominal rig", "screening single effects"]
+    assert stages[:3] == begin
+    assert stages[-1] == "looking for detection limits"
+    assert all(0 <= news.done <= news.tasks for news in told)

@@ -1,10 +1,16 @@
 """Every call comes back, in order, as a value or as a failure that names its effects."""
 
+import os
+import signal
 import threading
 import time
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
+from multiprocessing import active_children
 
 import pytest
 
+from diagnosis.stopping import StopReason, StopSignal, raise_if_stopped
 from diagnosis.workers import Failure, Task, Workers, attempt, process_pool, side_by_side
 from models.errors import InvalidValue
 from sim.simulation import SimulationFailed
@@ -57,10 +63,18 @@ def test_no_task_is_no_result(pool):
     assert pool.each("", work, []) == []
 
 
-def test_progress_is_told_after_every_task():
+def test_progress_is_told_before_and_after_every_task():
     told = []
     Workers(progress=lambda *news: told.append(news)).each("fitting", work, TASKS)
-    assert told == [("fitting", share) for share in (0.25, 0.5, 0.75, 1.0)]
+    assert told == [("fitting", done, 4) for done in range(5)]
+
+
+def test_progress_of_several_processes_ends_with_all_tasks(pool):
+    told = []
+    replace(pool, progress=lambda *news: told.append(news)).each("fitting", work, TASKS)
+    counts = [done for _, done, _ in told]
+    assert counts == sorted(counts)
+    assert told[-1] == ("fitting", 4, 4)
 
 
 def test_misuse_is_raised_as_what_it_is():
@@ -82,8 +96,87 @@ def test_what_was_submitted_is_dropped_when_the_user_interrupts():
         for _ in range(40):
             two.pool.submit(time.sleep, 0.5)
         raise KeyboardInterrupt
-    # What runs or is queued for the two processes ends; not all of 40 x 0.5 s / 2.
+    # What runs is killed, what waits is dropped; not all of 40 x 0.5 s / 2.
     assert time.perf_counter() - start < 5.0
+
+
+def test_after_a_stop_no_task_is_begun_in_this_process():
+    stop, begun = StopSignal(), []
+
+    def last(value):
+        begun.append(value)
+        stop.request(StopReason.INTERRUPTED)
+        return value
+
+    found = Workers(stop=stop).each("fitting", last, TASKS)
+    assert (begun, found[0]) == ([0], 0)
+    assert all(failure.stopped for failure in found[1:])
+    assert [failure.effects for failure in found[1:]] == [task.effects for task in TASKS[1:]]
+    assert stop.left_out == ["fitting"]
+
+
+def long(seconds_s):
+    """A task that looks at no signal."""
+    time.sleep(seconds_s)
+    return seconds_s
+
+
+def test_after_a_stop_what_runs_in_other_processes_is_not_waited_for():
+    stop = StopSignal(0.5)
+    tasks = [Task(effects=(str(s),), arguments=(s,)) for s in (0.0, 60.0, 60.0, 60.0)]
+    start = time.perf_counter()
+    with process_pool(2, stop=stop) as two:
+        found = two.each("fitting", long, tasks)
+    assert time.perf_counter() - start < 30.0
+    assert found[0] == 0.0
+    assert [failure.stopped for failure in found[1:]] == [True] * 3
+    assert stop.left_out == ["fitting"]
+
+
+def until_stopped(steps):
+    """A fit: it looks at the signal between its steps."""
+    for _ in range(steps):
+        raise_if_stopped()
+        time.sleep(0.01)
+    return steps
+
+
+def test_a_stop_reaches_what_runs_in_another_process():
+    """Both tasks would take ten minutes."""
+    stop = StopSignal()
+    with process_pool(2, stop=stop) as two:
+        task = Task(effects=(), arguments=(60_000,))
+        running = [two.pool.submit(attempt, until_stopped, task) for _ in range(2)]
+        stop.request(StopReason.INTERRUPTED)
+        assert all(call.result(timeout=30.0).stopped for call in running)
+
+
+def test_processes_end_with_their_pool():
+    others = active_children()
+    with process_pool(2) as two:
+        two.each("", long, [Task(effects=(), arguments=(0.0,))])
+        ours = [process for process in active_children() if process not in others]
+        assert len(ours) == 2
+        two.pool.submit(long, 60.0)
+    assert not any(process.is_alive() for process in ours)
+
+
+def killed(seconds_s):
+    """A process that the system takes away, as it does where memory runs out; or one that is busy."""
+    time.sleep(seconds_s)
+    if not seconds_s:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_process_that_is_lost_is_an_error_and_the_others_end_too():
+    """The other one is busy and hears no signal but that which nobody can ignore."""
+    others = active_children()
+    tasks = [Task(effects=(), arguments=(seconds_s,)) for seconds_s in (60.0, 0.0)]
+    start = time.perf_counter()
+    with pytest.raises(BrokenProcessPool), process_pool(2) as two:
+        two.each("", killed, tasks)
+    assert time.perf_counter() - start < 30.0
+    assert active_children() == others
 
 
 def threads_used(_):

@@ -63,3 +63,11 @@ def test_constant_depth_stands_in_the_tissue_and_growing_depth_goes_with_the_nee
     growing = Schedule(**columns(inserted_mm=np.array([0.0, 10.0, 20.0, 30.0])))
     assert growing.mesh is Mesh.LAGRANGIAN
     assert growing.longest_mm == 80.0
+
+
+def test_rows_keep_every_input():
+    whole = Schedule(**columns(drive=np.arange(4.0)))
+    part = whole.rows(whole.time_s >= 0.5)
+    np.testing.assert_array_equal(part.time_s, [0.5, 1.0, 1.5])
+    np.testing.assert_array_equal(part.drive, [1.0, 2.0, 3.0])
+    assert part.tip_torque_n_mm.shape == (3,)

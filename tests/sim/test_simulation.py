@@ -121,6 +121,15 @@ def test_different_tissues_run_side_by_side_as_they_do_alone():
         assert np.array_equal(simulate([one], TURN)[0].outputs, beside.outputs)
 
 
+def test_a_run_from_a_time_on_is_its_last_rows():
+    (whole,) = simulate([setup()], TURN, keep_shape=True)
+    part = whole.since(1.0)
+    assert part.time_s[0] == pytest.approx(1.0)
+    assert np.array_equal(part.tip_deg, whole.tip_deg[-part.time_s.size :])
+    assert np.array_equal(part.angles_rad, whole.angles_rad[-part.time_s.size :])
+    assert whole.since(0.0) is whole
+
+
 def test_set_ups_may_each_have_inputs_of_their_own():
     slower = schedule([0, 1.3, 3], [0, 45, 45], inserted=80.0)
     setups, inputs = [setup(), setup(inserted=80.0), setup()], [TURN, slower, TURN]

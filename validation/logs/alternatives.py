@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.logs.comparison import RigComparison, rms
-from validation.logs.strengths import FAMILIES, TWO_SIDED, ByStrength, with_effect, without
+from validation.logs.strengths import ALL_FAMILIES, FAMILIES, TWO_SIDED, ByStrength, with_effect, without
 from validation.rig.rig import IndependentRig
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def _typical(name: str) -> list[ByStrength]:
     """Maps from strength to parameters, with the others at a few drawn values."""
     variants = {"tissue_viscoelasticity": 2, "layered_tissue": 2, "stiction": 2, "needle_curvature": 4}
     rng = np.random.default_rng(7)
-    return [FAMILIES[name].draw(rng) for _ in range(variants.get(name, 1))]
+    return [ALL_FAMILIES[name].draw(rng) for _ in range(variants.get(name, 1))]
 
 
 def _fitted(
@@ -70,7 +70,7 @@ def _fitted(
     target: Array,
 ) -> Array:
     """The best fit of a few strengths, each the last one times its least-squares factor."""
-    family = FAMILIES[name]
+    family = ALL_FAMILIES[name]
     strength = float(np.sqrt(family.low * family.high))
     best = np.zeros_like(target)
     for _ in range(PASSES):

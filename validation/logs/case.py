@@ -15,10 +15,20 @@ import numpy as np
 
 from validation.logs.alternatives import Alternatives, find_alternatives
 from validation.logs.comparison import RigComparison
+from validation.logs.equivalents import as_effects
 from validation.logs.motions import LogPlan, draw_motions, draw_plan
 from validation.logs.rig_draw import draw_rig
-from validation.logs.sensors import LogSensors, draw_sensors
-from validation.logs.strengths import without
+from validation.logs.roughness.recording import ROUGHNESSES
+from validation.logs.roughness.roughness import Roughness
+from validation.logs.roughness.wrong import FAULTS
+from validation.logs.schedule import PLAIN_KINDS
+from validation.logs.sensors import LogSensors, draw_sensors, plain
+from validation.logs.strengths import (
+    FAMILIES,
+    UNLISTED_FAMILIES,
+    WRONG_CONSTANT_FAMILIES,
+    without,
+)
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
 from validation.rig.unmodelled import IdealSignals
@@ -31,8 +41,12 @@ NEAREST = {
     "friction_ageing": ("stiction", "coulomb_friction"),
     "one_way_friction": ("stiction", "coulomb_friction"),
     "stiction": ("coulomb_friction",),
+    "drive_friction": ("sheath_friction", "entry_friction"),
+    "inserted_offset": ("damping_error", "stiffness_error"),
 }
 """Modelled effects that look most like these."""
+NEWER = {*WRONG_CONSTANT_FAMILIES, *UNLISTED_FAMILIES}
+"""Logs of what came later have all effects for alternatives; those of before keep their bytes."""
 LEAST_UNMODELLED, MOST_UNMODELLED = 2.0, 8.0
 """The range of signatures of unmodelled effects begins and ends no lower."""
 LEAST_RESIDUAL_UNMODELLED, LEAST_RESIDUAL = 0.7, 0.3
@@ -56,6 +70,7 @@ class ValidationCase:
     gap: float
     signals: list[IdealSignals]
     alternatives: Alternatives
+    roughness: tuple[Roughness, ...] = ()
 
 
 def draw_case(
@@ -66,17 +81,19 @@ def draw_case(
     short: bool,
     signature: tuple[float, float],
     alternatives: bool = False,
+    roughness: Sequence[str] = (),
 ) -> ValidationCase:
     """Draw until every effect's signature is in its range.
 
     Args:
       alternatives: look for all alternatives of explained cases, too (slow).
+      roughness: names of what is rough in the recording; sensors are plain otherwise.
 
     Raises:
       ImpossibleDraw: no draw has given these effects such signatures.
     """
     for _ in range(DRAWS):
-        case = _attempt(rng, kind, names, short, signature, alternatives)
+        case = _attempt(rng, kind, names, short, signature, alternatives, roughness)
         if case is not None:
             return case
     raise ImpossibleDraw(
@@ -92,18 +109,25 @@ def _attempt(
     short: bool,
     ends: tuple[float, float],
     alternatives: bool,
+    rough: Sequence[str],
 ) -> ValidationCase | None:
     slides, loads = bool(NEEDS_SLIDING & {*names}), bool(NEEDS_LOAD & {*names})
     plan = draw_plan(rng, short=short, slides=slides, loads=loads)
+    roughness = tuple((ROUGHNESSES | FAULTS)[name](rng) for name in rough)
+    for one in roughness:
+        plan = one.plan(plan)
     motions, sensors = draw_motions(rng, plan), draw_sensors(rng)
-    if kind == "outside":
+    sensors = plain(sensors) if kind in PLAIN_KINDS else sensors
+    for one in roughness:
+        motions = one.motions(rng, motions)
+    if kind in ("outside", "wrong_outside"):
         ends = (max(ends[0], LEAST_UNMODELLED), max(ends[1], MOST_UNMODELLED))
     coarse = RigComparison(motions, sensors, coarse=True)
     rig = draw_rig(rng, coarse, kind, names, ends)
     if rig is None:
         return None
     least = min(LEAST_RESIDUAL, ends[0] / 3)
-    found = _alternatives(coarse, rig, kind, names, least, alternatives)
+    found = _alternatives(coarse, rig, names, least, alternatives)
     if found is None:
         return None
     comparison = RigComparison(motions, sensors)
@@ -116,6 +140,7 @@ def _attempt(
         signatures={name: comparison.signature(rig, without(rig, name)) for name in names},
         gap=float(np.hypot(1.0, comparison.signature(rig, replace(rig, effects={}, outside={})))),
         alternatives=found,
+        roughness=roughness,
     )
     return case if all(ends[0] <= value <= ends[1] for value in case.signatures.values()) else None
 
@@ -123,19 +148,20 @@ def _attempt(
 def _alternatives(
     comparison: RigComparison,
     rig: IndependentRig,
-    kind: str,
     names: Sequence[str],
     least: float,
     all_of_them: bool,
 ) -> Alternatives | None:
     """The alternatives, as far as they were looked for; None if one explains the case as well."""
+    unexplained = bool(rig.outside) and not as_effects(rig)
     for name in names:
         if name in NEAREST:
             near = find_alternatives(comparison, rig, (name,), NEAREST[name])
-            needed = LEAST_RESIDUAL_UNMODELLED if kind == "outside" else least
+            needed = LEAST_RESIDUAL_UNMODELLED if unexplained else least
             if min(near.pair_residual, *near.alone.values()) < needed:
                 return None
-    if not names or (kind != "outside" and not all_of_them):
+    if not names or not (unexplained or all_of_them):
         return Alternatives(alone={})
-    found = find_alternatives(comparison, rig, names)
-    return None if kind == "outside" and found.pair_residual < LEAST_RESIDUAL_UNMODELLED else found
+    among = (*FAMILIES, *WRONG_CONSTANT_FAMILIES) if {*names} & NEWER else ()
+    found = find_alternatives(comparison, rig, names, among)
+    return None if unexplained and found.pair_residual < LEAST_RESIDUAL_UNMODELLED else found

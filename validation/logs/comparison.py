@@ -32,10 +32,11 @@ class RigComparison:
     def signals(
         self, rig: IndependentRig, driven_as: list[IdealSignals] | None = None
     ) -> list[IdealSignals]:
-        """Ideal signals of every trial; `driven_as`: with the base angles of these signals instead."""
+        """Ideal signals of every trial; `driven_as`: with the shown base angles of these instead."""
         key = json.dumps([rig.effects, rig.outside], sort_keys=True)
         if driven_as is not None:
-            base = [signals.base_deg for signals in driven_as]
+            scale = rig.sensor("base_angle_scale", "scale")
+            base = [signals.base_deg / scale for signals in driven_as]
             if any(np.any(b != m.base_deg) for b, m in zip(base, self.motions, strict=True)):
                 motions = [replace(m, base_deg=b) for m, b in zip(self.motions, base, strict=True)]
                 return [ideal_signals(rig, motion, self._cells) for motion in motions]
@@ -61,7 +62,7 @@ class RigComparison:
         for motion, signals in zip(self.motions, all_signals, strict=True):
             values = {TIP: signals.tip_deg, TORQUE: signals.torque_n_mm}
             for signal in self.sensors.shown:
-                parts.append(values[signal][:: motion.per_sample] / self.sensors.noise[signal])
+                parts.append(values[signal][motion.recorded] / self.sensors.noise[signal])
         return np.concatenate(parts)
 
 
@@ -77,6 +78,7 @@ def _decimated(motion: TrialMotion) -> TrialMotion:
     return TrialMotion(
         dt_s=motion.dt_s * every,
         per_sample=1,
+        lead=motion.lead // every,
         base_deg=motion.base_deg[::every],
         inserted_mm=motion.inserted_mm[::every],
         free_mm=motion.free_mm[::every],

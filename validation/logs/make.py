@@ -8,7 +8,7 @@ gives the same bytes, and a log depends on nothing but the seed and its number.
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -18,9 +18,11 @@ from rich.progress import track
 
 from validation.logs.case import ValidationCase, draw_case
 from validation.logs.ground_truth import Answer, ground_truth
-from validation.logs.schedule import KINDS, effects_of, kind_of
-from validation.logs.sensors import as_csv, measure, rig_yaml
-from validation.rig.modelled import MODELLED
+from validation.logs.roughness.recording import ROUGHNESSES, record
+from validation.logs.roughness.roughness import Columns
+from validation.logs.schedule import ALL_KINDS, KINDS, ROUGH_SHARES, effects_of, kind_of, roughness_of
+from validation.logs.sensors import FINE_TIME, FORMATS, as_csv, measure, rig_yaml
+from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 from validation.rig.simulation import compile_kernels
 from validation.rig.unmodelled import UNMODELLED
 
@@ -34,33 +36,38 @@ def make_logs(
     short: bool = False,
     signature: tuple[float, float] = (1.0, 20.0),
     effects: Sequence[str] | None = None,
+    roughness: Sequence[str] | None = None,
     alternatives: bool = False,
     workers: int = 2,
 ) -> None:
     """Write logs and ground truth into a new folder.
 
     Args:
-      kinds: some of `schedule.KINDS`; all by default, in their shares.
+      kinds: some of `schedule.ALL_KINDS`, or "all"; `schedule.KINDS` by default; in their shares.
       short: three trials of about 40 s in all, at 50 or 100 Hz.
       signature: least and greatest signature of every effect: rms of what it changes / sigma.
       effects: only these, modelled or unmodelled.
+      roughness: of the rough kinds, each of these in turn and alone; by default pairs of all.
       alternatives: add to all answers which wrong effects would nearly explain the gap (slow);
         answers of unmodelled effects always have it.
       workers: processes.
 
     Raises:
       FileExistsError: the folder exists.
-      ValueError: a kind or effect is unknown, `count` is below 1, or the signatures are not in order.
+      ValueError: a kind, effect or roughness is unknown, `count` is below 1, or the signatures are
+        not in order.
     """
-    _check(kinds or KINDS, KINDS, "kinds")
-    _check(effects or (), (*MODELLED, *UNMODELLED), "effects")
+    kinds = ALL_KINDS if kinds and "all" in kinds else kinds or KINDS
+    _check(kinds, ALL_KINDS, "kinds")
+    _check(effects or (), (*MODELLED, *WRONG_CONSTANTS, *UNMODELLED), "effects")
+    _check(roughness or (), tuple(ROUGHNESSES), "roughness")
     if count < 1:
         raise ValueError(f"count: expected at least 1 log, got {count}")
     if not 0 < signature[0] < signature[1]:
         raise ValueError(f"signature: expected 0 < LOW < HIGH, got {signature}")
     (folder / "logs").mkdir(parents=True, exist_ok=False)
     how = {"short": short, "signature": signature, "alternatives": alternatives}
-    jobs = [(folder, seed, i, tuple(kinds or KINDS), effects, how) for i in range(count)]
+    jobs = [(folder, seed, i, tuple(kinds), (effects, roughness), how) for i in range(count)]
     answers = dict(track(_made(jobs, workers), description="logs", total=count))
     (folder / "answers").mkdir()
     text = json.dumps(answers, indent=1, sort_keys=False)
@@ -83,23 +90,32 @@ def _made(jobs: list[tuple[Any, ...]], workers: int) -> Iterator[tuple[str, Answ
 
 
 def _make_one(job: tuple[Any, ...]) -> tuple[str, Answer]:
-    folder, seed, number, kinds, effects, how = job
+    folder, seed, number, kinds, (effects, roughness), how = job
     kind, earlier = kind_of(seed, number, kinds)
     names = effects_of(seed, kind, earlier, effects)
     rng = np.random.default_rng([seed, number])
-    case = draw_case(rng, kind, names, **how)
+    rough = roughness_of(seed, kind, earlier, number, roughness)
+    case = draw_case(rng, kind, names, roughness=rough, **how)
     name = f"case_{number + 1:03d}"
-    _write(rng, folder / "logs" / name, case)
+    _write(rng, folder / "logs" / name, case, FINE_TIME if kind in ROUGH_SHARES else FORMATS)
     return name, ground_truth(kind, case)
 
 
-def _write(rng: np.random.Generator, folder: Path, case: ValidationCase) -> None:
+def _write(
+    rng: np.random.Generator, folder: Path, case: ValidationCase, formats: Mapping[str, str]
+) -> None:
     folder.mkdir()
     text = rig_yaml(case.sensors, case.rig, len(case.motions))
     (folder / "rig.yaml").write_text(text)
-    for i, (motion, signals) in enumerate(zip(case.motions, case.signals, strict=True)):
-        columns = measure(rng, case.sensors, motion, signals)
-        (folder / f"trial_{i + 1:02d}.csv").write_text(as_csv(columns))
+    for i, columns in enumerate(_recorded(rng, case)):
+        (folder / f"trial_{i + 1:02d}.csv").write_text(as_csv(columns, formats))
+
+
+def _recorded(rng: np.random.Generator, case: ValidationCase) -> list[Columns]:
+    if case.roughness:
+        return record(rng, case.sensors, case.roughness, case.motions, case.signals)
+    trials = zip(case.motions, case.signals, strict=True)
+    return [measure(rng, case.sensors, motion, signals) for motion, signals in trials]
 
 
 def main() -> None:
@@ -109,8 +125,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--count", type=int, required=True)
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--kinds", nargs="+", choices=KINDS)
+    parser.add_argument("--kinds", nargs="+", choices=("all", *ALL_KINDS))
     parser.add_argument("--effects", nargs="+")
+    parser.add_argument("--roughness", nargs="+", choices=ROUGHNESSES)
     parser.add_argument("--signature", nargs=2, type=float, default=(1.0, 20.0), metavar=("LOW", "HIGH"))
     parser.add_argument(
         "--rivals", action="store_true", dest="alternatives", help="add alternative explanations"

@@ -12,6 +12,7 @@ from validation.rig.motion import TrialMotion
 Array = NDArray[np.float64]
 
 FINEST_STEP_S = 2.5e-3
+LEAST_TRIALS = 3
 LEAST_FREE_MM, MOST_FREE_MM = 20.0, 200.0
 
 
@@ -39,7 +40,7 @@ def draw_plan(rng: np.random.Generator, *, short: bool, slides: bool, loads: boo
     growing = 0.4 if rng.random() < 0.15 else 0.0
     loaded = 0.4 if rng.random() < 0.06 else 0.0
     return LogPlan(
-        trials=3 if short else int(rng.integers(3, 7)),
+        trials=LEAST_TRIALS if short else int(rng.integers(LEAST_TRIALS, 7)),
         total_s=rng.uniform(36, 44) if short else rng.uniform(60, 180),
         rate_hz=int(rng.choice(rates, p=weights)),
         sliding=max(sliding, 0.7) if slides else sliding,

@@ -8,7 +8,7 @@ import numpy as np
 from validation.logs.comparison import RigComparison
 from validation.logs.profiles import log_uniform
 from validation.logs.schedule import PARAMETER_ERRORS
-from validation.logs.strengths import FAMILIES, UNMODELLED_FAMILIES, with_effect
+from validation.logs.strengths import ALL_FAMILIES, with_effect
 from validation.rig.rig import IndependentRig
 
 OFF_NOMINAL = 0.02
@@ -50,7 +50,7 @@ def _of_signature(
     ends: tuple[float, float],
 ) -> dict[str, float] | None:
     """Parameters with which the effect alone has a drawn signature, within a factor `CLOSENESS`."""
-    family = (FAMILIES | UNMODELLED_FAMILIES)[name]
+    family = ALL_FAMILIES[name]
     by_strength, target = family.draw(rng), log_uniform(rng, *ends)
     strength = log_uniform(rng, family.low, family.high)
     for _ in range(TRIES):

@@ -7,12 +7,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from validation.rig.modelled import MODELLED
-from validation.rig.unmodelled import UNMODELLED
+from validation.logs.roughness.recording import PAIRS
+from validation.logs.roughness.wrong import FAULTS
+from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
+from validation.rig.unmodelled import UNLISTED, UNMODELLED
 
 BLOCK = 33
 SHARES = {"none": 0.12, "single": 0.45, "pair": 0.18, "off_nominal": 0.13, "outside": 0.12}
 KINDS = tuple(SHARES)
+"""Drawn by default."""
+ROUGH_SHARES = {"rough_none": 0.2, "rough_single": 0.8}
+WRONG_SHARES = {"wrong_constant": 0.75, "wrong_outside": 0.25}
+SHARES_OF_ALL = SHARES | ROUGH_SHARES | WRONG_SHARES
+PLAIN_KINDS = (*ROUGH_SHARES, *WRONG_SHARES)
+"""Their sensors have no defect beside what they are named after."""
+ALL_KINDS = tuple(SHARES_OF_ALL)
+"""All, the others of which are drawn if they are asked for; shares are relative."""
 PARAMETER_ERRORS = ("stiffness_error", "damping_error")
 
 LOCATIONS = {
@@ -35,6 +45,11 @@ LOCATIONS = {
     "tip_angle_scale": "sensor",
     "tip_sensor_delay": "sensor",
     "torque_bias": "sensor",
+    "torque_scale": "sensor",
+    "torque_sensor_delay": "sensor",
+    "base_angle_scale": "sensor",
+    "drive_friction": "drive",
+    "inserted_offset": "parameters",
 }
 MUTUALLY_EXCLUSIVE = ({"coulomb_friction", "stiction", "speed_dependent_friction"},)
 """Effects that explain the same data: two of a set never make a pair."""
@@ -52,8 +67,8 @@ def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, in
 
 def _block(seed: int, block: int, kinds: Sequence[str]) -> list[str]:
     """Kinds of one block: shares by largest remainder, shuffled."""
-    total = sum(SHARES[kind] for kind in kinds)
-    ideal = {kind: BLOCK * SHARES[kind] / total for kind in kinds}
+    total = sum(SHARES_OF_ALL[kind] for kind in kinds)
+    ideal = {kind: BLOCK * SHARES_OF_ALL[kind] / total for kind in kinds}
     counts = {kind: int(value) for kind, value in ideal.items()}
     for kind in sorted(kinds, key=lambda k: counts[k] - ideal[k])[: BLOCK - sum(counts.values())]:
         counts[kind] += 1
@@ -70,10 +85,15 @@ def name_in_turn(seed: int, earlier: int, names: Sequence[str]) -> str:
 
 def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None) -> tuple[str, ...]:
     """Names of the effects of a log; of kind `outside`, of an unmodelled one."""
-    if kind == "none":
+    if kind in ("none", "rough_none"):
         return ()
-    known = UNMODELLED if kind == "outside" else MODELLED
-    names = [name for name in known if allowed is None or name in allowed] or list(known)
+    if kind == "wrong_outside":
+        return tuple(name for name in (_cause(seed, earlier),) if name in UNLISTED)
+    known = {"outside": UNMODELLED, "wrong_constant": WRONG_CONSTANTS}.get(kind, MODELLED)
+    names = [name for name in known if allowed is None or name in allowed]
+    if allowed and kind not in ("outside", "wrong_constant"):
+        names += [name for name in WRONG_CONSTANTS if name in allowed]
+    names = names or list(known)
     if kind == "off_nominal":
         names = [n for n in names if n not in PARAMETER_ERRORS] or ["coulomb_friction"]
     first = name_in_turn(seed, earlier, names)
@@ -93,3 +113,22 @@ def _partner(seed: int, earlier: int, first: str) -> str:
     ]
     fit = fit or [name for name in MODELLED if LOCATIONS[name] != LOCATIONS[first]]
     return fit[int(rng.integers(len(fit)))]
+
+
+def _cause(seed: int, earlier: int) -> str:
+    """What is wrong in a log of kind `wrong_outside`: a constant or the recording."""
+    return name_in_turn(seed, earlier, (*UNLISTED, *FAULTS))
+
+
+def roughness_of(
+    seed: int, kind: str, earlier: int, case: int, asked: Sequence[str] | None
+) -> tuple[str, ...]:
+    """Names of the roughnesses of a log: each pair in turn, or each one that is asked for, alone."""
+    if kind == "wrong_outside":
+        return tuple(name for name in (_cause(seed, earlier),) if name in FAULTS)
+    if kind not in ROUGH_SHARES:
+        return ()
+    if asked:
+        return (asked[case % len(asked)],)
+    order = np.random.default_rng([seed, case // len(PAIRS), 4]).permutation(len(PAIRS))
+    return PAIRS[int(order[case % len(PAIRS)])]

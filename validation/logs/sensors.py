@@ -1,6 +1,7 @@
 """From ideal signals to the rows of a log: noise, quantisation, lost samples."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -17,6 +18,8 @@ TIP, TORQUE, BASE = "tip_angle_deg", "base_torque_n_mm", "base_angle_deg"
 MEASURED = (TIP, TORQUE)
 FORMATS = {TORQUE: "%.4f", "tip_torque_n_mm": "%.4f"}
 """Other columns have three decimals."""
+FINE_TIME = FORMATS | {"time_s": "%.5f"}
+"""Of logs whose time stamps are no whole milliseconds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,22 +72,36 @@ def draw_sensors(rng: np.random.Generator) -> LogSensors:
     )
 
 
+def plain(sensors: LogSensors) -> LogSensors:
+    """The same noise with claims that are good to 15 %, and no defect."""
+    claims = {signal: min(max(claim, 0.87), 1.15) for signal, claim in sensors.claims.items()}
+    return LogSensors(noise=sensors.noise, claims=claims, steps={})
+
+
+def channels(motion: TrialMotion, ideal: IdealSignals) -> dict[str, Array]:
+    """What a trial's CSV has columns of, on the fine grid, in their order."""
+    shown = {
+        "time_s": motion.time_s,
+        BASE: ideal.base_deg,
+        TORQUE: ideal.torque_n_mm,
+        TIP: ideal.tip_deg,
+        "inserted_mm": motion.inserted_mm,
+        "free_mm": motion.free_mm,
+        "speed_mm_s": motion.speed_mm_s,
+    }
+    load = motion.tip_torque_n_mm
+    return shown if load is None else shown | {"tip_torque_n_mm": load}
+
+
 def measure(
     rng: np.random.Generator, sensors: LogSensors, motion: TrialMotion, ideal: IdealSignals
 ) -> dict[str, Array]:
     """The columns of a trial's CSV, in their order."""
-    every = slice(None, None, motion.per_sample)
-    shown = {BASE: ideal.base_deg, TORQUE: ideal.torque_n_mm, TIP: ideal.tip_deg}
-    columns = {"time_s": motion.time_s[every]}
-    for signal, values in shown.items():
-        noisy = values[every] + rng.normal(0, sensors.noise[signal], values[every].size)
+    columns = {name: values[motion.recorded] for name, values in channels(motion, ideal).items()}
+    for signal in (BASE, TORQUE, TIP):
+        noisy = columns[signal] + rng.normal(0, sensors.noise[signal], columns[signal].size)
         step = sensors.steps.get(signal, 0.0) * sensors.noise[signal]
         columns[signal] = np.round(noisy / step) * step if step else noisy
-    columns["inserted_mm"] = motion.inserted_mm[every]
-    columns["free_mm"] = motion.free_mm[every]
-    columns["speed_mm_s"] = motion.speed_mm_s[every]
-    if motion.tip_torque_n_mm is not None:
-        columns["tip_torque_n_mm"] = motion.tip_torque_n_mm[every]
     return _drop_samples(rng, sensors, columns)
 
 
@@ -105,10 +122,10 @@ def _drop_samples(
     return {name: values[kept] for name, values in columns.items() if name != sensors.missing}
 
 
-def as_csv(columns: dict[str, Array]) -> str:
+def as_csv(columns: dict[str, Array], formats: Mapping[str, str] = FORMATS) -> str:
     """A header and a line per row; cells without a number stay empty."""
     cells = [
-        ["" if np.isnan(value) else FORMATS.get(name, "%.3f") % value for value in values]
+        ["" if np.isnan(value) else formats.get(name, "%.3f") % value for value in values]
         for name, values in columns.items()
     ]
     lines = [",".join(columns), *map(",".join, zip(*cells, strict=True))]

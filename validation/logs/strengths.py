@@ -21,6 +21,9 @@ TWO_SIDED = {
     "tip_angle_bias",
     "tip_angle_scale",
     "torque_bias",
+    "torque_scale",
+    "base_angle_scale",
+    "inserted_offset",
 }
 """Strengths below 0 mean the other sign."""
 
@@ -70,6 +73,12 @@ def _with(name: str, **others: tuple[float, float]) -> Callable[[Generator], ByS
         return lambda strength: {name: strength, **drawn}
 
     return draw
+
+
+def _free_length(rng: Generator) -> ByStrength:
+    """Up to 25 mm longer or 15 mm shorter than logged: the shortest free shaft is 20 mm long."""
+    side = rng.choice([1.0, -0.6])
+    return lambda strength: {"offset": side * strength}
 
 
 def _stiction(rng: Generator) -> ByStrength:
@@ -149,9 +158,25 @@ UNMODELLED_FAMILIES: dict[str, StrengthFamily] = {
 }
 
 
+WRONG_CONSTANT_FAMILIES: dict[str, StrengthFamily] = {
+    "torque_scale": StrengthFamily(low=5e-4, high=0.4, draw=_factor("scale")),
+    "torque_sensor_delay": StrengthFamily(low=1e-3, high=0.4, draw=_only("delay")),
+    "base_angle_scale": StrengthFamily(low=2e-4, high=0.25, draw=_factor("scale")),
+    "drive_friction": StrengthFamily(low=2e-3, high=2.0, draw=_only("level")),
+    "inserted_offset": StrengthFamily(low=0.1, high=20, draw=_signed("offset")),
+}
+
+UNLISTED_FAMILIES: dict[str, StrengthFamily] = {
+    "free_length_error": StrengthFamily(low=1, high=25, draw=_free_length),
+    "diameter_error": StrengthFamily(low=0.02, high=0.08, draw=_signed("share")),
+}
+
+ALL_FAMILIES = FAMILIES | UNMODELLED_FAMILIES | WRONG_CONSTANT_FAMILIES | UNLISTED_FAMILIES
+
+
 def with_effect(rig: IndependentRig, name: str, parameters: dict[str, float]) -> IndependentRig:
-    """The rig with one more effect, modelled or unmodelled."""
-    if name in UNMODELLED_FAMILIES:
+    """The rig with one more effect, modelled or not, or one more wrong constant."""
+    if name in UNMODELLED_FAMILIES | UNLISTED_FAMILIES:
         return replace(rig, outside={**rig.outside, name: parameters})
     return replace(rig, effects={**rig.effects, name: parameters})
 

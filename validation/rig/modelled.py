@@ -33,3 +33,15 @@ SENSOR_FIELDS: dict[str, dict[str, float]] = {
 """Parameters of the effects of sensors, and their neutral values."""
 
 MODELLED = (*LAW_FIELDS, *SENSOR_FIELDS)
+
+WRONG_CONSTANT_FIELDS: dict[str, dict[str, float]] = {
+    "torque_scale": {"scale": 1.0},
+    "torque_sensor_delay": {"delay": 0.0},
+    "base_angle_scale": {"scale": 1.0},
+    "drive_friction": {"level": 0.0},
+    "inserted_offset": {"offset": 0.0},
+}
+"""Parameters of the effects that came later, and their neutral values."""
+
+WRONG_CONSTANTS = tuple(WRONG_CONSTANT_FIELDS)
+"""Modelled too, but not drawn unless they are asked for: sets of logs keep their bytes."""

@@ -17,6 +17,7 @@ class TrialMotion:
 
     Attributes:
       tip_torque_n_mm: known torque at the tip that resists the turn; None: none acts.
+      lead: points of the grid that pass before the recording begins.
     """
 
     dt_s: float
@@ -26,11 +27,17 @@ class TrialMotion:
     free_mm: Array
     speed_mm_s: Array
     tip_torque_n_mm: Array | None = None
+    lead: int = 0
 
     @property
     def time_s(self) -> Array:
         """Times of the fine grid, s, (N,)."""
         return np.asarray(np.arange(self.base_deg.size) * self.dt_s)
+
+    @property
+    def recorded(self) -> slice:
+        """The points of the fine grid that are samples of the log."""
+        return slice(self.lead, None, self.per_sample)
 
     @property
     def growing(self) -> bool:

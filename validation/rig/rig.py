@@ -4,8 +4,15 @@ import math
 from dataclasses import dataclass, field
 
 from validation.rig.laws import LawParameters
-from validation.rig.modelled import LAW_FIELDS, MODELLED, SENSOR_FIELDS, Effects
-from validation.rig.unmodelled import LAW_EFFECTS, UNMODELLED
+from validation.rig.modelled import (
+    LAW_FIELDS,
+    SENSOR_FIELDS,
+    WRONG_CONSTANT_FIELDS,
+    Effects,
+)
+from validation.rig.unmodelled import LAW_EFFECTS, UNLISTED, UNMODELLED
+
+NEUTRAL = SENSOR_FIELDS | WRONG_CONSTANT_FIELDS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,22 +34,23 @@ class IndependentRig:
     outside: Effects = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        known = {name: sorted(fields) for name, fields in (LAW_FIELDS | SENSOR_FIELDS).items()}
+        known = {name: sorted(fields) for name, fields in (LAW_FIELDS | NEUTRAL).items()}
         for effect, parameters in self.effects.items():
             if effect not in known:
-                raise ValueError(f"effects: expected some of {', '.join(MODELLED)}, got {effect!r}")
+                raise ValueError(f"effects: expected some of {', '.join(known)}, got {effect!r}")
             if sorted(parameters) != known[effect]:
                 raise ValueError(
                     f"effects: expected {effect} with {known[effect]}, got {sorted(parameters)}"
                 )
         for effect in self.outside:
-            if effect not in UNMODELLED:
+            if effect not in (*UNMODELLED, *UNLISTED):
                 raise ValueError(f"outside: expected some of {', '.join(UNMODELLED)}, got {effect!r}")
 
     def law(self) -> LawParameters:
         """Parameters of the laws, in the units of `laws`."""
-        rigidity = math.pi * self.diameter_mm**4 / 32 * self.shear_modulus_gpa * 1e3
-        law = LawParameters(rigidity, self.damping_n_mm_s_per_mm, self.diameter_mm / 2)
+        diameter_mm = self.diameter_mm * (1 + self.unlisted("diameter_error", "share"))
+        rigidity = math.pi * diameter_mm**4 / 32 * self.shear_modulus_gpa * 1e3
+        law = LawParameters(rigidity, self.damping_n_mm_s_per_mm, diameter_mm / 2)
         for effect, parameters in self.effects.items():
             for name, target in LAW_FIELDS.get(effect, {}).items():
                 law = law._replace(**{target: _in_law(target, law, parameters[name])})
@@ -51,8 +59,12 @@ class IndependentRig:
         return law
 
     def sensor(self, effect: str, parameter: str) -> float:
-        """A parameter of a sensor effect, or its neutral value."""
-        return float(self.effects.get(effect, SENSOR_FIELDS[effect])[parameter])
+        """A parameter of an effect that is in no law, or its neutral value."""
+        return float(self.effects.get(effect, NEUTRAL[effect])[parameter])
+
+    def unlisted(self, constant: str, parameter: str) -> float:
+        """How wrong a constant is, 0 if it is right."""
+        return float(self.outside.get(constant, {}).get(parameter, 0.0))
 
 
 def _in_law(name: str, law: LawParameters, value: float) -> float:

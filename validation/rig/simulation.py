@@ -1,12 +1,14 @@
 """A trial of the rig: the motion of the needle, and what ideal sensors read of it."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from validation.rig.integrator import integrate
-from validation.rig.laws import LawParameters
+from validation.rig.laws import LawParameters, preslide
 from validation.rig.mesh import MeshSize
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
@@ -49,14 +51,23 @@ def simulate_twist(
 
 
 def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = FINE) -> IdealSignals:
-    """Readings of noise-free sensors in the trial, on the fine grid."""
-    tip, torque = simulate_twist(rig.law(), motion, cells)
+    """Readings of noise-free sensors in the trial, on the fine grid.
+
+    `motion` has the base angle that the drive shaft really turns, and the lengths that the log states.
+    """
+    law = rig.law()
+    tip, torque = simulate_twist(law, _true_lengths(rig, motion), cells)
+    bearing = rig.sensor("drive_friction", "level")
+    if bearing:
+        torque = torque + bearing * presliding_shares(np.radians(motion.base_deg), law.limit)
     delay_s = rig.sensor("tip_sensor_delay", "delay")
     tip = np.interp(motion.time_s - delay_s, motion.time_s, np.degrees(tip))
+    torque_delay_s = rig.sensor("torque_sensor_delay", "delay")
+    torque = np.interp(motion.time_s - torque_delay_s, motion.time_s, torque)
     signals = IdealSignals(
         time_s=motion.time_s,
-        base_deg=motion.base_deg,
-        torque_n_mm=torque + rig.sensor("torque_bias", "bias"),
+        base_deg=rig.sensor("base_angle_scale", "scale") * motion.base_deg,
+        torque_n_mm=rig.sensor("torque_scale", "scale") * torque + rig.sensor("torque_bias", "bias"),
         tip_deg=rig.sensor("tip_angle_scale", "scale") * tip + rig.sensor("tip_angle_bias", "bias"),
         speed_mm_s=motion.speed_mm_s,
     )
@@ -64,6 +75,25 @@ def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = 
         if effect in SENSOR_EFFECTS:
             signals = SENSOR_EFFECTS[effect](signals, parameters)
     return signals
+
+
+def _true_lengths(rig: IndependentRig, motion: TrialMotion) -> TrialMotion:
+    """The motion with the lengths that the needle has, not those that the log states."""
+    return replace(
+        motion,
+        inserted_mm=motion.inserted_mm + rig.sensor("inserted_offset", "offset"),
+        free_mm=motion.free_mm + rig.unlisted("free_length_error", "offset"),
+    )
+
+
+@njit(cache=True)
+def presliding_shares(turned: Array, limit: float) -> Array:
+    """Share of its level that a dry bearing holds against a shaft that turns so, rad, (N,)."""
+    shares = np.zeros_like(turned)
+    for i in range(1, turned.size):
+        travel = turned[i] - turned[i - 1]
+        shares[i] = preslide(limit, shares[i - 1] * limit, travel)[0] / limit
+    return shares
 
 
 def compile_kernels() -> None:

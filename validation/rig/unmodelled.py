@@ -67,13 +67,19 @@ def friction_ageing(law: LawParameters, p: Parameters) -> LawParameters:
 
 def tip_sensor_lag(signals: IdealSignals, p: Parameters) -> IdealSignals:
     """The tip sensor is a first-order low pass: time_constant * d(shown)/dt = tip - shown."""
-    decay = np.exp(-signals.time_s[1] / p["time_constant"])
-    shown = signals.tip_deg.copy()
-    ramp = p["time_constant"] / signals.time_s[1] * (1 - decay)
-    for i in range(1, shown.size):  # exact for a tip that runs straight within the step
-        before, after = signals.tip_deg[i - 1], signals.tip_deg[i]
-        shown[i] = decay * shown[i - 1] + (ramp - decay) * before + (1 - ramp) * after
+    shown = low_passed(signals.tip_deg, float(signals.time_s[1]), p["time_constant"])
     return replace(signals, tip_deg=shown)
+
+
+def low_passed(values: Array, dt_s: float, time_constant_s: float) -> Array:
+    """First order, settled at the first value; exact for values that run straight within each step."""
+    decay = np.exp(-dt_s / time_constant_s)
+    shown = values.copy()
+    ramp = time_constant_s / dt_s * (1 - decay)
+    for i in range(1, shown.size):
+        before, after = values[i - 1], values[i]
+        shown[i] = decay * shown[i - 1] + (ramp - decay) * before + (1 - ramp) * after
+    return shown
 
 
 def torque_drift(signals: IdealSignals, p: Parameters) -> IdealSignals:
@@ -127,3 +133,6 @@ SENSOR_EFFECTS: dict[str, Callable[[IdealSignals, Parameters], IdealSignals]] = 
     "axial_crosstalk": axial_crosstalk,
 }
 UNMODELLED = (*LAW_EFFECTS, *SENSOR_EFFECTS)
+UNLISTED = ("free_length_error", "diameter_error")
+"""Wrong constants that no effect is named after: `offset`, true less logged free length, mm; `share`, by
+which the needle is thicker than stated."""

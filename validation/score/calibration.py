@@ -8,17 +8,26 @@ GAP_GOAL = 1.03
 
 
 def summary(scores: pd.DataFrame) -> pd.DataFrame:
-    """By kind: number of logs, shares that are exact, undecided and unknown, median seconds."""
+    """By kind: number of logs and of those confidently wrong, shares, median and worst seconds."""
     grouped = scores.groupby("kind")
     return pd.DataFrame(
         {
             "logs": grouped.size(),
+            "confidently_wrong": confidently_wrong(scores).groupby(scores["kind"]).sum(),
             "exact": grouped["exact"].mean(),
             "undecided": grouped["verdict"].apply(lambda v: float((v == "undecided").mean())),
             "unknown": grouped["verdict"].apply(lambda v: float((v == "unknown").mean())),
             "seconds": grouped["seconds"].median(),
+            "worst_seconds": grouped["seconds"].max(),
         }
     )
+
+
+def confidently_wrong(scores: pd.DataFrame) -> "pd.Series[bool]":
+    """By log; of tables of before the column: what is explained or none, and not exact."""
+    if "confidently_wrong" in scores:
+        return scores["confidently_wrong"].astype(bool)
+    return scores["verdict"].isin(["explained", "none"]) & ~scores["exact"].astype(bool)
 
 
 def coverage(scores: pd.DataFrame) -> tuple[float, int]:

@@ -13,7 +13,14 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from validation.score.calibration import GAP_GOAL, calibration_error, coverage, gap_left, reliability
+from validation.score.calibration import (
+    GAP_GOAL,
+    calibration_error,
+    confidently_wrong,
+    coverage,
+    gap_left,
+    reliability,
+)
 from validation.score.detection import detection_limits, of_one_effect
 
 DARK = 0.45
@@ -23,6 +30,8 @@ DARK = 0.45
 def draw(scores: pd.DataFrame, path: Path) -> None:
     """Write the figure as a PNG; `scores` as `read_scores` returns them."""
     figure, axes = plt.subplots(2, 2, figsize=(15, 13), layout="constrained", width_ratios=(2, 1))
+    wrong = int(confidently_wrong(scores).sum())
+    figure.suptitle(f"Confidently wrong (explained or none, and not so): {wrong} of {len(scores)} logs")
     _confusion(axes[0, 0], scores)
     _reliability(axes[0, 1], scores)
     _detection(axes[1, 0], scores)
@@ -87,11 +96,11 @@ def _detection(axis: Axes, scores: pd.DataFrame) -> None:
         return
     effects = sorted(one["truth"].unique(), reverse=True)
     rows = {effect: row for row, effect in enumerate(effects)}
-    wrong = (one["verdict"] == "explained") & ~one["exact"]
+    wrong = confidently_wrong(one)
     groups = {
         "exact": (one["exact"], "tab:blue", "o"),
         "not named": (~one["exact"] & ~wrong, "0.5", "x"),
-        "explained by another effect": (wrong, "tab:red", "s"),
+        "confidently wrong": (wrong, "tab:red", "s"),
     }
     for label, (chosen, colour, marker) in groups.items():
         own = one[chosen]

@@ -1,10 +1,4 @@
-"""Compares the reports of the diagnosis with the ground truth: a table with one row per log.
-
-A report is exact if its verdict and its set of effects are those of the ground truth. Where stiffness or
-damping are off by up to 3 % beside an effect, they may be named or not. Where the laws themselves make
-two effects indistinguishable in the log, so that no method could decide, exact is `undecided` with the
-truth among the confusable sets.
-"""
+"""Compares the reports of the diagnosis with the ground truth: a table with one row per log."""
 
 import json
 from pathlib import Path
@@ -16,25 +10,20 @@ import pandas as pd
 from diagnosis.effects import LIBRARY
 from models.errors import InvalidValue
 from validation.score.answers import FILE, read_answers
-
-SAME_AT_REST = {"coulomb_friction", "speed_dependent_friction"}
-"""The same law where the needle never slides."""
-PARAMETER_ERRORS = {"stiffness_error", "damping_error"}
-"""Without the base torque only their ratio is identifiable."""
-TOLERATED = 0.03
-"""Error of a nominal constant that may be named or not: no rig knows its constants better."""
+from validation.score.correctness import correctness
 
 
-def read_scores(folder: Path, trials: int | None = None) -> pd.DataFrame:
+def read_scores(folder: Path, trials: int | None = None, limit_s: float | None = None) -> pd.DataFrame:
     """One row per log that has a report; index: the case, the name of the log's folder.
 
     Args:
       trials: number of trials that the reports are based on; None: all.
+      limit_s: time that each diagnosis had; None: no limit.
 
     Raises:
       InvalidValue: the ground truth is unusable, or is of none of the logs.
     """
-    answers, reports = read_answers(folder), reports_in(folder, trials)
+    answers, reports = read_answers(folder), reports_in(folder, trials, limit_s)
     rows = {
         case: _row(answer, json.loads((reports / f"{case}.json").read_text()), trials)
         for case, answer in answers.items()
@@ -46,18 +35,15 @@ def read_scores(folder: Path, trials: int | None = None) -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index")
 
 
-def reports_in(folder: Path, trials: int | None = None) -> Path:
-    """Folder of the reports on all trials, or on the first few, of every log."""
-    return folder / ("reports" if trials is None else f"reports_of_{trials}")
+def reports_in(folder: Path, trials: int | None = None, limit_s: float | None = None) -> Path:
+    """Folder of the reports on all trials, or on the first few, of every log, made within a limit."""
+    few = "" if trials is None else f"_of_{trials}"
+    return folder / f"reports{few}{'' if limit_s is None else f'_in_{limit_s:g}_s'}"
 
 
 def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> dict[str, Any]:
     true, diagnosed = set(answer["effects"]), set(report["effects"])
-    optional = _optional(answer, true)
-    confused = report["verdict"] == "undecided" and any(
-        set(names) - optional == true - optional for names in report.get("confusable", [])
-    )
-    undecidable = _is_undecidable(answer, trials)
+    compared = correctness(answer, report, trials)
     ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
     top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
     right = true or ({"none"} if answer["verdict"] == "none" else {"unknown"})
@@ -69,11 +55,10 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
         "said": " + ".join(sorted(diagnosed)) or report["verdict"],
         "verdict": report["verdict"],
         "expected": answer["verdict"],
-        "exact": confused
-        if undecidable
-        else (report["verdict"] == answer["verdict"] and diagnosed - optional == true - optional),
-        "confused": confused,
-        "open": undecidable,
+        "exact": compared.exact,
+        "confidently_wrong": compared.confidently_wrong,
+        "confused": compared.confused,
+        "open": compared.undecidable,
         "signature": min(answer.get("signature", {}).values(), default=np.nan),
         "over_hidden": _over_limit(answer, report),
         "top": top,
@@ -88,16 +73,6 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
     }
 
 
-def _optional(answer: dict[str, Any], true: set[str]) -> set[str]:
-    """What may be named or not: small errors of stiffness and damping beside an effect."""
-    scales = {n: p["scale"] for n, p in answer["parameters"].items() if n in PARAMETER_ERRORS}
-    return {
-        name
-        for name, scale in scales.items()
-        if name not in true or (len(true) > 1 and abs(scale - 1.0) <= TOLERATED)
-    }
-
-
 def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
     """Strength of the one true effect / the reported detection limit; NaN: none is reported."""
     if len(answer["effects"]) != 1:
@@ -109,15 +84,6 @@ def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
         return float("nan")
     true = first.distance_from_neutral(answer["parameters"][effect][first.name])
     return true / first.distance_from_neutral(limit)
-
-
-def _is_undecidable(answer: dict[str, Any], trials: int | None) -> bool:
-    """Whether no trial can distinguish the true effect from another one."""
-    details, true = answer.get("details", {}), set(answer["effects"])
-    used = details.get("trials", [{"sliding": True}])[:trials]
-    at_rest = not any(trial["sliding"] for trial in used)
-    without_torque = details.get("missing") == "base_torque_n_mm"
-    return (bool(SAME_AT_REST & true) and at_rest) or (bool(PARAMETER_ERRORS & true) and without_torque)
 
 
 def _kind(answer: dict[str, Any]) -> str:

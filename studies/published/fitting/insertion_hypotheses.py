@@ -18,6 +18,7 @@ there.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from diagnosis.effects.effect import Parameter
 from diagnosis.replay.rig_parameters import RigParameters
@@ -62,7 +63,7 @@ class InsertionHypothesis:
     apply: Callable[[float], InsertionRig]
 
 
-def _model(**changes: float) -> InsertionRig:
+def _model(**changes: Any) -> InsertionRig:
     return InsertionRig(model=replace(RigParameters(), **changes))
 
 

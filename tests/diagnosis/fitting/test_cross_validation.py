@@ -6,8 +6,15 @@ from diagnosis_fixtures import fit_of, held_by_a_bound, joined, log_of, problem_
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.cross_validation import held_out_residuals, information, shift_statistic
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.fitting.cross_validation import (
+    _steps,
+    held_out_residuals,
+    information,
+    shift_statistic,
+)
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.nuisance import prior_sigma
 from diagnosis.replay.rig_parameters import RigParameters
 
 SCALES = tuple(LIBRARY[name] for name in SCATTER)
@@ -43,6 +50,50 @@ def test_trials_that_tell_the_same_shift_by_about_one():
     # A chi-square of one: exceeds 9 once in 370 logs.
     assert shift_statistic(linear([0.0, 0.0])) < 9
     assert shift_statistic(linear([0.0, 1.0])) > 9
+
+
+def with_pasts(pulls):
+    """A linear fit of one bias to three trials of which the last began late, at its optimum.
+
+    Args:
+      pulls: bias that every trial asks for.
+    """
+    rng = np.random.default_rng(6)
+    fading = np.exp(-np.linspace(0, 4, 400))
+    start = Effect(
+        name="start of trial_03.csv",
+        title="",
+        place=Place.DRIVE,
+        parameters=(Parameter(name="turned", unit="deg", low=-100, high=100, start=(0.0,)),),
+        apply=lambda rig, _: rig,
+        trial="trial_03.csv",
+    )
+    slopes = [np.column_stack([np.ones(400), late * fading]) for late in (0.0, 0.0, 1.0)]
+    readings = [rng.normal(size=400) - pull for pull in pulls]
+    prior = np.diag([0.0, 1 / prior_sigma(start)])
+    matrix, wanted = np.vstack([*slopes, prior]), np.concatenate([*readings, np.zeros(2)])
+    x = -np.linalg.lstsq(matrix, wanted, rcond=None)[0]
+    by_trial = [r + j @ x for r, j in zip(readings, slopes, strict=True)]
+    return fit_of(
+        ("tip_angle_bias",), by_trial=by_trial, jacobian=slopes, x=x, nuisance=(start,)
+    ), readings
+
+
+def test_the_start_of_a_held_out_trial_is_fitted_to_it_while_the_others_tell_the_rest():
+    fit, readings = with_pasts((0.0, 0.0, 1.0))
+    bias, start = fit.x + _steps(fit)[2]
+    # The others are two trials without a start: their mean, to a ridge of 3e-5.
+    assert bias == pytest.approx(-np.concatenate(readings[:2]).mean(), abs=1e-6)
+    fading = fit.jacobian[2][:, 1]
+    left = readings[2] + bias
+    weight = fit.parameterization.weights[1]
+    assert start == pytest.approx(-(fading @ left) / (fading @ fading + weight**2), rel=1e-6)
+
+
+def test_a_trial_that_began_late_shifts_as_others_do():
+    # A chi-square of one, three times: exceeds 9 once in 370 logs.
+    assert shift_statistic(with_pasts((0.0, 0.0, 0.0))[0]) < 9
+    assert shift_statistic(with_pasts((0.0, 0.0, 1.0))[0]) > 9
 
 
 def test_information_is_that_of_the_slopes_and_of_the_prior():

@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, prepared
+from diagnosis_fixtures import RIG, log_of, prepared
 
-from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
 from diagnosis.pipeline import replay_nominal
+from diagnosis.prepare.noise_colour import NoiseColour
+from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -70,3 +72,55 @@ def test_a_torque_at_the_tip_is_decimated_with_the_rest():
     np.testing.assert_allclose(rare.tip_torque_n_mm, 0.1 * rare.time_s)
     assert not rare.logged.any()
     assert prepared(log_of(NOMINAL, seconds=3.0).trials[0]).tip_torque_n_mm is None
+
+
+@pytest.mark.parametrize(("share", "time_s"), [(1.0, 0.02), (0.5, 0.1), (1.0, 0.2)])
+def test_coloured_noise_keeps_its_density_at_low_frequencies(share, time_s):
+    """Power per hertz is variance times step times density: 10 ms steps become 40 ms ones."""
+    log = log_of(NOMINAL)
+    rare = decimated(replay_nominal(log).problem, replay_nominal(log).predictions).log
+    ready = replay_nominal(log).problem.log
+    colour = NoiseColour(share=share, correlation_time_s=time_s)
+    before = Noise(sigma={"tip_angle_deg": 0.3}, colour={"tip_angle_deg": colour})
+    after = decimated_noise(before, ready, rare)
+    power = [
+        noise["tip_angle_deg"] ** 2 * noise.colour["tip_angle_deg"].density(step_s) * step_s
+        for noise, step_s in ((before, 0.01), (after, 0.04))
+    ]
+    assert power[1] == pytest.approx(power[0], rel=0.01)  # 301 windows for 1200 samples
+    assert after.colour["tip_angle_deg"].correlation_time_s == time_s
+
+
+def test_a_decimated_log_with_coloured_noise_weighs_an_explanation_as_the_log_does():
+    rig = RigParameters(kinetic_n_mm_per_mm=0.0015)
+    nominal = replay_nominal(log_of(rig, speed=-1.0))
+    colour = NoiseColour(share=0.7, correlation_time_s=0.1)
+    noise = replace(nominal.problem.noise, colour=dict.fromkeys(SENSORS, colour))
+    problem = replace(nominal.problem, noise=noise)
+    both = (problem, decimated(problem, nominal.predictions))
+    wrong, right = (
+        [sum(float(r[0] @ r[0]) for r in one.residuals([rigs])) for one in both]
+        for rigs in (NOMINAL, rig)
+    )
+    gain = [w - r for w, r in zip(wrong, right, strict=True)]
+    assert gain[1] == pytest.approx(gain[0], rel=0.1)
+
+
+def test_a_window_that_readings_begin_in_has_the_mean_of_what_was_read():
+    nominal = replay_nominal(log_of(NOMINAL, seconds=3.0))
+    (one,) = nominal.problem.log.trials
+    unused = one.time_s < 0.505
+    off = {s: np.where(unused, np.nan, p + 7.0) for s, p in _read(nominal).items()}
+    log = replace(nominal.problem.log, trials=(replace(one, readings=off),))
+    rare = decimated(replace(nominal.problem, log=log), nominal.predictions).log.trials[0]
+    (bare,) = predict(RIG, replace(rare, readings={}), [NOMINAL], COARSE)
+    left = rare.readings["tip_angle_deg"] - bare["tip_angle_deg"]
+    # Windows of 40 ms: those that end before the first reading are empty, the next half full.
+    assert np.isnan(left[rare.time_s < 0.48]).all()
+    np.testing.assert_allclose(left[rare.time_s >= 0.52], 7.0, atol=1e-9)
+    known = left[np.isfinite(left)]
+    np.testing.assert_allclose(known, 7.0, atol=1e-9)
+
+
+def _read(nominal):
+    return {s: nominal.predictions[0][s] for s in ("tip_angle_deg", "base_torque_n_mm")}

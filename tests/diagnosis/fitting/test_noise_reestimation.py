@@ -4,11 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import BASE, TIP, TORQUE, fit_of, log_of, problem_of
+from diagnosis_fixtures import BASE, TIP, TORQUE, fit_of, joined, log_of, problem_of
 
 from diagnosis.criteria import NOISE_TRUST, SCATTER
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
+from diagnosis.fitting.noise_reestimation import (
+    in_units_of,
+    reestimated_noise,
+    rescaled,
+    slow_where_coloured,
+    with_colour,
+)
+from diagnosis.prepare.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL
 
 SIGMA = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE}
@@ -56,3 +63,75 @@ def test_a_fit_in_units_of_another_noise_is_what_a_fit_to_it_would_be(problem):
     np.testing.assert_allclose(again.jacobian[0][SAMPLES:], fit.jacobian[0][SAMPLES:] / 1.05)
     prior = sum((x[i] / SCATTER[e.name]) ** 2 for i, e in enumerate(scales))
     assert again.cost == pytest.approx(float(again.by_trial[0] @ again.by_trial[0]) + prior)
+
+
+def coloured(problem, share=0.8, time_s=0.05):
+    """The problem with a colour of the tip angle."""
+    colour = {"tip_angle_deg": NoiseColour(share=share, correlation_time_s=time_s)}
+    noise = replace(problem.noise, colour=colour, white=problem.noise.sigma)
+    return replace(problem, noise=noise)
+
+
+@pytest.fixture(scope="module")
+def long():
+    return problem_of(joined(*(log_of(NOMINAL, seed=i) for i in range(4))), sigma=SIGMA)
+
+
+def correlated(problem, share, time_s, seed=5):
+    """Residuals with white noise of the torque and coloured noise of the tip angle, whitened."""
+    rng = np.random.default_rng(seed)
+    truth = NoiseColour(share=share, correlation_time_s=time_s)
+    raw = []
+    for trial in problem.log.trials:
+        tip = truth.restored(trial.time_s, rng.normal(size=trial.time_s.size))
+        raw.append(np.concatenate([rng.normal(size=tip.size), tip]))
+    plain = replace(problem, noise=problem.noise.uncoloured)
+    return fit_of((), by_trial=in_units_of(plain, raw, problem.noise))
+
+
+def test_the_colour_is_found_again_in_what_the_best_leaves(long):
+    problem = coloured(long, share=0.8, time_s=0.05)
+    noise = reestimated_noise(problem, correlated(problem, share=0.6, time_s=0.1))
+    found = noise.colour["tip_angle_deg"]
+    # 48 s hold 240 independent values of the coloured part: three times 9 % of its power.
+    assert found.share == pytest.approx(0.6, abs=0.12)
+    power = (noise["tip_angle_deg"] / TIP) ** 2 * found.share * found.correlation_time_s
+    assert power == pytest.approx(0.6 * 0.1, rel=0.45)
+    assert "base_torque_n_mm" not in noise.colour
+    (line,) = noise.notes
+    assert line.startswith("tip_angle_deg: ")
+    assert line.endswith("ms; it is whitened for")
+
+
+def test_a_colour_that_the_best_does_not_leave_was_none(long):
+    problem = coloured(long)
+    noise = with_colour(problem, correlated(problem, share=0.0, time_s=0.1))
+    assert noise.colour == {}
+    assert noise.sigma == SIGMA
+
+
+def test_units_of_another_colour_are_whitened_anew(long):
+    problem = coloured(long)
+    fit = correlated(problem, share=0.8, time_s=0.05)
+    plain = in_units_of(problem, fit.by_trial, problem.noise.uncoloured)
+    assert np.std(np.diff(plain[0][SAMPLES:])) < 0.8 * np.std(np.diff(fit.by_trial[0][SAMPLES:]))
+    np.testing.assert_array_equal(plain[0][:SAMPLES], fit.by_trial[0][:SAMPLES])
+    again = in_units_of(replace(problem, noise=problem.noise.uncoloured), plain, problem.noise)
+    np.testing.assert_allclose(again[2], fit.by_trial[2], atol=1e-10)
+
+
+def test_what_is_slow_is_seen_over_seconds_where_noise_is_coloured(long):
+    """One sigma of a wave of 8 s: little beside the slow part of 25 samples, much over 2 s."""
+    problem = coloured(long, share=1.0, time_s=0.2)
+    fit = correlated(problem, share=1.0, time_s=0.2)
+    (floor,) = slow_where_coloured(problem, fit.by_trial).values()
+    assert floor.slow < floor.slow_limit
+    wave = [
+        np.concatenate([np.zeros(SAMPLES), np.sin(2 * np.pi * trial.time_s / 8)])
+        for trial in problem.log.trials
+    ]
+    plain = replace(problem, noise=problem.noise.uncoloured)
+    moved = in_units_of(plain, wave, problem.noise)
+    left = [r + m for r, m in zip(fit.by_trial, moved, strict=True)]
+    (floor,) = slow_where_coloured(problem, left).values()
+    assert floor.slow > floor.slow_limit

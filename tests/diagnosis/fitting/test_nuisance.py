@@ -5,10 +5,17 @@ from dataclasses import replace
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.criteria import SCATTER
-from diagnosis.fitting.nuisance import CONVENTIONS, PRIOR_SIGMA, nuisance_of
+from diagnosis.criteria import SCATTER, START_SPREAD_DEG
+from diagnosis.fitting.nuisance import (
+    CONVENTIONS,
+    PRIOR_SIGMA,
+    late_starts_of,
+    nuisance_of,
+    prior_sigma,
+)
+from diagnosis.prepare.late_start import LateStart
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.rig_parameters import NOMINAL, Past
 
 STILL = prepared(trial(turns()))
 SLIDING = prepared(trial(turns(), speed=-1.0))
@@ -35,6 +42,23 @@ def test_each_open_share_is_of_its_own_kind_of_trial():
     shares = {e.name: e.apply(NOMINAL, 0.7) for e in nuisance_of(log) if e.name in CONVENTIONS}
     assert shares[CONSTANT] == replace(NOMINAL, material_share_constant_depth=0.7)
     assert shares[GROWS] == replace(NOMINAL, material_share_growing_depth=0.7)
+
+
+def test_a_late_trial_has_a_past_of_its_own():
+    late = replace(STILL, late_start=LateStart(twist_deg=20.0, rate_deg_s=0.0, unused_s=0.5))
+    log = PreparedLog(rig=RIG, trials=(STILL, replace(late, name="late.csv")))
+    (start,) = late_starts_of(log)
+    assert start.name in {effect.name for effect in nuisance_of(log)}
+    assert start.trial == "late.csv"
+    assert start.reported == ()
+    past = Past(trial="late.csv", turned_deg=12.0, wound_deg=-7.0)
+    assert start.apply(NOMINAL, 12.0, -7.0) == replace(NOMINAL, pasts=(past,))
+    unit_deg = start.parameters[0].scale
+    assert prior_sigma(start) * unit_deg == START_SPREAD_DEG
+
+
+def test_a_log_without_late_trials_has_no_pasts():
+    assert late_starts_of(PreparedLog(rig=RIG, trials=(STILL,))) == ()
 
 
 def test_everything_that_is_open_has_a_prior():

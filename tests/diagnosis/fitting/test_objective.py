@@ -1,5 +1,7 @@
 """Residuals as a function of the fit's vector."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,19 @@ def test_slopes_of_the_nuisance_are_taken_again_only_far_away():
         objective.jacobian(there, at_there)
         asked.append(len(objective.problem.rigs) - before)
     assert asked == [2, 1, 2]
+
+
+def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():
+    late = replace(LIBRARY["damping_error"], name="start", trial="trial_01.csv")
+    parameterization = parameterization_of(("tip_drag",), (*OPEN, late))
+    problem = ClosedForm()
+    objective = Objective(problem, parameterization)
+    x = np.append(middle(), 0.0)
+    objective.jacobian(x, objective(x))
+    before = len(problem.rigs)
+    objective.jacobian(x + 0.01, objective(x + 0.01))
+    # The vector itself, and the columns of drag and of the start; stiffness is as it was.
+    assert len(problem.rigs) - before == 3
 
 
 def test_a_step_too_far_is_no_number_and_a_start_that_fails_is_an_error():

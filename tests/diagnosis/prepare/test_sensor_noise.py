@@ -11,9 +11,10 @@ def residuals(size=4000, seed=1):
     """White noise of both sensors under what a nominal model lacks."""
     rng = np.random.default_rng(seed)
     slow = np.sin(np.linspace(0, 20, size))
+    time_s = 0.01 * np.arange(size)
     return {
-        "tip_angle_deg": [5 * slow + rng.normal(0, TIP, size)],
-        "base_torque_n_mm": [0.2 * slow + rng.normal(0, TORQUE, size)],
+        "tip_angle_deg": [(time_s, 5 * slow + rng.normal(0, TIP, size))],
+        "base_torque_n_mm": [(time_s, 0.2 * slow + rng.normal(0, TORQUE, size))],
     }
 
 
@@ -36,7 +37,7 @@ def test_a_true_claim_raises_no_warning_and_the_readings_are_believed_too():
 
 
 def test_the_claim_stands_where_too_little_was_read():
-    noise = estimate_noise(RIG, {"tip_angle_deg": [np.zeros(5)]}, BASE)
+    noise = estimate_noise(RIG, {"tip_angle_deg": [(np.arange(5.0), np.zeros(5))]}, BASE)
     assert noise["tip_angle_deg"] == TIP
     assert noise["base_torque_n_mm"] == TORQUE
 
@@ -62,7 +63,7 @@ def test_the_quietest_trial_tells_the_encoders_noise():
 def test_a_residual_far_below_its_noise_names_the_units():
     """Readings in N m with few digits: most differences are 0, so that the claim stands."""
     coarse = np.repeat([0.0, 1e-4, 0.0, 2e-4], 500)
-    found = {"base_torque_n_mm": [coarse]}
+    found = {"base_torque_n_mm": [(0.01 * np.arange(coarse.size), coarse)]}
     noise = estimate_noise(RIG, found, BASE)
     assert noise["base_torque_n_mm"] == TORQUE
     (warning,) = noise.warnings

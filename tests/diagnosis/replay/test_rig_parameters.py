@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, Past, RigParameters
 from diagnosis.replay.sensors import driven, sensed
 
 
@@ -29,6 +29,7 @@ def test_the_nominal_rig_is_that_of_rig_yaml():
 SENSORS = {
     *("tip_bias_deg", "tip_scale", "tip_delay_s"),
     *("torque_bias_n_mm", "torque_scale", "torque_delay_s", "drive_friction_n_mm"),
+    *("tip_clock_ratio", "torque_clock_ratio", "torque_low_pass_s"),
 }
 INPUTS = {"base_scale", "inserted_offset_mm"}
 NEEDS = {  # what a field shows beside only
@@ -40,7 +41,7 @@ NEEDS = {  # what a field shows beside only
 }
 
 
-@pytest.mark.parametrize("name", [f.name for f in fields(RigParameters)])
+@pytest.mark.parametrize("name", [f.name for f in fields(RigParameters) if f.name != "pasts"])
 def test_every_parameter_changes_the_needle_or_its_sensors(name):
     about = replace(NOMINAL, **NEEDS.get(name, {}))
     changed = replace(about, **{name: 0.7 * getattr(about, name) or 0.001})
@@ -59,6 +60,15 @@ def test_every_parameter_changes_the_needle_or_its_sensors(name):
         assert driven(changed, logged) is not logged
     else:
         assert setup(changed) != setup(about)
+
+
+def test_a_trial_sees_its_own_past_alone():
+    one, other = Past(trial="one", wound_deg=5.0), Past(trial="other", turned_deg=3.0)
+    rig = RigParameters(pasts=(one, other))
+    assert rig.past_of("other") == other
+    assert rig.past_of("third") == Past(trial="third")
+    assert rig.on_trial("one") == RigParameters(pasts=(one,))
+    assert rig.on_trial("third") == NOMINAL
 
 
 def test_two_layers_keep_the_total_damping():

@@ -47,6 +47,20 @@ def test_the_torque_sensor_shows_needle_and_bearing_late_and_with_its_gain():
     np.testing.assert_array_equal(tip, TIME)
 
 
+def test_a_clock_that_runs_off_shows_what_its_time_says():
+    rig = RigParameters(tip_clock_ratio=0.9, torque_clock_ratio=0.8, torque_delay_s=0.5)
+    tip, torque = sensed(rig, 5.0 + TIME, TIME, TIME, TIME)
+    np.testing.assert_allclose(tip, 0.9 * TIME, atol=1e-12)
+    np.testing.assert_allclose(torque, np.maximum(0.8 * TIME - 0.5, 0.0), atol=1e-12)
+
+
+def test_a_low_pass_answers_a_ramp_as_its_equation_says():
+    """tau y' = x - y with x = t from rest: y = t - tau (1 - exp(-t / tau)), at any step."""
+    for tau in (0.002, 0.1):
+        _, torque = sensed(RigParameters(torque_low_pass_s=tau), TIME, TIME, TIME, TIME)
+        np.testing.assert_allclose(torque, TIME + tau * np.expm1(-TIME / tau), atol=1e-12)
+
+
 def test_a_torque_gain_is_stiffness_and_damping_off_alike(sliding):
     scaled = RigParameters(stiffness_scale=1.1, damping_scale=1.1)
     same(sliding, RigParameters(torque_scale=1.1), scaled)

@@ -14,6 +14,7 @@ from diagnosis.selection.record import Decision
 KEYS = {
     "format",
     "verdict",
+    "stopped",
     "effects",
     "confusable",
     "ranking",
@@ -30,6 +31,7 @@ KEYS = {
     "replay_error",
     "noise",
     "search",
+    "sensors",
     "warnings",
 }
 

@@ -8,6 +8,7 @@ import pytest
 from diagnosis.assessment.advice import advise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
+    alike,
     headline,
     largest_parts,
     largest_residual,
@@ -20,6 +21,7 @@ from diagnosis.report.sentences import (
 )
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.verdict import VerdictKind
+from diagnosis.stopping import EarlyStop
 
 
 def concluding(found, **verdict):
@@ -55,6 +57,53 @@ def test_every_verdict_has_its_headline(dry, verdict, said):
     assert said in headline(concluding(dry.found, **verdict))
 
 
+SEARCH = EarlyStop(why="limit of 30 s", stage="fitting pairs", left_out=("pairs",), search=True)
+BEGINNING = "Stopped early (limit of 30 s, while fitting pairs): best so far: "
+
+
+@pytest.mark.parametrize(
+    ("verdict", "said"),
+    [
+        (
+            {"kind": VerdictKind.UNDECIDED, "confusable": (("tip_drag",), ())},
+            f"{titles(['tip_drag'])}; or the nominal model as it is: undecided, as others were",
+        ),
+        (
+            {"kind": VerdictKind.UNKNOWN, "effects": ()},
+            "dry (Coulomb) friction along the shaft, which does not explain the gap",
+        ),
+    ],
+)
+def test_a_search_that_was_cut_short_has_its_headline(dry, verdict, said):
+    found = replace(concluding(dry.found, **verdict), stopped=SEARCH)
+    assert headline(found).startswith(BEGINNING + said)
+
+
+def test_a_verdict_that_stands_has_its_own_headline_after_a_stop(dry):
+    found = replace(dry.found, stopped=replace(SEARCH, search=False))
+    assert headline(found) == BEGINNING + headline(dry.found)
+
+
+def test_what_a_stop_left_out_is_a_warning(dry):
+    assert dry.found.warnings == ()
+    cut, whole = (replace(dry.found, stopped=replace(SEARCH, search=s)) for s in (True, False))
+    assert cut.warnings[0].startswith(
+        "stopped early (limit of 30 s); not done, or not to the end: pairs; what was not tried"
+    )
+    assert "not tried" not in whole.warnings[0]
+
+
+def test_of_a_search_that_was_cut_short_the_nearest_is_that_of_what_was_tried(dry):
+    found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), stopped=SEARCH)
+    assert "No explanation that was tried so far reaches the noise" in nearest(found)
+
+
+def test_a_numerical_error_that_was_not_looked_at_is_told_as_that(dry):
+    told = replace(dry.found.assessment, numerical_error={})
+    lines = replay_quality(replace(dry.found, assessment=told))
+    assert [line.endswith("numerical error: not looked at") for line in lines] == [True, True, False]
+
+
 def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
     assert nearest(dry.found) == ""
     said = nearest(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()))
@@ -69,6 +118,14 @@ def test_sets_that_fit_alike_are_told_in_words(dry):
     kind = VerdictKind.UNDECIDED
     said = headline(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",))))
     assert f"{titles(TWO)}; or {titles(('stiction',))}" in said
+
+
+def test_what_the_named_effect_cannot_be_told_from_stands_beside_it(dry):
+    assert alike(dry.found) == ""
+    said = alike(concluding(dry.found, confusable=(("coulomb_friction",), TWO, ("stiction",))))
+    assert said.startswith(f"Cannot be told from: {titles(TWO)}; or {titles(('stiction',))}. ")
+    kind = VerdictKind.UNDECIDED  # whose headline says it
+    assert alike(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",)))) == ""
 
 
 def test_one_trial_is_not_called_held_out(dry):

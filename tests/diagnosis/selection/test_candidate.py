@@ -133,3 +133,15 @@ def test_what_does_not_explain_the_log_says_why(known, reason):
     one = scored(["tip_drag"], 1.0, **known)
     assert one.objection == reason
     assert one.explains is (reason == "")
+
+
+def test_what_is_slow_beside_coloured_noise_explains_nothing(same):
+    _, good = same
+    slow = NoiseFloor(gap=1.0, slow=1.8, slow_limit=1.4)
+    assert good.coloured == {}
+    held = replace(good, coloured={"tip_angle_deg": slow})
+    assert not held.explains
+    assert held.objection == (
+        "not the noise of tip_angle_deg: slow part 1.80 sigma over seconds, limit 1.40"
+    )
+    assert replace(good, coloured={"tip_angle_deg": replace(slow, slow=1.3)}).explains

@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.selection.complexity import complexity_penalty
 
-COUNT = len(LIBRARY)
+COUNT = len(FITTED)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, LIBRARY
+from diagnosis.fitting.noise_reestimation import rescaled
+from diagnosis.prepare.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import fitting
 from diagnosis.selection import search as module
@@ -47,8 +49,10 @@ def test_the_stages_are_these_in_this_order():
         "nominal_rig",
         "stiffness_or_damping_alone",
         "single_effects",
+        "coloured_noise",
         "finer_mesh",
         "pairs",
+        "one_more_imperfection",
         "effects_of_the_best_alone",
         "scatter_of_the_best",
         "finer_mesh",
@@ -61,6 +65,7 @@ def test_each_stage_goes_on_from_the_last(monkeypatch, dry_start):
 
     stages = tuple(partial(counted, stage.__name__) for stage in STAGES)
     monkeypatch.setattr(module, "STAGES", stages)
+    monkeypatch.setattr(module, "with_drift", lambda state, *_: state)
     assert search(dry_start, Workers()).record == tuple(stage.__name__ for stage in STAGES)
 
 
@@ -196,5 +201,40 @@ def test_the_record_of_a_whole_search_tells_who_made_what_and_why_others_are_out
 
 
 def test_every_effect_that_may_be_tried_is_in_the_record(dry):
-    testable = {name for name, effect in LIBRARY.items() if effect.needs != "tip_torque_n_mm"}
+    testable = {name for name, effect in FITTED.items() if effect.needs != "tip_torque_n_mm"}
     assert {e.effects[0] for e in dry.found.record if len(e.effects) == 1} == testable
+
+
+def test_a_search_begins_again_where_the_best_effect_leaves_another_colour(dry_start, monkeypatch):
+    """Noise that was taken for coloured beside dry friction, and is white once that is known."""
+    sigma = dry_start.problem.noise.sigma
+    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    noise = replace(dry_start.problem.noise, colour=colour)
+    start = replace(
+        dry_start,
+        effects=("coulomb_friction",),
+        nominal=rescaled(dry_start.nominal, dry_start.problem, noise),
+        problem=replace(dry_start.problem, noise=noise),
+        coarse=replace(dry_start.coarse, noise=replace(dry_start.coarse.noise, colour=colour)),
+    )
+    monkeypatch.setattr(module, "with_colour", lambda problem, _: replace(problem.noise, colour={}))
+    begun = module.single_effects(module.nominal_rig(start, Workers()), Workers())
+    again = module.coloured_noise(begun, Workers())
+    assert again.problem.noise.colour == again.coarse.noise.colour == {}
+    assert again.problem.noise.sigma == sigma
+    np.testing.assert_allclose(again.nominal.by_trial[0], dry_start.nominal.by_trial[0], atol=1e-9)
+    dropped = [e for e in again.record if e.stage == "coloured noise"]
+    assert [e.effects for e in dropped] == [c.names for c in begun.candidates]
+    # Where the colours are the same, nothing is done.
+    assert module.coloured_noise(again, Workers()) is again
+
+
+def test_where_the_same_noise_is_coloured_otherwise_fits_are_kept_in_its_units(undisturbed):
+    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    noise = replace(undisturbed.problem.noise, colour=colour)
+    again = undisturbed.renoised(noise)
+    best = undisturbed.best
+    left = again.problem.residuals([best.fit.parameterization.rig(best.fit.x)])
+    (same,) = (c for c in again.candidates if c.names == best.names)
+    np.testing.assert_allclose(same.fit.by_trial[0], left[0][0], atol=1e-9)
+    assert len(again.singles) == len(undisturbed.singles)

@@ -9,7 +9,7 @@ from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.verdict import VerdictKind, places, verdict_on
+from diagnosis.selection.verdict import VerdictKind, places, provisional, verdict_on
 
 
 def verdict(*each):
@@ -92,6 +92,20 @@ def test_a_rig_whose_constants_are_off_is_named_by_no_effect_that_adds_nothing()
     assert set(found.confusable) == {("damping_error",), ("stiffness_error",)}
 
 
+@pytest.mark.parametrize(
+    ("off", "kind"), [(0.025, VerdictKind.EXPLAINED), (0.001, VerdictKind.UNDECIDED)]
+)
+def test_what_asks_the_rigs_constants_to_be_off_by_chance_is_named_beside_the_best(off, kind):
+    scales = tuple(LIBRARY[name] for name in SCATTER)
+    behind = replace(
+        scored(["base_angle_scale"], 107.0),
+        fit=fit_of(("base_angle_scale",), x=[0.03, off, off], nuisance=scales),
+    )
+    found = verdict_on([scored(["tip_angle_scale"], 100.0), behind])
+    assert (found.kind, found.effects) == (kind, ("tip_angle_scale",))
+    assert found.confusable == (("tip_angle_scale",), ("base_angle_scale",))
+
+
 def test_probabilities_are_those_of_the_scores():
     ranking = dict(verdict((["tip_drag"], 100.0), (["entry_friction"], 104.0)).ranking)
     assert sum(ranking.values()) == pytest.approx(1.0)
@@ -103,3 +117,45 @@ def test_the_place_is_that_of_the_first_effect():
     assert places(("tip_drag", "torque_bias")) == "needle"
     assert places(()) == ""
     assert candidate(fit_of(("tip_drag",))).names == ("tip_drag",)
+
+
+TOO_MUCH = NoiseFloor(gap=2.0, slow=5.0)
+FAR_BEHIND = scored(["torque_bias"], 500.0)
+
+
+def cut(*candidates):
+    """The provisional verdict on candidates, best first."""
+    return provisional(verdict_on(candidates), candidates)
+
+
+@pytest.mark.parametrize("names", [(), ("tip_drag",), ("tip_drag", "torque_bias")])
+def test_what_is_at_the_floor_is_never_said_to_explain_the_log(names):
+    best = scored(names, 100.0)
+    assert verdict_on([best]).settled
+    found = cut(best)
+    assert (found.kind, found.effects, found.confusable) == (VerdictKind.UNDECIDED, names, (names,))
+
+
+def test_every_explanation_at_the_floor_may_be_it_the_best_first():
+    found = cut(scored(["tip_drag"], 100.0), scored(["entry_friction"], 300.0), FAR_BEHIND)
+    assert found.confusable == (("tip_drag",), ("entry_friction",), ("torque_bias",))
+
+
+def test_an_explanation_above_the_floor_is_no_rival():
+    found = cut(scored(["tip_drag"], 100.0), scored(["entry_friction"], 200.0, floor=TOO_MUCH))
+    assert found.confusable == (("tip_drag",),)
+
+
+def test_the_same_effects_in_another_order_are_one_set():
+    one, other = scored(["tip_drag", "torque_bias"], 100.0), scored(["torque_bias", "tip_drag"], 200.0)
+    assert cut(one, other).confusable == (("tip_drag", "torque_bias"),)
+
+
+def test_nothing_at_the_floor_stays_unknown():
+    assert cut(scored(["tip_drag"], 100.0, floor=TOO_MUCH)).kind is VerdictKind.UNKNOWN
+
+
+def test_what_cannot_be_told_apart_stays_beside_a_provisional_verdict():
+    best = scored(["tip_drag"], 100.0)
+    found = replace(verdict_on([best]), confusable=(("tip_drag",), ("torque_bias", "entry_friction")))
+    assert provisional(found, [best]).confusable == (("tip_drag",), ("torque_bias", "entry_friction"))

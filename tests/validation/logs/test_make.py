@@ -1,13 +1,15 @@
 """Sets of logs: reproducible, without hints at their ground truth, never overwritten."""
 
+import hashlib
 import json
 
 import pytest
 
 from validation.logs.make import make_logs
-from validation.logs.schedule import KINDS
+from validation.logs.roughness.recording import ROUGHNESSES
+from validation.logs.schedule import ALL_KINDS, KINDS
 from validation.logs.strengths import UNMODELLED_FAMILIES
-from validation.rig.modelled import MODELLED
+from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 
 
 def contents(folder):
@@ -21,6 +23,43 @@ def test_a_log_depends_on_seed_and_number_alone(made, answers, tmp_path, workers
     assert contents(again / "logs").items() < contents(made / "logs").items()
     fewer = json.loads((again / "answers" / "answers.json").read_text())
     assert fewer.items() < answers.items()
+
+
+def test_the_bytes_of_a_log_stay_as_they_are(made):
+    """Of this seed as of the first version: sets that were scored once can be made again."""
+    log = sorted((made / "logs" / "case_003").iterdir())
+    read = hashlib.sha256(b"".join(path.read_bytes() for path in log))
+    assert read.hexdigest().startswith("26279228e67eef82")
+
+
+@pytest.mark.parametrize("kind", ["rough_none", "rough_single", "wrong_constant", "wrong_outside"])
+def test_kinds_that_are_asked_for_are_made_with_their_answers(tmp_path, kind):
+    folder = tmp_path / "set"
+    make_logs(folder, seed=12, count=1, short=True, kinds=[kind], workers=1)
+    (answer,) = json.loads((folder / "answers" / "answers.json").read_text()).values()
+    assert answer["kind"] == kind
+    assert ("roughness" in answer) == kind.startswith("rough")
+    assert ("outside" in answer) == (kind == "wrong_outside")
+    assert (answer["verdict"] == "none") == (kind == "rough_none")
+    assert {*answer["effects"]} <= {*answer["parameters"]}
+    for text in contents(folder / "logs").values():
+        assert not any(name in text.decode() for name in (*WRONG_CONSTANTS, *ROUGHNESSES, *ALL_KINDS))
+
+
+def test_each_roughness_can_be_asked_for_alone(tmp_path):
+    how = {"seed": 12, "short": True, "kinds": ["rough_none"], "workers": 1}
+    make_logs(tmp_path / "set", count=2, roughness=["outliers", "torque_drift"], **how)
+    answers = json.loads((tmp_path / "set" / "answers" / "answers.json").read_text())
+    assert [[*answer["roughness"]] for answer in answers.values()] == [["outliers"], ["torque_drift"]]
+
+
+def test_all_kinds_can_be_asked_for_at_once(tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr("validation.logs.make._make_one", lambda job: seen.append(job[3]) or ("a", {}))
+    make_logs(tmp_path / "set", seed=12, count=1, kinds=["all"], workers=1)
+    assert seen == [ALL_KINDS]
+    make_logs(tmp_path / "default", seed=12, count=1, workers=1)
+    assert seen[1:] == [KINDS]
 
 
 def test_logs_do_not_tell_their_ground_truth(made, answers):
@@ -45,6 +84,7 @@ def test_the_ground_truth_is_of_the_kinds_and_signatures_asked_for(answers):
     [
         ({"count": 1, "kinds": ["double"]}, "kinds: expected some of none, .*got 'double'"),
         ({"count": 1, "effects": ["magnetism"]}, "effects: expected some of .*got 'magnetism'"),
+        ({"count": 1, "roughness": ["rust"]}, "roughness: expected some of coloured.*got 'rust'"),
         ({"count": -3}, "count: expected at least 1 log, got -3"),
         ({"count": 1, "signature": (2.0, 1.0)}, "signature: expected 0 < LOW < HIGH, got"),
     ],

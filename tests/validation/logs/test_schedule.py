@@ -2,6 +2,8 @@
 
 import pytest
 
+from validation.logs.roughness.recording import PAIRS
+from validation.logs.roughness.wrong import FAULTS
 from validation.logs.schedule import (
     KINDS,
     LOCATIONS,
@@ -10,9 +12,10 @@ from validation.logs.schedule import (
     effects_of,
     kind_of,
     name_in_turn,
+    roughness_of,
 )
-from validation.rig.modelled import MODELLED
-from validation.rig.unmodelled import UNMODELLED
+from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
+from validation.rig.unmodelled import UNLISTED, UNMODELLED
 
 
 def test_shares_of_kinds_are_kept():
@@ -50,6 +53,30 @@ def test_most_pairs_are_of_two_locations():
     pairs = [effects_of(5, "pair", earlier, None) for earlier in range(200)]
     together = sum(LOCATIONS[a] == LOCATIONS[b] for a, b in pairs)
     assert 0 < together < 48
+
+
+def test_rough_logs_take_pairs_of_roughnesses_in_turn_or_what_is_asked_for():
+    pairs = [roughness_of(5, "rough_single", i, i, None) for i in range(len(PAIRS))]
+    assert sorted(pairs) == sorted(PAIRS)
+    asked = ("outliers", "late_start")
+    alone = [roughness_of(5, "rough_none", 0, i, asked) for i in range(3)]
+    assert alone == [("outliers",), ("late_start",), ("outliers",)]
+    assert roughness_of(5, "single", 0, 0, asked) == ()
+
+
+def test_wrong_constants_are_drawn_where_they_are_asked_for():
+    assert {effects_of(5, "wrong_constant", i, None)[0] for i in range(5)} == {*WRONG_CONSTANTS}
+    for kind in ("single", "pair", "off_nominal", "rough_single"):
+        assert effects_of(5, kind, 3, ["torque_scale"])[0] == "torque_scale"
+        assert not {*effects_of(5, kind, 3, None)} & {*WRONG_CONSTANTS}
+
+
+def test_what_is_wrong_outside_the_library_is_a_constant_or_the_recording():
+    drawn = [
+        effects_of(5, "wrong_outside", i, None) + roughness_of(5, "wrong_outside", i, i, None)
+        for i in range(4)
+    ]
+    assert sorted(drawn) == sorted((name,) for name in (*UNLISTED, *FAULTS))
 
 
 def test_kinds_have_the_effects_that_they_stand_for():

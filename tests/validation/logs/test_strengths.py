@@ -6,22 +6,25 @@ import pytest
 from validation.logs.comparison import RigComparison
 from validation.logs.motions import LogPlan, draw_motions
 from validation.logs.strengths import (
+    ALL_FAMILIES,
     FAMILIES,
     TWO_SIDED,
+    UNLISTED_FAMILIES,
     UNMODELLED_FAMILIES,
+    WRONG_CONSTANT_FAMILIES,
     with_effect,
     without,
 )
-from validation.rig.modelled import MODELLED
-from validation.rig.unmodelled import UNMODELLED
-
-ALL = FAMILIES | UNMODELLED_FAMILIES
+from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
+from validation.rig.unmodelled import UNLISTED, UNMODELLED
 
 
 def test_every_effect_has_a_family():
     assert tuple(FAMILIES) == MODELLED
     assert tuple(UNMODELLED_FAMILIES) == UNMODELLED
-    assert {*FAMILIES} > TWO_SIDED
+    assert tuple(WRONG_CONSTANT_FAMILIES) == WRONG_CONSTANTS
+    assert tuple(UNLISTED_FAMILIES) == UNLISTED
+    assert {*FAMILIES, *WRONG_CONSTANTS} > TWO_SIDED
 
 
 @pytest.fixture(scope="module")
@@ -31,9 +34,9 @@ def motions():
     return draw_motions(np.random.default_rng(8), plan)
 
 
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", ALL_FAMILIES)
 def test_a_stronger_effect_has_a_larger_signature(name, motions, sensors, make_rig):
-    family, rig = ALL[name], make_rig()
+    family, rig = ALL_FAMILIES[name], make_rig()
     by_strength = family.draw(np.random.default_rng(3))
     comparison = RigComparison(motions, sensors, coarse=True)
     strengths = np.geomspace(family.low, family.high, 3)
@@ -43,10 +46,10 @@ def test_a_stronger_effect_has_a_larger_signature(name, motions, sensors, make_r
     assert signatures[-1] > max(1.0, 3 * signatures[0])
 
 
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", ALL_FAMILIES)
 def test_without_undoes_with_effect(name, make_rig):
     rig = make_rig(tip_angle_bias={"bias": 1.0}) if name != "tip_angle_bias" else make_rig()
-    parameters = ALL[name].draw(np.random.default_rng(0))(ALL[name].low)
+    parameters = ALL_FAMILIES[name].draw(np.random.default_rng(0))(ALL_FAMILIES[name].low)
     changed = with_effect(rig, name, parameters)
     assert changed != rig
     assert without(changed, name) == rig

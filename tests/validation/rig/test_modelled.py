@@ -2,16 +2,23 @@
 
 from diagnosis.effects import LIBRARY
 from validation.rig.laws import LawParameters
-from validation.rig.modelled import LAW_FIELDS, MODELLED, SENSOR_FIELDS
+from validation.rig.modelled import (
+    LAW_FIELDS,
+    MODELLED,
+    SENSOR_FIELDS,
+    WRONG_CONSTANT_FIELDS,
+    WRONG_CONSTANTS,
+)
 
 
 def test_the_rig_has_the_effects_and_parameters_of_the_library():
     """But for the rate below which a power law is viscous: the diagnosis fits it, the rig fixes it."""
-    fields = {name: {*own} for name, own in (LAW_FIELDS | SENSOR_FIELDS).items()}
+    every = LAW_FIELDS | SENSOR_FIELDS | WRONG_CONSTANT_FIELDS
+    fields = {name: {*own} for name, own in every.items()}
     library = {name: {p.name for p in effect.parameters} for name, effect in LIBRARY.items()}
     assert fields["shear_thinning"] == library.pop("shear_thinning") - {"plateau"}
     assert fields == {"shear_thinning": {"exponent"}} | library
-    assert sorted(MODELLED) == sorted(fields)
+    assert sorted((*MODELLED, *WRONG_CONSTANTS)) == sorted(fields)
 
 
 def test_every_parameter_of_the_machine_goes_to_a_field_of_its_own():

@@ -6,6 +6,7 @@ import pytest
 
 from validation.score.calibration import (
     calibration_error,
+    confidently_wrong,
     coverage,
     gap_left,
     reliability,
@@ -37,6 +38,14 @@ def test_the_long_run_has_no_false_alarm_and_names_no_dry_friction_stiction(long
     assert not (dry["said"] == "stiction").any()
 
 
+def test_of_older_tables_what_is_explained_or_none_and_not_exact_is_confidently_wrong():
+    verdicts = ["explained", "explained", "none", "unknown", "undecided"]
+    older = table(verdict=verdicts, exact=[True, False, False, False, False])
+    assert list(confidently_wrong(older)) == [False, True, True, False, False]
+    newer = older.assign(confidently_wrong=[False, False, True, False, False])
+    assert list(confidently_wrong(newer)) == [False, False, True, False, False]
+
+
 def test_summary_counts_by_kind():
     found = summary(
         table(
@@ -48,10 +57,12 @@ def test_summary_counts_by_kind():
     )
     assert found.loc["single"].to_dict() == {
         "logs": 2,
+        "confidently_wrong": 0,
         "exact": 0.5,
         "undecided": 0.5,
         "unknown": 0.0,
         "seconds": 2.0,
+        "worst_seconds": 3.0,
     }
 
 

@@ -12,11 +12,14 @@ LOGS = 7
 def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
     assert main(["blind", "score", str(folder), "--out", str(tmp_path / "score")]) == 0
     printed = capsys.readouterr().out
-    assert "Calibration" in printed
+    assert printed.index("confidently") < printed.index("Calibration")
+    assert any(line.split()[:2] == ["all", str(LOGS)] for line in printed.splitlines())
     assert "calibration error of the probabilities" in printed
     lines = (tmp_path / "score" / "scores.csv").read_text().splitlines()
     assert len(lines) == LOGS + 1
-    assert lines[0].startswith("case,kind,truth,said,verdict,expected,exact,confused,open,signature")
+    assert lines[0].startswith(
+        "case,kind,truth,said,verdict,expected,exact,confidently_wrong,confused,open,signature"
+    )
     assert (tmp_path / "score" / "score.png").read_bytes()[:4] == b"\x89PNG"
 
 

@@ -1,9 +1,13 @@
 """Diagnosing a folder of logs: reports that exist are kept, logs that cannot be read are refused."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
+from rich.console import Console
 
+from scripts import blind
+from validation.score import run
 from validation.score.run import diagnose_all
 
 
@@ -20,6 +24,37 @@ def test_a_log_that_cannot_be_read_has_a_report_that_says_why(unusable):
     assert (report["verdict"], report["effects"]) == ("refused", [])
     assert "rig.yaml" in report["why"]
     assert report["seconds"] >= 0
+
+
+def test_the_answers_are_read_after_the_reports_are_written(unusable, monkeypatch):
+    """The score checks them first, for a diagnosis takes long, but no answer reaches it."""
+    order = []
+    monkeypatch.setattr(blind, "diagnose_all", lambda logs, reports, **how: order.append((logs, how)))
+    monkeypatch.setattr(blind, "read_answers", lambda folder: order.append("checked"))
+    monkeypatch.setattr(blind, "read_scores", lambda *given: order.append(("scored", *given)) or scores)
+    monkeypatch.setattr(blind, "_print", lambda *given: None)
+    (unusable / "answers").mkdir()
+    (unusable / "answers" / "answers.json").write_text("{}")
+    scores = object()
+    blind.run_score(unusable, None, trials=2, limit_s=9.0, force=False, console=Console())
+    assert [order[0], order[2]] == ["checked", ("scored", unusable, 2, 9.0)]
+    logs, how = order[1]
+    assert logs == unusable / "logs"
+    assert how.keys() == {"trials", "limit_s", "watched"}
+
+
+@pytest.mark.parametrize("limit_s", [None, 12.0])
+def test_the_limit_of_a_log_reaches_its_diagnosis(tmp_path, monkeypatch, limit_s):
+    given = {}
+    log = SimpleNamespace(trials=[1, 2, 3])
+    monkeypatch.setattr(run, "read_rig_log", lambda case: log)
+    monkeypatch.setattr(run, "replace", lambda log, trials: trials)
+    monkeypatch.setattr(run, "diagnose", lambda trials, **how: given.update(how, trials=trials))
+    monkeypatch.setattr(run, "as_json", lambda found: {"verdict": "none"})
+    run._one(tmp_path / "case_001", tmp_path / "case_001.json", trials=2, limit_s=limit_s)
+    assert given.pop("trials") == [1, 2]
+    assert given == {"workers": 1, **({"limit_s": limit_s} if limit_s else {})}
+    assert json.loads((tmp_path / "case_001.json").read_text())["verdict"] == "none"
 
 
 def test_a_report_that_exists_is_kept_and_tasks_can_be_watched(unusable):

@@ -112,6 +112,11 @@ def test_the_first_rank_is_right_if_it_is_a_true_effect(scored):
     assert list(table["probability_right"]) == [0.7, 0.2]
 
 
+def test_reports_of_few_trials_or_within_a_limit_are_kept_apart(tmp_path):
+    names = [reports_in(tmp_path, t, s).name for t in (None, 2) for s in (None, 20.0)]
+    assert names == ["reports", "reports_in_20_s", "reports_of_2", "reports_of_2_in_20_s"]
+
+
 def test_a_log_without_a_report_has_no_row_and_a_set_without_any_is_refused(scored, tmp_path):
     answers = {"a": explained("tip_drag"), "b": explained("tip_drag")}
     assert list(scored(answers, {"a": explained("tip_drag")}).index) == ["a"]

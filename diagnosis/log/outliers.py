@@ -1,0 +1,174 @@
+"""Outliers: one or a few samples in a row that are off what the samples on both sides say.
+
+Readings move, fast and with corners, so that a sample is compared with a cubic through its own
+neighbours, which is fitted robustly (least absolute residuals) and then by least squares without what
+it leaves out. A sample is an outlier if all of this holds:
+
+- it is off by z sigma sqrt(1 + leverage), with z from the chance that white noise is, and sigma not
+  below what the readings about it scatter by (in a fast motion, jitter of the time is noise);
+- the neighbours on both sides agree with one curve: they leave little beside what the sample is off;
+- neither side alone, as a parabola or line, comes near it: at a corner of the motion, one does.
+
+What was found is taken out, and the rest is looked at again.
+
+Source: robust local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829; Hampel's identifier.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+from scipy.special import ndtri
+
+from diagnosis.criteria import (
+    OUTLIER_CLEARANCE,
+    OUTLIER_FALSE_ALARMS,
+    OUTLIER_MISFIT,
+    OUTLIER_MOST_BESIDE,
+    OUTLIER_MOST_RUN,
+    OUTLIER_ONE_SIDED,
+)
+from diagnosis.log.local_curves import interpolated, least_squares, robust_curve
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+_HALVES = (4, 7)  # neighbours on each side
+_SIDE_ORDER = {4: 1, 7: 2}  # of the curve through one side of so many
+_ORDER = 3  # of the curve
+_PASSES = 4
+_STENCILS = ((1, 2), (2, 4), (3, 6))  # neighbours on each side of a cubic
+_LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
+_SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
+_ABOUT = 32  # samples on each side whose scatter counts
+_QUIET_SHARE = 0.4  # of these, that outliers beside them do not reach
+_QUIET_SIZE = 0.288  # that quantile of the smaller residual of two stencils, of white noise
+_LOUD = 1.5  # times sigma: what a local scatter comes to by chance
+_MARGIN = 1.25  # of a local scatter: half of the samples about it tell it to a fifth
+_CHUNK = 20_000  # windows that are fitted at once
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outliers:
+    """Outliers of a column.
+
+    Attributes:
+      rows: which samples, (N,).
+      expected: what their neighbours say of them; elsewhere the readings, (N,).
+    """
+
+    rows: Mask
+    expected: Array
+
+    def without(self, some: Mask, values: Array) -> "Outliers":
+        """The same without some rows, whose readings are what was meant."""
+        return Outliers(rows=self.rows & ~some, expected=np.where(some, values, self.expected))
+
+
+def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
+    """Outliers among readings, (N,) each; what is not finite is none.
+
+    Args:
+      sigma: white noise of the readings, in their unit.
+    """
+    rows, expected = np.zeros(values.size, bool), values.copy()
+    for _ in range(_PASSES):
+        rest = np.flatnonzero(np.isfinite(values) & ~rows)
+        found, said = _pass(time_s[rest], values[rest], sigma)
+        if found.size == 0:
+            break
+        rows[rest[found]], expected[rest[found]] = True, said
+    rows &= ~_in_long_run(rows)
+    return Outliers(rows=rows, expected=np.where(rows, expected, values))
+
+
+def _in_long_run(rows: Mask) -> Mask:
+    """What lasts is an event, not an outlier."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], rows.astype(np.int8), [0])))).reshape(-1, 2)
+    long = np.zeros(rows.size, bool)
+    for start, end in edges[edges[:, 1] - edges[:, 0] > OUTLIER_MOST_RUN]:
+        long[start:end] = True
+    return long
+
+
+def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
+    """Outliers that are seen beside the samples that are left, and what is expected there."""
+    if not sigma > 0 or values.size < 2 * _ABOUT:
+        return np.zeros(0, int), np.zeros(0)
+    scale = _scatter_about(time_s, values, sigma)
+    suspects = _screened(time_s, values, scale)
+    limit = float(-ndtri(OUTLIER_FALSE_ALARMS / (2 * len(_HALVES) * values.size)))
+    rows, expected = np.zeros(values.size, bool), np.zeros(values.size)
+    for half in _HALVES:
+        for part in np.array_split(suspects, suspects.size // _CHUNK + 1):
+            off, said = _judged(time_s, values, scale, part, half, limit)
+            rows[part[off]], expected[part[off]] = True, said[off]
+    found = np.flatnonzero(rows)
+    return found, expected[found]
+
+
+def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
+    """What readings scatter by about each sample where that is more than sigma for certain, (N,)."""
+    size = np.full(values.size, np.inf)
+    for near, far in _STENCILS[::2]:  # without a neighbour in common, so that an outlier is in one alone
+        said, gain = interpolated(time_s, values, near, far)
+        size = np.fmin(size, np.abs(values - said) / gain)
+    padded = np.pad(size[2:-2], 2 + _ABOUT, mode="reflect")
+    windows = sliding_window_view(padded, 2 * _ABOUT + 1)
+    rank = round(2 * _ABOUT * _QUIET_SHARE)
+    local = np.partition(windows, rank, axis=1)[:, rank] / _QUIET_SIZE
+    return np.where(local > _LOUD * sigma, _MARGIN * local, sigma)
+
+
+def _screened(time_s: Array, values: Array, scale: Array) -> Index:
+    """Samples that are worth a fit: all near the ends, and what is off some cubic."""
+    off = np.zeros(values.size)
+    for near, far in _STENCILS:
+        said, gain = interpolated(time_s, values, near, far)
+        off = np.fmax(off, np.abs(values - said) / (gain * scale))
+    ends = max(_HALVES)
+    off[:ends], off[-ends:] = np.inf, np.inf
+    return np.flatnonzero(off > _SCREENED_SIGMA)
+
+
+def _judged(
+    time_s: Array, values: Array, scale: Array, rows: Index, half: int, limit: float
+) -> tuple[Mask, Array]:
+    """Which of the rows are outliers beside `half` neighbours on each side, and what is expected."""
+    width = 2 * half + 1
+    first = np.clip(rows - half, 0, values.size - width)
+    window = first[:, None] + np.arange(width)
+    x = time_s[window] - time_s[rows][:, None]
+    x /= np.abs(x).max(axis=1, keepdims=True)
+    y, own = values[window] - values[rows][:, None], scale[rows]
+    powers = x[:, :, None] ** np.arange(_ORDER + 1)
+    itself = window == rows[:, None]
+    left = y - robust_curve(powers, y, own)
+    good = (np.abs(left) <= _LEFT_OUT_SIGMA * own[:, None]) & ~itself
+    curve, spread = least_squares(powers, y, good)
+    left = np.where(good, y - curve, 0.0)
+    here = np.argmax(itself, axis=1)[:, None]
+    off = -np.take_along_axis(curve, here, axis=1)[:, 0]
+    noise = np.sqrt(1 + np.take_along_axis(spread, here, axis=1)[:, 0])
+    freedom = np.maximum(good.sum(axis=1) - _ORDER - 1, 1)
+    chance = OUTLIER_MISFIT * own**2
+    misfit = np.sqrt(np.maximum((left**2).sum(axis=1) / freedom - chance, 0.0))
+    outlying = np.abs(off) > np.maximum(limit * own * noise, OUTLIER_CLEARANCE * misfit)
+    outside = width - good.sum(axis=1)
+    outlying &= outside <= OUTLIER_MOST_BESIDE
+    for side in (x < 0, x > 0):
+        far = _far_from_side(powers[:, :, : _SIDE_ORDER[half] + 1], y, good & side, here, off, own)
+        at_end = (side.sum(axis=1) < half) & (outside <= 2)
+        outlying &= far | at_end
+    return outlying, values[rows] - off
+
+
+def _far_from_side(powers: Array, y: Array, good: Mask, here: Index, off: Array, scale: Array) -> Mask:
+    """Whether a curve through the good points of one side is off the sample, on the same side of it."""
+    curve, variance = least_squares(powers, y, good)
+    apart = -np.sign(off) * np.take_along_axis(curve, here, axis=1)[:, 0]
+    noise = scale * np.sqrt(1 + np.take_along_axis(variance, here, axis=1)[:, 0])
+    enough = good.sum(axis=1) > powers.shape[2]
+    return np.asarray(enough & (apart - noise > OUTLIER_ONE_SIDED * np.abs(off)))

@@ -1,0 +1,118 @@
+"""Time stamps that jitter: samples taken evenly, and stamped when a computer came to it.
+
+In a turn of 200 deg/s a stamp that is 1 ms late is an angle that is 0.2 deg off, ten times the noise
+of an encoder. If samples were taken evenly, row i was taken at
+
+    t_i = t_0 + h k_i,  k_i whole numbers that increase, by more than one where rows were lost
+
+and its stamp is t_i plus an error. h is the period at which the stamps have most in phase, |sum
+exp(2 pi i t / h)|; k_i - i never falls, so that it is the isotonic regression of t_i / h - i, rounded.
+
+Samples may as well have been taken unevenly and stamped rightly. The data decide: readings of a fast
+motion are smooth over the time at which they were taken. On either axis each is compared with a
+cubic through its neighbours, and where one of them comes nearer so often that chance is out of the
+question, that axis is the true one. What noise alone could tell is not asked.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import isotonic_regression
+
+from diagnosis.criteria import EVEN_MOST_STEPS, EVEN_SIGMA, EVEN_TELLING_SIGMA, FEWEST_ROWS
+from diagnosis.log.local_curves import interpolated
+from diagnosis.log.trial import SENSORS, FileRows, Trial
+
+Array = NDArray[np.float64]
+Counts = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+_BASE = "base_angle_deg"
+_SEARCHED = 0.25  # of the median step, either way, that the period is searched in
+_FIRST = 600  # stamps that the period is searched in
+_FINER = 8  # periods to try per resolvable one
+_REFINEMENTS = 4
+
+
+def with_even_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
+    """The trials of a log over even times, if its stamps scatter about some and its motion says so."""
+    evens = [max(_even_times(t["time_s"]), key=lambda at: _certainty([t], [at])) for t in trials]
+    scatter_s = max(_rms(t["time_s"] - at) for t, at in zip(trials, evens, strict=True))
+    step_s = min(float(np.diff(at).min()) for at in evens)
+    if scatter_s > EVEN_MOST_STEPS * step_s or _certainty(trials, evens) < EVEN_SIGMA:
+        return list(trials), []
+    said = (
+        f"time_s scatters by {1e3 * scatter_s:.2g} ms about steps of {1e3 * step_s:.4g} ms, over "
+        "which the motion is smooth: the samples are taken to be even; stamp them where they are taken"
+    )
+    return [_over(t, e) for t, e in zip(trials, evens, strict=True)], [said]
+
+
+def _over(trial: Trial, even_s: Array) -> Trial:
+    rows = FileRows(stamps_s=trial["time_s"], taken_s=even_s)
+    return replace(trial, table=trial.table.assign(time_s=even_s), rows=rows)
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _even_times(stamps_s: Array) -> tuple[Array, Array]:
+    """When samples were taken if they were taken evenly: no row was lost, or some were; (N,) each."""
+    index = np.arange(stamps_s.size, dtype=np.intp)
+    return _on_line(stamps_s, index), _on_line(stamps_s, _counts(stamps_s))
+
+
+def _on_line(stamps_s: Array, counts: Counts) -> Array:
+    start, period = np.polynomial.polynomial.polyfit(counts, stamps_s, 1)
+    return np.asarray(start + period * counts)
+
+
+def _counts(stamps_s: Array) -> Counts:
+    """The place of each sample on an even grid, lost rows counted, (N,)."""
+    index = np.arange(stamps_s.size, dtype=np.intp)
+    period, start, counts = _period(stamps_s), stamps_s[0], index
+    for _ in range(_REFINEMENTS):
+        ahead = isotonic_regression((stamps_s - start) / period - index).x
+        counts = index + np.rint(ahead).astype(int)
+        start, period = np.polynomial.polynomial.polyfit(counts, stamps_s, 1)
+    return np.asarray(counts, np.intp)
+
+
+def _period(stamps_s: Array) -> float:
+    """The period at which stamps have most in phase, near their median step."""
+    stamps = stamps_s[:_FIRST] - stamps_s[0]
+    step = float(np.median(np.diff(stamps)))
+    count = max(2, round(_FINER * 2 * _SEARCHED * stamps[-1] / step))
+    rates = np.linspace(1 - _SEARCHED, 1 + _SEARCHED, count) / step
+    together = np.abs(np.exp(2j * np.pi * rates[:, None] * stamps).sum(axis=1))
+    return float(1 / rates[np.argmax(together)])
+
+
+def _certainty(trials: Sequence[Trial], evens: Sequence[Array]) -> float:
+    """How certainly readings are smoother over even times than over stamps, standard deviations."""
+    wins = np.concatenate(
+        [
+            _nearer(trial[name], trial["time_s"], even_s)
+            for trial, even_s in zip(trials, evens, strict=True)
+            for name in (_BASE, *SENSORS)
+            if trial.has(name)
+        ]
+    )
+    return float((2 * wins.sum() - wins.size) / np.sqrt(max(wins.size, 1)))
+
+
+def _nearer(values: Array, stamps_s: Array, even_s: Array) -> Mask:
+    """Whether samples at which noise cannot decide are nearer to a cubic over even times, (M,)."""
+    rows = np.flatnonzero(np.isfinite(values))
+    if rows.size < FEWEST_ROWS:
+        return np.zeros(0, bool)
+    read = values[rows]
+    (there, loud), (here, quiet) = (interpolated(at[rows], read, 1, 2) for at in (stamps_s, even_s))
+    off_there, off_here = np.abs(read - there), np.abs(read - here)
+    # Of a normal distribution, the median size is 0.67 sigma.
+    sigma = min(np.nanmedian(off_there / loud), np.nanmedian(off_here / quiet)) / 0.6745
+    telling = np.abs(there - here) > EVEN_TELLING_SIGMA * sigma * np.maximum(loud, quiet)
+    return np.asarray(off_here[telling] < off_there[telling])

@@ -1,0 +1,49 @@
+"""The motion of the base between samples that are rare.
+
+Straight lines between 20 samples a second are steps of the rate, which a viscous torque shows.
+Akima's curve follows a smooth motion without overshooting at corners. Where two straight parts
+meet between two samples, the corner is where their lines cross.
+
+Source: H. Akima, J. ACM 17 (1970) 589.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import Akima1DInterpolator
+
+from diagnosis.criteria import BETWEEN_SAMPLES_S, STRAIGHT_DEG
+
+Array = NDArray[np.float64]
+
+_FINE_S = 0.01  # a step of the replay
+_LEAST_SAMPLES = 6
+
+
+def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
+    """Times and angles of the base, with more of them where samples are rare; (N,) each or (M,)."""
+    step_s = float(np.median(np.diff(time_s)))
+    if step_s <= BETWEEN_SAMPLES_S or time_s.size < _LEAST_SAMPLES:
+        return time_s, base_deg
+    parts = int(np.ceil(step_s / _FINE_S - 1e-6))
+    inside = time_s[:-1, None] + np.diff(time_s)[:, None] * np.arange(parts) / parts
+    angles = np.asarray(Akima1DInterpolator(time_s, base_deg)(inside))
+    _turn_corners(time_s, base_deg, inside, angles)
+    return np.append(inside.ravel(), time_s[-1]), np.append(angles.ravel(), base_deg[-1])
+
+
+def _turn_corners(time_s: Array, base_deg: Array, inside: Array, angles: Array) -> None:
+    """Put corners into the angles, (N - 1, parts), where lines of three samples on both sides cross."""
+    rate = np.diff(base_deg) / np.diff(time_s)
+    bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
+    first = np.arange(2, time_s.size - 3)  # the sample before the corner
+    before, after = rate[first - 1], rate[first + 1]
+    straight = (bent[first - 2] < STRAIGHT_DEG) & (bent[first + 1] < STRAIGHT_DEG)
+    turned = np.where(before == after, np.inf, before - after)
+    late = base_deg[first + 1] - after * (time_s[first + 1] - time_s[first]) - base_deg[first]
+    wait = late / turned
+    found = straight & (wait > 0) & (wait < time_s[first + 1] - time_s[first])
+    for i in first[found]:
+        left = base_deg[i] + rate[i - 1] * (inside[i] - time_s[i])
+        right = base_deg[i + 1] + rate[i + 1] * (inside[i] - time_s[i + 1])
+        at = wait[i - first[0]]
+        angles[i] = np.where(inside[i] - time_s[i] < at, left, right)

@@ -1,0 +1,50 @@
+"""Slow drift of a sensor: a random walk that nobody saw, and what of a residual it may be.
+
+Within a trial of length T the drift is taken to be
+
+    a + b (t / T) + sum over k of c_k cos(pi k t / T),    a, b, c_k k ~ N(0, D)
+
+which is how a random walk spreads over its frequencies; D is its size. With the drift's covariance G G'
+beside that of white noise, a residual r in units of sigma becomes white by
+
+    r - U (1 - 1 / sqrt(1 + L)) U' r,    G = U sqrt(L) V'
+
+so that a drift takes no part in a fit, a constant or a fast change of its size hardly any, and what is
+larger or faster than a drift counts as before.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+def drift_whitening(time_s: Array, kept: Mask, size_sigma: float) -> Array:
+    """W of the samples kept, (M, K): r - W W' r is white if r is white noise and drift.
+
+    Args:
+      size_sigma: D in units of the noise.
+    """
+    directions, lengths, _ = np.linalg.svd(_shapes(time_s, size_sigma)[kept], full_matrices=False)
+    return np.asarray(directions * np.sqrt(1.0 - 1.0 / np.sqrt(1.0 + lengths**2)))
+
+
+def likeliest_drift(time_s: Array, left: Array, size_sigma: float) -> Array:
+    """The likeliest drift in a residual in sigma, at all its samples, (N,); NaN are left out."""
+    kept, shapes = np.isfinite(left), _shapes(time_s, size_sigma)
+    seen = shapes[kept]
+    sizes = np.linalg.solve(seen.T @ seen + np.eye(seen.shape[1]), seen.T @ left[kept])
+    return np.asarray(shapes @ sizes)
+
+
+def _shapes(time_s: Array, size_sigma: float) -> Array:
+    """Shapes of drift times their size, (N, K)."""
+    duration_s = float(time_s[-1] - time_s[0])
+    share = (time_s - time_s[0]) / duration_s
+    count = int(np.clip(2 * duration_s / DRIFT_FASTEST_S, 1, DRIFT_MOST_SHAPES))
+    k = np.arange(1, count + 1)
+    waves = np.cos(np.pi * share[:, None] * k) / k
+    return np.asarray(size_sigma * np.column_stack([np.ones_like(share), share, waves]))

@@ -1,0 +1,39 @@
+"""How a trial begins whose recording began late: twisted, or moving."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from diagnosis.criteria import TURNING_DEG_S
+
+
+@dataclass(frozen=True, kw_only=True)
+class LateStart:
+    """The first sample of a trial that began late.
+
+    Attributes:
+      twist_deg: of the base before the tip, as the readings say.
+      rate_deg_s: of the base.
+      unused_s: from the first sample, that what the sensors read is not used.
+    """
+
+    twist_deg: float
+    rate_deg_s: float
+    unused_s: float
+
+    @property
+    def words(self) -> str:
+        """The twist, the rate if the base moves, and what is not used."""
+        rate_deg_s = abs(self.rate_deg_s)
+        moving = f" and moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
+        return f"by about {abs(self.twist_deg):.2g} deg{moving} (first {self.unused_s:.2g} s)"
+
+
+def late_start_warning(starts: Mapping[str, LateStart]) -> str:
+    """What was done with trials that began late, by their names; empty: none did."""
+    if not starts:
+        return ""
+    each = "; ".join(f"{trial} {start.words}" for trial, start in starts.items())
+    return (
+        f"begins wound up: {each}: what the base turned by before is fitted, and what the sensors read "
+        "in the time in brackets is not used"
+    )

@@ -1,0 +1,203 @@
+"""Which trials of a log began late: twisted (wound up, at rest), or moving.
+
+A needle from rest cannot have its tip elsewhere than its base at the first sample: twist diffuses
+along the shaft, and takes time. So where the tip starts is told by the intercept of a parabola through
+the first readings less the nominal prediction, which begins untwisted. An offset of the sensor looks the
+same, but is the same in all trials. A twist differs from trial to trial, and carries a torque,
+
+    twist kappa / (free + inserted)  <=  torque  <=  twist kappa / free,
+
+as long as it has one sign along the shaft. The torque alone tells a late start only where the base rests
+or the tip is not measured: it may jump where friction meets a base that moves from the first sample on.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import (
+    START_DECAYS,
+    START_LEAST_SIGMA,
+    START_LOOK_S,
+    START_MOST_UNUSED,
+    START_OUTLIER_SIGMA,
+    START_SIGMA,
+    START_TORQUE_FACTOR,
+    TURNING_DEG_S,
+)
+from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.prepare.late_start import LateStart
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.sensor_noise import Noise
+from models.modes import InsertedNeedle
+from models.needle import Needle
+
+Array = NDArray[np.float64]
+
+_TIP, _TORQUE = "tip_angle_deg", "base_torque_n_mm"
+_FEWEST = 10  # readings that a parabola is laid through
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Offset:
+    """What a sensor reads at the start beyond the nominal rig, and what that has to exceed."""
+
+    off_sigma: float = 0.0
+    limit_sigma: float = np.inf
+
+    def beyond(self, other: float) -> bool:
+        return abs(self.off_sigma - other) > self.limit_sigma
+
+
+def with_late_starts(
+    log: PreparedLog, residuals: Mapping[str, Sequence[Array]], noise: Noise
+) -> PreparedLog:
+    """The log, its late trials marked, and what their sensors read at first set aside.
+
+    Args:
+      residuals: measured minus nominal, by sensor, of the trials that have it, in their order.
+    """
+    tips = _offsets(log.trials, _TIP, residuals, noise)
+    torques = _offsets(log.trials, _TORQUE, residuals, noise)
+    each = list(zip(log.trials, tips, torques, strict=True))
+    loaded = [_carries_torque(log.rig, trial, tip, torque, noise) for trial, tip, torque in each]
+    shared = {
+        sensor: _shared([own for own, twisted in zip(offsets, loaded, strict=True) if not twisted])
+        for sensor, offsets in ((_TIP, tips), (_TORQUE, torques))
+    }
+    trials = [
+        _late(log.rig, trial, tip, torque, shared, noise)
+        if twisted or _differs(trial, tip, torque, shared)
+        else trial
+        for (trial, tip, torque), twisted in zip(each, loaded, strict=True)
+    ]
+    return replace(log, trials=tuple(trials))
+
+
+def without_unused(log: RigLog, begun: PreparedLog) -> RigLog:
+    """The log without the readings that were set aside because trials began late."""
+    each = zip(log.trials, begun.trials, strict=True)
+    return replace(log, trials=tuple(_without_unused(trial, own.late_start) for trial, own in each))
+
+
+def _without_unused(trial: Trial, start: LateStart | None) -> Trial:
+    if start is None:
+        return trial
+    table = trial.table.copy()
+    unused = trial["time_s"] < trial["time_s"][0] + start.unused_s
+    table.loc[unused, [sensor for sensor in SENSORS if sensor in table]] = np.nan
+    return replace(trial, table=table)
+
+
+def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mapping[str, float]) -> bool:
+    """Whether a trial begins elsewhere than the others, or than at rest."""
+    off = torque.beyond(shared[_TORQUE])
+    if not trial.has(_TIP):
+        return off
+    twisted = (tip.off_sigma - shared[_TIP]) * (torque.off_sigma - shared[_TORQUE]) < 0.0
+    a_little = abs(tip.off_sigma - shared[_TIP]) > tip.limit_sigma / 2
+    rests = abs(start_rate_deg_s(trial)) < TURNING_DEG_S
+    return tip.beyond(shared[_TIP]) or (off and twisted and a_little and rests)
+
+
+def _carries_torque(
+    rig: NominalRig, trial: PreparedTrial, tip: _Offset, torque: _Offset, noise: Noise
+) -> bool:
+    """Whether both sensors are off as those of a twisted shaft are: trials may begin alike."""
+    if not (tip.beyond(0.0) and torque.beyond(0.0)):
+        return False
+    free_mm, inserted_mm = float(trial.free_mm[0]), float(trial.inserted_mm[0])
+    twist_rad = -np.radians(tip.off_sigma * noise[_TIP])
+    per_torque = twist_rad * rig.rigidity_n_mm2 / (torque.off_sigma * noise[_TORQUE])
+    factor = START_TORQUE_FACTOR
+    return bool(free_mm / factor <= per_torque <= factor * (free_mm + inserted_mm))
+
+
+def _offsets(
+    trials: Sequence[PreparedTrial],
+    sensor: str,
+    residuals: Mapping[str, Sequence[Array]],
+    noise: Noise,
+) -> list[_Offset]:
+    """Of every trial; one that does not have the sensor has no offset."""
+    left = iter(residuals.get(sensor, ()))
+    return [
+        _offset(trial.time_s - trial.time_s[0], next(left), noise[sensor])
+        if trial.has(sensor)
+        else _Offset()
+        for trial in trials
+    ]
+
+
+def _offset(time_s: Array, residual: Array, sigma: float) -> _Offset:
+    """Intercept of a parabola through the first readings, without outliers of these."""
+    first = slice(0, max(_FEWEST, int(np.searchsorted(time_s, START_LOOK_S))))
+    read = np.isfinite(residual[first])
+    time, left = time_s[first][read], residual[first][read]
+    for _ in range(2):
+        if time.size < _FEWEST // 2:
+            return _Offset()
+        basis, root = np.linalg.qr(np.vander(time / START_LOOK_S, 3, increasing=True))
+        fitted = basis @ (basis.T @ left)
+        near = np.abs(left - fitted) <= START_OUTLIER_SIGMA * sigma
+        inverse = np.linalg.inv(root)
+        value, spread = float((inverse @ (basis.T @ left))[0]), float(np.linalg.norm(inverse[0]))
+        if near.all():
+            break
+        time, left = time[near], left[near]
+    limit = max(START_SIGMA * spread, START_LEAST_SIGMA)
+    return _Offset(off_sigma=value / sigma, limit_sigma=limit)
+
+
+def _shared(offsets: Sequence[_Offset]) -> float:
+    """The offset that most trials share, two at least; else 0."""
+    measured = [own for own in offsets if np.isfinite(own.limit_sigma)]
+    best, most = 0.0, sum(not own.beyond(0.0) for own in measured)
+    for one in measured:
+        alike = [own.off_sigma for own in measured if not own.beyond(one.off_sigma)]
+        if len(alike) > max(most, 1):
+            best, most = float(np.median(alike)), len(alike)
+    return best
+
+
+def _late(
+    rig: NominalRig,
+    trial: PreparedTrial,
+    tip: _Offset,
+    torque: _Offset,
+    shared: Mapping[str, float],
+    noise: Noise,
+) -> PreparedTrial:
+    if trial.has(_TIP):
+        twist_deg = (shared[_TIP] - tip.off_sigma) * noise[_TIP]
+    else:
+        torque_n_mm = (torque.off_sigma - shared[_TORQUE]) * noise[_TORQUE]
+        length_mm = float(trial.free_mm[0] + 0.5 * trial.inserted_mm[0])
+        twist_deg = float(np.degrees(torque_n_mm * length_mm / rig.rigidity_n_mm2))
+    unused_s = min(_forgotten_s(rig, trial), START_MOST_UNUSED * float(np.ptp(trial.time_s)))
+    unused = trial.time_s < trial.time_s[0] + unused_s
+    start = LateStart(twist_deg=float(twist_deg), rate_deg_s=start_rate_deg_s(trial), unused_s=unused_s)
+    readings = {s: np.where(unused, np.nan, values) for s, values in trial.readings.items()}
+    return replace(trial, late_start=start, readings=readings)
+
+
+def start_rate_deg_s(trial: PreparedTrial) -> float:
+    """Rate of the base at the first sample."""
+    first = slice(0, max(_FEWEST // 2, int(np.searchsorted(trial.time_s - trial.time_s[0], 0.1))))
+    time_s = trial.time_s[first] - trial.time_s[0]
+    return float(np.polyfit(time_s, trial.base_motion_deg[first], 1)[0])
+
+
+def _forgotten_s(rig: NominalRig, trial: PreparedTrial) -> float:
+    """Until when all but the slowest mode of the nominal needle has faded."""
+    held = InsertedNeedle(
+        needle=Needle(**dict(rig.needle)),
+        damping_n_mm_s_per_mm=rig.tissue.damping_n_mm_s_per_mm,
+        inserted_mm=max(float(trial.inserted_mm[0]), 1.0),
+        free_mm=float(trial.free_mm[0]),
+    )
+    return START_DECAYS / abs(float(held.poles_rad_s(2)[1]))

@@ -1,0 +1,108 @@
+"""Noise that is correlated in time: white noise beside a first-order process.
+
+A filtered or slowly wandering sensor does not forget at once. Of the variance of its noise a share w is
+white and a share c = 1 - w is an Ornstein-Uhlenbeck process of correlation time tau, whose
+autocovariance is
+
+    c exp(-|t| / tau)
+
+so that it is an AR(1) process at even steps, and the sum of both an ARMA(1, 1). Whitened noise is that
+noise less what its past tells of it, over the standard deviation of the rest: the innovations of the
+Kalman filter whose state is the coloured part,
+
+    e = y - a,   S = P + w,   K = P / S
+    a <- phi (a + K e),   P <- phi^2 P w / S + c (1 - phi^2),   phi = exp(-step / tau)
+
+exact for samples at any times, with any missing. It is linear in y: differences of residuals, slopes
+and costs are whitened as residuals are, and sums of squares of the whitened are -2 log(likelihood).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NoiseColour:
+    """Noise of one sensor in time, whatever its size.
+
+    Attributes:
+      share: of the variance that is coloured, above 0 to 1.
+      correlation_time_s: in which the coloured part forgets 63 %.
+    """
+
+    share: float
+    correlation_time_s: float
+
+    def whitened(self, time_s: Array, values: Array) -> Array:
+        """Innovations over their standard deviation; of noise with variance 1, white with variance 1.
+
+        Args:
+          time_s: (N,), increasing.
+          values: residuals / sigma, (N,) or (N, n).
+        """
+        columns = np.ascontiguousarray(values.reshape(time_s.size, -1), float)
+        told, _ = _innovations(self._kept(time_s), columns, self.share)
+        return np.asarray(told).reshape(values.shape)
+
+    def uncertainty(self, time_s: Array) -> float:
+        """Sum of the logarithms of the variances that samples have, given those before them."""
+        _, log_variance = _innovations(self._kept(time_s), np.zeros((time_s.size, 0)), self.share)
+        return float(log_variance)
+
+    def restored(self, time_s: Array, whitened: Array) -> Array:
+        """What was whitened: the inverse."""
+        columns = np.ascontiguousarray(whitened.reshape(time_s.size, -1), float)
+        return np.asarray(_readings(self._kept(time_s), columns, self.share)).reshape(whitened.shape)
+
+    def density(self, step_s: float) -> float:
+        """Spectral density at frequency 0 of samples at even steps, over that of white noise."""
+        times = step_s / (2 * self.correlation_time_s)
+        return float(1 - self.share + self.share / np.tanh(times))
+
+    def covariances(self, lags_s: Array) -> Array:
+        """Autocovariances of the coloured part alone, over its variance, (N,)."""
+        return np.asarray(np.exp(-np.abs(lags_s) / self.correlation_time_s))
+
+    def _kept(self, time_s: Array) -> Array:
+        """What the coloured part keeps from one sample to the next, (N,); nothing to the first."""
+        return np.exp(-np.diff(time_s, prepend=-np.inf) / self.correlation_time_s)
+
+
+@njit(cache=True)
+def _innovations(kept: Array, values: Array, share: float) -> tuple[Array, float]:
+    told = np.empty_like(values)
+    state = np.zeros(values.shape[1])
+    spread, log_variance = share, 0.0
+    for i in range(kept.size):
+        state *= kept[i]
+        spread = kept[i] ** 2 * spread + share * (1 - kept[i] ** 2)
+        variance = spread + 1 - share
+        log_variance += np.log(variance)
+        for j in range(values.shape[1]):
+            missed = values[i, j] - state[j]
+            told[i, j] = missed / np.sqrt(variance)
+            state[j] += spread / variance * missed
+        spread *= (1 - share) / variance
+    return told, log_variance
+
+
+@njit(cache=True)
+def _readings(kept: Array, told: Array, share: float) -> Array:
+    values = np.empty_like(told)
+    state = np.zeros(told.shape[1])
+    spread = share
+    for i in range(kept.size):
+        state *= kept[i]
+        spread = kept[i] ** 2 * spread + share * (1 - kept[i] ** 2)
+        variance = spread + 1 - share
+        for j in range(told.shape[1]):
+            missed = told[i, j] * np.sqrt(variance)
+            values[i, j] = state[j] + missed
+            state[j] += spread / variance * missed
+        spread *= (1 - share) / variance
+    return values

@@ -1,0 +1,188 @@
+"""Colour of a sensor's noise, from the spectrum of what a model leaves of its readings.
+
+What an unmodelled effect leaves is slow, or comes in bursts at motions; noise goes on all the time. So
+the residual is cut into windows of 2 s, a parabola is taken off each, and of the periodograms in a band
+of frequencies a low quantile is taken: that of noise is known (a periodogram scatters as chi-square of
+two about the spectral density), and bursts in two thirds of the windows leave it as it is. Bands begin
+above the frequencies of what is slow. White noise beside an Ornstein-Uhlenbeck process is fitted to
+them (`noise_colour`), its correlation time at most `COLOUR_LONGEST_S`: what it has below the bands is
+extrapolated and never taken from the data. A missing slow friction cannot pass for noise.
+
+Missing samples count as zeros beside those that are there: the autocorrelation of the windows knows of
+them, and so does the spectrum that a model of the noise is expected to show.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from diagnosis.criteria import (
+    COLOUR_ABOVE_HZ,
+    COLOUR_CHI_SQUARE,
+    COLOUR_LEAST_SHARE,
+    COLOUR_LONGEST_S,
+    COLOUR_OPEN,
+    COLOUR_WINDOW_S,
+    COLOUR_WINDOWS,
+)
+from diagnosis.prepare.noise_colour import NoiseColour
+
+Array = NDArray[np.float64]
+
+_BANDS = 12
+_TIMES = 32  # correlation times that are tried
+_QUANTILE = 0.3
+_MEAN = -np.log(1 - _QUANTILE)  # of an exponential distribution, its mean over this quantile of it
+_SCATTER = np.sqrt(_QUANTILE / (1 - _QUANTILE)) / _MEAN  # of ln(quantile), times sqrt(samples)
+_INDEPENDENT = 0.8  # of the periodograms of half overlapping windows, at neighbouring frequencies
+_FEWEST_BANDS = 4
+_MASKS, _IN_BAND = 12, 8  # windows and frequencies that stand for all
+_FEWEST = 0.5  # share of its samples that a window has to have
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Spectrum:
+    """Levels of bands, (B,), the standard deviations of their logarithms, and how to predict them."""
+
+    levels: Array
+    error: Array
+    lag_weights: Array
+    step_s: float
+
+    def expected(self, covariances: Array) -> Array:
+        """Levels that noise of given autocovariances at lags 0, 1, ... is expected to show, (B,)."""
+        return self.lag_weights @ covariances
+
+
+def noise_colour(parts: Sequence[tuple[Array, Array]]) -> tuple[float, NoiseColour] | None:
+    """Standard deviation and colour of the noise in residuals; None: it may well be white.
+
+    Args:
+      parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
+    """
+    spectrum = _spectrum(parts)
+    if spectrum is None:
+        return None
+    lags_s = spectrum.step_s * np.arange(spectrum.lag_weights.shape[1])
+    white = spectrum.expected((lags_s == 0).astype(float))
+    alone, _ = _fitted(spectrum, white[:, None])
+    found = []
+    for time_s in np.geomspace(0.4 * spectrum.step_s, COLOUR_LONGEST_S, _TIMES):
+        coloured = spectrum.expected(np.exp(-lags_s / time_s))
+        cost, sizes = _fitted(spectrum, np.column_stack([white, coloured]))
+        if sizes[1] > 0:
+            share = float(sizes[1] / sizes.sum())
+            colour = NoiseColour(share=share, correlation_time_s=float(time_s))
+            found.append((cost, float(np.sqrt(sizes.sum())), colour))
+    best = min((cost for cost, _, _ in found), default=alone)
+    open_ = [(sigma, colour) for cost, sigma, colour in found if cost <= best + COLOUR_OPEN]
+    if alone - best < COLOUR_CHI_SQUARE:
+        return None
+    sigma, colour = min(open_, key=lambda one: _unlikeliness(parts, one[1]))
+    return (sigma, colour) if colour.share >= COLOUR_LEAST_SHARE else None
+
+
+def _unlikeliness(parts: Sequence[tuple[Array, Array]], colour: NoiseColour) -> float:
+    """-2 log(likelihood) of residuals whose noise has a colour, and any size."""
+    squares, uncertainty, samples = 0.0, 0.0, 0
+    for time_s, values in parts:
+        read = np.isfinite(values)
+        squares += float(np.sum(colour.whitened(time_s[read], values[read]) ** 2))
+        uncertainty += colour.uncertainty(time_s[read])
+        samples += int(read.sum())
+    return samples * float(np.log(squares)) + uncertainty
+
+
+def _fitted(spectrum: _Spectrum, columns: Array) -> tuple[float, Array]:
+    """Chi-square of the best non-negative sum of columns, and its coefficients."""
+    size = spectrum.levels
+    for _ in range(4):  # scatter is a share of what is expected, not of what was found
+        weights = 1 / (spectrum.error * size)
+        coefficients, _ = nnls(columns * weights[:, None], spectrum.levels * weights)
+        size = np.sqrt(size * np.maximum(columns @ coefficients, 1e-12 * size))
+    ratio = np.log(spectrum.levels / np.maximum(columns @ coefficients, 1e-300))
+    return float(np.sum((ratio / spectrum.error) ** 2)), coefficients
+
+
+def _spectrum(parts: Sequence[tuple[Array, Array]]) -> _Spectrum | None:
+    """Of all trials; None: they are too short."""
+    steps = np.concatenate([np.diff(time) for time, _ in parts]) if parts else np.zeros(0)
+    if not steps.size:
+        return None
+    step_s = float(np.median(steps))
+    size = round(COLOUR_WINDOW_S / step_s)
+    taper = np.hanning(size + 2)[1:-1]
+    cut = [one for time, values in parts for one in _windows(_even(time, values, step_s), size)]
+    frequencies = np.fft.rfftfreq(size, step_s)
+    edges = np.geomspace(COLOUR_ABOVE_HZ, max(frequencies[-1], COLOUR_ABOVE_HZ) * 1.001, _BANDS + 1)
+    inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]
+    bands = [own for own in inside if own.size]
+    if len(cut) < COLOUR_WINDOWS or len(bands) < _FEWEST_BANDS:
+        return None
+    squares = np.array([_periodogram(values, taper) for values in cut])
+    levels = np.array([np.quantile(squares[:, own], _QUANTILE) / _MEAN for own in bands])
+    if not (levels > 0).all():
+        return None
+    count = np.array([_INDEPENDENT * len(cut) * own.size for own in bands])
+    return _Spectrum(
+        levels=levels,
+        error=_SCATTER / np.sqrt(count),
+        lag_weights=_lag_weights(cut, taper, bands),
+        step_s=step_s,
+    )
+
+
+def _lag_weights(cut: Sequence[Array], taper: Array, bands: Sequence[NDArray[np.int_]]) -> Array:
+    """By which autocovariances at lags 0, 1, ... add up to the expected levels of bands, (B, L)."""
+    masks = list({np.isfinite(one).tobytes(): one for one in cut}.values())
+    looked_at = masks[:: max(len(masks) // _MASKS, 1)]
+    each = []
+    for values in looked_at:
+        known, weights, scale = _known(values, taper)
+        base, inverse = known, np.linalg.pinv(known)
+        size = values.size
+        rows = []
+        for own in bands:
+            some = own[:: max(own.size // _IN_BAND, 1)]
+            waves = np.exp(-2j * np.pi * np.outer(some, np.arange(size)) / size) * weights
+            waves = waves - (waves @ base) @ inverse
+            power = np.mean(np.abs(np.fft.fft(waves, 2 * size)) ** 2, axis=0)
+            overlap = np.fft.ifft(power).real[:size] / scale
+            rows.append(np.where(np.arange(size) == 0, overlap, 2 * overlap))
+        each.append(np.array(rows))
+    return np.asarray(np.mean(each, axis=0))
+
+
+def _even(time_s: Array, values: Array, step_s: float) -> Array:
+    """Values at even steps, each at the nearest; NaN where none was read."""
+    place = np.rint((time_s - time_s[0]) / step_s).astype(int)
+    even = np.full(place[-1] + 1, np.nan)
+    read = np.isfinite(values)
+    even[place[read]] = values[read]
+    return even
+
+
+def _windows(values: Array, size: int) -> list[Array]:
+    """Half overlapping windows that have enough samples."""
+    cut = [values[i : i + size] for i in range(0, values.size - size + 1, max(size // 2, 1))]
+    return [one for one in cut if np.isfinite(one).mean() >= _FEWEST]
+
+
+def _periodogram(values: Array, taper: Array) -> Array:
+    """Of one window without its parabola, per sample that was read."""
+    known, weights, scale = _known(values, taper)
+    there = np.nan_to_num(values)
+    left = (there - known @ (np.linalg.pinv(known) @ there)) * weights
+    return np.asarray(np.abs(np.fft.rfft(left)) ** 2 / scale)
+
+
+def _known(values: Array, taper: Array) -> tuple[Array, Array, float]:
+    """Parabolas where a window was read and 0 elsewhere, (N, 3), its taper likewise, and its squares."""
+    read = np.isfinite(values)
+    parabolas = np.vander(np.linspace(-1, 1, values.size), 3) * read[:, None]
+    weights = taper * read
+    return parabolas, weights, float(np.sum(weights**2))

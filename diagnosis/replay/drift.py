@@ -1,0 +1,43 @@
+"""The drift of the torque sensor that a prediction leaves, where drift was allowed for."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.prepare.drift import likeliest_drift
+from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.replay.replay import Prediction
+
+Array = NDArray[np.float64]
+
+TORQUE = "base_torque_n_mm"
+
+
+def torque_drift_sigma(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
+    """Drift at every sample, in sigma of the torque, (N,); 0 where none is allowed for."""
+    if not trial.torque_drift_sigma or not trial.has(TORQUE):
+        return np.zeros(trial.time_s.size)
+    left = (trial.readings[TORQUE] - prediction[TORQUE]) / noise[TORQUE]
+    return likeliest_drift(trial.time_s, left, trial.torque_drift_sigma)
+
+
+def with_drift(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Prediction]:
+    """Predictions of what the sensors read, drift included, by trial."""
+    drifts = _by_trial(log, noise, predictions)
+    return [
+        replace(one, base_torque_n_mm=one.base_torque_n_mm + noise[TORQUE] * drift)
+        for one, drift in zip(predictions, drifts, strict=True)
+    ]
+
+
+def drift_range_sigma(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
+    """Largest range of the drift within a trial, in sigma of the torque."""
+    return max((float(np.ptp(drift)) for drift in _by_trial(log, noise, predictions)), default=0.0)
+
+
+def _by_trial(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Array]:
+    each = zip(log.trials, predictions, strict=True)
+    return [torque_drift_sigma(trial, one, noise) for trial, one in each]

@@ -1,0 +1,27 @@
+"""What a diagnosis says of the sensors: what they do beside noise, and what was done about it."""
+
+from diagnosis.assessment.intervals import Interval
+from diagnosis.effects import IMPERFECTIONS
+from diagnosis.result import Diagnosis
+
+
+def imperfections(found: Diagnosis) -> str:
+    """What the sensors do beside noise, in one sentence; empty where nothing had to be allowed for."""
+    told = found.assessment
+    lines = [_told(name, parameters) for name, parameters in told.imperfections.items()]
+    if told.torque_drift_sigma > 0.0:
+        lines.append(
+            f"a drift of the torque sensor, by up to {told.torque_drift_sigma:.1f} σ within a trial"
+        )
+    if not lines:
+        return ""
+    return f"The sensors are not perfect, which was allowed for: {'; '.join(lines)}"
+
+
+def _told(name: str, parameters: dict[str, Interval]) -> str:
+    effect = IMPERFECTIONS[name]
+    values = [
+        f"{p} {own.value:.3g} (95 % interval {own.low:.3g} to {own.high:.3g}) {own.unit}"
+        for p, own in parameters.items()
+    ]
+    return f"{effect.title}, {', '.join(values).removesuffix(' -')}"

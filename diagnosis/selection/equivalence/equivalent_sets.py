@@ -1,0 +1,241 @@
+"""Equivalence: which other sets of effects would have changed the readings of a log in the same way.
+
+Some sets no log can tell apart: a torque gain of 1.1 is stiffness and damping both 1.1. They are found
+from the model. The readings that the chosen explanation predicts, without noise, take the place of the
+log; beside half of what was chosen (where secants are good to third order) every effect of the
+library is simulated once, and small sets of these columns that add up to all that was chosen are
+fitted to those readings. A set is equivalent if the cost that it leaves could not tell it from the
+chosen one, and is next to nothing of what the chosen one changed.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import EQUIVALENT_FITS, EQUIVALENT_LEAVES, EQUIVALENT_SIZE, SIMPLE_LEAD
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Effect
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.nuisance import CONVENTIONS
+from diagnosis.fitting.parameterization import starts
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.replay.replay import predict
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.equivalence.column_sets import beside, combinations_within
+from diagnosis.workers import Failure, Task, Workers
+
+Array = NDArray[np.float64]
+Parts = dict[str, Array]
+
+_DIFFERENCE = 1e-3  # of the nuisance, in the units of a fit
+_SMALL = 0.2  # share of a start at which the effect of a scale is straight
+_ITERATIONS = 6
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Equivalent:
+    """A set of effects that changes the readings as the chosen one does.
+
+    Attributes:
+      parts: of the vector of its fit to what the chosen one predicts.
+      cost: cost by which the two differ on this log.
+    """
+
+    names: tuple[str, ...]
+    parts: Parts
+    cost: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Column:
+    """What an effect changes, and the vector part at which it does so."""
+
+    name: str
+    part: Array
+    change: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Chosen:
+    """The chosen explanation, as a log of its own.
+
+    Attributes:
+      problem: whose readings are those that it predicts.
+      own: parts of its named effects.
+      kept: of what is open besides.
+      changed: what its named effects change of all readings, / sigma, (N,).
+      middle: the same of half of each of them.
+    """
+
+    problem: FitProblem
+    own: Parts
+    kept: Parts
+    changed: Array
+    middle: Array
+
+    @property
+    def prior(self) -> float:
+        """Cost of what is open besides."""
+        parameterization = self.problem.parameterization(())
+        weighted = parameterization.weights * parameterization.joined(self.kept)
+        return float(weighted @ weighted)
+
+    @property
+    def halved(self) -> Parts:
+        """All of it, with half of each named effect."""
+        return _halved(self.problem, self.own) | self.kept
+
+
+def equivalent_sets(
+    coarse: FitProblem, best: Candidate, effects: Sequence[str], workers: Workers
+) -> tuple[Equivalent, ...]:
+    """Sets of effects that no reading of this log tells from those of the best, smallest first.
+
+    None contains another, all effects of the best, or a richer relative of each.
+
+    Args:
+      coarse: the decimated log.
+      effects: that may be tried.
+    """
+    if not best.named:
+        return ()
+    chosen = _chosen(coarse, best)
+    tasks = [Task(effects=(name,), arguments=(chosen, name)) for name in effects]
+    results = workers.each("what cannot be told apart", _column, tasks)
+    columns = [c for c in results if not isinstance(c, Failure) and c.change.any()]
+    return _fitted(chosen, _promising(chosen, columns), workers) if columns else ()
+
+
+def covers(names: Sequence[str], others: Sequence[str]) -> bool:
+    """Whether each of the others is among the names, or contained in one that is."""
+    return set(others) <= {inner for n in names for inner in (n, *LIBRARY[n].contains)}
+
+
+def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
+    """Without scatter and pasts, which it does not name: what is alike is alike without them."""
+    sensors = (coarse.library[name] for name in best.names if name not in LIBRARY)
+    open_ = (*sensors, *(e for e in coarse.nuisance if e.name in CONVENTIONS))
+    own = {name: best.fit.parts[name] for name in best.named}
+    kept = {e.name: best.fit.parts[e.name] for e in open_}
+    problem = replace(coarse, nuisance=open_)
+    rig = _rig(problem, own | kept)
+    trials = tuple(_reading(problem, trial, rig) for trial in coarse.log.trials)
+    problem = replace(problem, log=replace(coarse.log, trials=trials))
+    changed = _readings(problem, kept)
+    middle = _readings(problem, _halved(problem, own) | kept)
+    return _Chosen(problem=problem, own=own, kept=kept, changed=changed, middle=middle)
+
+
+def _halved(problem: FitProblem, parts: Parts) -> Parts:
+    return {name: _moved(problem.library[name], part, 0.5) for name, part in parts.items()}
+
+
+def _reading(problem: FitProblem, trial: PreparedTrial, rig: RigParameters) -> PreparedTrial:
+    """A trial that reads what a rig predicts, wherever it read anything."""
+    found = predict(problem.log.rig, trial, [rig], problem.resolution)[0]
+    read = {s: np.where(np.isfinite(own), found[s], np.nan) for s, own in trial.readings.items()}
+    return replace(trial, readings=read)
+
+
+def _rig(problem: FitProblem, parts: Parts) -> RigParameters:
+    open_ = {e.name for e in problem.nuisance}
+    parameterization = problem.parameterization([name for name in parts if name not in open_])
+    return parameterization.rig(parameterization.joined(parts))
+
+
+def _readings(problem: FitProblem, parts: Parts) -> Array:
+    """What the chosen explanation reads more than a rig with these parts, / sigma, (N,)."""
+    return np.concatenate([trial[0] for trial in problem.residuals([_rig(problem, parts)])])
+
+
+def _moved(effect: Effect, part: Array, share: float) -> Array:
+    """A part of a vector at another strength of its effect."""
+    each = zip(effect.parameters, part, strict=True)
+    return np.array([p.to_fit(p.towards_neutral(p.from_fit(float(x)), share)) for p, x in each])
+
+
+def _column(chosen: _Chosen, name: str) -> _Column:
+    """What an effect changes beside half of what was chosen."""
+    effect, half = chosen.problem.library[name], chosen.halved
+    if name in chosen.own:
+        part, there = half[name], chosen.own[name]
+    else:
+        each = starts(effect)
+        share = _SMALL if effect.parameters[0].neutral == 1.0 else 1.0
+        part = there = _moved(effect, each[len(each) // 2], share)
+    change = chosen.middle - _readings(chosen.problem, half | {name: there})
+    return _Column(name=name, part=part, change=change)
+
+
+def _promising(chosen: _Chosen, columns: Sequence[_Column]) -> list[tuple[tuple[str, ...], Parts]]:
+    """Sets of effects, and where to start their fits: by linear algebra."""
+    problem = chosen.problem
+    if not columns:
+        return []
+    slopes, weights = _open(chosen)
+    changes = np.stack([chosen.changed, *(c.change for c in columns)], axis=1)
+    target, *others = beside(slopes, weights, changes).T
+    one_sided = np.array([_one_sided(problem.library[c.name]) for c in columns])
+    allowed = max(SIMPLE_LEAD, EQUIVALENT_LEAVES * float(chosen.changed @ chosen.changed))
+    found = []
+    for one in combinations_within(
+        target, np.stack(others, axis=1), one_sided, EQUIVALENT_SIZE, allowed
+    ):
+        own = [columns[i] for i in one.columns]
+        names = tuple(c.name for c in own)
+        if not covers(names, tuple(chosen.own)):
+            each = zip(own, one.amounts, strict=True)
+            found.append((names, {c.name: _moved(problem.library[c.name], c.part, a) for c, a in each}))
+    return found
+
+
+def _open(chosen: _Chosen) -> tuple[Array, Array]:
+    """What is open besides: slopes of the readings, (N, k), and weights of the prior, (k,)."""
+    parameterization, half = chosen.problem.parameterization(()), chosen.halved
+    x = parameterization.joined(chosen.kept)
+    _, high = parameterization.bounds()
+    steps = np.where(x + _DIFFERENCE > high, -_DIFFERENCE, _DIFFERENCE)
+    slopes = np.zeros((chosen.middle.size, x.size))
+    for i, step in enumerate(np.diag(steps)):
+        moved = _readings(chosen.problem, half | parameterization.parts(x + step))
+        slopes[:, i] = (chosen.middle - moved) / steps[i]
+    return slopes, parameterization.weights
+
+
+def _one_sided(effect: Effect) -> bool:
+    """Whether the strength of an effect has one sign."""
+    first = effect.parameters[0]
+    return first.neutral != 1.0 and first.low >= 0.0
+
+
+def _fitted(
+    chosen: _Chosen, promising: Sequence[tuple[tuple[str, ...], Parts]], workers: Workers
+) -> tuple[Equivalent, ...]:
+    """Those of the promising sets that are equivalent, smaller sets before larger ones."""
+    found: list[Equivalent] = []
+    for size in range(1, EQUIVALENT_SIZE + 1):
+        waiting = [
+            (names, start)
+            for names, start in promising
+            if len(names) == size and not any(set(known.names) < set(names) for known in found)
+        ]
+        tasks = [Task(effects=n, arguments=(chosen, n, start)) for n, start in waiting[:EQUIVALENT_FITS]]
+        results = workers.each("what cannot be told apart", _fit, tasks)
+        found += [r for r in results if not isinstance(r, Failure) and _is_equal(chosen, r)]
+    return tuple(found)
+
+
+def _fit(chosen: _Chosen, names: tuple[str, ...], start: Parts) -> Equivalent:
+    problem = chosen.problem
+    begin = problem.parameterization(names).joined({**chosen.kept, **start})
+    fit = fit_effects(problem, names, begin, most_iterations=_ITERATIONS)
+    return Equivalent(names=names, parts=fit.parts, cost=fit.cost - chosen.prior)
+
+
+def _is_equal(chosen: _Chosen, one: Equivalent) -> bool:
+    power = float(chosen.changed @ chosen.changed)
+    return one.cost <= min(SIMPLE_LEAD, EQUIVALENT_LEAVES * power)

@@ -1,0 +1,67 @@
+"""What a search has come to: the problem, fine and coarse, what was fitted, and the record."""
+
+from dataclasses import dataclass, replace
+
+from diagnosis.fitting.decimation import decimated_noise
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_reestimation import rescaled
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.checked import Checked
+from diagnosis.selection.fitting import Made
+from diagnosis.selection.record import RecordEntry
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SearchState:
+    """What a search has come to.
+
+    Attributes:
+      problem: the log itself, replayed as finely as it asks.
+      coarse: the decimated log.
+      effects: that may be tried.
+      nominal: the nominal rig, exactly as rig.yaml says.
+      candidates: fitted on the log itself.
+      singles: single effects, fitted on the decimated log, best first.
+      pairs: the same of pairs.
+      checked: candidates as they were checked before pairs were tried.
+      record: of every stage so far.
+    """
+
+    problem: FitProblem
+    coarse: FitProblem
+    effects: tuple[str, ...]
+    nominal: Fit
+    candidates: tuple[Candidate, ...] = ()
+    singles: tuple[Candidate, ...] = ()
+    pairs: tuple[Candidate, ...] = ()
+    checked: Checked | None = None
+    record: tuple[RecordEntry, ...] = ()
+
+    @property
+    def best(self) -> Candidate:
+        """Of least score."""
+        return min(self.candidates, key=lambda c: c.score)
+
+    def adding(self, made: Made) -> "SearchState":
+        """The state with more candidates."""
+        found, record = made
+        return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
+
+    def renoised(self, noise: Noise) -> "SearchState":
+        """The state in units of another noise."""
+        fine, coarse = self.problem, self.coarse
+        rare = decimated_noise(noise, fine.log, coarse.log)
+        return replace(
+            self,
+            problem=replace(fine, noise=noise),
+            coarse=replace(coarse, noise=rare),
+            nominal=rescaled(self.nominal, fine, noise),
+            candidates=tuple(candidate(rescaled(c.fit, fine, noise)) for c in self.candidates),
+            singles=tuple(candidate(rescaled(c.fit, coarse, rare)) for c in self.singles),
+        )
+
+    def noting(self, *entries: RecordEntry) -> "SearchState":
+        """The state with a longer record."""
+        return replace(self, record=(*self.record, *entries))

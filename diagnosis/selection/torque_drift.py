@@ -1,0 +1,84 @@
+"""Where nothing explains a log: the search once more, with a torque sensor that may drift.
+
+A drift could take over a part of what friction does, so that it is tried last, and only where it would
+take off most of what one of the leading explanations leaves beyond noise. One of more than
+DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SHARE, DRIFT_SIZE_SIGMA, FINALISTS
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.replay.drift import drift_range_sigma
+from diagnosis.replay.replay import replay
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.checked import check
+from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+Search = Callable[[SearchState, Workers], SearchState]
+
+STAGE = "drift of the torque sensor"
+
+
+def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchState:
+    """The state of a search that allows for drift where that explains the log; else the state itself."""
+    if workers.stop.due:
+        workers.stop.leave_out(STAGE)
+        return state
+    if check(state.problem, state.candidates, state.checked).explains:
+        return state
+    leading = sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
+    if not any(_promises(state.problem, c) for c in leading):
+        return state
+    again = search(_drifting(state), workers)
+    if not check(again.problem, again.candidates, again.checked).explains:
+        return state.noting(_dropped("no explanation reaches the noise with it"))
+    most = _range_sigma(again.problem, again.best.fit)
+    if most > DRIFT_RANGE_SIGMA:
+        return state.noting(_dropped(f"{most:.1f} sigma within a trial are more than a sensor's drift"))
+    return again
+
+
+def _promises(problem: FitProblem, one: Candidate) -> bool:
+    """Whether a drift would take off most of what an explanation leaves beyond noise."""
+    rig = one.fit.parameterization.rig(one.fit.x)
+    drifting = problem.drifting(_size_n_mm(problem))
+    left = sum(float(own[0] @ own[0]) for own in drifting.residuals([rig]))
+    there = sum(float(own @ own) for own in one.fit.by_trial)
+    return there - left > DRIFT_SHARE * (there - one.fit.samples)
+
+
+def _range_sigma(problem: FitProblem, fit: Fit) -> float:
+    predictions = replay(problem.log, fit.parameterization.rig(fit.x), problem.resolution)
+    return drift_range_sigma(problem.log, problem.noise, predictions)
+
+
+def _size_n_mm(problem: FitProblem) -> float:
+    return DRIFT_SIZE_SIGMA * problem.noise["base_torque_n_mm"]
+
+
+def _drifting(state: SearchState) -> SearchState:
+    """The start of a search on the same log with drift allowed for."""
+    size_n_mm = _size_n_mm(state.problem)
+    problem = state.problem.drifting(size_n_mm)
+    rig = state.nominal.parameterization.rig(state.nominal.x)
+    left = tuple(own[0] for own in problem.residuals([rig]))
+    return SearchState(
+        problem=problem,
+        coarse=state.coarse.drifting(size_n_mm),
+        effects=state.effects,
+        nominal=replace(state.nominal, by_trial=left, cost=sum(float(own @ own) for own in left)),
+        record=(*state.record, _entry(Decision.KEPT, "it would take off most of what is left")),
+    )
+
+
+def _dropped(reason: str) -> RecordEntry:
+    return _entry(Decision.DROPPED, reason)
+
+
+def _entry(decision: Decision, reason: str) -> RecordEntry:
+    return RecordEntry(stage=STAGE, effects=(), decision=decision, reason=reason)

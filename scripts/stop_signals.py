@@ -1,0 +1,33 @@
+"""Ctrl-C and SIGTERM: once asks a diagnosis for the best so far, twice ends it at once."""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+from diagnosis.stopping import StopReason, StopSignal
+
+_REASONS = {signal.SIGINT: StopReason.INTERRUPTED, signal.SIGTERM: StopReason.TERMINATED}
+EXIT_CODES = {StopReason.NOBODY: 0} | {r: 128 + s for s, r in _REASONS.items()}
+"""As shells say it: 128 and the number of the signal."""
+
+
+@contextmanager
+def stops_on_signals(stop: StopSignal) -> Iterator[None]:
+    """Signals to this process ask for an end; signals that come then are those of Python."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # only the main thread hears of signals
+        return
+
+    def ask(number: int, _: FrameType | None) -> None:
+        if stop.requested:
+            raise KeyboardInterrupt if number == signal.SIGINT else SystemExit(128 + number)
+        stop.request(_REASONS[signal.Signals(number)])
+
+    before = {number: signal.signal(number, ask) for number in _REASONS}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,72 @@
+"""Stamps that jitter about even steps are told from samples that are uneven."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from diagnosis.log.time_stamps import with_even_times
+from diagnosis.log.trial import Trial
+
+STEP_S, BASE = 0.01, 0.02
+EVEN = STEP_S * np.arange(2000)
+
+
+def turned(time_s):
+    """A motion of up to 190 deg/s."""
+    return 60 * np.sin(2 * np.pi * 0.5 * time_s)
+
+
+def trial(stamps_s, taken_s, *, motion=turned, seed=1):
+    """A trial that was read at other times than its stamps say."""
+    noise = np.random.default_rng(seed).normal(0, BASE, taken_s.size)
+    table = pd.DataFrame({"time_s": stamps_s, "base_angle_deg": motion(taken_s) + noise})
+    return Trial(name="trial_01.csv", table=table)
+
+
+def jittered(times_s, rms_s, seed=2):
+    """The times, in order, off by so much."""
+    return np.sort(times_s + np.random.default_rng(seed).normal(0, rms_s, times_s.size))
+
+
+@pytest.mark.parametrize("rms_s", [0.0005, 0.003])
+def test_stamps_that_jitter_are_set_on_even_steps_and_it_is_said(rms_s):
+    stamps = jittered(EVEN, rms_s)
+    (found,), (warning,) = with_even_times([trial(stamps, EVEN)])
+    # A line through 2000 stamps: its ends are known to 2 rms / sqrt(2000).
+    np.testing.assert_allclose(found["time_s"], EVEN, atol=0.2 * rms_s)
+    assert "scatters by" in warning
+    np.testing.assert_array_equal(found.file_rows.stamps_s, stamps)
+    np.testing.assert_array_equal(found.file_rows.taken_s, found["time_s"])
+
+
+def test_lost_rows_are_counted():
+    kept = np.random.default_rng(3).random(EVEN.size) > 0.25
+    stamps = jittered(EVEN[kept], 0.001)
+    (found,), _ = with_even_times([trial(stamps, EVEN[kept])])
+    np.testing.assert_allclose(found["time_s"], EVEN[kept], atol=0.0003)
+
+
+def test_uneven_samples_that_are_stamped_rightly_are_left_alone():
+    taken = jittered(EVEN, 0.003)
+    one = trial(taken, taken)
+    assert with_even_times([one]) == ([one], [])
+
+
+def test_a_trial_at_rest_follows_the_others_of_its_log():
+    still = trial(jittered(EVEN, 0.001, seed=5), EVEN, motion=np.zeros_like)
+    assert with_even_times([still]) == ([still], [])
+    found, _ = with_even_times([still, trial(jittered(EVEN, 0.001), EVEN)])
+    np.testing.assert_allclose(found[0]["time_s"], EVEN, atol=0.0002)
+
+
+def test_even_stamps_are_left_alone():
+    one = trial(EVEN, EVEN)
+    assert with_even_times([one]) == ([one], [])
+
+
+def test_stamps_that_have_lost_count_are_left_alone():
+    """Jitter of most of a step, and every fifth row lost: no grid is certain."""
+    kept = np.random.default_rng(3).random(EVEN.size) > 0.2
+    stamps = jittered(EVEN[kept], 0.8 * STEP_S)
+    found, _ = with_even_times([trial(stamps, EVEN[kept])])
+    assert np.abs(found[0]["time_s"] - EVEN[kept]).max() < 6 * STEP_S

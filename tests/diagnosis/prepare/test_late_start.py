@@ -1,0 +1,20 @@
+"""How late starts are told."""
+
+from diagnosis.prepare.late_start import LateStart, late_start_warning
+
+TWISTED = LateStart(twist_deg=-34.6, rate_deg_s=0.2, unused_s=0.84)
+MOVING = LateStart(twist_deg=5.0, rate_deg_s=-42.0, unused_s=0.5)
+
+
+def test_one_warning_names_every_trial_its_twist_and_what_is_not_used():
+    said = late_start_warning({"trial_02.csv": TWISTED, "trial_04.csv": MOVING})
+    assert "trial_02.csv by about 35 deg (first 0.84 s); trial_04.csv by about 5 deg" in said
+    assert "is fitted" in said
+
+
+def test_a_base_that_moves_is_told():
+    assert MOVING.words == "by about 5 deg and moving at 42 deg/s (first 0.5 s)"
+
+
+def test_trials_from_rest_raise_no_warning():
+    assert late_start_warning({}) == ""

@@ -1,0 +1,77 @@
+"""Colour of noise, from the spectrum of residuals that also hold what a model lacks."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from diagnosis.prepare.noise_spectrum import noise_colour
+
+RATE_HZ = 100
+
+
+def noise(rng, seconds=30.0, share=0.0, correlation_time_s=0.1):
+    """Of variance 1."""
+    size = round(seconds * RATE_HZ)
+    kept = np.exp(-1 / (RATE_HZ * correlation_time_s))
+    start = lfilter([np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=size + 20 * RATE_HZ))
+    return np.sqrt(1 - share) * rng.normal(size=size) + np.sqrt(share) * start[20 * RATE_HZ :]
+
+
+def trials(seed, count=4, **colour):
+    rng = np.random.default_rng(seed)
+    each = [noise(rng, **colour) for _ in range(count)]
+    return [(np.arange(values.size) / RATE_HZ, values) for values in each]
+
+
+@pytest.mark.parametrize(("share", "time_s"), [(1.0, 0.02), (0.5, 0.05), (1.0, 0.1), (0.6, 0.2)])
+def test_colour_is_found_alone_and_beside_white_noise(share, time_s):
+    sigma, colour = noise_colour(trials(1, share=share, correlation_time_s=time_s))
+    # 120 s hold some 120 / (2 time_s) independent values: the variance is good to sqrt(4 time_s / 120).
+    error = 3 * np.sqrt(4 * time_s / 120)
+    assert sigma == pytest.approx(1.0, abs=0.5 * error + 0.03)
+    assert colour.share == pytest.approx(share, abs=0.1)
+    # Power at low frequencies, 2 share time_s, is what effects are judged by.
+    assert sigma**2 * colour.share * colour.correlation_time_s == pytest.approx(share * time_s, rel=0.45)
+
+
+def test_colour_is_found_where_samples_are_missing():
+    rng = np.random.default_rng(2)
+    parts = trials(2, share=1.0, correlation_time_s=0.1)
+    for _, values in parts:
+        values[rng.random(values.size) < 0.25] = np.nan
+    sigma, colour = noise_colour(parts)
+    assert colour.share > 0.95
+    assert sigma**2 * colour.correlation_time_s == pytest.approx(0.1, rel=0.45)
+
+
+def test_white_noise_is_white_with_and_without_missing_samples():
+    for seed in range(20):
+        parts = trials(10 + seed, count=3, seconds=20.0)
+        for _, values in parts[: seed % 2]:
+            values[::3] = np.nan
+        assert noise_colour(parts) is None
+
+
+def test_what_is_slow_or_comes_in_bursts_is_no_noise():
+    """Relaxation after a turn every 5 s, twenty times the noise, and a drift."""
+    parts = trials(3)
+    for time_s, values in parts:
+        since = time_s % 5.0
+        values[:] += 20 * np.exp(-since / 0.3) * (-1) ** (time_s // 5) + 0.5 * time_s
+    assert noise_colour(parts) is None
+
+
+def test_what_is_slow_does_not_change_the_colour_that_is_found():
+    (alone, colour), parts = (noise_colour(trials(4, share=0.5)), trials(4, share=0.5))
+    for time_s, values in parts:
+        values[:] += 5 * np.sin(2 * np.pi * 0.1 * time_s)
+    sigma, found = noise_colour(parts)
+    power = (sigma**2 * found.share * found.correlation_time_s) / (
+        alone**2 * colour.share * colour.correlation_time_s
+    )
+    assert 0.5 < power < 2.0
+
+
+def test_too_few_windows_tell_no_colour():
+    assert noise_colour(trials(5, count=1, seconds=3.0, share=1.0)) is None
+    assert noise_colour([]) is None

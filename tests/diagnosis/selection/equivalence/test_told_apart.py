@@ -1,0 +1,71 @@
+"""One cause is named, and what it cannot be told from beside it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import joined, log_of, start_of_search
+
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.equivalence.told_apart import told_apart
+from diagnosis.selection.verdict import VerdictKind
+from diagnosis.stopping import StopReason, StopSignal
+from diagnosis.workers import Workers
+
+EFFECTS = ("damping_error", "stiffness_error", "torque_scale", "coulomb_friction")
+WORKERS = Workers()
+ALIKE = frozenset(("damping_error", "stiffness_error"))
+
+
+def verdict_of(rig, *names, workers=WORKERS, **values):
+    """The verdict on a log of a rig, where a search has tried one set of effects alone."""
+    log = joined(log_of(rig, seconds=6.0), log_of(rig, seed=1, speed=-1.0, seconds=6.0))
+    state = start_of_search(log, EFFECTS)
+    parts = {name: np.log([value]) for name, value in values.items()}
+    start = state.problem.parameterization(names).joined(parts)
+    found = replace(state, candidates=(candidate(fit_effects(state.problem, names, start)),))
+    return told_apart(found, workers).verdict
+
+
+@pytest.fixture(scope="module")
+def gain():
+    return RigParameters(torque_scale=1.1)
+
+
+def test_one_cause_that_nobody_tried_is_named_instead_of_two_that_are_alike(gain):
+    found = verdict_of(gain, *sorted(ALIKE), damping_error=1.1, stiffness_error=1.1)
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("torque_scale",))
+    assert [frozenset(names) for names in found.confusable] == [{"torque_scale"}, ALIKE]
+
+
+def test_one_cause_is_named_with_the_two_beside_it(gain):
+    found = verdict_of(gain, "torque_scale", torque_scale=1.1)
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("torque_scale",))
+    assert [frozenset(names) for names in found.confusable] == [{"torque_scale"}, ALIKE]
+
+
+def test_after_a_stop_what_was_left_out_is_noted(gain):
+    stop = StopSignal()
+    stop.request(StopReason.INTERRUPTED)
+    workers = Workers(stop=stop)
+    found = verdict_of(gain, "torque_scale", workers=workers, torque_scale=1.1)
+    assert (found.effects, found.confusable) == (("torque_scale",), ())
+    assert stop.left_out == ["what cannot be told apart"]
+
+
+def test_two_that_are_off_differently_are_undecided_between_all_pairs():
+    rig = RigParameters(stiffness_scale=1.2, damping_scale=0.85)
+    found = verdict_of(rig, *sorted(ALIKE), stiffness_error=1.2, damping_error=0.85)
+    assert found.kind is VerdictKind.UNDECIDED
+    told = {frozenset(names) for names in found.confusable}
+    assert {ALIKE, frozenset(("torque_scale", "damping_error"))} <= told
+    assert frozenset(("torque_scale", "stiffness_error")) in told
+
+
+def test_an_effect_of_its_own_kind_is_named_alone():
+    """Negative control."""
+    rig = RigParameters(kinetic_n_mm_per_mm=0.001)
+    found = verdict_of(rig, "coulomb_friction", coulomb_friction=0.001)
+    assert (found.kind, found.confusable) == (VerdictKind.EXPLAINED, ())

@@ -1,0 +1,68 @@
+"""Progress on the screen: one line on a terminal, plain lines elsewhere."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from diagnosis.progress import Progress
+from diagnosis.stopping import StopReason, StopSignal
+from scripts.progress_line import in_one_line, progress_line
+
+
+def news(stage="fitting pairs", elapsed_s=1.0, done=3, tasks=20, left_s=15.4):
+    return Progress(stage=stage, done=done, tasks=tasks, elapsed_s=elapsed_s, left_s=left_s)
+
+
+def shown(*each, **options):
+    """What a console of these options shows of progress."""
+    screen = io.StringIO()
+    with progress_line(Console(file=screen, width=60, **options), StopSignal()) as show:
+        for one in each:
+            show(one)
+    return screen.getvalue()
+
+
+def test_a_line_has_the_stage_its_tasks_and_an_estimate_that_is_called_one():
+    assert in_one_line(news(), StopSignal()) == "fitting pairs, 3 of 20; about 15 s left"
+
+
+@pytest.mark.parametrize(
+    ("told", "line"),
+    [
+        ({"tasks": 1, "done": 0}, "fitting pairs; about 15 s left"),
+        ({"left_s": None}, "fitting pairs, 3 of 20"),
+    ],
+)
+def test_a_line_tells_nothing_that_is_not_known(told, line):
+    assert in_one_line(news(**told), StopSignal()) == line
+
+
+def test_a_line_says_that_an_end_was_asked_for():
+    stop = StopSignal()
+    stop.request(StopReason.INTERRUPTED)
+    assert in_one_line(news(), stop).startswith("stopping (again: at once), fitting pairs")
+
+
+def test_off_a_terminal_there_is_a_line_for_each_stage_and_for_five_seconds():
+    each = [news("screening", 0.0), news("screening", 4.9), news("screening", 5.1), news("fitting", 5.2)]
+    said = [line.split(",")[0].split("  ")[-1] for line in shown(*each).splitlines()]
+    assert said == ["screening", "screening", "fitting"]
+
+
+def test_off_a_terminal_lines_are_plain_and_whole():
+    said = shown(news("fitting the best single effects [to] the whole log, and more of that"))
+    assert said.count("\n") == 1
+    assert "[to] the whole log" in said
+    assert not [c for c in said if ord(c) < ord(" ") and c != "\n"]
+
+
+def test_on_a_terminal_the_line_is_gone_at_the_end():
+    said = shown(news(), force_terminal=True)
+    assert "fitting pairs, 3 of 20" in said
+    assert said.endswith("\x1b[2K")
+
+
+def test_a_terminal_that_cannot_move_its_cursor_gets_lines():
+    said = shown(news(), force_terminal=True, _environ={"TERM": "dumb"})
+    assert said == "    1 s  fitting pairs, 3 of 20; about 15 s left\n"
