@@ -223,8 +223,9 @@ GAP_STEPS = 1.7
 """Median steps that are a gap, between one sample and two."""
 GAP_SHORT_S = 0.15
 GAP_MISFIT = 3.0
-"""Gaps in which a motion has no time for more than a curve through both sides shows; and the noise
-beyond which a curve does not fit these."""
+GAP_LONG_S = 0.4
+"""Gaps in which a motion has no time for more than a curve through both sides shows; its noise, beyond
+which no curve fits; and gaps in which it may have turned there and back."""
 GAP_CERTAIN_DEG = 0.2
 GAP_FORGOTTEN_S = 1.0
 GAP_FORGOTTEN_LENGTHS = 5.0
@@ -238,17 +239,20 @@ GAP_ERASED_TWISTS = 2.0
 twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
 BETWEEN_SAMPLES_S = 0.015
 STRAIGHT_DEG = 0.1
-"""Samples this far apart leave the motion between them open; and by how much the rate of the base may
-change from sample to sample, in degrees, where it is straight."""
+"""Samples this far apart leave the motion between them open; and what the step of the base may change
+by from sample to sample where it is straight."""
 COARSE_STEP_SIGMA = 2.0
-"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them."""
+COARSE_LEAST_RUNS, COARSE_LEAST_KINDS = 20, 2
+"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them.
+And short runs of equal readings, or different multiples of a step that a reading moves by, either of
+which a coarse sensor shows: an exact ramp without noise has no short runs, and moves by one step."""
 SHAKEN_STEP_SIGMA = 3.0
-"""Derived: noise shakes a reading across steps, so that its mean is off by
-exp(-2 (pi sigma / q)^2) q / pi: a tenth of sigma at three, seven tenths at five."""
+"""Derived: noise shakes a reading across steps, and its mean stays off by
+q / pi exp(-2 (pi sigma / q)^2): a tenth of sigma at three, seven tenths at five."""
 HELD_S, HELD_STEPS = 0.12, 1.0
 HELD_COUNTED_S = 0.5
 """A coarse reading whose means change by less than a step in so long stands still, and counts so often.
-Set on fresh logs that were rounded: it leaves 1.16 and less as slow part where all of them left 2.3."""
+Set on two logs that were rounded: it leaves 1.16 and 1.18 as slow part; all readings left 2.34."""
 SMOOTHING_SIGMA = 3.0
 """Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
 TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)
@@ -297,7 +301,7 @@ correlation time, so that they are as good as independent. Coloured noise is str
 and SLOW_BLOCK alone, some tenths of a second, would not see them."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
-unit (prepare/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
+unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
 DRIFT_SIZE_SIGMA = 2.0
 DRIFT_FASTEST_S = 1.5

@@ -21,12 +21,12 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.averaging import averaged
-from diagnosis.prepare.late_start_detection import with_late_starts, without_unused
+from diagnosis.prepare.motion.averaging import averaged
+from diagnosis.prepare.noise.sensor_noise import estimate_noise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
-from diagnosis.prepare.sensor_noise import estimate_noise
+from diagnosis.prepare.start.late_start_detection import with_late_starts, without_unused
 from diagnosis.progress import (
     ASSESSING,
     CHECKING,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from diagnosis.assessment.assess import Assessment
 from diagnosis.log.rig_log import RigLog
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.verdict import Verdict

@@ -26,8 +26,8 @@ from diagnosis.log.nominal_rig import (
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
 from diagnosis.pipeline import replay_nominal
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepare import prepare
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import predict
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import check

@@ -18,7 +18,7 @@ from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.base_smoothing import smooth_base
+from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.stopping import stopping
 
 Array = NDArray[np.float64]

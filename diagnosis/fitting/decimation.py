@@ -19,8 +19,8 @@ from scipy.integrate import cumulative_trapezoid
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters

@@ -22,7 +22,7 @@ from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import white_noise
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 
 Array = NDArray[np.float64]
 Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals, (N,) or (N, n)

@@ -7,12 +7,12 @@ import numpy as np
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.base_smoothing import smooth_base
-from diagnosis.prepare.gap_filling import fill_gaps
-from diagnosis.prepare.inertia import inertia_torque
+from diagnosis.prepare.motion.base_smoothing import smooth_base
+from diagnosis.prepare.motion.gap_filling import fill_gaps
+from diagnosis.prepare.motion.inertia import inertia_torque
+from diagnosis.prepare.noise.rounding import rounded_noise, steps_of, without_repeats
+from diagnosis.prepare.noise.sensor_noise import BASE, base_noise_deg
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.rounding import rounded_noise, steps_of, without_repeats
-from diagnosis.prepare.sensor_noise import BASE, base_noise_deg
 
 
 def prepare(log: RigLog) -> tuple[PreparedLog, float]:

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.prepare.between_samples import between_samples
-from diagnosis.prepare.drift import drift_whitening
-from diagnosis.prepare.inertia import InertiaTorque, inertia_warning, smooth_motion
-from diagnosis.prepare.late_start import LateStart, late_start_warning
+from diagnosis.prepare.motion.between_samples import between_samples
+from diagnosis.prepare.motion.inertia import InertiaTorque, inertia_warning, smooth_motion
+from diagnosis.prepare.noise.drift import drift_whitening
+from diagnosis.prepare.start.late_start import LateStart, late_start_warning
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.prepare.drift import likeliest_drift
+from diagnosis.prepare.noise.drift import likeliest_drift
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 
 Array = NDArray[np.float64]

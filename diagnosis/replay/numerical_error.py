@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import NUMERICAL_ERROR_WARNED
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import RigParameters

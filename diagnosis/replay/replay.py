@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters

@@ -13,7 +13,7 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
 from diagnosis.result import Diagnosis

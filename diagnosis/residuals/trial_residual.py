@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from diagnosis.criteria import LONGEST_LAG_S
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 
 Array = NDArray[np.float64]

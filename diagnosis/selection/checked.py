@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
 
 

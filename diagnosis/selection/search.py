@@ -37,6 +37,8 @@ from diagnosis.selection.state import SearchState
 from diagnosis.selection.torque_drift import with_drift
 from diagnosis.workers import Failure, Task, Workers
 
+Stage = Callable[[SearchState, Workers], SearchState]
+
 
 def search(state: SearchState, workers: Workers) -> SearchState:
     """The state after all stages; where nothing explains the log, with drift of the torque as well."""
@@ -44,8 +46,13 @@ def search(state: SearchState, workers: Workers) -> SearchState:
 
 
 def _all_stages(state: SearchState, workers: Workers) -> SearchState:
+    """The state after all stages."""
+    return _stages(STAGES, state, workers)
+
+
+def _stages(stages: Sequence[Stage], state: SearchState, workers: Workers) -> SearchState:
     """The state after those stages that there was time for; the nominal rig is in any."""
-    for stage in STAGES:
+    for stage in stages:
         if workers.stop.due and state.candidates:
             workers.stop.leave_out(stage.__name__.replace("_", " "))
         else:
@@ -103,8 +110,7 @@ def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
         return again
     out = dropped("coloured noise", state.candidates, "the noise has another colour")
     again = replace(again, candidates=(), singles=()).noting(*out)
-    for stage in (nominal_rig, stiffness_or_damping_alone, single_effects):
-        again = stage(again, workers)
+    again = _stages((nominal_rig, stiffness_or_damping_alone, single_effects), again, workers)
     if workers.stop.due and not again.singles:
         return state.noting(*_stopped(again.record[len(state.record) :]))  # no effect was fitted
     return again
@@ -174,7 +180,7 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_all("scatter of the best", [(state.problem, names, start)], workers))
 
 
-STAGES: tuple[Callable[[SearchState, Workers], SearchState], ...] = (
+STAGES: tuple[Stage, ...] = (
     nominal_rig,
     stiffness_or_damping_alone,
     single_effects,

@@ -67,7 +67,7 @@ def _loop(
     nodes = qpos.size - 1
     for k in range(inputs.shape[0]):
         ctrl[:], passive[:] = inputs[k], 0.0
-        _call(callback, model, data)  # type: ignore[call-arg]
+        _call(callback, model, data)
         shown[k] = user[at : at + shown.shape[1]]
         before = 0.0
         for i in range(nodes):
@@ -77,6 +77,12 @@ def _loop(
             qvel[1 + i] = (joint - qpos[1 + i]) / step_s
             qpos[1 + i] = joint
         clock[0] += step_s
+
+
+def prepare() -> None:
+    """Compile the loop, or load what was compiled before: without a step."""
+    one, none, bare = np.zeros(1), np.zeros((0, memory_map.INPUTS)), np.zeros((0, memory_map.OUTPUTS))
+    _loop(0, 0, 0, 0, np.bool_(False), 1.0, *[one] * 6, none, bare)
 
 
 def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl: Array) -> Array:

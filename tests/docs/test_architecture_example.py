@@ -14,8 +14,8 @@ from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.fitting.parameterization import parameterization_of, starts
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
 from diagnosis.replay.numerical_error import refinement_change
 from diagnosis.replay.replay import predict, replay
 from diagnosis.replay.resolution import Resolution

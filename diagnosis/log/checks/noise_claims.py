@@ -3,7 +3,7 @@
 A column in radians or newton metres scatters by as many times less as it has fewer units. The white
 part of a reading is told from its motion by its own differences, before anything is simulated.
 Motion only adds to it: whether a reading scatters too much, or a little too little, only what the
-nominal rig leaves of it can say (prepare/sensor_noise.py).
+nominal rig leaves of it can say (prepare/noise/sensor_noise.py).
 """
 
 from collections.abc import Mapping, Sequence

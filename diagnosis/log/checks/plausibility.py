@@ -56,7 +56,7 @@ def _gaps(trial: Trial) -> list[str]:
     return [
         f"{trial.name}: time_s jumps by up to {steps.max():.3g} s before {lines(rows)}; "
         "the base is taken to have moved smoothly across the gap; where it turned fast there, the "
-        "readings of the second after are not used"
+        "readings after it are not used until the needle has forgotten it"
     ]
 
 

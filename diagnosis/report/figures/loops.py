@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from diagnosis.log.trial import Trial
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.report.figures.style import LABELS, MEASURED, PREDICTIONS
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals

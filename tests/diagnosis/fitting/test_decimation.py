@@ -9,8 +9,8 @@ from diagnosis_fixtures import RIG, log_of, prepared
 from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
 from diagnosis.pipeline import replay_nominal
-from diagnosis.prepare.noise_colour import NoiseColour
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters

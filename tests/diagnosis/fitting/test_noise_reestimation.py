@@ -15,7 +15,7 @@ from diagnosis.fitting.noise_reestimation import (
     slow_where_coloured,
     with_colour,
 )
-from diagnosis.prepare.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL
 
 SIGMA = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE}

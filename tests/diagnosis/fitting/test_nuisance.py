@@ -13,8 +13,8 @@ from diagnosis.fitting.nuisance import (
     nuisance_of,
     prior_sigma,
 )
-from diagnosis.prepare.late_start import LateStart
 from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.start.late_start import LateStart
 from diagnosis.replay.rig_parameters import NOMINAL, Past
 
 STILL = prepared(trial(turns()))

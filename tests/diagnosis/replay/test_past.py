@@ -11,7 +11,7 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.pipeline import replay_nominal
-from diagnosis.prepare.late_start import LateStart
+from diagnosis.prepare.start.late_start import LateStart
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.replay import predict, shape_of
 from diagnosis.replay.resolution import Resolution

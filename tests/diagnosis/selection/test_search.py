@@ -9,7 +9,7 @@ from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
 from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.fitting.noise_reestimation import rescaled
-from diagnosis.prepare.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import fitting
 from diagnosis.selection import search as module

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from diagnosis.criteria import DRIFT_SIZE_SIGMA
-from diagnosis.prepare.drift import drift_whitening, likeliest_drift
+from diagnosis.prepare.noise.drift import drift_whitening, likeliest_drift
 
 TIME = np.linspace(3.0, 33.0, 3001)
 ALL = np.ones(TIME.size, bool)

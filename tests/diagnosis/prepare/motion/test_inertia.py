@@ -10,7 +10,7 @@ from diagnosis_fixtures import RIG, log_of
 from diagnosis.log.nominal_rig import NominalInertia, NominalNeedle, SensorNoise
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
-from diagnosis.prepare.inertia import (
+from diagnosis.prepare.motion.inertia import (
     InertiaTorque,
     inertia_torque,
     inertia_warning,

@@ -3,7 +3,7 @@
 import numpy as np
 from diagnosis_fixtures import BASE, turns
 
-from diagnosis.prepare.base_smoothing import smooth_base
+from diagnosis.prepare.motion.base_smoothing import smooth_base
 
 STEP_S = 0.01
 

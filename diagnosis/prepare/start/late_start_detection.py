@@ -30,9 +30,9 @@ from diagnosis.criteria import (
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.late_start import LateStart
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.prepare.sensor_noise import Noise
+from diagnosis.prepare.start.late_start import LateStart
 from models.modes import InsertedNeedle
 from models.needle import Needle
 

@@ -22,6 +22,7 @@ from diagnosis.criteria import (
     GAP_ERASED_TWISTS,
     GAP_FORGOTTEN_LENGTHS,
     GAP_FORGOTTEN_S,
+    GAP_LONG_S,
     GAP_LOST_DEG,
     GAP_MISFIT,
     GAP_SHORT_S,
@@ -43,11 +44,18 @@ _SLOW_DEG_S, _SLOW_SAMPLES, _LEAST_HELD = 5.0, 10, 50
 
 @dataclass(frozen=True, kw_only=True)
 class Filling:
-    """What goes into a gap: times and motion of the base, (M,), and how uncertain that is."""
+    """What goes into a gap.
+
+    Attributes:
+      time_s, base_deg: motion of the base, (M,).
+      uncertain_deg: by how much it may be another.
+      turned: whether it may have turned there and back.
+    """
 
     time_s: Array
     base_deg: Array
     uncertain_deg: float
+    turned: bool
 
     @property
     def length_s(self) -> float:
@@ -95,10 +103,13 @@ def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Fil
     corner, off_lines = _corner(time, base, left, right, inside)
     fits = np.array([off, off_lines]) <= GAP_MISFIT * max(sigma_deg, 1e-9)
     certain = fits.any() and end - start <= GAP_SHORT_S
+    path = corner if fits[1] and not fits[0] else smooth
+    one_way = np.abs(np.diff(path)).sum() - np.abs(path[-1] - path[0]) <= GAP_CERTAIN_DEG
     return Filling(
         time_s=inside,
-        base_deg=corner if fits[1] and not fits[0] else smooth,
+        base_deg=path,
         uncertain_deg=0.0 if certain else float(np.abs(smooth - corner).max()),
+        turned=bool(end - start > GAP_LONG_S or not fits.any() or not one_way),
     )
 
 
@@ -137,7 +148,7 @@ def _lost(trial: Trial, fillings: Sequence[Filling], time_s: Array) -> NDArray[n
             short = filling.length_s <= GAP_SHORT_S
             forgotten = GAP_FORGOTTEN_LENGTHS * filling.length_s if short else GAP_FORGOTTEN_S
             until = last + min(forgotten, GAP_FORGOTTEN_S)
-            if filling.uncertain_deg > GAP_LOST_DEG and not short:
+            if filling.uncertain_deg > GAP_LOST_DEG and filling.turned and not short:
                 until = max(until, _erased_s(trial, last))
             rows |= (time_s > last) & (time_s <= until)
     return rows
@@ -153,7 +164,7 @@ def _erased_s(trial: Trial, after_s: float) -> float:
 
 
 def _usual_twist_deg(trial: Trial) -> float:
-    """What the shaft is twisted by while the base is slow, which dry friction holds, or at any time."""
+    """What the shaft is twisted by while the base is slow, which dry friction holds; else ever."""
     if not trial.has(_TIP):
         return _UNKNOWN_TWIST_DEG
     twist = np.abs(trial[_BASE] - trial[_TIP])

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_with, prepared, trial, turns
 
-from diagnosis.prepare.late_start_detection import (
+from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.start.late_start_detection import (
     start_rate_deg_s,
     with_late_starts,
     without_unused,
 )
-from diagnosis.prepare.prepared_log import PreparedLog
 
 FREE_MM, INSERTED_MM = 60.0, 90.0
 RESTS = np.zeros(1200)

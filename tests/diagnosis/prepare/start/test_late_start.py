@@ -1,6 +1,6 @@
 """How late starts are told."""
 
-from diagnosis.prepare.late_start import LateStart, late_start_warning
+from diagnosis.prepare.start.late_start import LateStart, late_start_warning
 
 TWISTED = LateStart(twist_deg=-34.6, rate_deg_s=0.2, unused_s=0.84)
 MOVING = LateStart(twist_deg=5.0, rate_deg_s=-42.0, unused_s=0.5)

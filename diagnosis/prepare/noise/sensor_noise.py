@@ -14,8 +14,8 @@ from diagnosis.criteria import LEAST_DIFFERENCES, LEAST_GAP, NOISE_RATIO
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
-from diagnosis.prepare.noise_colour import NoiseColour
-from diagnosis.prepare.noise_spectrum import noise_colour
+from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from diagnosis.prepare.noise_spectrum import noise_colour
+from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 RATE_HZ = 100
 

@@ -5,7 +5,7 @@ import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, log_with, trial, turns
 
 from diagnosis.log.trial import Trial
-from diagnosis.prepare.averaging import averaged
+from diagnosis.prepare.motion.averaging import averaged
 
 STEP_S = 0.001
 

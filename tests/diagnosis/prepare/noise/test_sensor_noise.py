@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, trial, turns
 
-from diagnosis.prepare.sensor_noise import base_noise_deg, estimate_noise
+from diagnosis.prepare.noise.sensor_noise import base_noise_deg, estimate_noise
 
 
 def residuals(size=4000, seed=1):

@@ -14,7 +14,16 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COARSE_STEP_SIGMA, HELD_COUNTED_S, HELD_S, HELD_STEPS, SHAKEN_STEP_SIGMA
+from diagnosis.criteria import (
+    COARSE_LEAST_KINDS,
+    COARSE_LEAST_RUNS,
+    COARSE_STEP_SIGMA,
+    FROZEN_LEAST_RUN,
+    HELD_COUNTED_S,
+    HELD_S,
+    HELD_STEPS,
+    SHAKEN_STEP_SIGMA,
+)
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.sensor_faults import quantum
 from diagnosis.log.trial import SENSORS, Trial
@@ -23,17 +32,34 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _BASE = "base_angle_deg"
+_WHOLE, _MOSTLY = 0.1, 0.9  # readings are rounded to decimals besides; outliers may be off the steps
 
 
 def steps_of(rig: NominalRig, trials: Sequence[Trial]) -> dict[str, float]:
     """The steps of columns whose readings are coarse: larger than noise would hide."""
     found = {}
     for column, claim in rig.sensors.by_column().items():
-        sizes = [quantum(trial[column]) for trial in trials if trial.has(column)]
-        step = min((size for size in sizes if size > 0), default=0.0)
-        if step > COARSE_STEP_SIGMA * claim > 0:
+        parts = [trial[column] for trial in trials if trial.has(column)]
+        step = min((size for values in parts if (size := quantum(values)) > 0), default=0.0)
+        coarse = step > COARSE_STEP_SIGMA * claim > 0
+        if coarse and (sum(map(_short_runs, parts)) >= COARSE_LEAST_RUNS or _jumps(parts, step)):
             found[column] = step
     return found
+
+
+def _short_runs(values: Array) -> int:
+    """How often a reading stands for some samples and moves on; an exact one moves or stands."""
+    finite = values[np.isfinite(values)]
+    lengths = np.diff(np.flatnonzero(np.diff(finite, prepend=np.nan, append=np.nan) != 0))
+    return int(np.count_nonzero((lengths > 1) & (lengths <= FROZEN_LEAST_RUN)))
+
+
+def _jumps(parts: Sequence[Array], step: float) -> bool:
+    """Whether readings move by several multiples of a step; those of an exact ramp by one."""
+    moved = np.abs(np.concatenate([np.diff(part[np.isfinite(part)]) for part in parts])) / step
+    whole = np.rint(moved)
+    near = float(np.mean(np.abs(moved - whole) < _WHOLE))
+    return near > _MOSTLY and np.unique(whole[whole > 0]).size >= COARSE_LEAST_KINDS
 
 
 def rounded_noise(rig: NominalRig, steps: Mapping[str, float]) -> dict[str, float]:

@@ -29,7 +29,7 @@ from diagnosis.criteria import (
     COLOUR_WINDOW_S,
     COLOUR_WINDOWS,
 )
-from diagnosis.prepare.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 
 Array = NDArray[np.float64]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import cholesky, solve_triangular
 
-from diagnosis.prepare.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 
 HALF = NoiseColour(share=0.6, correlation_time_s=0.05)
 

@@ -1,0 +1,1 @@
+"""The motion of the base behind its readings: gaps, smoothing, what lies between samples."""

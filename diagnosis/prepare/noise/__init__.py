@@ -1,0 +1,1 @@
+"""Noise of the sensors: its size, its colour, rounding and drift."""

@@ -1,0 +1,1 @@
+"""Trials that begin twisted or moving."""

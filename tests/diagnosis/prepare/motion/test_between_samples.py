@@ -1,0 +1,44 @@
+"""The motion of the base between rare samples."""
+
+import numpy as np
+import pytest
+
+from diagnosis.prepare.motion.between_samples import between_samples
+
+STEP_S = 0.05
+
+
+def missed(motion, step=STEP_S):
+    """The largest error of the motion between its samples, and that of straight lines, deg."""
+    at = np.arange(0, 6, step)
+    time, angle = between_samples(at, motion(at))
+    straight = np.interp(time, at, motion(at))
+    return np.abs(angle - motion(time)).max(), np.abs(straight - motion(time)).max()
+
+
+def test_a_smooth_motion_is_followed_far_closer_than_by_lines():
+    curve, lines = missed(lambda t: 60 * np.sin(2 * np.pi * 0.5 * t))
+    # Lines are off by 60 (2 pi 0.5)^2 0.05^2 / 8 = 0.19 deg; Akima's curve is of a higher order.
+    assert lines == pytest.approx(0.185, rel=0.1)
+    assert curve < 0.15 * lines
+
+
+def test_a_corner_between_two_samples_is_where_the_lines_cross():
+    curve, lines = missed(lambda t: np.interp(t, [0, 2.02, 3.53, 6], [0, 0, 150, 150]))
+    assert lines > 1
+    assert curve < 1e-9
+
+
+def test_samples_are_met():
+    at = np.arange(0, 3, STEP_S)
+    read = np.random.default_rng(1).normal(0, 10, at.size)
+    time, angle = between_samples(at, read)
+    np.testing.assert_allclose(np.interp(at, time, angle), read, atol=1e-9)
+
+
+@pytest.mark.parametrize("step", [0.01, 0.005])
+def test_samples_that_are_not_rare_are_left_alone(step):
+    at = step * np.arange(100)
+    time, angle = between_samples(at, at**2)
+    assert time is at
+    np.testing.assert_array_equal(angle, at**2)
