@@ -6,7 +6,7 @@ About eight minutes; PyElastica and `mujoco.sysid` are skipped where they are no
 import time
 from pathlib import Path
 
-from benchmarks import callback, control_loop, diagnosis, pyelastica, report, sysid, work_precision
+from benchmarks import callback, control_loop, diagnosis, fit, pyelastica, report, sysid, work_precision
 
 
 def main() -> None:
@@ -20,6 +20,7 @@ def main() -> None:
         *work_precision.run(folder),
         *control_loop.run(folder),
         *pyelastica.run(folder, options.elastica_python),
+        *fit.run(folder),
         *diagnosis.run(folder),
         *sysid.run(folder),
     ]

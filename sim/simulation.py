@@ -14,7 +14,7 @@ from models.errors import InvalidValue, NeedleError
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
-from sim.needles.callback_loop import run_callback
+from sim.needles import callback_loop
 from sim.needles.kept import batch_of, models_of
 from sim.schedule import Schedule
 from sim.spec import Setup
@@ -92,6 +92,7 @@ def prepare_processes() -> None:
     The first call on a machine compiles for about 20 s; the machine code is cached on disk.
     """
     install()
+    callback_loop.prepare()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -196,7 +197,7 @@ def simulate(
         ctrl = np.stack([controls(each, setup) for each, setup in zip(stepped, setups, strict=True)])
         starts = [_start(setup, each[0], first.nq) for setup, each in zip(setups, ctrl, strict=True)]
         if callback_alone:
-            raw = {"sensordata": run_callback(own, starts, ctrl)}
+            raw = {"sensordata": callback_loop.run_callback(own, starts, ctrl)}
         else:
             raw = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
     return [

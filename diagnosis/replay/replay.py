@@ -67,7 +67,7 @@ def predict(
     """Predictions of one trial by several rigs, in their order.
 
     Args:
-      callback_alone: without the steps of MuJoCo, for differences (sim.needles.callback_loop).
+      callback_alone: without MuJoCo's steps, for differences between predictions.
 
     Raises:
       SimulationFailed: one of them cannot be simulated.

@@ -79,6 +79,12 @@ def _loop(
         clock[0] += step_s
 
 
+def prepare() -> None:
+    """Compile the loop, or load what was compiled before: without a step."""
+    one, none, bare = np.zeros(1), np.zeros((0, memory_map.INPUTS)), np.zeros((0, memory_map.OUTPUTS))
+    _loop(0, 0, 0, 0, np.bool_(False), 1.0, *[one] * 6, none, bare)
+
+
 def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl: Array) -> Array:
     """Outputs at the end of every step, (needles, N, outputs).
 
