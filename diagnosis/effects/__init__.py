@@ -6,6 +6,7 @@ They are written for needles like the paper's; `library_of` is the same for a ri
 
 import pkgutil
 import sys
+from collections import ChainMap
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
@@ -28,7 +29,7 @@ LIBRARY = _found_in(sys.modules[__name__])
 """Effects that a verdict may name."""
 IMPERFECTIONS = _found_in(imperfections)
 """What sensors do beside noise: fitted where a log asks, told in the report, never named."""
-FITTED = LIBRARY | IMPERFECTIONS
+FITTED: Mapping[str, Effect] = ChainMap(IMPERFECTIONS, LIBRARY)
 """All that a fit may use."""
 
 
