@@ -123,6 +123,11 @@ class Setup:
         return _RIGID * self.needle.rigidity_n_mm2 * units.N_MM2 / shaft
 
 
+def _arena_bytes(joints: int) -> int:
+    """Working memory of a step: there are no contacts, but some dense matrices of the joints."""
+    return 1_000_000 + 32 * 8 * joints * joints
+
+
 def needle_spec(setup: Setup) -> mujoco.MjSpec:
     """The model as an editable MuJoCo specification.
 
@@ -134,6 +139,7 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
     spec.option.timestep = setup.discretisation.step_s
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
     spec.option.gravity = [0, 0, 0]
+    spec.memory = _arena_bytes(setup.nodes_mm.size + 1)
     disable = mujoco.mjtDisableBit
     spec.option.disableflags = int(
         disable.mjDSBL_CONSTRAINT | disable.mjDSBL_CONTACT | disable.mjDSBL_AUTORESET
