@@ -82,7 +82,7 @@ def _loop(
 def prepare() -> None:
     """Compile the loop, or load what was compiled before: without a step."""
     one, none, bare = np.zeros(1), np.zeros((0, memory_map.INPUTS)), np.zeros((0, memory_map.OUTPUTS))
-    _loop(0, 0, 0, 0, np.bool_(False), 1.0, *[one] * 6, none, bare)
+    _loop(0, 0, 0, 0, False, 1.0, one, one, one, one, one, one, none, bare)
 
 
 def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl: Array) -> Array:
