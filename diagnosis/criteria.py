@@ -87,9 +87,9 @@ SATURATED_BESIDE = 10
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""
-OUTLIER_FALSE_ALARMS = 0.05
-"""Derived: samples of a column of a trial that white noise makes outliers of, on average; below one in a
-log. Of 3000 samples that asks for 4.5 sigma."""
+OUTLIER_FALSE_ALARMS = 0.001
+"""Derived: samples of a column of a trial that white noise makes outliers of, on average: a clean log of
+five trials has none in 98 of 100. Of 3000 samples that asks for 5.1 sigma."""
 OUTLIER_CLEARANCE = 8.0
 OUTLIER_MISFIT = 2.0
 OUTLIER_ONE_SIDED = 0.5
@@ -346,6 +346,10 @@ white residual in 4000 is above."""
 NOISE_TRUST = 0.08
 """Noise re-estimated from the residual may differ from the first estimate (good to 2 %) by this share;
 beyond, something fast is left in the residual."""
+
+BASE_NOISE_GAP = 1.3
+"""Gap up to which it is asked what the encoder's noise has to do with a residual above the floor; it is
+no larger than the smoothing of the base leaves it, a tenth of a degree at the very most."""
 
 # What a rig may be off by without a name (fitting/nuisance.py)
 

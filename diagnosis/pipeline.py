@@ -4,29 +4,18 @@ RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -
 """
 
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
+from diagnosis.assessment.assess import assess
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
-from diagnosis.effects import library_of
 from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
-from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
-from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.motion.averaging import averaged
-from diagnosis.prepare.noise.sensor_noise import estimate_noise
-from diagnosis.prepare.prepare import prepare
-from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.prepare.rig_scale import scale_of
-from diagnosis.prepare.start.late_start_detection import with_late_starts, without_unused
+from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
 from diagnosis.progress import (
     ASSESSING,
     CHECKING,
@@ -36,8 +25,6 @@ from diagnosis.progress import (
     in_words,
     silent,
 )
-from diagnosis.replay.replay import Prediction, replay
-from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.result import Diagnosis
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
@@ -50,29 +37,6 @@ from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class NominalReplay:
-    """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
-
-    Attributes:
-      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
-        readings of trials that began late.
-      problem: the log, its noise, and what is left open of the rig.
-      fit: of what came before trials that began late, and of nothing else.
-      predictions: of the nominal rig, by trial of the problem.
-    """
-
-    log: RigLog
-    problem: FitProblem
-    fit: Fit
-    predictions: list[Prediction]
-
-    @property
-    def rig(self) -> RigParameters:
-        """The nominal rig, with what came before trials that began late."""
-        return self.fit.parameterization.rig(self.fit.x)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -155,38 +119,6 @@ def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
         return None
     stage, left_out = in_words(stop.left_out[0]), tuple(stop.left_out)
     return EarlyStop(why=stop.why, stage=stage, left_out=left_out, search=search)
-
-
-def replay_nominal(log: RigLog) -> NominalReplay:
-    """The nominal rig on a log, with the noise that its residual shows.
-
-    Raises:
-      SimulationFailed: the nominal rig cannot be simulated.
-    """
-    log = averaged(log)
-    prepared, base_sigma_deg = prepare(log)
-    predictions = replay(prepared)
-    told = far_claims(log.trials, log.rig.sensors.by_column())
-    left = _residuals(prepared, predictions)
-    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded)
-    begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
-    library = library_of(scale_of(begun))
-    problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
-    if not late_starts_of(begun):
-        fit = nominal_fit(nominal_residuals(problem, predictions))
-        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
-    fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
-    predictions = replay(begun, fit.parameterization.rig(fit.x))
-    known = without_unused(log, begun)
-    return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
-
-
-def _residuals(
-    log: PreparedLog, predictions: Sequence[Prediction]
-) -> dict[str, list[tuple[Array, Array]]]:
-    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
-    each = list(zip(log.trials, predictions, strict=True))
-    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
 
 
 def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from diagnosis.log.rig_log import read_rig_log
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.report.write import output_paths as report_paths
 from scripts import diagnose as diagnosing
 from scripts import insert

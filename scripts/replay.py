@@ -11,7 +11,7 @@ from rich.table import Table
 
 from diagnosis.log.rig_log import RigLog, read_rig_log
 from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.pipeline import NominalReplay, replay_nominal
+from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
 from sim.files import refuse_existing, writing

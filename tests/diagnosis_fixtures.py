@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import lsq_linear
 
-from diagnosis.assessment.assess import nominal_residuals
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.decimation import decimated
@@ -25,7 +24,7 @@ from diagnosis.log.nominal_rig import (
 )
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import nominal_residuals, replay_nominal
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.replay.replay import predict

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager
 
 import pytest
 
-from diagnosis import pipeline
+from diagnosis import nominal_replay, pipeline
 from diagnosis.assessment import assess
 from diagnosis.replay import replay
 from diagnosis.selection import candidate
@@ -29,7 +29,9 @@ class SimulatorSpy(AbstractContextManager):
 
     def __enter__(self):
         self._patch.setattr(replay, "simulate", self._watched(replay.simulate, self._needles))
-        self._patch.setattr(pipeline, "replay", self._watched(pipeline.replay, self._nominal))
+        self._patch.setattr(
+            nominal_replay, "replay", self._watched(nominal_replay.replay, self._nominal)
+        )
         self._patch.setattr(pipeline, "assess", self._watched(pipeline.assess, self._assessed))
         for stage, module in (("search", candidate), ("assessment", assess)):
             count = self._counter(self.held_out[stage])

@@ -20,6 +20,7 @@ ROOMS = (
     "residuals",
     "effects",
     "fitting",
+    "nominal_replay",
     "selection",
     "assessment",
     "result",

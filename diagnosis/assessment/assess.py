@@ -17,9 +17,10 @@ from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
+from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.replay.drift import drift_range_sigma, with_drift
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
-from diagnosis.replay.replay import Prediction, replay, residuals
+from diagnosis.replay.replay import Prediction, replay
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
@@ -208,18 +209,6 @@ def _further_effects(
     if not verdict.settled:
         return left, {}
     return left, stop.unless_due(LIMITS, lambda: detection_limits(*arguments)) or {}
-
-
-def at_samples(problem: FitProblem, predictions: Sequence[Prediction]) -> list[Prediction]:
-    """Predictions at the samples of the log itself."""
-    each = zip(problem.log.trials, predictions, strict=True)
-    return [prediction.rows(trial.logged) for trial, prediction in each]
-
-
-def nominal_residuals(problem: FitProblem, nominal: Sequence[Prediction]) -> tuple[Array, ...]:
-    """Residuals / sigma of the nominal rig, one array per trial."""
-    each = zip(problem.log.trials, nominal, strict=True)
-    return tuple(residuals(trial, prediction, problem.noise) for trial, prediction in each)
 
 
 def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], tuple[str, ...]]:

@@ -8,7 +8,7 @@ a Gauss-Newton step, as it does to a finer replay.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.stopping import stopping
 
 Array = NDArray[np.float64]
@@ -84,7 +83,7 @@ def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
     rig = fit.parameterization.rig(fit.x)
     found = [np.zeros(fit.x.size)] if stopping() else []
     while not stopping() and len(found) < _REPLICATES:
-        runs = _noisier(problem, rng).residuals([rig], callback_alone=True)
+        runs = problem.read_again(rng).residuals([rig], callback_alone=True)
         moved = [run[0] - residual for run, residual in zip(runs, fit.by_trial, strict=True)]
         found.append(_answer(fit, inverse, moved))
     return np.array(found)
@@ -94,15 +93,3 @@ def _answer(fit: Fit, inverse: Array, moved: Sequence[Array]) -> Array:
     """How far a fit moves when its residuals do, (n,)."""
     pull = sum(slopes.T @ change for slopes, change in zip(fit.jacobian, moved, strict=True))
     return np.asarray(-inverse @ pull)
-
-
-def _noisier(problem: FitProblem, rng: np.random.Generator) -> FitProblem:
-    """The problem, the motion of its base read and smoothed once more."""
-    sigma_deg = problem.noise["base_angle_deg"]
-    trials = []
-    for trial in problem.log.trials:
-        motion = trial.base_motion_deg
-        read = motion + rng.normal(0.0, sigma_deg, motion.size)
-        again = smooth_base(trial.time_s, read, sigma_deg)
-        trials.append(replace(trial, base_motion_deg=again))
-    return replace(problem, log=replace(problem.log, trials=tuple(trials)))

@@ -11,7 +11,7 @@ m means by 1 / sqrt(2 m). Limits are wide enough for 3.5 of these (criteria.FLOO
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,14 @@ class NoiseFloor:
     slow: float
     gap_limit: float = GAP_LIMIT
     slow_limit: float = SLOW_LIMIT
+
+    def allowing(self, change: "NoiseFloor") -> "NoiseFloor":
+        """The floor where something else, independent of the noise, changes residuals by this."""
+        return replace(
+            self,
+            gap_limit=float(np.hypot(self.gap_limit, change.gap)),
+            slow_limit=float(np.hypot(self.slow_limit, change.slow)),
+        )
 
     @property
     def small(self) -> bool:

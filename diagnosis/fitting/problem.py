@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
+from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import predict, residuals
@@ -59,6 +60,16 @@ class FitProblem:
             return [residuals(trial, p, self.noise) for p in predictions]
 
         return side_by_side(of, self.log.trials)
+
+    def read_again(self, rng: np.random.Generator) -> "FitProblem":
+        """The problem, the motion of its base read by its encoder and smoothed once more."""
+        sigma_deg = self.noise["base_angle_deg"]
+        trials = []
+        for trial in self.log.trials:
+            read = trial.base_motion_deg + rng.normal(0.0, sigma_deg, trial.time_s.size)
+            motion = smooth_base(trial.time_s, read, sigma_deg)
+            trials.append(replace(trial, base_motion_deg=motion))
+        return replace(self, log=replace(self.log, trials=tuple(trials)))
 
     def drifting(self, size_n_mm: float) -> "FitProblem":
         """The same with a torque sensor that may drift by so much within a trial."""

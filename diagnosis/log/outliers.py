@@ -39,6 +39,7 @@ _HALVES = (4, 7)  # neighbours on each side
 _SIDE_ORDER = {4: 1, 7: 2}  # of the curve through one side of so many
 _ORDER = 3  # of the curve
 _PASSES = 4
+_LEAST_BESIDE = 2  # samples before and after
 _STENCILS = ((1, 2), (2, 4), (3, 6))  # neighbours on each side of a cubic
 _LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
 _SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
@@ -162,6 +163,8 @@ def _judged(
         far = _far_from_side(powers[:, :, : _SIDE_ORDER[half] + 1], y, good & side, here, off, own)
         at_end = (side.sum(axis=1) < half) & (outside <= 2)
         outlying &= far | at_end
+    # A step of the readings looks the same where it has hardly a sample before or after it.
+    outlying &= (rows >= _LEAST_BESIDE) & (rows < values.size - _LEAST_BESIDE)
     return outlying, values[rows] - off
 
 

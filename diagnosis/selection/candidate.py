@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import (
+    BASE_NOISE_GAP,
     SCATTER,
     SCATTER_CERTAIN_SIGMA,
     SCATTER_LEAST,
@@ -23,6 +24,8 @@ from diagnosis.selection.complexity import complexity_penalty
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
+
+_SEED = 21
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -70,6 +73,18 @@ class Candidate:
         if self.shift > SHIFT_LIMIT:
             return f"held-out trials shift by {self.shift:.1f}, limit {SHIFT_LIMIT:g}"
         return "stiffness and damping are off, and which is open" if self.unidentifiable else ""
+
+    def allowing_base_noise(self, problem: FitProblem) -> "Candidate":
+        """The same with a floor that knows what the noise of the encoder leaves in the base motion.
+
+        Beside a stiff or sticking element near the base it comes back as torque, and slowly so.
+        """
+        if self.floor.reached or self.floor.gap > BASE_NOISE_GAP or not self.names:
+            return self
+        rig, rng = self.fit.parameterization.rig(self.fit.x), np.random.default_rng(_SEED)
+        runs = problem.read_again(rng).residuals([rig], callback_alone=True)
+        each = zip(runs, self.fit.by_trial, strict=True)
+        return replace(self, floor=self.floor.allowing(floor_of([run[0] - left for run, left in each])))
 
     def cross_validated(self, problem: FitProblem) -> "Candidate":
         """The same with held-out trials, if it is at the noise floor."""

@@ -8,6 +8,7 @@ from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
+from sim.simulation import SimulationFailed
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,7 +50,14 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
 
     def checked(fit: Fit) -> Candidate:
         before = known.of(fit, noise) if known else None
-        return before or candidate(rescaled(fit, problem, noise)).cross_validated(again)
+        return before or _checked(candidate(rescaled(fit, problem, noise)), again)
 
     each = sorted(((checked(c.fit), c.fit) for c in candidates), key=lambda pair: pair[0].score)
     return Checked(noise=noise, candidates=tuple(c for c, _ in each), fits=tuple(fit for _, fit in each))
+
+
+def _checked(one: Candidate, problem: FitProblem) -> Candidate:
+    try:
+        return one.allowing_base_noise(problem).cross_validated(problem)
+    except SimulationFailed:
+        return one.cross_validated(problem)  # with another motion it cannot be simulated

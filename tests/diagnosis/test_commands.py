@@ -8,7 +8,7 @@ import pytest
 from analytic_log import change_trial, write_log
 
 from diagnosis.log.trial import SENSORS
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.report import write
 from diagnosis.report.sentences import headline, largest_parts
 from scripts import diagnose as command

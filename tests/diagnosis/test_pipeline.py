@@ -11,7 +11,8 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
-from diagnosis.pipeline import diagnose, replay_nominal
+from diagnosis.nominal_replay import replay_nominal
+from diagnosis.pipeline import diagnose
 from diagnosis.replay import replay as replaying
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision

@@ -59,7 +59,8 @@ def _means(trial: Trial, window_s: float, count: int) -> Trial:
     table = means.where(enough)[enough["time_s"]]
     ends = trial.table.iloc[[0, -1]].copy()
     ends[[sensor for sensor in SENSORS if sensor in ends]] = np.nan
-    table = pd.concat([ends.iloc[:1], table, ends.iloc[1:]], ignore_index=True)
+    inside = (table["time_s"] > time[0]) & (table["time_s"] < time[-1])
+    table = pd.concat([ends.iloc[:1], table[inside], ends.iloc[1:]], ignore_index=True)
     return replace(trial, table=table, rows=trial.file_rows)
 
 

@@ -7,11 +7,11 @@ import pytest
 from diagnosis_fixtures import log_of
 
 from diagnosis.assessment import assess as module
-from diagnosis.assessment.assess import assess, at_samples, nominal_residuals
+from diagnosis.assessment.assess import assess
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import fit_effects, nominal_fit
 from diagnosis.log.trial import Trial
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import at_samples, nominal_residuals, replay_nominal
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.verdict import VerdictKind, verdict_on
@@ -70,14 +70,6 @@ def test_predictions_are_at_the_samples_of_the_log(log, nominal, fitted):
     assert told.explained[0].tip_angle_deg.size == samples
     assert nominal.predictions[0].tip_angle_deg.size > samples
     assert at_samples(nominal.problem, nominal.predictions)[0].tip_angle_deg.size == samples
-
-
-def test_residuals_of_the_nominal_rig_are_those_of_its_fit(nominal):
-    by_trial = nominal_residuals(nominal.problem, nominal.predictions)
-    again = nominal.problem.residuals([RigParameters()])
-    assert len(by_trial) == len(again) == 2
-    for one, other in zip(by_trial, again, strict=True):
-        np.testing.assert_array_equal(one, other[0])
 
 
 def test_a_parameter_at_its_bound_earns_a_warning_that_names_it():

@@ -9,7 +9,7 @@ from diagnosis.assessment.forward_step import forward_selection, gap_with_one_mo
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed

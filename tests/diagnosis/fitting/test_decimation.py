@@ -8,7 +8,7 @@ from diagnosis_fixtures import RIG, log_of, prepared
 
 from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import log_of
 
-from diagnosis.effects import LIBRARY, library_of
+from diagnosis.effects import FITTED, library_of
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.rig_scale import RigScale, scale_of
 from diagnosis.replay.rig_parameters import RigParameters
@@ -43,7 +43,7 @@ def test_the_papers_needle_has_the_bounds_of_the_library(log):
     assert scale.torque_scale == pytest.approx(1.0, rel=1e-6)
     assert scale.rate_scale == 1.0
     own = library_of(RigScale())
-    assert {n: e.parameters for n, e in own.items()} == {n: e.parameters for n, e in LIBRARY.items()}
+    assert {n: e.parameters for n, e in own.items()} == {n: e.parameters for n, e in FITTED.items()}
 
 
 @pytest.mark.parametrize("factor", [0.02, 30.0])
@@ -57,18 +57,18 @@ def test_torques_so_many_times_larger_make_a_rig_so_many_times_larger(log, facto
 def test_bounds_and_starts_with_a_unit_of_torque_grow_and_others_stay():
     own = library_of(RigScale(torque_scale=10.0, rate_scale=3.0))
     level, stribeck = own["stiction"].parameters[0], own["stiction"].parameters[2]
-    known = LIBRARY["stiction"].parameters
+    known = FITTED["stiction"].parameters
     assert (level.low, level.high) == pytest.approx((10 * known[0].low, 10 * known[0].high))
     assert level.start == pytest.approx([10 * value for value in known[0].start])
     assert stribeck.high == pytest.approx(3 * known[2].high)
-    assert own["chuck_backlash"].parameters == LIBRARY["chuck_backlash"].parameters
+    assert own["chuck_backlash"].parameters == FITTED["chuck_backlash"].parameters
     assert own["torque_bias"].parameters[0].scale == pytest.approx(0.5)
 
 
 def test_a_dry_level_that_holds_all_measured_torque_is_within_bounds():
     own = library_of(RigScale(dry_n_mm_per_mm=2.0))
     assert own["coulomb_friction"].parameters[0].high == 2.0
-    assert own["entry_friction"].parameters[0].high == LIBRARY["entry_friction"].parameters[0].high
+    assert own["entry_friction"].parameters[0].high == FITTED["entry_friction"].parameters[0].high
 
 
 def test_an_inserted_offset_leaves_a_tenth_of_the_shallowest_trial_inserted(log):
@@ -78,7 +78,7 @@ def test_an_inserted_offset_leaves_a_tenth_of_the_shallowest_trial_inserted(log)
     assert own.low == pytest.approx(-3.6)
     assert own.start == pytest.approx((5.0, -1.8))
     deep = library_of(RigScale(shallowest_mm=shallowest))["inserted_offset"].parameters
-    assert deep == LIBRARY["inserted_offset"].parameters
+    assert deep == FITTED["inserted_offset"].parameters
 
 
 @pytest.mark.slow

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import RIG, TIP, TORQUE, log_with, prepared, trial, turns
+from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, log_with, prepared, trial, turns
 
 from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.nuisance import nuisance_of
-from diagnosis.pipeline import replay_nominal
+from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.start.late_start import LateStart
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.replay import predict, shape_of
@@ -106,6 +106,7 @@ def cut_log(begin):
     exact = held.respond(whole["time_s"], np.radians(whole["base_angle_deg"]))
     size = whole["time_s"].size
     table = whole.table.assign(
+        base_angle_deg=whole["base_angle_deg"] + rng.normal(0, BASE, size),
         tip_angle_deg=np.degrees(exact.tip_rad) + rng.normal(0, TIP, size),
         base_torque_n_mm=exact.base_torque_n_mm + rng.normal(0, TORQUE, size),
     ).iloc[begin:]

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_with, prepared, trial, turns
+from diagnosis_fixtures import BASE, NOISE, RIG, TIP, TORQUE, log_with, prepared, trial, turns
 
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.start.late_start_detection import (
@@ -120,7 +120,8 @@ def test_the_first_readings_of_a_late_trial_are_set_aside_in_the_problem_and_in_
 
 
 def test_the_rate_of_the_base_is_that_of_its_first_tenth_of_a_second():
-    ready = prepared(trial(turns()[100:]))
-    # A straight ramp of 90 deg in 0.6 s.
-    assert start_rate_deg_s(ready) == pytest.approx(150.0, rel=1e-6)
-    assert start_rate_deg_s(prepared(trial(RESTS))) == 0.0
+    read = turns() + np.random.default_rng(7).normal(0, BASE, turns().size)
+    # A ramp of 90 deg in 0.6 s. A line through ten readings: BASE / (0.0287 s sqrt(10)), four of these.
+    sigma_deg_s = BASE / (0.0287 * np.sqrt(10))
+    assert start_rate_deg_s(prepared(trial(read[100:]))) == pytest.approx(150.0, abs=4 * sigma_deg_s)
+    assert start_rate_deg_s(prepared(trial(read))) == pytest.approx(0.0, abs=4 * sigma_deg_s)

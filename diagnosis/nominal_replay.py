@@ -1,0 +1,95 @@
+"""A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
+
+RigLog -> PreparedLog -> FitProblem, with the noise that is left of the nominal rig
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects import library_of
+from diagnosis.fitting.fit import Fit, fit_effects, nominal_fit
+from diagnosis.fitting.nuisance import late_starts_of, nuisance_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.checks.noise_claims import far_claims
+from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.motion.averaging import averaged
+from diagnosis.prepare.noise.sensor_noise import estimate_noise
+from diagnosis.prepare.prepare import prepare
+from diagnosis.prepare.prepared_log import PreparedLog
+from diagnosis.prepare.rig_scale import scale_of
+from diagnosis.prepare.start.late_start_detection import with_late_starts, without_unused
+from diagnosis.replay.replay import Prediction, replay, residuals
+from diagnosis.replay.rig_parameters import RigParameters
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NominalReplay:
+    """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
+
+    Attributes:
+      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
+        readings of trials that began late.
+      problem: the log, its noise, and what is left open of the rig.
+      fit: of what came before trials that began late, and of nothing else.
+      predictions: of the nominal rig, by trial of the problem.
+    """
+
+    log: RigLog
+    problem: FitProblem
+    fit: Fit
+    predictions: list[Prediction]
+
+    @property
+    def rig(self) -> RigParameters:
+        """The nominal rig, with what came before trials that began late."""
+        return self.fit.parameterization.rig(self.fit.x)
+
+
+def replay_nominal(log: RigLog) -> NominalReplay:
+    """The nominal rig on a log, with the noise that its residual shows.
+
+    Raises:
+      SimulationFailed: the nominal rig cannot be simulated.
+    """
+    log = averaged(log)
+    prepared, base_sigma_deg = prepare(log)
+    predictions = replay(prepared)
+    told = far_claims(log.trials, log.rig.sensors.by_column())
+    left = _residuals(prepared, predictions)
+    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded)
+    begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
+    library = library_of(scale_of(begun))
+    problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
+    if not late_starts_of(begun):
+        fit = nominal_fit(nominal_residuals(problem, predictions))
+        return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
+    fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
+    predictions = replay(begun, fit.parameterization.rig(fit.x))
+    known = without_unused(log, begun)
+    return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
+
+
+def _residuals(
+    log: PreparedLog, predictions: Sequence[Prediction]
+) -> dict[str, list[tuple[Array, Array]]]:
+    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
+    each = list(zip(log.trials, predictions, strict=True))
+    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
+
+
+def at_samples(problem: FitProblem, predictions: Sequence[Prediction]) -> list[Prediction]:
+    """Predictions at the samples of the log itself."""
+    each = zip(problem.log.trials, predictions, strict=True)
+    return [prediction.rows(trial.logged) for trial, prediction in each]
+
+
+def nominal_residuals(problem: FitProblem, nominal: Sequence[Prediction]) -> tuple[Array, ...]:
+    """Residuals / sigma of the nominal rig, one array per trial."""
+    each = zip(problem.log.trials, nominal, strict=True)
+    return tuple(residuals(trial, prediction, problem.noise) for trial, prediction in each)

@@ -1,0 +1,34 @@
+"""A log beside what its nominal rig predicts."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of
+
+from diagnosis.nominal_replay import nominal_residuals, replay_nominal
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+
+@pytest.fixture(scope="module")
+def nominal():
+    return replay_nominal(log_of(RigParameters(kinetic_n_mm_per_mm=0.001), seconds=6.0))
+
+
+def test_residuals_of_the_nominal_rig_are_those_of_its_fit(nominal):
+    by_trial = nominal_residuals(nominal.problem, nominal.predictions)
+    again = nominal.problem.residuals([NOMINAL])
+    assert len(by_trial) == len(again) == len(nominal.log.trials)
+    for one, other, fitted in zip(by_trial, again, nominal.fit.by_trial, strict=True):
+        np.testing.assert_array_equal(one, other[0])
+        np.testing.assert_array_equal(one, fitted)
+
+
+def test_a_log_that_begins_at_rest_is_replayed_by_the_nominal_rig_itself(nominal):
+    assert nominal.rig == NOMINAL
+    assert nominal.problem.log.trials[0].late_start is None
+
+
+def test_the_noise_is_that_of_the_log_whatever_the_nominal_rig_lacks(nominal):
+    """Fourth differences tell it to 1 / sqrt(2 N 0.3), 5 % of 600 samples; three of these."""
+    right = replay_nominal(log_of(NOMINAL, seconds=6.0))
+    for sensor in ("tip_angle_deg", "base_torque_n_mm"):
+        assert nominal.problem.noise[sensor] == pytest.approx(right.problem.noise[sensor], rel=0.15)
