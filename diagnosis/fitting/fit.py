@@ -138,7 +138,7 @@ def _minimised(
             gtol=_GRADIENT_TOLERANCE,
             xtol=_STEP_TOLERANCE,
             max_iter=most_iterations,
-            mu_min=1e-3,
+            mu_min=0.01,  # a shorter step that is no other step is not worth a simulation
             mu_factor=8.0,
             verbose=minimize.Verbosity.FINAL,
             output=said,

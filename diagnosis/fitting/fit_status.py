@@ -8,7 +8,8 @@ converged   sqrt(P / p) <= tolerance * sqrt(S / (N - p)), the relative offset of
             parameters are within so many of their own standard deviations of the minimum. Within
             five times the tolerance one more step is taken, without another Jacobian.
 behind      S - 10 P is above the cost that a fit has to come below to be of use.
-stalled     no step along the search direction reduces the cost, however short.
+stalled     no step along the search direction reduces the cost: a shorter one would be a tenth of
+            the difference over which slopes were taken, and these say nothing of it.
 
 Where a model leaves much, a gradient that is small beside noise cannot be reached by differences: its
 error grows with what is left. The relative offset is measured against just that.
@@ -30,7 +31,8 @@ Array = NDArray[np.float64]
 _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
 _FUTILE = 10.0  # times what the linear model promises
-_MOST_TRIES = 9  # steps along one direction, each shorter
+_MOST_TRIES = 8  # steps along one direction, each shorter
+_SHORT = 0.1  # differences that slopes were taken over: a shorter step is beyond them
 
 
 class Termination(StrEnum):
@@ -121,8 +123,10 @@ class Stopping:
 
     def __call__(self, x: Array) -> Array:
         """Residuals with the prior, (N,)."""
-        if self._tries == (1 if self._last else _MOST_TRIES):
-            raise self._ended(self._there, Termination.OFFSET if self._last else Termination.STALLED)
+        if self._last and self._tries == 1:
+            raise self._ended(self._there, Termination.OFFSET)
+        if self._tries == _MOST_TRIES or (self._tries and self._is_short(x.ravel() - self._there)):
+            raise self._ended(self._there, Termination.STALLED)
         self._tries += 1
         self._tried = x.ravel().copy()
         return self.objective(x)
@@ -147,6 +151,9 @@ class Stopping:
         """What `mujoco.minimize` calls after every step that reduced the cost."""
         if self._last and trace[-1].reduction > 0 and trace[-1].regularizer < _DAMPED:
             raise self._ended(self._tried, Termination.OFFSET, more=1)
+
+    def _is_short(self, step: Array) -> bool:
+        return bool(np.abs(step).max(initial=0.0) < _SHORT * self.objective.difference)
 
     def _ended(self, x: Array, termination: Termination, more: int = 0) -> Ended:
         """After as many steps as Jacobians were taken before this one, and perhaps one more."""

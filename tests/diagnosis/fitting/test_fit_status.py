@@ -59,6 +59,8 @@ def test_a_message_that_is_not_known_is_kept():
 class Line:
     """Residuals of a straight line through noise: y - (a + b t), of 200 samples."""
 
+    difference = 1e-3
+
     def __init__(self):
         rng = np.random.default_rng(3)
         self.time = np.linspace(-1, 1, 200)
@@ -91,17 +93,25 @@ def test_at_the_minimum_to_within_the_tolerance_it_has_converged():
     np.testing.assert_array_equal(ended.value.x, x)
 
 
-def test_close_to_the_minimum_one_step_is_left_and_a_second_is_not_tried():
+@pytest.mark.parametrize(
+    ("sigmas", "step", "tries", "ends"),
+    [
+        (0.3, 1.0, 1, Termination.OFFSET),  # close: within five tolerances
+        (0.7, 1.0, 8, Termination.STALLED),
+        (0.7, 0.9e-4, 1, Termination.STALLED),  # a step that slopes over 0.001 say nothing of
+        (0.7, 1.1e-4, 8, Termination.STALLED),
+    ],
+)
+def test_a_search_along_a_direction_ends(sigmas, step, tries, ends):
     line = Line()
-    for sigmas, steps in ((0.3, 1), (0.7, 9)):
-        stopping, x = Stopping(line, 0.1), offset_by(line, sigmas * np.sqrt(2))
-        stopping.jacobian(x, line(x))
-        for _ in range(steps):
-            stopping(x)
-        with pytest.raises(Ended) as ended:
-            stopping(x)
-        close = Termination.OFFSET if steps == 1 else Termination.STALLED
-        assert ended.value.termination is close
+    stopping, x = Stopping(line, 0.1), offset_by(line, sigmas * np.sqrt(2))
+    stopping.jacobian(x, line(x))
+    for _ in range(tries):
+        stopping(x + step)
+    with pytest.raises(Ended) as ended:
+        stopping(x + step)
+    assert ended.value.termination is ends
+    np.testing.assert_array_equal(ended.value.x, x)
 
 
 def test_what_cannot_come_below_what_is_enough_is_behind_from_the_second_jacobian():
