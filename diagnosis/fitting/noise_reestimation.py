@@ -6,8 +6,9 @@ tell the noise to 1 %. They are believed as far as they are within 8 % of the fi
 something fast is left in them.
 
 Whether the noise is white at all is looked up in what a fitted effect leaves, and again in what the
-best explanation does: the nominal rig's residual has too much else in it (`prepare/noise_spectrum`).
-Differences of whitened residuals tell the size of coloured noise as those of white noise do.
+best explanation does: the nominal rig's residual has too much else in it
+(`prepare/noise/noise_spectrum`). Differences of whitened residuals tell the size of coloured noise as
+those of white noise do.
 """
 
 from collections.abc import Sequence

@@ -58,11 +58,14 @@ class _Spectrum:
         return self.lag_weights @ covariances
 
 
-def noise_colour(parts: Sequence[tuple[Array, Array]]) -> tuple[float, NoiseColour] | None:
+def noise_colour(
+    parts: Sequence[tuple[Array, Array]], least_share: float = COLOUR_LEAST_SHARE
+) -> tuple[float, NoiseColour] | None:
     """Standard deviation and colour of the noise in residuals; None: it may well be white.
 
     Args:
       parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
+      least_share: of its variance that is coloured.
     """
     spectrum = _spectrum(parts)
     if spectrum is None:
@@ -83,7 +86,7 @@ def noise_colour(parts: Sequence[tuple[Array, Array]]) -> tuple[float, NoiseColo
     if alone - best < COLOUR_CHI_SQUARE:
         return None
     sigma, colour = min(open_, key=lambda one: _unlikeliness(parts, one[1]))
-    return (sigma, colour) if colour.share >= COLOUR_LEAST_SHARE else None
+    return (sigma, colour) if colour.share >= least_share else None
 
 
 def _unlikeliness(parts: Sequence[tuple[Array, Array]], colour: NoiseColour) -> float:

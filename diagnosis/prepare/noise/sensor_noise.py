@@ -10,7 +10,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import LEAST_DIFFERENCES, LEAST_GAP, NOISE_RATIO
+from diagnosis.criteria import (
+    COLOUR_AT_ONCE_SHARE,
+    COLOUR_LEAST_SHARE,
+    LEAST_DIFFERENCES,
+    LEAST_GAP,
+    NOISE_RATIO,
+)
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
@@ -56,11 +62,13 @@ class Noise:
         colour = self.colour.get(sensor)
         return colour.restored(time_s, whitened) if colour else whitened
 
-    def with_colour(self, left: Mapping[str, Sequence[TimedArray]]) -> "Noise":
+    def with_colour(
+        self, left: Mapping[str, Sequence[TimedArray]], least_share: float = COLOUR_LEAST_SHARE
+    ) -> "Noise":
         """The same with the colour that residuals show, in units of the sensors, by sensor and trial."""
         sigma, colour = dict(self.sigma), {}
         for sensor, parts in left.items():
-            found = noise_colour(parts)
+            found = noise_colour(parts, least_share)
             if found:
                 sigma[sensor], colour[sensor] = found
             elif sensor in self.colour:  # it was taken for coloured, and is not
@@ -115,7 +123,7 @@ def estimate_noise(
             found = claims[sensor] or _UNKNOWN
         found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
-    noise = Noise(sigma=sigma, white=sigma).with_colour(residuals)
+    noise = Noise(sigma=sigma, white=sigma).with_colour(residuals, COLOUR_AT_ONCE_SHARE)
     for sensor in SENSORS:
         warnings[sensor] = _scatters_otherwise(sensor, noise[sensor], claims[sensor]) or _below_noise(
             sensor, left[sensor], noise[sensor]

@@ -75,3 +75,9 @@ def test_what_is_slow_does_not_change_the_colour_that_is_found():
 def test_too_few_windows_tell_no_colour():
     assert noise_colour(trials(5, count=1, seconds=3.0, share=1.0)) is None
     assert noise_colour([]) is None
+
+
+def test_a_small_share_is_no_colour_where_more_is_asked_for():
+    parts = trials(6, share=0.35, correlation_time_s=0.1)
+    assert noise_colour(parts)[1].share == pytest.approx(0.35, abs=0.1)
+    assert noise_colour(parts, least_share=0.5) is None
