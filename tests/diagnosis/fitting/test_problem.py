@@ -1,8 +1,11 @@
 """What a fit rests on."""
 
+from dataclasses import replace
+
 import numpy as np
 from diagnosis_fixtures import joined, log_of, problem_of
 
+from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
@@ -16,3 +19,32 @@ def test_residuals_are_trial_by_trial_and_then_rig_by_rig():
         for rig, left in zip(rigs, own, strict=True):
             alone = predict(problem.log.rig, trial, [rig], problem.resolution)[0]
             np.testing.assert_array_equal(left, residuals(trial, alone, problem.noise))
+
+
+def test_a_motion_that_is_read_again_is_off_by_what_smoothing_leaves_of_the_noise():
+    quiet = problem_of(log_of(NOMINAL, seconds=4.0))
+    sigma = 0.02
+    noise = replace(quiet.noise, sigma={**quiet.noise.sigma, "base_angle_deg": sigma})
+    problem = replace(quiet, noise=noise)
+    again = problem.read_again(np.random.default_rng(0))
+    assert isinstance(again, FitProblem)
+    off = again.log.trials[0].base_motion_deg - problem.log.trials[0].base_motion_deg
+    assert 0.0 < np.sqrt(np.mean(off**2)) < sigma
+
+
+def test_a_torque_that_may_drift_does_not_count_a_line_of_its_size():
+    """The cost of a line of one sigma is about (1 / D)^2, not the number of its samples."""
+    problem = problem_of(log_of(NOMINAL, seconds=12.0))
+    sigma = problem.noise["base_torque_n_mm"]
+    (one,) = problem.log.trials
+    line = sigma * one.time_s / one.time_s[-1]
+    off = {**one.readings, "base_torque_n_mm": one.readings["base_torque_n_mm"] + line}
+    drifted = replace(problem, log=replace(problem.log, trials=(replace(one, readings=off),)))
+
+    def cost(some):
+        return float(np.sum(some.residuals([NOMINAL])[0][0] ** 2))
+
+    as_it_is = cost(drifted) - cost(problem)
+    allowed = cost(drifted.drifting(2.0 * sigma)) - cost(problem.drifting(2.0 * sigma))
+    assert as_it_is > 100.0
+    assert abs(allowed) < 0.1 * as_it_is

@@ -30,6 +30,7 @@ KEYS = {
     "cannot_tell",
     "replay_error",
     "noise",
+    "noise_colour",
     "search",
     "sensors",
     "warnings",
@@ -111,7 +112,7 @@ def test_probabilities_are_of_everything_and_add_up(dry):
 def test_how_the_fit_ended_is_told(dry):
     fit = dry.report["fit"]
     assert set(fit) == {"status", "message", "at_bound"}
-    assert fit["status"] == "converged: gradient"
+    assert fit["status"] == "converged: relative offset"
     assert fit["message"].startswith("Terminated after ")
     assert fit["at_bound"] == []
 

@@ -1,0 +1,37 @@
+"""What a search has come to, from stage to stage."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of, scored, start_of_search
+
+from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.state import SearchState
+
+NOTE = RecordEntry(stage="s", effects=(), decision=Decision.KEPT, reason="r")
+
+
+@pytest.fixture(scope="module")
+def start():
+    return start_of_search(log_of(NOMINAL, seconds=3.0), effects=("tip_drag",))
+
+
+def test_candidates_and_the_record_only_grow(start):
+    one, other = scored(("tip_drag",), 5.0), scored((), 3.0)
+    state = start.adding(([one], (NOTE,))).noting(NOTE).adding(([other], ()))
+    assert isinstance(state, SearchState)
+    assert state.candidates == (one, other)
+    assert state.record == (NOTE, NOTE)
+    assert state.best is other
+    assert start.candidates == () == start.record
+
+
+def test_in_units_of_another_noise_residuals_shrink_and_the_needle_is_the_same(start):
+    noise = start.problem.noise
+    twice = type(noise)(sigma={s: 2.0 * own for s, own in noise.sigma.items()}, white=noise.white)
+    again = start.renoised(twice)
+    assert again.problem.noise is twice
+    for one, other in zip(start.nominal.by_trial, again.nominal.by_trial, strict=True):
+        np.testing.assert_allclose(other, one / 2.0)
+    rare = {s: again.coarse.noise[s] / start.coarse.noise[s] for s in ("tip_angle_deg",)}
+    assert rare["tip_angle_deg"] == pytest.approx(2.0)

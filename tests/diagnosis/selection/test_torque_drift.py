@@ -1,0 +1,58 @@
+"""Drift of the torque sensor, allowed for where nothing else explains a log."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of, start_of_search
+
+from diagnosis.criteria import DRIFT_RANGE_SIGMA
+from diagnosis.log.trial import Trial
+from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.selection.record import Decision
+from diagnosis.selection.search import nominal_rig
+from diagnosis.selection.torque_drift import STAGE, with_drift
+from diagnosis.stopping import StopSignal
+from diagnosis.workers import Workers
+
+
+def drifted(range_sigma):
+    """A nominal rig whose torque drifts by a line of so many sigma (0.015 N mm)."""
+    log = log_of(NOMINAL, seconds=14.0)
+    (one,) = log.trials
+    table = one.table.copy()
+    table["base_torque_n_mm"] += range_sigma * 0.015 * table["time_s"] / table["time_s"].iloc[-1]
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def searched(log):
+    """The nominal rig alone, then with drift if that is needed."""
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    return state, with_drift(state, Workers(), nominal_rig)
+
+
+def test_a_log_that_is_explained_is_left_alone():
+    before, after = searched(drifted(0.0))
+    assert after is before
+
+
+def test_a_drift_that_a_sensor_may_have_explains_a_log():
+    before, after = searched(drifted(3.5))
+    assert not before.best.floor.reached
+    assert after.best.floor.reached
+    assert after.problem.log.trials[0].torque_drift_sigma > 0
+    assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.KEPT]
+
+
+def test_a_drift_of_no_working_sensor_explains_nothing():
+    before, after = searched(drifted(4 * DRIFT_RANGE_SIGMA))
+    assert after.problem is before.problem
+    assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
+
+
+def test_after_a_stop_it_is_left_out():
+    state = nominal_rig(start_of_search(drifted(3.5), effects=()), Workers())
+    stop = StopSignal(1e-9)
+    assert with_drift(state, Workers(stop=stop), pytest.fail) is state
+    assert STAGE in stop.left_out
+    assert np.isfinite(state.best.score)
