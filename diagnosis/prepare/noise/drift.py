@@ -2,9 +2,9 @@
 
 Within a trial of length T the drift is taken to be
 
-    a + b (t / T) + sum over k of c_k cos(pi k t / T),    a, b, c_k k ~ N(0, D)
+    a + b (t / T) + sum over k of c_k cos(pi k t / T),    b, c_k k ~ N(0, D),  a ~ N(0, 3 D)
 
-which is how a random walk spreads over its frequencies; D is its size. With the drift's covariance G G'
+which is how a random walk spreads over its frequencies; D is its size, and a what it came to before. With the drift's covariance G G'
 beside that of white noise, a residual r in units of sigma becomes white by
 
     r - U (1 - 1 / sqrt(1 + L)) U' r,    G = U sqrt(L) V'
@@ -20,6 +20,8 @@ from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
+_BEFORE = 3.0  # what a drift may have come to before a trial, in its size within one
 
 
 def drift_whitening(time_s: Array, kept: Mask, size_sigma: float) -> Array:
@@ -47,4 +49,5 @@ def _shapes(time_s: Array, size_sigma: float) -> Array:
     count = int(np.clip(2 * duration_s / DRIFT_FASTEST_S, 1, DRIFT_MOST_SHAPES))
     k = np.arange(1, count + 1)
     waves = np.cos(np.pi * share[:, None] * k) / k
-    return np.asarray(size_sigma * np.column_stack([np.ones_like(share), share, waves]))
+    before = np.full_like(share, _BEFORE)
+    return np.asarray(size_sigma * np.column_stack([before, share, waves]))

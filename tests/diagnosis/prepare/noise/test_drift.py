@@ -29,8 +29,8 @@ def test_white_noise_and_a_walk_become_white():
 def test_a_line_of_the_size_of_a_drift_costs_nothing_and_a_larger_constant_does():
     line = 2.0 * (TIME - TIME[0]) / 30.0
     assert np.sum(without(line) ** 2) < 2.0
-    constant = np.full(TIME.size, 20.0)
-    # (a / D)^2 = 100, less what line and waves take of it.
+    constant = np.full(TIME.size, 60.0)
+    # (a / 3 D)^2 = 100, less what line and waves take of it.
     assert 30 < np.sum(without(constant) ** 2) <= 100
 
 
