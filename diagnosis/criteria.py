@@ -293,11 +293,11 @@ COLOUR_AT_ONCE_SHARE = 0.5
 COLOUR_OPEN = 4.0
 """Noise is coloured where white noise alone fits its spectrum worse by so much chi-square (derived: of
 two more parameters, once in 20 000 sensors by chance) and so large a share of its variance is: what a
-right explanation leaves passes for less. What effects leave of the nominal rig passed for 0.2 to 0.5
-in 5 of 187 sensors with white noise, for more in one, so that there half of it is asked for. The spectrum
-is taken from at least so many windows of so many seconds, from the frequency on above which effects
-leave little; colours within so much chi-square of the best are open. Physical: what is correlated for
-longer is drift and not noise."""
+right explanation leaves passes for less. What effects leave of the nominal rig passed for 0.2 to 0.5 in
+5 of 187 sensors with white noise and for more in one, so that there half of it is asked for.
+The spectrum is taken from at least so many windows of so many seconds, from the frequency on above which
+effects leave little; colours within so much chi-square of the best are open. Physical: what is
+correlated for longer is drift and not noise."""
 COLOURED_BLOCK_S = 2.0
 """Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
 correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
