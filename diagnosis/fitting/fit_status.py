@@ -8,8 +8,8 @@ converged   sqrt(P / p) <= tolerance * sqrt(S / (N - p)), the relative offset of
             parameters are within so many of their own standard deviations of the minimum. Within
             five times the tolerance one more step is taken, without another Jacobian.
 behind      S - 10 P is above the cost that a fit has to come below to be of use.
-stalled     no step along the search direction reduces the cost: a shorter one would be a tenth of
-            the difference over which slopes were taken, and these say nothing of it.
+stalled     no step along the search direction reduces the cost: a shorter one would be a hundredth
+            of the difference over which slopes were taken, and these say nothing of it.
 
 Where a model leaves much, a gradient that is small beside noise cannot be reached by differences: its
 error grows with what is left. The relative offset is measured against just that.
@@ -32,7 +32,7 @@ _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
 _FUTILE = 10.0  # times what the linear model promises
 _MOST_TRIES = 8  # steps along one direction, each shorter
-_SHORT = 0.1  # differences that slopes were taken over: a shorter step is beyond them
+_SHORT = 0.01  # differences that slopes were taken over: a shorter step is beyond them
 
 
 class Termination(StrEnum):

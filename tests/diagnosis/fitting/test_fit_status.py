@@ -98,8 +98,8 @@ def test_at_the_minimum_to_within_the_tolerance_it_has_converged():
     [
         (0.3, 1.0, 1, Termination.OFFSET),  # close: within five tolerances
         (0.7, 1.0, 8, Termination.STALLED),
-        (0.7, 0.9e-4, 1, Termination.STALLED),  # a step that slopes over 0.001 say nothing of
-        (0.7, 1.1e-4, 8, Termination.STALLED),
+        (0.7, 0.9e-5, 1, Termination.STALLED),  # a step that slopes over 0.001 say nothing of
+        (0.7, 1.1e-5, 8, Termination.STALLED),
     ],
 )
 def test_a_search_along_a_direction_ends(sigmas, step, tries, ends):
