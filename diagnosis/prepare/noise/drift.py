@@ -5,7 +5,8 @@ Within a trial of length T the drift is taken to be
     a + b (t / T) + sum over k of c_k cos(pi k t / T),    b, c_k k ~ N(0, D),  a ~ N(0, 3 D)
 
 which is how a random walk spreads over its frequencies; D is its size, and a what it came to before.
-With the drift's covariance G G' beside that of white noise, a residual r in units of sigma becomes white by
+With the drift's covariance G G' beside that of white noise, a residual r in units of sigma becomes
+white by
 
     r - U (1 - 1 / sqrt(1 + L)) U' r,    G = U sqrt(L) V'
 
