@@ -390,6 +390,8 @@ MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
+DRIFT_CONTENDERS = 12
+"""Leading explanations of the decimated log that are fitted with drift before all is searched anew."""
 DRIFT_RANGE_SIGMA = 6.0
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
 no roughness but a fault, and the answer stays unknown."""

@@ -8,13 +8,20 @@ DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
 from collections.abc import Callable
 from dataclasses import replace
 
-from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SHARE, DRIFT_SIZE_SIGMA, FINALISTS
+from diagnosis.criteria import (
+    DRIFT_CONTENDERS,
+    DRIFT_RANGE_SIGMA,
+    DRIFT_SHARE,
+    DRIFT_SIZE_SIGMA,
+    FINALISTS,
+)
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.drift import drift_range_sigma
 from diagnosis.replay.replay import replay
-from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import check
+from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -34,7 +41,10 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
     leading = sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
     if not any(_promises(state.problem, c) for c in leading):
         return state
-    again = search(_drifting(state), workers)
+    start = _drifting(state)
+    again = _refitted(state, start, workers)
+    if not check(again.problem, again.candidates).explains:
+        again = search(start, workers)
     if not check(again.problem, again.candidates, again.checked).explains:
         return state.noting(_dropped("no explanation reaches the noise with it"))
     most = _range_sigma(again.problem, again.best.fit)
@@ -50,6 +60,19 @@ def _promises(problem: FitProblem, one: Candidate) -> bool:
     left = sum(float(own[0] @ own[0]) for own in drifting.residuals([rig]))
     there = sum(float(own @ own) for own in one.fit.by_trial)
     return there - left > DRIFT_SHARE * (there - one.fit.samples)
+
+
+def _refitted(state: SearchState, start: SearchState, workers: Workers) -> SearchState:
+    """What the search has come to, fitted with drift from where it is: mostly that is enough."""
+    leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:DRIFT_CONTENDERS]
+    coarse, record = fit_all(STAGE, [(start.coarse, c.names, c.fit.x) for c in leading], workers)
+    begun = start.adding(([candidate(start.nominal)], record))
+    begun = begun.adding(fit_all(STAGE, [(start.problem, ())], workers))
+    if not coarse:
+        return begun
+    best = sorted(coarse, key=lambda c: c.score)
+    found = begun.adding(fit_finalists(STAGE, start.problem, best, workers))
+    return replace(found, singles=tuple(best))
 
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:

@@ -82,7 +82,7 @@ def _fitted(
 
 def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:
     """The verdict with all sets that are alike; richer forms of a set that is told add nothing."""
-    told = list(verdict.confusable or (verdict.effects,))
+    told = list({frozenset(names): names for names in verdict.confusable or (verdict.effects,)}.values())
     most = max(len(names) for names in told)
     for names in sorted(alike, key=len):
         beyond = verdict.kind is VerdictKind.UNDECIDED and len(names) > most
