@@ -351,8 +351,8 @@ NOISE_TRUST = 0.08
 beyond, something fast is left in the residual."""
 
 BASE_NOISE_GAP = 1.3
-"""Gap up to which it is asked what the encoder's noise has to do with a residual above the floor; it is
-no larger than the smoothing of the base leaves it, a tenth of a degree at the very most."""
+"""Gap up to which it is asked what of a residual above the floor the noise of the base's encoder makes.
+A choice that saves time: it decides on whether that is measured, and on nothing else."""
 
 # What a rig may be off by without a name (fitting/nuisance.py)
 

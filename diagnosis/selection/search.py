@@ -28,7 +28,6 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.noise_reestimation import with_colour
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.checked import check
 from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists, fit_screened
 from diagnosis.selection.mesh_refinement import refined_mesh
 from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, kept, not_fitted
@@ -127,8 +126,7 @@ def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
 def pairs(state: SearchState, workers: Workers) -> SearchState:
     """Pairs, where no effect alone explains the log, or where a second promises enough."""
     stage = "pairs"
-    checked = check(state.problem, state.candidates)
-    state, alone = replace(state, checked=checked), checked.explains
+    state, alone = state.rechecked()
     bases = product(state.singles[: 1 if alone else PAIR_BASES], state.effects)
     calls = [(state.coarse, base.fit, effect) for base, effect in bases if effect not in base.names]
     screened, record = _screened(stage, calls, workers)
@@ -147,7 +145,8 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
 def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
     """Where nothing explains the log: one effect at most, with two imperfections of sensors."""
     stage = "imperfections of sensors"
-    if check(state.problem, state.candidates, state.checked).explains:
+    state, explained = state.rechecked()
+    if explained:
         return state
     rough = [c for c in state.pairs if any(name in IMPERFECTIONS for name in c.names)]
     more = [name for name in state.effects if name in IMPERFECTIONS]

@@ -8,7 +8,7 @@ from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.checked import Checked
+from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.fitting import Made
 from diagnosis.selection.record import RecordEntry
 
@@ -25,7 +25,7 @@ class SearchState:
       candidates: fitted on the log itself.
       singles: single effects, fitted on the decimated log, best first.
       pairs: the same of pairs.
-      checked: candidates as they were checked before pairs were tried.
+      checked: candidates as they were last checked.
       record: of every stage so far.
     """
 
@@ -48,6 +48,11 @@ class SearchState:
         """The state with more candidates."""
         found, record = made
         return replace(self, candidates=(*self.candidates, *found), record=(*self.record, *record))
+
+    def rechecked(self) -> tuple["SearchState", bool]:
+        """The state with its candidates checked, and whether one of them explains the log."""
+        checked = check(self.problem, self.candidates, self.checked)
+        return replace(self, checked=checked), checked.explains
 
     def renoised(self, noise: Noise) -> "SearchState":
         """The state in units of another noise."""

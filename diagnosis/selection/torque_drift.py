@@ -20,7 +20,6 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.drift import drift_range_sigma
 from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.checked import check
 from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.state import SearchState
@@ -36,16 +35,17 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
     if workers.stop.due:
         workers.stop.leave_out(STAGE)
         return state
-    if check(state.problem, state.candidates, state.checked).explains:
+    state, explained = state.rechecked()
+    if explained:
         return state
     leading = sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
     if not any(_promises(state.problem, c) for c in leading):
         return state
     start = _drifting(state)
-    again = _refitted(state, start, workers)
-    if not check(again.problem, again.candidates).explains:
-        again = search(start, workers)
-    if not check(again.problem, again.candidates, again.checked).explains:
+    again, explained = _refitted(state, start, workers).rechecked()
+    if not explained:
+        again, explained = search(start, workers).rechecked()
+    if not explained:
         return state.noting(_dropped("no explanation reaches the noise with it"))
     most = _range_sigma(again.problem, again.best.fit)
     if most > DRIFT_RANGE_SIGMA:
@@ -59,7 +59,7 @@ def _promises(problem: FitProblem, one: Candidate) -> bool:
     drifting = problem.drifting(_size_n_mm(problem))
     left = sum(float(own[0] @ own[0]) for own in drifting.residuals([rig]))
     there = sum(float(own @ own) for own in one.fit.by_trial)
-    return there - left > DRIFT_SHARE * (there - one.fit.samples)
+    return there - left > DRIFT_SHARE * max(there - one.fit.samples, 0.0)
 
 
 def _refitted(state: SearchState, start: SearchState, workers: Workers) -> SearchState:
@@ -71,8 +71,7 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     if not coarse:
         return begun
     best = sorted(coarse, key=lambda c: c.score)
-    found = begun.adding(fit_finalists(STAGE, start.problem, best, workers))
-    return replace(found, singles=tuple(best))
+    return begun.adding(fit_finalists(STAGE, start.problem, best, workers))
 
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:

@@ -87,11 +87,11 @@ def _columns(trial: Trial, readings: Trial | Prediction) -> dict[str, Array]:
 def _loop(axis: Axes, columns: dict[str, Array], across: str, up: str) -> Line2D:
     """One line, of means over a few samples where there are many."""
     fine = np.isfinite(columns[across]) & np.isfinite(columns[up])
-    (line,) = axis.plot(_thinned(columns[across][fine]), _thinned(columns[up][fine]))
+    (line,) = axis.plot(_decimated_means(columns[across][fine]), _decimated_means(columns[up][fine]))
     return line
 
 
-def _thinned(values: Array) -> Array:
+def _decimated_means(values: Array) -> Array:
     """Means over equal blocks, so many that a picture can show."""
     block = -(-values.size // _POINTS) or 1
     starts = np.arange(0, values.size, block)

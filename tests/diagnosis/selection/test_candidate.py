@@ -41,11 +41,11 @@ def test_an_explanation_that_holds_where_it_was_not_fitted_explains(same):
 
 def test_an_explanation_that_does_not_hold_where_it_was_not_fitted_does_not():
     """Friction in one trial and none in the other: no level explains both."""
-    problem, torn = fitted(NOMINAL)
-    assert module.shift_statistic(torn.fit) > 9
-    assert not torn.explains
+    problem, inconsistent = fitted(NOMINAL)
+    assert module.shift_statistic(inconsistent.fit) > 9
+    assert not inconsistent.explains
     # Even if its residual were at the floor, its trials tell different levels.
-    assert not replace(torn, floor=NoiseFloor(gap=1, slow=1)).cross_validated(problem).explains
+    assert not replace(inconsistent, floor=NoiseFloor(gap=1, slow=1)).cross_validated(problem).explains
 
 
 def test_what_cannot_be_simulated_without_a_trial_is_said_and_explains_nothing(same, monkeypatch):
@@ -145,3 +145,39 @@ def test_what_is_slow_beside_coloured_noise_explains_nothing(same):
         "not the noise of tip_angle_deg: slow part 1.80 sigma over seconds, limit 1.40"
     )
     assert replace(good, coloured={"tip_angle_deg": replace(slow, slow=1.3)}).explains
+
+
+def above_the_floor(rig, name, value):
+    """A candidate of that effect, 10 % above the floor, on a log whose base was read with 0.02 deg."""
+    quiet = problem_of(log_of(rig, speed=-1.0))
+    noise = replace(quiet.noise, sigma={**quiet.noise.sigma, "base_angle_deg": 0.02})
+    problem = replace(quiet, noise=noise)
+    by_trial = [own[0] for own in problem.residuals([rig])]
+    x = problem.parameterization((name,)).joined({name: np.array([value])})
+    fit = fit_of((name,), by_trial=by_trial, x=x, nuisance=problem.nuisance)
+    floor = NoiseFloor(gap=1.1, slow=1.3)
+    return replace(candidate(fit), floor=floor), problem
+
+
+def test_a_bearing_that_sticks_brings_the_noise_of_the_encoder_back_as_torque():
+    """Within 0.1 deg of presliding 0.5 N mm are a spring of 5 N mm / deg, 300 sigma per deg."""
+    rig = RigParameters(drive_friction_n_mm=0.5)
+    one, problem = above_the_floor(rig, "drive_friction", np.log(0.5))
+    allowed = one.allowing_base_noise(problem).floor
+    assert (allowed.gap, allowed.slow) == (1.1, 1.3)
+    assert allowed.gap_limit > 1.1 * one.floor.gap_limit
+    assert allowed.slow_limit > 1.1 * one.floor.slow_limit
+
+
+def test_a_soft_needle_excuses_nothing():
+    rig = RigParameters(tip_drag_n_mm_s_per_rad=0.05)
+    one, problem = above_the_floor(rig, "tip_drag", np.log(0.05))
+    allowed = one.allowing_base_noise(problem)
+    assert allowed.floor.gap_limit < 1.01 * one.floor.gap_limit
+    assert allowed.floor.slow_limit < 1.05 * one.floor.slow_limit
+    assert not allowed.floor.reached
+
+
+def test_what_is_far_above_the_floor_is_not_looked_at():
+    far = scored(["tip_drag"], 1.0, floor=NoiseFloor(gap=2, slow=2))
+    assert far.allowing_base_noise(None) is far

@@ -55,7 +55,7 @@ def test_without_a_sensor_the_loop_of_the_other_is_left(dry):
     assert [axis.get_xlabel() for axis in lag] == ["base angle, deg"] * 3
 
 
-def test_long_trials_are_thinned_by_means(dry):
+def test_long_trials_are_decimated_to_means(dry):
     long = dry.log.trials[0].table
     long = type(long)({name: np.repeat(long[name].to_numpy(), 10) for name in long})
     trial = Trial(name="long", table=long.assign(time_s=0.001 * np.arange(len(long))))
