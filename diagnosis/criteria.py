@@ -350,9 +350,10 @@ NOISE_TRUST = 0.08
 """Noise re-estimated from the residual may differ from the first estimate (good to 2 %) by this share;
 beyond, something fast is left in the residual."""
 
-BASE_NOISE_GAP = 1.3
-"""Gap up to which it is asked what of a residual above the floor the noise of the base's encoder makes.
-A choice that saves time: it decides on whether that is measured, and on nothing else."""
+BASE_NOISE_GAP, BASE_NOISE_READINGS = 2.0, 4
+"""Gap up to which it is asked what of a residual above the floor the noise of the base's encoder makes,
+a choice that saves time; and simulated readings of the encoder, of which the one that changes most
+counts: a real one changes more once in five logs, and the limits beside it have room for that."""
 
 # What a rig may be off by without a name (fitting/nuisance.py)
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     BASE_NOISE_GAP,
+    BASE_NOISE_READINGS,
     SCATTER,
     SCATTER_CERTAIN_SIGMA,
     SCATTER_LEAST,
@@ -77,14 +78,21 @@ class Candidate:
     def allowing_base_noise(self, problem: FitProblem) -> "Candidate":
         """The same with a floor that knows what the noise of the encoder leaves in the base motion.
 
-        Beside a stiff or sticking element near the base it comes back as torque, and slowly so.
+        Beside a stiff or sticking element near the base it comes back as torque, and slowly so; and so
+        does what smoothing rounds off the motion. Of some readings of the encoder the worst counts.
         """
         if self.floor.reached or self.floor.gap > BASE_NOISE_GAP or not self.names:
             return self
         rig, rng = self.fit.parameterization.rig(self.fit.x), np.random.default_rng(_SEED)
-        runs = problem.read_again(rng).residuals([rig], callback_alone=True)
-        each = zip(runs, self.fit.by_trial, strict=True)
-        return replace(self, floor=self.floor.allowing(floor_of([run[0] - left for run, left in each])))
+        sharp = problem.sharpened()
+        true = sharp.residuals([rig], callback_alone=True)
+        changes = []
+        for _ in range(BASE_NOISE_READINGS):
+            runs = sharp.read_again(rng).residuals([rig], callback_alone=True)
+            each = zip(runs, true, strict=True)
+            changes.append(floor_of([run[0] - left[0] for run, left in each]))
+        worst = NoiseFloor(gap=max(c.gap for c in changes), slow=max(c.slow for c in changes))
+        return replace(self, floor=self.floor.allowing(worst))
 
     def cross_validated(self, problem: FitProblem) -> "Candidate":
         """The same with held-out trials, if it is at the noise floor."""

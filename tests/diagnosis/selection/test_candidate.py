@@ -179,5 +179,5 @@ def test_a_soft_needle_excuses_nothing():
 
 
 def test_what_is_far_above_the_floor_is_not_looked_at():
-    far = scored(["tip_drag"], 1.0, floor=NoiseFloor(gap=2, slow=2))
+    far = scored(["tip_drag"], 1.0, floor=NoiseFloor(gap=3, slow=3))
     assert far.allowing_base_noise(None) is far
