@@ -40,6 +40,7 @@ class Candidate:
       held_out_floor: how far these are above the noise.
       held_out_failure: why they could not be simulated; empty: they could, or were not looked at.
       shift: held-out shift statistic; about 1 where all trials tell the same.
+      shift_limit: largest that is of an explanation.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
     """
 
@@ -50,6 +51,7 @@ class Candidate:
     held_out_floor: NoiseFloor | None = None
     held_out_failure: str = ""
     shift: float = 0.0
+    shift_limit: float = SHIFT_LIMIT
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
 
     @property
@@ -71,28 +73,37 @@ class Candidate:
             if own.slow > own.slow_limit:
                 seen = f"slow part {own.slow:.2f} sigma over seconds, limit {own.slow_limit:.2f}"
                 return f"not the noise of {sensor}: {seen}"
-        if self.shift > SHIFT_LIMIT:
-            return f"held-out trials shift by {self.shift:.1f}, limit {SHIFT_LIMIT:g}"
+        if self.shift > self.shift_limit:
+            return f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
         return "stiffness and damping are off, and which is open" if self.unidentifiable else ""
 
     def allowing_base_noise(self, problem: FitProblem) -> "Candidate":
-        """The same with a floor that knows what the noise of the encoder leaves in the base motion.
+        """The same with limits that know what the noise of the encoder leaves in the base motion.
 
         Beside a stiff or sticking element near the base it comes back as torque, and slowly so; and so
         does what smoothing rounds off the motion. Of some readings of the encoder the worst counts.
         """
         if self.floor.reached or self.floor.gap > BASE_NOISE_GAP or not self.names:
             return self
+        changes = self._base_noise_changes(problem)
+        floors = [floor_of(own) for own in changes]
+        worst = NoiseFloor(gap=max(f.gap for f in floors), slow=max(f.slow for f in floors))
+        shifts = [shift_statistic(replace(self.fit, by_trial=own)) for own in changes]
+        return replace(
+            self, floor=self.floor.allowing(worst), shift_limit=self.shift_limit + max(shifts)
+        )
+
+    def _base_noise_changes(self, problem: FitProblem) -> list[tuple[Array, ...]]:
+        """By how much residuals of each trial change from reading to reading of the encoder."""
         rig, rng = self.fit.parameterization.rig(self.fit.x), np.random.default_rng(_SEED)
         sharp = problem.sharpened()
         true = sharp.residuals([rig], callback_alone=True)
-        changes = []
+        found = []
         for _ in range(BASE_NOISE_READINGS):
             runs = sharp.read_again(rng).residuals([rig], callback_alone=True)
             each = zip(runs, true, strict=True)
-            changes.append(floor_of([run[0] - left[0] for run, left in each]))
-        worst = NoiseFloor(gap=max(c.gap for c in changes), slow=max(c.slow for c in changes))
-        return replace(self, floor=self.floor.allowing(worst))
+            found.append(tuple(run[0] - left[0] for run, left in each))
+        return found
 
     def cross_validated(self, problem: FitProblem) -> "Candidate":
         """The same with held-out trials, if it is at the noise floor."""

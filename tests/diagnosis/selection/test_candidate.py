@@ -169,6 +169,18 @@ def test_a_bearing_that_sticks_brings_the_noise_of_the_encoder_back_as_torque():
     assert allowed.slow_limit > 1.1 * one.floor.slow_limit
 
 
+def test_trials_that_the_noise_of_the_encoder_sets_apart_may_shift_by_more():
+    stuck, problem = above_the_floor(
+        RigParameters(drive_friction_n_mm=0.5), "drive_friction", np.log(0.5)
+    )
+    slopes = tuple(np.ones((r.size, stuck.fit.x.size)) for r in stuck.fit.by_trial)
+    two = replace(stuck.fit, by_trial=stuck.fit.by_trial * 2, jacobian=slopes * 2)
+    pair = replace(problem, log=replace(problem.log, trials=problem.log.trials * 2))
+    allowed = replace(stuck, fit=two).allowing_base_noise(pair)
+    assert allowed.shift_limit > SHIFT_LIMIT + 1.0
+    assert stuck.allowing_base_noise(problem).shift_limit == SHIFT_LIMIT  # one trial cannot shift
+
+
 def test_a_soft_needle_excuses_nothing():
     rig = RigParameters(tip_drag_n_mm_s_per_rad=0.05)
     one, problem = above_the_floor(rig, "tip_drag", np.log(0.05))
