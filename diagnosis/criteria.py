@@ -386,7 +386,8 @@ SECOND_LEAVES = 0.99
 """Share of the cost that a second effect beside one at the floor may leave: half a per cent of the gap.
 By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 % once."""
 NEAR_FLOOR = 3.0
-"""Times the cost at the floor: what promises to leave more is not fitted any more."""
+"""Times the cost at the floor: what promises to leave more is not fitted any more beside what is at the
+floor, and no finer mesh and no search with drift is spent on it."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
 DRIFT_SHARE = 0.3

@@ -60,14 +60,18 @@ _STAGES = {
     "screening pairs": _Usual(words="screening pairs", share_percent=9.0),
     "pairs": _Usual(words="fitting pairs", share_percent=4.0),
     "finalists, pairs": _Usual(words="fitting the best pairs to the whole log", share_percent=2.0),
+    "richer effects": _Usual(words="fitting richer effects of the best"),
+    "finalists, richer effects": _Usual(words="fitting richer effects to the whole log"),
     "screening imperfections of sensors": _Usual(words="screening imperfections of sensors"),
     "imperfections of sensors": _Usual(words="fitting imperfections of sensors"),
     "finalists, imperfections of sensors": _Usual(
         words="fitting the best imperfections of sensors to the whole log"
     ),
+    "best to its end": _Usual(words="fitting the best to its end"),
     "effects of the best alone": _Usual(words="fitting the effects of the best pair alone"),
     "scatter of the best": _Usual(words="fitting the scatter of the best"),
     "mesh refinement": _Usual(words="fitting with a finer mesh"),
+    "finer mesh near the floor": _Usual(words="fitting with a finer mesh"),
     "finer mesh": _Usual(words="fitting with a finer mesh"),
     "what cannot be told apart": _Usual(words="looking for what cannot be told apart"),
     CHECKING: _Usual(words="checking on held-out trials", share_percent=1.0),

@@ -1,8 +1,8 @@
 """What an effect is: a name of the vocabulary, its parameters, and what it changes of a rig."""
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
@@ -109,7 +109,8 @@ class Effect:
     Attributes:
       title: in plain words.
       apply: the rig with this effect in it, given parameter values in order.
-      contains: simpler effects that this one becomes for some parameters.
+      contains: simpler effects that this one becomes for some parameters; each with where a fit of
+        this one may start, given the parameter values of the simpler one.
       needs: column of a log without which it cannot show; empty: none beyond the usual.
       differences: that slopes are taken over, in the units of the fit, one fit after the
         other. Where stick and slip make a residual rough, a wide one sees past that.
@@ -121,7 +122,7 @@ class Effect:
     place: Place
     parameters: tuple[Parameter, ...]
     apply: Callable[..., RigParameters]
-    contains: tuple[str, ...] = ()
+    contains: Mapping[str, Callable[..., tuple[tuple[float, ...], ...]]] = field(default_factory=dict)
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
     trial: str = ""

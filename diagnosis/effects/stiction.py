@@ -22,6 +22,11 @@ def _apply(rig: RigParameters, kinetic: float, static: float, stribeck: float) -
     )
 
 
+def _beyond_dry_friction(level: float) -> tuple[tuple[float, ...], ...]:
+    """Friction that falls at rates of the motion, with its mean about where constant friction is."""
+    return ((0.8 * level, 1.5 * level, 0.8), (0.7 * level, 2.5 * level, 0.2))
+
+
 EFFECT = Effect(
     name="stiction",
     title="stiction (dry friction that falls with the rate, Stribeck)",
@@ -54,6 +59,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
-    contains=("coulomb_friction",),
+    contains={"coulomb_friction": _beyond_dry_friction},
     differences=(0.1, 0.03),
 )

@@ -37,6 +37,12 @@ class FitProblem:
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
     tolerance_sigma: float = 0.02
 
+    @property
+    def samples(self) -> int:
+        """Readings of all sensors."""
+        trials = self.log.trials
+        return sum(int(np.isfinite(own).sum()) for trial in trials for own in trial.readings.values())
+
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """Of a set of effects, with what every fit leaves open."""
         return parameterization_of(names, self.nuisance, self.library)

@@ -69,7 +69,7 @@ def fit_screened(
 def fit_finalists(
     stage: str, problem: FitProblem, contenders: Sequence[Candidate], workers: Workers
 ) -> Made:
-    """The best contenders, fitted on the log itself.
+    """The best contenders, fitted on the log itself; given up where they stay far above the noise.
 
     Args:
       contenders: on the decimated log, best first.
@@ -77,7 +77,8 @@ def fit_finalists(
     near = [c for c in contenders if c.score - contenders[0].score <= CONTENDING]
     finalists, beyond = near[:FINALISTS], near[FINALISTS:]
     far = [c for c in contenders if c not in near]
-    found, record = fit_all(stage, [(problem, c.names, c.fit.x) for c in finalists], workers)
+    enough = NEAR_FLOOR * problem.samples
+    found, record = fit_all(stage, [(problem, c.names, c.fit.x, enough) for c in finalists], workers)
     if finalists and not found and workers.stop.due:
         found, record = _in_short(stage, problem, finalists[0], record)
     lost = (
@@ -90,9 +91,10 @@ def fit_finalists(
 def fit_each_alone(
     stage: str, problem: FitProblem, whole: Candidate, names: Iterable[str], workers: Workers
 ) -> Made:
-    """Each of what a candidate names alone, from where that is."""
+    """Each of what a candidate names alone, from where that is; given up where it stays far behind."""
     starts = [(n, problem.parameterization((n,)).joined(whole.fit.parts)) for n in names]
-    return fit_all(stage, [(problem, (n,), start) for n, start in starts], workers)
+    enough = whole.score + CONTENDING
+    return fit_all(stage, [(problem, (n,), start, enough) for n, start in starts], workers)
 
 
 def _in_short(

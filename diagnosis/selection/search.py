@@ -14,17 +14,24 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import product
 
+import numpy as np
+from numpy.typing import NDArray
+
 from diagnosis.criteria import (
+    CONTENDING,
+    FINALISTS,
     IMPERFECT_BASES,
     MOST_PAIRS,
+    NEAR_FLOOR,
     NOMINAL_LEAD,
     PAIR_BASES,
     SCATTER,
     SECOND_LEAVES,
     WORTH_FITTING,
 )
-from diagnosis.effects import IMPERFECTIONS
+from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_reestimation import with_colour
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
@@ -36,6 +43,7 @@ from diagnosis.selection.state import SearchState
 from diagnosis.selection.torque_drift import with_drift
 from diagnosis.workers import Failure, Task, Workers
 
+Array = NDArray[np.float64]
 Stage = Callable[[SearchState, Workers], SearchState]
 
 
@@ -115,6 +123,12 @@ def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
     return again
 
 
+def finer_mesh_near_the_floor(state: SearchState, workers: Workers) -> SearchState:
+    """A finer mesh where that may be all that is missing: it makes what follows many times dearer."""
+    near = state.best.fit.gap**2 <= NEAR_FLOOR
+    return finer_mesh(state, workers) if near else state
+
+
 def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
     """A replay as fine as the log asks, and candidates fitted to it."""
     problem, found, record = refined_mesh(state.problem, state.candidates, workers)
@@ -142,6 +156,28 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     return state.adding((enough, (*record, *dropped("finalists, pairs", out, reason))))
 
 
+def richer_effects(state: SearchState, workers: Workers) -> SearchState:
+    """Where nothing explains the log: effects that contain one of a leading set, from where that is.
+
+    Fitted from far off they may have ended in a local minimum, above what they contain.
+    """
+    stage = "richer effects"
+    leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:FINALISTS]
+    inner = next((c for c in leading if _richer(c, state.effects)), None)
+    if inner is None or state.rechecked()[1]:
+        return state
+    enough = leading[0].score + CONTENDING
+    calls = [
+        (state.coarse, names, start, enough)
+        for simple, rich in _richer(inner, state.effects)
+        for names, start in _starts_beyond(state.coarse, inner, simple, rich)
+    ]
+    fitted, record = fit_all(stage, calls, workers)
+    ahead = sorted((c for c in fitted if c.score < leading[0].score), key=lambda c: c.score)
+    state = replace(state.noting(*record), pairs=(*state.pairs, *ahead[:1]))
+    return state.adding(fit_finalists(f"finalists, {stage}", state.problem, ahead[:1], workers))
+
+
 def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
     """Where nothing explains the log: one effect at most, with two imperfections of sensors."""
     stage = "imperfections of sensors"
@@ -157,6 +193,14 @@ def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
     state = state.noting(*record, *_not_worth(stage, screened, worth), *fits)
     return state.adding(fit_finalists(f"finalists, {stage}", state.problem, fitted, workers))
+
+
+def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
+    """The fit of the best, where it was given up for staying far above the noise."""
+    best = state.best
+    if best.fit.status.termination is not Termination.BEHIND:
+        return state
+    return state.adding(fit_all("best to its end", [(state.problem, best.names, best.fit.x)], workers))
 
 
 def effects_of_the_best_alone(state: SearchState, workers: Workers) -> SearchState:
@@ -184,9 +228,11 @@ STAGES: tuple[Stage, ...] = (
     stiffness_or_damping_alone,
     single_effects,
     coloured_noise,
-    finer_mesh,
+    finer_mesh_near_the_floor,
     pairs,
+    richer_effects,
     one_more_imperfection,
+    best_to_its_end,
     effects_of_the_best_alone,
     scatter_of_the_best,
     finer_mesh,
@@ -221,6 +267,29 @@ def _worth_a_second(one: Screened, state: SearchState, *, alone: bool) -> bool:
     if not alone:
         return one.gain >= WORTH_FITTING
     return one.cost < SECOND_LEAVES * state.singles[0].fit.cost
+
+
+def _richer(one: Candidate, effects: Sequence[str]) -> list[tuple[str, str]]:
+    """Effects of a candidate, each with one that contains it and is not there."""
+    others = [name for name in effects if name not in one.names]
+    return [(inner, rich) for inner in one.names for rich in others if inner in FITTED[rich].contains]
+
+
+def _starts_beyond(
+    problem: FitProblem, one: Candidate, simple: str, rich: str
+) -> list[tuple[tuple[str, ...], Array]]:
+    """The candidate's set with a richer effect in place of a simple one, and where its fit may start."""
+    names = tuple(rich if name == simple else name for name in one.names)
+    values = [
+        p.from_fit(float(v))
+        for p, v in zip(problem.library[simple].parameters, one.fit.parts[simple], strict=True)
+    ]
+    effect, parameterization = problem.library[rich], problem.parameterization(names)
+    found = []
+    for start in effect.contains[simple](*values):
+        own = np.array([p.to_fit(v) for p, v in zip(effect.parameters, start, strict=True)])
+        found.append((names, parameterization.joined({**one.fit.parts, rich: own})))
+    return found
 
 
 def _takes_off_enough(found: Sequence[Candidate], state: SearchState) -> list[Candidate]:

@@ -14,6 +14,7 @@ from diagnosis.criteria import (
     DRIFT_SHARE,
     DRIFT_SIZE_SIGMA,
     FINALISTS,
+    NEAR_FLOOR,
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -43,7 +44,7 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
         return state
     start = _drifting(state)
     again, explained = _refitted(state, start, workers).rechecked()
-    if not explained:
+    if not explained and again.best.fit.gap**2 <= NEAR_FLOOR:
         again, explained = search(start, workers).rechecked()
     if not explained:
         return state.noting(_dropped("no explanation reaches the noise with it"))

@@ -39,7 +39,7 @@ def _of_library(effect: Effect) -> Mechanism:
         if len(effect.reported) == 1
         else effect.reported,
         apply=lambda rig, *values: replace(rig, model=effect.apply(rig.model, *values)),
-        contains=effect.contains,
+        contains=tuple(effect.contains),
     )
 
 

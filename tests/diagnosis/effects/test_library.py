@@ -68,6 +68,20 @@ def test_an_effect_needs_what_a_log_has_and_contains_what_is_in_the_library(name
     assert len(starts) == 1  # the values of one start stand in the same place of each
 
 
+CONTAINED = [(name, inner) for name, effect in LIBRARY.items() for inner in effect.contains]
+
+
+@pytest.mark.parametrize(("name", "inner"), CONTAINED)
+def test_a_richer_effect_starts_from_a_simpler_one_within_its_bounds(name, inner):
+    effect, simple = LIBRARY[name], LIBRARY[inner]
+    for values in zip(*(p.start for p in simple.parameters), strict=True):
+        begun = effect.contains[inner](*values)
+        assert begun
+        for start in begun:
+            for parameter, value in zip(effect.parameters, start, strict=True):
+                assert parameter.low < value < parameter.high
+
+
 TORQUE_AT_TIP = "load_dependent_friction"
 
 

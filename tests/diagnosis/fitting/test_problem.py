@@ -21,6 +21,19 @@ def test_residuals_are_trial_by_trial_and_then_rig_by_rig():
             np.testing.assert_array_equal(left, residuals(trial, alone, problem.noise))
 
 
+def test_samples_are_the_readings_that_residuals_are_of():
+    problem = problem_of(log_of(NOMINAL, seconds=2.0))
+    (one,) = problem.log.trials
+    lost = {
+        **one.readings,
+        "tip_angle_deg": np.where(one.time_s < 1.0, np.nan, one.readings["tip_angle_deg"]),
+    }
+    holed = replace(problem, log=replace(problem.log, trials=(replace(one, readings=lost),)))
+    assert holed.samples < problem.samples
+    for own in (problem, holed):
+        assert own.samples == sum(run[0].size for run in own.residuals([NOMINAL]))
+
+
 def test_a_motion_that_is_read_again_is_off_by_what_smoothing_leaves_of_the_noise():
     quiet = problem_of(log_of(NOMINAL, seconds=4.0))
     sigma = 0.02

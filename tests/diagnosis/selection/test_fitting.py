@@ -139,6 +139,12 @@ def test_finalists_are_the_best_within_reach(made):
     assert "by more than 60" in out["entry_friction",]
 
 
+def test_a_finalist_that_stays_far_above_the_noise_is_given_up(made, monkeypatch):
+    monkeypatch.setattr(FitProblem, "samples", SAMPLES)
+    fit_finalists("finalists", PROBLEM, [scored(["tip_drag"], 1.0)], Workers())
+    assert made.allowed == [NEAR_FLOOR * SAMPLES]
+
+
 def test_no_contender_is_no_finalist(made):
     assert fit_finalists("finalists", PROBLEM, [], Workers()) == ([], ())
 
@@ -149,6 +155,7 @@ def test_each_effect_of_a_candidate_is_fitted_alone_from_where_it_is(made):
     assert [c.names for c in found] == [("tip_drag",), ("torque_bias",)]
     assert [c.fit.cost for c in found] == [float(pair.fit.parts[n][0]) for n in pair.names]
     assert {e.stage for e in record} == {"alone"}
+    assert made.allowed == [pair.score + CONTENDING] * 2
 
 
 def test_calls_come_back_in_their_order(made):

@@ -5,16 +5,21 @@ from functools import partial
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import concluded, log_of, scored, start_of_search
+from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
 
+from diagnosis.criteria import NEAR_FLOOR, SIMPLE_LEAD
 from diagnosis.effects import FITTED, LIBRARY
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import fitting
 from diagnosis.selection import search as module
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import STAGES, search
+from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
@@ -50,9 +55,11 @@ def test_the_stages_are_these_in_this_order():
         "stiffness_or_damping_alone",
         "single_effects",
         "coloured_noise",
-        "finer_mesh",
+        "finer_mesh_near_the_floor",
         "pairs",
+        "richer_effects",
         "one_more_imperfection",
+        "best_to_its_end",
         "effects_of_the_best_alone",
         "scatter_of_the_best",
         "finer_mesh",
@@ -166,6 +173,69 @@ def test_each_effect_of_a_leading_pair_is_fitted_alone(monkeypatch, still_start)
     assert asked == []
     module.effects_of_the_best_alone(replace(still_start, candidates=(single, pair)), Workers())
     assert asked == [("effects of the best alone", ("tip_drag", "torque_bias"))]
+
+
+def test_a_fit_of_the_best_that_was_given_up_is_taken_to_its_end(monkeypatch, still_start):
+    asked = []
+
+    def fit_all(stage, calls, workers):
+        asked.append((stage, [call[1] for call in calls], len(calls[0])))
+        return [], ()
+
+    monkeypatch.setattr(module, "fit_all", fit_all)
+    ended = scored(["tip_drag"], 1.0)
+    module.best_to_its_end(replace(still_start, candidates=(ended,)), Workers())
+    assert asked == []
+    behind = FitStatus(termination=Termination.BEHIND, message="behind")
+    given_up = replace(ended, fit=replace(ended.fit, status=behind))
+    module.best_to_its_end(replace(still_start, candidates=(given_up,)), Workers())
+    assert asked == [("best to its end", [("tip_drag",)], 3)]  # without a cost that is enough
+
+
+@pytest.mark.parametrize(
+    ("gap", "finer"), [(0.99 * NEAR_FLOOR**0.5, True), (1.01 * NEAR_FLOOR**0.5, False)]
+)
+def test_what_is_far_above_the_floor_gets_no_finer_mesh_before_pairs(
+    gap, finer, monkeypatch, still_start
+):
+    asked = []
+    monkeypatch.setattr(module, "finer_mesh", lambda state, _: asked.append(state) or state)
+    fit = fit_of(("tip_drag",), by_trial=[np.full(10, gap)])
+    state = replace(still_start, candidates=(replace(scored(["tip_drag"], 1.0), fit=fit),))
+    assert module.finer_mesh_near_the_floor(state, Workers()) is state
+    assert bool(asked) is finer
+
+
+FALLING = RigParameters(kinetic_n_mm_per_mm=0.001, static_excess_n_mm_per_mm=0.0025, stribeck_rad_s=0.8)
+"""Dry friction that falls by more than half between the slow and the fast turns of a trial."""
+
+
+@pytest.fixture(scope="module")
+def taken_for_constant():
+    """A log with friction that falls with the rate, for which constant friction was found alone."""
+    start = start_of_search(log_of(FALLING, seconds=8.0), ("coulomb_friction", "stiction"))
+    fit = fit_effects(start.coarse, ("coulomb_friction",), np.array([np.log(0.002), 0, 0]))
+    return replace(start, candidates=(candidate(start.nominal),), singles=(candidate(fit),))
+
+
+@pytest.mark.slow
+def test_what_contains_the_best_is_fitted_from_there(taken_for_constant):
+    (simple,) = taken_for_constant.singles
+    found = module.richer_effects(taken_for_constant, Workers())
+    assert [c.names for c in found.candidates] == [(), ("stiction",)]
+    assert found.pairs[0].score < simple.score - 10 * SIMPLE_LEAD
+    assert found.best.floor.small
+    assert np.exp(found.best.fit.parts["stiction"][0]) == pytest.approx(0.001, rel=0.1)
+
+
+def test_no_richer_effect_is_fitted_where_none_contains_a_leading_one(taken_for_constant):
+    without = replace(taken_for_constant, effects=("coulomb_friction", "tip_drag"))
+    assert module.richer_effects(without, Workers()) is without
+
+
+def test_no_richer_effect_is_fitted_where_something_explains_the_log(taken_for_constant, monkeypatch):
+    monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
+    assert module.richer_effects(taken_for_constant, Workers()) is taken_for_constant
 
 
 @pytest.mark.slow

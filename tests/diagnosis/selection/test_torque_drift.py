@@ -8,7 +8,8 @@ from diagnosis_fixtures import log_of, start_of_search
 
 from diagnosis.criteria import DRIFT_RANGE_SIGMA
 from diagnosis.log.trial import Trial
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection import torque_drift
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import nominal_rig
 from diagnosis.selection.torque_drift import STAGE, with_drift
@@ -43,6 +44,15 @@ def test_a_drift_that_a_sensor_may_have_explains_a_log():
     assert after.best.floor.reached
     assert after.problem.log.trials[0].torque_drift_sigma > 0
     assert Decision.KEPT in [e.decision for e in after.record if e.stage == STAGE]
+
+
+def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeypatch):
+    monkeypatch.setattr(torque_drift, "_promises", lambda problem, one: True)
+    dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0)
+    state = nominal_rig(start_of_search(dry, effects=()), Workers())
+    after = with_drift(state, Workers(), pytest.fail)
+    assert after.problem is state.problem
+    assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
 
 
 def test_a_drift_of_no_working_sensor_explains_nothing():
