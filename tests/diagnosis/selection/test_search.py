@@ -9,6 +9,7 @@ from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_searc
 
 from diagnosis.criteria import NEAR_FLOOR, SIMPLE_LEAD
 from diagnosis.effects import FITTED, LIBRARY
+from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_reestimation import rescaled
@@ -225,7 +226,9 @@ def test_what_contains_the_best_is_fitted_from_there(taken_for_constant):
     assert [c.names for c in found.candidates] == [(), ("stiction",)]
     assert found.pairs[0].score < simple.score - 10 * SIMPLE_LEAD
     assert found.best.floor.small
-    assert np.exp(found.best.fit.parts["stiction"][0]) == pytest.approx(0.001, rel=0.1)
+    fit = found.best.fit
+    sigma = np.sqrt(np.linalg.pinv(information(fit))[0, 0])
+    assert abs(fit.x[0] - np.log(0.001)) < 4 * sigma
 
 
 def test_no_richer_effect_is_fitted_where_none_contains_a_leading_one(taken_for_constant):
