@@ -237,6 +237,11 @@ GAP_LOST_DEG = 1.0
 GAP_ERASED_TWISTS = 2.0
 """Beyond a degree of uncertainty dry friction keeps a gap in mind, until the base has turned one way by
 twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
+GAP_USUAL_TWIST = 0.9
+GAP_HELD_DEG_S, GAP_UNKNOWN_TWIST_DEG = 5.0, 15.0
+"""Quantile of the twist of a held shaft that is the usual one: beyond are outliers and what a fast turn
+left. Physical: rate below which the base holds beside a needle's turns of tens of degrees a second, and
+the usual twist where the tip is not measured; a larger one discards more readings after a gap."""
 BETWEEN_SAMPLES_S = 0.015
 STRAIGHT_DEG = 0.1
 """Samples this far apart leave the motion between them open; and what the step of the base may change
@@ -419,7 +424,7 @@ a weak effect would have the whole library for company. A choice; no log was loo
 EQUIVALENT_PART = 0.5
 """Share of the rest that one more effect of a set may leave: what takes less off is none."""
 
-# How fine a replay has to be (replay/, selection/mesh_refinement.py)
+# How fine a replay has to be (replay/, selection/stages/mesh_refinement.py)
 
 REFINE_SIGMA = 0.1
 REFINE_SHARE = 0.25

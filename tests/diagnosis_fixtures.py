@@ -7,7 +7,7 @@ import pandas as pd
 from scipy.optimize import lsq_linear
 
 from diagnosis.assessment.identifiability import testable_effects
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, nominal_fit
 from diagnosis.fitting.fit_status import FitStatus, Termination
@@ -119,7 +119,7 @@ def coarse_of(log):
 def fit_of(names, *, by_trial=None, jacobian=None, x=None, nuisance=(), cost=None, status=ENDED):
     """A fit that nobody made: by default at the first start, with residuals of 0."""
     parameterization = parameterization_of(names, nuisance)
-    first = {n: starts(LIBRARY[n])[0] for n in names}
+    first = {n: starts(FITTED[n])[0] for n in names}
     x = parameterization.joined(first) if x is None else np.asarray(x, float)
     by_trial = [np.asarray(r, float) for r in ([np.zeros(10)] if by_trial is None else by_trial)]
     if jacobian is None:

@@ -22,12 +22,15 @@ from diagnosis.criteria import (
     GAP_ERASED_TWISTS,
     GAP_FORGOTTEN_LENGTHS,
     GAP_FORGOTTEN_S,
+    GAP_HELD_DEG_S,
     GAP_LONG_S,
     GAP_LOST_DEG,
     GAP_MISFIT,
     GAP_SHORT_S,
     GAP_SIDE_SAMPLES,
     GAP_STEPS,
+    GAP_UNKNOWN_TWIST_DEG,
+    GAP_USUAL_TWIST,
 )
 from diagnosis.log.trial import SENSORS, Trial
 
@@ -37,9 +40,7 @@ _BASE, _TIP = "base_angle_deg", "tip_angle_deg"
 _HELD = ("inserted_mm", "free_mm", "speed_mm_s", "tip_torque_n_mm")
 _LEAST_SIDE = 4  # samples that a curve goes through on each side
 _CUBIC = 3
-_USUAL_TWIST = 0.9  # quantile of the twist of the shaft, beyond which are outliers and fast turns
-_UNKNOWN_TWIST_DEG = 15.0  # where the tip is not measured
-_SLOW_DEG_S, _SLOW_SAMPLES, _LEAST_HELD = 5.0, 10, 50
+_SLOW_SAMPLES, _LEAST_HELD = 10, 50  # that a rate is taken over; from which held samples tell a quantile
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,9 +167,9 @@ def _erased_s(trial: Trial, after_s: float) -> float:
 def _usual_twist_deg(trial: Trial) -> float:
     """What the shaft is twisted by while the base is slow, which dry friction holds; else ever."""
     if not trial.has(_TIP):
-        return _UNKNOWN_TWIST_DEG
+        return GAP_UNKNOWN_TWIST_DEG
     twist = np.abs(trial[_BASE] - trial[_TIP])
     about = np.convolve(trial[_BASE], np.ones(_SLOW_SAMPLES) / _SLOW_SAMPLES, "same")
-    slow = np.abs(np.gradient(about, trial["time_s"])) < _SLOW_DEG_S
+    slow = np.abs(np.gradient(about, trial["time_s"])) < GAP_HELD_DEG_S
     held = slow & np.isfinite(twist)
-    return float(np.nanquantile(twist[held] if held.sum() > _LEAST_HELD else twist, _USUAL_TWIST))
+    return float(np.nanquantile(twist[held] if held.sum() > _LEAST_HELD else twist, GAP_USUAL_TWIST))

@@ -1,9 +1,12 @@
 """What a search has come to, from stage to stage."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, scored, start_of_search
 
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.state import SearchState
@@ -35,3 +38,14 @@ def test_in_units_of_another_noise_residuals_shrink_and_the_needle_is_the_same(s
         np.testing.assert_allclose(other, one / 2.0)
     rare = {s: again.coarse.noise[s] / start.coarse.noise[s] for s in ("tip_angle_deg",)}
     assert rare["tip_angle_deg"] == pytest.approx(2.0)
+
+
+def test_where_the_same_noise_is_coloured_otherwise_fits_are_kept_in_its_units(undisturbed):
+    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    noise = replace(undisturbed.problem.noise, colour=colour)
+    again = undisturbed.renoised(noise)
+    best = undisturbed.best
+    left = again.problem.residuals([best.fit.parameterization.rig(best.fit.x)])
+    (same,) = (c for c in again.candidates if c.names == best.names)
+    np.testing.assert_allclose(same.fit.by_trial[0], left[0][0], atol=1e-9)
+    assert len(again.singles) == len(undisturbed.singles)

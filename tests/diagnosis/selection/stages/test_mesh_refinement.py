@@ -6,20 +6,20 @@ from functools import cache
 import numpy as np
 import pandas as pd
 import pytest
-from diagnosis_fixtures import RIG, log_of, log_with, problem_of, scored
+from diagnosis_fixtures import RIG, fit_of, log_of, log_with, problem_of, scored
 from reference_log import BETA, TIP, TORQUE
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate as simulate_reference
 
-from diagnosis.criteria import CONTENDING, FINEST_ELEMENTS, FINEST_STEP_S
+from diagnosis.criteria import CONTENDING, FINEST_ELEMENTS, FINEST_STEP_S, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.trial import Trial
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL
-from diagnosis.selection import mesh_refinement as module
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.mesh_refinement import refined_mesh
 from diagnosis.selection.record import Decision
+from diagnosis.selection.stages import mesh_refinement as module
+from diagnosis.selection.stages.mesh_refinement import refined_mesh
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
@@ -161,3 +161,17 @@ def test_a_change_matters_from_a_tenth_of_the_noise(change, matters):
     white /= np.sqrt(np.mean(white**2))
     assert module._is_much(np.full(4000, change), white) is matters
     assert not module._is_much(np.full(4000, change), 2 * white)  # far from explained
+
+
+@pytest.mark.parametrize(
+    ("gap", "finer"), [(0.99 * NEAR_FLOOR**0.5, True), (1.01 * NEAR_FLOOR**0.5, False)]
+)
+def test_what_is_far_above_the_floor_gets_no_finer_mesh_before_pairs(
+    gap, finer, monkeypatch, still_start
+):
+    asked = []
+    monkeypatch.setattr(module, "finer_mesh", lambda state, _: asked.append(state) or state)
+    fit = fit_of(("tip_drag",), by_trial=[np.full(10, gap)])
+    state = replace(still_start, candidates=(replace(scored(["tip_drag"], 1.0), fit=fit),))
+    assert module.finer_mesh_near_the_floor(state, Workers()) is state
+    assert bool(asked) is finer

@@ -17,6 +17,7 @@ from diagnosis.criteria import (
     CONTENDING,
     FINEST_ELEMENTS,
     FINEST_STEP_S,
+    NEAR_FLOOR,
     REFINE_SHARE,
     REFINE_SIGMA,
 )
@@ -26,12 +27,28 @@ from diagnosis.replay.resolution import Resolution
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import RecordEntry, dropped
+from diagnosis.selection.stages.stage import stopped_in
+from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 
 STAGE = "mesh refinement"
+
+
+def finer_mesh_near_the_floor(state: SearchState, workers: Workers) -> SearchState:
+    """A finer mesh where that may be all that is missing: it makes what follows many times dearer."""
+    near = state.best.fit.gap**2 <= NEAR_FLOOR
+    return finer_mesh(state, workers) if near else state
+
+
+def finer_mesh(state: SearchState, workers: Workers) -> SearchState:
+    """A replay as fine as the log asks, and candidates fitted to it."""
+    problem, found, record = refined_mesh(state.problem, state.candidates, workers)
+    if stopped := stopped_in(record):
+        return state.noting(*stopped)  # costs at two resolutions do not compare
+    return replace(state, problem=problem, candidates=tuple(found)).noting(*record)
 
 
 def refined_mesh(

@@ -9,10 +9,10 @@ from diagnosis_fixtures import log_of, start_of_search
 from diagnosis.criteria import DRIFT_RANGE_SIGMA
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.selection import torque_drift
 from diagnosis.selection.record import Decision
-from diagnosis.selection.search import nominal_rig
-from diagnosis.selection.torque_drift import STAGE, with_drift
+from diagnosis.selection.stages import torque_drift
+from diagnosis.selection.stages.nominal_rig import nominal_rig
+from diagnosis.selection.stages.torque_drift import STAGE, with_drift
 from diagnosis.stopping import StopSignal
 from diagnosis.workers import Workers
 

@@ -1,0 +1,1 @@
+"""Stages of the search: each takes its state and returns the next."""

@@ -1,0 +1,46 @@
+"""Pairs of effects: a leading one with any other."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+
+from diagnosis.criteria import MOST_PAIRS, PAIR_BASES, SECOND_LEAVES, WORTH_FITTING
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.record import dropped
+from diagnosis.selection.screening import Screened
+from diagnosis.selection.stages.stage import not_worth, screen_all
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+
+def pairs(state: SearchState, workers: Workers) -> SearchState:
+    """Pairs, where no effect alone explains the log, or where a second promises enough."""
+    stage = "pairs"
+    state, alone = state.rechecked()
+    bases = product(state.singles[: 1 if alone else PAIR_BASES], state.effects)
+    calls = [(state.coarse, base.fit, effect) for base, effect in bases if effect not in base.names]
+    screened, record = screen_all(stage, calls, workers)
+    state = state.noting(*record)
+    worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]
+    fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
+    state = state.noting(*not_worth(stage, screened, worth), *record)
+    state = replace(state, pairs=tuple(fitted))
+    found, record = fit_finalists("finalists, pairs", state.problem, fitted, workers)
+    enough = _takes_off_enough(found, state) if alone and state.singles else found
+    out = [c for c in found if c not in enough]
+    reason = f"its second effect leaves more than {SECOND_LEAVES:g} of the cost of one alone"
+    return state.adding((enough, (*record, *dropped("finalists, pairs", out, reason))))
+
+
+def _worth_a_second(one: Screened, state: SearchState, *, alone: bool) -> bool:
+    if not alone:
+        return one.gain >= WORTH_FITTING
+    return one.cost < SECOND_LEAVES * state.singles[0].fit.cost
+
+
+def _takes_off_enough(found: Sequence[Candidate], state: SearchState) -> list[Candidate]:
+    """Pairs that take off the log itself what a second effect has to promise on the decimated one."""
+    asked = (1 - SECOND_LEAVES) * state.singles[0].fit.cost
+    most = min(c.fit.cost for c in state.candidates) - asked
+    return [c for c in found if c.fit.cost <= most]

@@ -1,0 +1,32 @@
+"""Single effects, all screened; the promising are fitted."""
+
+from dataclasses import replace
+
+from diagnosis.criteria import PAIR_BASES, WORTH_FITTING
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.record import failed
+from diagnosis.selection.stages.stage import not_worth, screen_all
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Failure, Task, Workers
+
+
+def single_effects(state: SearchState, workers: Workers) -> SearchState:
+    """Every effect screened, the promising fitted on the decimated log, the best on the log itself."""
+    stage = "single effects"
+    alone = [Task(effects=(), arguments=(state.coarse, ()))]
+    (start,) = workers.each(f"screening {stage}", fit_effects, alone)
+    if isinstance(start, Failure):
+        return state.noting(*failed(stage, [start]))
+    screened, record = screen_all(
+        stage, [(state.coarse, start, effect) for effect in state.effects], workers
+    )
+    state = state.noting(*record)
+    # Where something is missing, scatter has taken over a part of it, and screening may be blind.
+    missing = not candidate(start).floor.small
+    worth = [s for s in screened if missing or s.gain >= WORTH_FITTING]
+    state = state.noting(*not_worth(stage, screened, worth))
+    singles, record = fit_screened(stage, state.coarse, worth, len(worth), workers, used=PAIR_BASES)
+    state = replace(state.noting(*record), singles=tuple(singles))
+    return state.adding(fit_finalists("finalists", state.problem, singles, workers))

@@ -1,0 +1,49 @@
+"""What a stage of the search is, and what several of them share."""
+
+from collections.abc import Callable, Sequence
+
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.record import Decision, RecordEntry, failed, not_fitted
+from diagnosis.selection.screening import Screened, screen
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Failure, Task, Workers
+
+Stage = Callable[[SearchState, Workers], SearchState]
+
+
+def run_stages(stages: Sequence[Stage], state: SearchState, workers: Workers) -> SearchState:
+    """The state after those stages that there was time for; the nominal rig is in any."""
+    for stage in stages:
+        if workers.stop.due and state.candidates:
+            workers.stop.leave_out(stage.__name__.replace("_", " "))
+        else:
+            state = stage(state, workers)
+    return state
+
+
+def screen_all(
+    stage: str, calls: Sequence[tuple[FitProblem, Fit, str]], workers: Workers
+) -> tuple[list[Screened], tuple[RecordEntry, ...]]:
+    """Calls of `screen` (problem, fit, name): all starts of all effects, and the record."""
+    tasks = [
+        Task(effects=(*base.names, name), arguments=(problem, base, name))
+        for problem, base, name in calls
+    ]
+    results = workers.each(f"screening {stage}", screen, tasks)
+    found = [s for own in results if not isinstance(own, Failure) for s in own]
+    return found, failed(stage, [r for r in results if isinstance(r, Failure)])
+
+
+def not_worth(
+    stage: str, screened: Sequence[Screened], worth: Sequence[Screened]
+) -> tuple[RecordEntry, ...]:
+    """The record of what was screened and is not worth a fit."""
+    fitted = {s.names for s in worth}
+    out = dict.fromkeys(s.names for s in screened if s.names not in fitted)
+    return not_fitted(stage, out, "screening promises too little")
+
+
+def stopped_in(record: Sequence[RecordEntry]) -> list[RecordEntry]:
+    """What a stop has cut short."""
+    return [entry for entry in record if entry.decision is Decision.STOPPED]

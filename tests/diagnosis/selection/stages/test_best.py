@@ -1,0 +1,56 @@
+"""The best explanation taken apart."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import concluded, log_of, scored, start_of_search
+
+from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.search import search
+from diagnosis.selection.stages import best as module
+from diagnosis.workers import Workers
+
+
+def test_each_effect_of_a_leading_pair_is_fitted_alone(monkeypatch, still_start):
+    asked = []
+
+    def fit_each_alone(stage, problem, one, names, workers):
+        asked.append((stage, tuple(names)))
+        return [], ()
+
+    monkeypatch.setattr(module, "fit_each_alone", fit_each_alone)
+    single, pair = scored(["tip_drag"], 2.0), scored(["tip_drag", "torque_bias"], 1.0)
+    module.effects_of_the_best_alone(replace(still_start, candidates=(single,)), Workers())
+    assert asked == []
+    module.effects_of_the_best_alone(replace(still_start, candidates=(single, pair)), Workers())
+    assert asked == [("effects of the best alone", ("tip_drag", "torque_bias"))]
+
+
+def test_a_fit_of_the_best_that_was_given_up_is_taken_to_its_end(monkeypatch, still_start):
+    asked = []
+
+    def fit_all(stage, calls, workers):
+        asked.append((stage, [call[1] for call in calls], len(calls[0])))
+        return [], ()
+
+    monkeypatch.setattr(module, "fit_all", fit_all)
+    ended = scored(["tip_drag"], 1.0)
+    module.best_to_its_end(replace(still_start, candidates=(ended,)), Workers())
+    assert asked == []
+    behind = FitStatus(termination=Termination.BEHIND, message="behind")
+    given_up = replace(ended, fit=replace(ended.fit, status=behind))
+    module.best_to_its_end(replace(still_start, candidates=(given_up,)), Workers())
+    assert asked == [("best to its end", [("tip_drag",)], 3)]  # without a cost that is enough
+
+
+@pytest.mark.slow
+def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
+    off = start_of_search(log_of(RigParameters(stiffness_scale=1.2), speed=-1.0, seconds=8.0), ())
+    found = search(off, Workers())
+    (entry,) = [e for e in found.record if e.stage == "scatter of the best"]
+    assert entry.effects == ("stiffness_error",)
+    best = concluded(found)
+    assert best.effects == ("stiffness_error",)
+    assert np.exp(best.best.fit.parts["stiffness_error"][0]) == pytest.approx(1.2, rel=0.01)

@@ -1,0 +1,57 @@
+"""The nominal rig is the first candidate, with its scatter where that is needed."""
+
+from dataclasses import replace
+
+from diagnosis_fixtures import concluded, scored
+
+from diagnosis.selection import fitting
+from diagnosis.selection.record import Decision
+from diagnosis.selection.search import search
+from diagnosis.selection.stages import nominal_rig as module
+from diagnosis.selection.verdict import VerdictKind
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+
+def failing(*_, **__):
+    """What cannot be simulated at all."""
+    raise SimulationFailed("the simulation lost its numbers")
+
+
+def test_where_the_scatter_cannot_be_fitted_the_nominal_rig_still_stands(still_start, monkeypatch):
+    original = fitting.fit_effects
+
+    def without_scatter(problem, names, *arguments):
+        return original(problem, names, *arguments) if names else failing()
+
+    monkeypatch.setattr(fitting, "fit_effects", without_scatter)
+    found = search(still_start, Workers())
+    assert [e.effects for e in found.record if e.decision is Decision.FAILED] == [()]
+    verdict = concluded(found)
+    assert verdict.kind is VerdictKind.NONE
+    assert verdict.best.fit is not None
+    assert verdict.best.names == ()
+
+
+def test_the_scatter_is_dropped_where_the_exact_nominal_rig_is_as_good(still_start):
+    found = module.nominal_rig(still_start, Workers())
+    assert [c.fit for c in found.candidates] == [still_start.nominal]
+    decisions = [e.decision for e in found.record]
+    assert decisions == [Decision.KEPT, Decision.MADE, Decision.DROPPED]
+    assert "exact nominal rig" in found.record[-1].reason
+
+
+def test_stiffness_or_damping_alone_is_fitted_where_their_ratio_shows(monkeypatch, still_start):
+    asked = []
+
+    def fit_each_alone(stage, problem, one, names, workers):
+        asked.append(tuple(names))
+        return [], ()
+
+    monkeypatch.setattr(module, "fit_each_alone", fit_each_alone)
+    clear = scored(["tip_drag"], 1.0)
+    module.stiffness_or_damping_alone(replace(still_start, candidates=(clear,)), Workers())
+    assert asked == []
+    ratio = type("Ratio", (), {"unidentifiable": True})()
+    module.stiffness_or_damping_alone(replace(still_start, candidates=(ratio,)), Workers())
+    assert asked == [("stiffness_error", "damping_error")]

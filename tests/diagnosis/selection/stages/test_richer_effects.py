@@ -1,0 +1,49 @@
+"""What contains a leading effect is fitted from where that is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of, start_of_search
+
+from diagnosis.criteria import SIMPLE_LEAD
+from diagnosis.fitting.cross_validation import information
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.stages import richer_effects as module
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+FALLING = RigParameters(kinetic_n_mm_per_mm=0.001, static_excess_n_mm_per_mm=0.0025, stribeck_rad_s=0.8)
+"""Dry friction that falls by more than half between the slow and the fast turns of a trial."""
+
+
+@pytest.fixture(scope="module")
+def taken_for_constant():
+    """A log with friction that falls with the rate, for which constant friction was found alone."""
+    start = start_of_search(log_of(FALLING, seconds=8.0), ("coulomb_friction", "stiction"))
+    fit = fit_effects(start.coarse, ("coulomb_friction",), np.array([np.log(0.002), 0, 0]))
+    return replace(start, candidates=(candidate(start.nominal),), singles=(candidate(fit),))
+
+
+@pytest.mark.slow
+def test_what_contains_the_best_is_fitted_from_there(taken_for_constant):
+    (simple,) = taken_for_constant.singles
+    found = module.richer_effects(taken_for_constant, Workers())
+    assert [c.names for c in found.candidates] == [(), ("stiction",)]
+    assert found.pairs[0].score < simple.score - 10 * SIMPLE_LEAD
+    assert found.best.floor.small
+    fit = found.best.fit
+    sigma = np.sqrt(np.linalg.pinv(information(fit))[0, 0])
+    assert abs(fit.x[0] - np.log(0.001)) < 4 * sigma
+
+
+def test_no_richer_effect_is_fitted_where_none_contains_a_leading_one(taken_for_constant):
+    without = replace(taken_for_constant, effects=("coulomb_friction", "tip_drag"))
+    assert module.richer_effects(without, Workers()) is without
+
+
+def test_no_richer_effect_is_fitted_where_something_explains_the_log(taken_for_constant, monkeypatch):
+    monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
+    assert module.richer_effects(taken_for_constant, Workers()) is taken_for_constant

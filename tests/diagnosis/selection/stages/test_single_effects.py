@@ -1,0 +1,36 @@
+"""Every effect is screened; the promising are fitted."""
+
+from diagnosis.selection.record import Decision
+from diagnosis.selection.stages import single_effects as module
+from diagnosis.selection.stages.nominal_rig import nominal_rig
+from diagnosis.selection.stages.single_effects import single_effects
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+
+def test_every_effect_is_tried_and_the_best_is_fitted_to_the_log_itself(dry_start):
+    begun = nominal_rig(dry_start, Workers())
+    found = single_effects(begun, Workers())
+    assert {e.effects[0] for e in found.record if len(e.effects) == 1} == set(dry_start.effects)
+    assert found.singles[0].names == ("coulomb_friction",)
+    assert ("coulomb_friction",) in [c.names for c in found.candidates]
+    assert found.best.floor.reached
+
+
+def test_what_promises_too_little_beside_noise_alone_is_not_fitted(still_start):
+    found = single_effects(nominal_rig(still_start, Workers()), Workers())
+    out = [e for e in found.record if e.reason == "screening promises too little"]
+    assert out
+    assert not {e.effects for e in out} & {c.names for c in found.singles}
+
+
+def test_where_the_decimated_log_cannot_be_fitted_the_state_stays(still_start, monkeypatch):
+    monkeypatch.setattr(module, "fit_effects", failing)
+    found = single_effects(still_start, Workers())
+    assert found.candidates == still_start.candidates
+    assert [e.decision for e in found.record] == [Decision.FAILED]
+
+
+def failing(*_, **__):
+    """What cannot be simulated at all."""
+    raise SimulationFailed("the simulation lost its numbers")

@@ -1,0 +1,53 @@
+"""What stages share: time that runs out, screening with a record."""
+
+from dataclasses import replace
+
+from diagnosis_fixtures import scored
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.stages.stage import not_worth, run_stages, screen_all, stopped_in
+from diagnosis.stopping import StopSignal
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+
+def noting(state, _):
+    return state.noting("ran")
+
+
+def test_stages_run_while_there_is_time_and_are_told_of_when_there_is_not(still_start):
+    state = replace(still_start, candidates=(scored(["tip_drag"], 1.0),))
+    assert run_stages((noting, noting), state, Workers()).record == ("ran", "ran")
+    stop = StopSignal(1e-9)
+    assert run_stages((noting,), state, Workers(stop=stop)) is state
+    assert stop.left_out == ["noting"]
+
+
+def test_the_first_stage_runs_in_any_case(still_start):
+    assert run_stages((noting,), still_start, Workers(stop=StopSignal(1e-9))).record == ("ran",)
+
+
+def test_screening_keeps_all_starts_and_records_what_cannot_be_simulated(dry_start):
+    lame = replace(LIBRARY["tip_drag"], apply=failing)
+    coarse = replace(dry_start.coarse, library={**LIBRARY, "tip_drag": lame})
+    base = fit_effects(coarse, ())
+    calls = [(coarse, base, name) for name in ("coulomb_friction", "tip_drag")]
+    found, record = screen_all("single effects", calls, Workers())
+    assert {s.names for s in found} == {("coulomb_friction",)}
+    assert [(e.effects, e.decision) for e in record] == [(("tip_drag",), Decision.FAILED)]
+    told = not_worth("single effects", found, [])
+    assert [e.effects for e in told] == [("coulomb_friction",)]
+    assert not_worth("single effects", found, found) == ()
+
+
+def test_what_a_stop_cut_short_is_found_in_the_record():
+    cut = RecordEntry(stage="any", effects=(), decision=Decision.STOPPED, reason="no time")
+    kept = replace(cut, decision=Decision.KEPT)
+    assert stopped_in((kept, cut)) == [cut]
+
+
+def failing(*_, **__):
+    """What cannot be simulated at all."""
+    raise SimulationFailed("the simulation lost its numbers")
