@@ -31,6 +31,7 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.progress import Progress
 from diagnosis.replay.replay import replay
 from diagnosis.report.write import write_report
+from sim.files import Destination
 from sim.simulation import prepare_processes
 from validation.logs.comparison import RigComparison
 from validation.logs.motions import LogPlan, draw_motions
@@ -135,7 +136,7 @@ def _cost(folder: Path, usual: str) -> Cost:
     stages.mark(_READING)
     found = diagnose(log, workers=WORKERS, progress=stages.heard)
     stages.mark(_AFTER)
-    write_report(found, folder / "report", force=True)
+    write_report(found, Destination(folder=folder / "report", force=True))
     stages.mark(_REPORT)
     cpu_s, peak_gib = _cpu_s() - start_s, _peak_gib()
 

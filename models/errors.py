@@ -39,6 +39,14 @@ class OutputExists(NeedleError):
     """An output path exists and was not to be overwritten."""
 
 
+class UnsafeOutput(NeedleError):
+    """An output path is the user's own file, or leads to it: no option replaces that."""
+
+
+class UnwritableOutput(NeedleError):
+    """The system does not let an output be written: its disk is full, or its path is no place for it."""
+
+
 class EnvironmentMismatch(NeedleError):
     """An installed package is not the one that this library was built for."""
 

@@ -1,16 +1,18 @@
 """`needle blind`: how often is the diagnosis right on rigs that it has never met?"""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import track
+from rich.progress import Progress
 from rich.table import Column, Table
 
 from models.errors import InvalidValue, NeedleError
-from sim.files import refuse_existing, write_text, writing
+from scripts.results import tell
+from sim.files import Destination, ResultSet, publishing, write_text
 from validation.logs.case import ImpossibleDraw
 from validation.logs.make import make_logs
 from validation.score import calibration, picture
@@ -40,19 +42,21 @@ def make(
     if folder.exists():
         raise InvalidValue("out", folder, "a folder that does not exist yet", "choose another one")
     try:
-        make_logs(
-            folder,
-            seed=seed,
-            count=count,
-            kinds=kinds,
-            effects=effects,
-            roughness=roughness,
-            signature=signature,
-            short=short,
-        )
+        with publishing(Destination(folder=folder.parent), [folder]) as written:
+            make_logs(
+                written.at(folder),
+                seed=seed,
+                count=count,
+                kinds=kinds,
+                effects=effects,
+                roughness=roughness,
+                signature=signature,
+                short=short,
+            )
     except (ValueError, ImpossibleDraw) as error:
         raise NeedleError(str(error)) from error
-    console.print(f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers")
+    said = f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers"
+    console.print(said, highlight=False, markup=False)
     return 0
 
 
@@ -79,25 +83,37 @@ def run_score(
         raise InvalidValue(
             "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
         )
-    paths = [out / name for name in ("scores.csv", "score.png")] if out else []
-    refuse_existing(paths, force=force)
+    inputs = tuple(path for room in ("logs", "answers") for path in (folder / room).rglob("*"))
+    destination = Destination(folder=out, inputs=inputs, force=force) if out else None
+    if destination:
+        destination.check(_paths(destination.folder))
     read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
-    diagnose_all(
-        folder / "logs",
-        reports_in(folder, trials, limit_s),
-        trials=trials,
-        limit_s=limit_s,
-        watched=lambda tasks: track(tasks, description="logs"),
-    )
+    with Progress(transient=True) as bar:
+        task = bar.add_task("logs", total=None)
+        diagnose_all(
+            folder / "logs",
+            reports_in(folder, trials, limit_s),
+            trials=trials,
+            limit_s=limit_s,
+            progress=lambda _, done, logs: bar.update(task, completed=done, total=logs),
+        )
     scores = read_scores(folder, trials, limit_s)
+    written = _write(scores, destination) if destination else None
     _print(scores, console)
-    if paths:
-        write_text(paths[0], scores.to_csv(index_label="case", float_format="%.4g"), force=force)
-        with writing(paths[1], force=force) as part:
-            picture.draw(scores, part)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
-    return 0
+    return tell(written, console) if written else 0
+
+
+def _paths(folder: Path) -> list[Path]:
+    return [folder / "scores.csv", folder / "score.png"]
+
+
+def _write(scores: pd.DataFrame, destination: Destination) -> ResultSet:
+    table, shown = _paths(destination.folder)
+    with publishing(destination, [table, shown]) as written:
+        text = scores.to_csv(index_label="case", float_format="%.4g")
+        write_text(written.at(table), text)
+        written.optional(shown, partial(picture.draw, scores))
+    return written
 
 
 def _print(scores: pd.DataFrame, console: Console) -> None:

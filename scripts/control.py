@@ -1,5 +1,6 @@
 """`needle control`: Tables IV and V, robustness, steered insertions, the planar controller."""
 
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
@@ -10,11 +11,12 @@ from scripts.control_tables import (
     robustness_tables,
     settling_table,
 )
+from scripts.results import tell
 from scripts.steering_tables import steering_tables
-from sim.files import refuse_existing
+from sim.files import Destination, publishing
 from sim.recording.rerun_log import log_recording
 from studies.control.closed_loop_recording import record_closed_loop
-from studies.control.recordings import stems, step_recordings
+from studies.control.recordings import StepRecording, stems, step_recordings
 from studies.control.report import FILES, ControlStudy, hankel, write_study
 from studies.control.steering.steered_insertions import STEERED, SteeredInsertion, TurnOrder
 from studies.control.study import run_study
@@ -24,21 +26,21 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     """Run everything, print the tables and write the study."""
     recordings = _recordings(folder)
     steps = {stem: folder / f"{stem}.rrd" for stem in stems()}
-    written = [*(folder / name for name in FILES), *recordings.values(), *steps.values()]
-    refuse_existing(written, force=force)
+    paths = [*(folder / name for name in FILES), *recordings.values(), *steps.values()]
+    destination = Destination(folder=folder, force=force)
+    destination.check(paths)
     with console.status("simulating closed loops") as status:
         study = run_study(lambda stage: status.update(f"simulating closed loops: {stage}"))
+    with publishing(destination, paths) as written:
+        write_study(study, written, folder)
+        for order, insertions in study.steering.steered.items():
+            for one in insertions:
+                if one.controlled is not None:  # a baseline has no recording
+                    written.optional(recordings[order, one.name], partial(_record, one, order))
+        for step in step_recordings(study.tables, study.robustness):
+            written.optional(steps[step.stem], partial(_record_step, step))
     show(study, console)
-    paths = write_study(study, folder, force=force)
-    for order, insertions in study.steering.steered.items():
-        for one in insertions:
-            _record(one, order, recordings, force=force)
-    for step in step_recordings(study.tables, study.robustness):
-        log_recording(step.make(), steps[step.stem], results=step.results, force=force)
-    console.print(f"wrote      {len(steps)} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd")
-    for path in [*paths, *recordings.values()]:
-        console.print(f"wrote      {path}", highlight=False)
-    return 0
+    return tell(written, console)
 
 
 def _recordings(folder: Path) -> dict[tuple[TurnOrder, str], Path]:
@@ -51,21 +53,18 @@ def _recordings(folder: Path) -> dict[tuple[TurnOrder, str], Path]:
     }
 
 
-def _record(
-    one: SteeredInsertion,
-    order: TurnOrder,
-    recordings: dict[tuple[TurnOrder, str], Path],
-    *,
-    force: bool,
-) -> None:
-    """Write one insertion as a recording; a baseline has none."""
-    if one.controlled is None:
-        return
+def _record_step(step: StepRecording, path: Path) -> None:
+    log_recording(step.make(), path, results=step.results)
+
+
+def _record(one: SteeredInsertion, order: TurnOrder, path: Path) -> None:
+    """Write one insertion as a recording."""
+    assert one.controlled is not None
     turns = " ".join(f"{roll:g}" for roll in order.rolls_deg)
     about = {"protocol": f"steered, {one.name}", "description": f"rolls of {turns} deg over 7 cm"}
     result = f"largest deviation from the plane: {one.out_of_plane_mm:.2f} mm"
     recording = record_closed_loop(one.controlled, about)
-    log_recording(recording, recordings[order, one.name], results=[result], force=force)
+    log_recording(recording, path, results=[result])
 
 
 def show(study: ControlStudy, console: Console) -> None:

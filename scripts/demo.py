@@ -5,23 +5,25 @@ rig's log that ships with the project, and what another rig has that its model l
 """
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from rich.console import Console
-from rich.table import Table
 
-from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.rig_log import files_of, read_rig_log
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.report.write import output_paths as report_paths
 from scripts import diagnose as diagnosing
 from scripts import insert
 from scripts import replay as replaying
 from scripts import validate as validating
+from scripts.results import tell
 from sim.experiment import perform
-from sim.files import refuse_existing
+from sim.files import Destination
 from sim.paper_protocols import protocol_named
 from sim.simulation import prepare_processes
-from studies.crosscheck.report import FILES, cross_check, write_report
+from studies.crosscheck.report import cross_check, write_report
+from studies.crosscheck.report import output_paths as check_paths
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 EXAMPLE, DRY = EXAMPLES / "rig-log", EXAMPLES / "rig-log-dry"
@@ -32,46 +34,41 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     """Returns 1 if a bound of the cross-check fails."""
     protocol, log = protocol_named("insertion"), read_rig_log(EXAMPLE)
     paths = insert.output_paths(folder, protocol)
-    paths += [folder / "validate" / name for name in FILES]
+    paths += check_paths(folder / "validate")
     paths += replaying.output_paths(log, folder / "replay")
     paths += report_paths(read_rig_log(DRY), folder / "gap")
-    refuse_existing(paths, force=force)
+    inputs = (*files_of(log, EXAMPLE), *files_of(read_rig_log(DRY), DRY))
+    whole = Destination(folder=folder, inputs=inputs, force=force)
+    whole.check(paths)
     began = time.monotonic()
 
     _announce(console, 1, "compiling the tissue (once per machine, about 20 s)")
     prepare_processes()
     _announce(console, 2, f"insertion: {protocol.description}")
     recording = perform(protocol)
-    insert.write(recording, folder, protocol, force=force)
+    simulated = insert.write(recording, whole, protocol)
     console.print(insert.summary(protocol, recording))
 
     _announce(console, 3, "cross-check against closed-form solutions")
     findings = cross_check()
-    write_report(findings, folder / "validate", force=force)
+    checked = write_report(findings, replace(whole, folder=folder / "validate"))
     console.print(validating.poles_table(findings))
     console.print(validating.checks_table(findings))
 
     _announce(console, 4, f"replay of {len(log.trials)} trials of a rig")
     nominal = replay_nominal(log)
-    replaying.write(nominal, folder / "replay", force=force)
+    replayed = replaying.write(nominal, replace(whole, folder=folder / "replay"))
     console.print(replaying.table(nominal))
 
     _announce(console, 5, "what a rig has that its model lacks")
     stopped = diagnosing.run(DRY, folder / "gap", json_only=False, force=force, console=console)
 
-    console.print(_written(paths))
+    codes = [tell(written, console) for written in (simulated, checked, replayed)]
     console.print(f"done in {time.monotonic() - began:.0f} s; look at a recording with")
     console.print(f"  needle inspect {folder / (protocol.name + '.rrd')}", highlight=False)
     console.print(f"and open {folder / 'gap' / 'report.html'}", highlight=False)
-    return stopped or (0 if findings.passed else 1)
+    return stopped or max(codes) if findings.passed else 1
 
 
 def _announce(console: Console, stage: int, what: str) -> None:
     console.print(f"[bold]{stage}/{_STAGES}[/] {what}", highlight=False)
-
-
-def _written(paths: list[Path]) -> Table:
-    table = Table("written", title="Results")
-    for path in paths:
-        table.add_row(str(path))
-    return table

@@ -11,7 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from diagnosis.assessment.identifiability import unidentifiable
-from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.rig_log import files_of, read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sensors import imperfections
@@ -22,8 +22,9 @@ from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from diagnosis.stopping import StoppedEarly, StopSignal
 from scripts.progress_line import progress_line
+from scripts.results import tell
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
-from sim.files import refuse_existing
+from sim.files import Destination, finish_interrupted
 from sim.simulation import prepare_processes
 
 _SHOWN = 0.0005  # what rounds to more than 0.000
@@ -53,9 +54,12 @@ def run(
     used_s = time.monotonic() - began_s if began_s else 0.0
     reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if folder else 0.0
     stop = StopSignal(limit_s, began_s=began_s, reserve_s=reserve_s)
+    finish_interrupted(log_folder)
     log = read_rig_log(log_folder)
-    if folder:
-        refuse_existing(output_paths(log, folder), force=force)
+    inputs = files_of(log, log_folder)
+    destination = Destination(folder=folder, inputs=inputs, force=force) if folder else None
+    if destination:
+        destination.check(output_paths(log, destination.folder))
     shown = Console(stderr=True)
     for warning in log.warnings:
         shown.print(f"warning: {escape(warning)}", highlight=False)
@@ -69,14 +73,13 @@ def run(
                 raise
             shown.print(f"needle diagnose: {early}")
             return EXIT_CODES[stop.requested]
-        paths = write_report(found, folder, force=force) if folder else []
+        written = write_report(found, destination) if destination else None
         if json_only:
             console.print_json(json.dumps(as_json(found)))
         else:
             _summary(found, console)
-            for path in paths:
-                console.print(f"wrote      {path}", highlight=False)
-    return EXIT_CODES[stop.requested]
+        code = tell(written, Console(quiet=True) if json_only else console) if written else 0
+    return EXIT_CODES[stop.requested] or code
 
 
 def _summary(found: Diagnosis, console: Console) -> None:

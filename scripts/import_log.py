@@ -1,6 +1,7 @@
 """`needle import`: a lab's files as a rig-log/1 folder, by a mapping that the user confirms."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
@@ -13,9 +14,10 @@ from diagnosis.lab_files.preview import write_preview
 from diagnosis.lab_files.read_mapping import read_mapping
 from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.readers.read import read_lab_files
-from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log
+from diagnosis.lab_files.write_log import imported, log_paths, write_log
 from diagnosis.log.rig_log import read_rig_log
-from sim.files import write_text
+from scripts.results import tell
+from sim.files import Destination, publishing, write_text
 
 _FIELDS = ("column", "unit", "derive", "sign", "zero", "time_offset_s")
 
@@ -40,17 +42,18 @@ def run(
 
 def _draft(files: Sequence[LabFile], folder: Path, *, force: bool, console: Console) -> int:
     paths = [folder / "mapping.yaml", folder / "preview.png"]
-    refuse_to_overwrite(paths, [file.path for file in files], force=force)
+    destination = Destination(folder=folder, inputs=tuple(file.path for file in files), force=force)
+    destination.check(paths)
     draft = drafted(files)
+    with publishing(destination, paths) as written:
+        write_text(written.at(paths[0]), mapping_text(draft))
+        written.optional(paths[1], partial(write_preview, draft))
     console.print(table(draft))
     for item in draft.open:
         console.print(f"open: {item}", highlight=False, markup=False)
     for line in loop_lines(draft):
         console.print(f"loops: {line}", highlight=False, markup=False)
-    write_text(paths[0], mapping_text(draft), force=force)
-    write_preview(draft, paths[1], force=force)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
+    code = tell(written, console)
     names = " ".join(str(file.path) for file in files)
     console.print(
         f"next: look at preview.png, edit mapping.yaml, then\n  needle import {names} "
@@ -59,7 +62,7 @@ def _draft(files: Sequence[LabFile], folder: Path, *, force: bool, console: Cons
         markup=False,
         soft_wrap=True,
     )
-    return 0
+    return code
 
 
 def table(draft: Draft) -> Table:
@@ -95,17 +98,17 @@ def _write(
     console: Console,
 ) -> int:
     mapping = read_mapping(path, accept_guesses=accept_guesses)
-    outputs = log_paths(mapping, folder)
-    refuse_to_overwrite(outputs, [path, *(file.path for file in files)], force=force)
+    inputs = (path, *(file.path for file in files))
+    destination = Destination(folder=folder, inputs=inputs, force=force)
+    destination.check(log_paths(mapping, folder))
     trials = imported(mapping, files)
-    write_log(mapping, trials, folder, force=force)
+    written = write_log(mapping, trials, destination)
     for note in (note for trial in trials for note in trial.notes):
         console.print(note, highlight=False, markup=False)
-    for output in outputs:
-        console.print(f"wrote      {output}", highlight=False)
+    code = tell(written, console)
     log = read_rig_log(folder)
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False, markup=False)
     said = "no warnings" if not log.warnings else f"{len(log.warnings)} warnings"
     console.print(f"read back: {len(log.trials)} trials, {said}", highlight=False)
-    return 0
+    return code

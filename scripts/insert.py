@@ -1,13 +1,16 @@
 """`needle insert`: simulate a protocol and write its recording."""
 
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
 from models.errors import InvalidValue
+from scripts.results import tell
 from sim.experiment import perform
-from sim.files import refuse_existing, write_text
+from sim.files import Destination, ResultSet, publishing, write_text
 from sim.model_file import read_model
 from sim.paper_protocols import PROTOCOLS, protocol_named
 from sim.protocol import Protocol, read_protocol
@@ -51,27 +54,41 @@ def run(
     protocol = find(name)
     if model and (mjcf or controller):
         raise InvalidValue("--model", str(model), "neither --mjcf nor --controller beside it")
-    paths = output_paths(folder, protocol)
-    refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
-    if mjcf:
-        note = _MJCF_NOTE.format(name=protocol.name)
-        write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
-        console.print(f"model      {mjcf}", highlight=False)
+    inputs = (*([Path(name)] if _is_file(name) else []), *([model] if model else []))
+    destination = Destination(folder=folder, inputs=inputs, force=force)
+    # A model outside of the folder is a result of its own.
+    beside = mjcf if mjcf and mjcf.is_relative_to(folder) else None
+    aside = replace(destination, folder=mjcf.parent) if mjcf and not beside else None
+    destination.check([*output_paths(folder, protocol), *([beside] if beside else [])])
+    if mjcf and aside:
+        aside.check([mjcf])
     with console.status(f"simulating {protocol.name}"):
         if controller:
             recording = perform_closed_loop(protocol, controller)
         else:
             recording = perform(protocol, read_model(model, protocol.setup()) if model else None)
-    for path in write(recording, folder, protocol, force=force):
-        console.print(f"wrote      {path}", highlight=False)
+    if mjcf and aside:
+        with publishing(aside, [mjcf]) as apart:
+            _write_model(protocol, apart.at(mjcf))
+        console.print(f"model      {mjcf}", highlight=False, markup=False)
+    written = write(recording, destination, protocol, mjcf=beside)
+    code = tell(written, console)
     console.print(summary(protocol, recording))
-    return 0
+    return code
+
+
+def _write_model(protocol: Protocol, path: Path) -> None:
+    note = _MJCF_NOTE.format(name=protocol.name)
+    write_text(path, note + needle_spec(protocol.setup()).to_xml())
 
 
 def find(name: str) -> Protocol:
     """A protocol by file, if the name looks like one, else by name."""
-    looks_like_file = name.endswith((".yaml", ".yml")) or "/" in name
-    return read_protocol(Path(name)) if looks_like_file else protocol_named(name)
+    return read_protocol(Path(name)) if _is_file(name) else protocol_named(name)
+
+
+def _is_file(name: str) -> bool:
+    return name.endswith((".yaml", ".yml")) or "/" in name
 
 
 def output_paths(folder: Path, protocol: Protocol) -> list[Path]:
@@ -79,14 +96,20 @@ def output_paths(folder: Path, protocol: Protocol) -> list[Path]:
     return [folder / f"{protocol.name}{ending}" for ending in ENDINGS]
 
 
-def write(recording: Recording, folder: Path, protocol: Protocol, *, force: bool) -> list[Path]:
-    """Write CSV, Parquet, picture and rerun recording."""
-    csv, parquet, picture, rrd = output_paths(folder, protocol)
-    recording.write(csv, force=force)
-    recording.write(parquet, force=force)
-    draw(recording, picture, force=force)
-    log_recording(recording, rrd, results=results(recording), force=force)
-    return [csv, parquet, picture, rrd]
+def write(
+    recording: Recording, destination: Destination, protocol: Protocol, *, mjcf: Path | None = None
+) -> ResultSet:
+    """Write CSV and Parquet, and the model if asked for; then picture and rerun recording."""
+    paths = output_paths(destination.folder, protocol)
+    with publishing(destination, [*paths, *([mjcf] if mjcf else [])]) as written:
+        csv, parquet, picture, rrd = paths
+        recording.write(written.at(csv))
+        recording.write(written.at(parquet))
+        if mjcf:
+            _write_model(protocol, written.at(mjcf))
+        written.optional(picture, partial(draw, recording))
+        written.optional(rrd, partial(log_recording, recording, results=results(recording)))
+    return written
 
 
 def results(recording: Recording) -> list[str]:

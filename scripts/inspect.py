@@ -8,11 +8,13 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from sim.files import finish_interrupted
 from sim.recording.rerun_table import Entry, entries
 
 
 def run(path: Path, *, table: bool, console: Console) -> int:
     """Open or list; the viewer listens on the loopback address only."""
+    finish_interrupted(path.parent)
     found = entries(path)
     if table:
         console.print(as_table(path, found))

@@ -1,7 +1,8 @@
 """The console command `needle`: arguments, errors and exit codes.
 
-0: done; 1: a bound of `needle validate` fails; 2: bad input, or nothing written; 130 and 143: stopped
-by Ctrl-C or SIGTERM.
+0: done; 1: a bound of `needle validate` fails; 2: bad input, nothing written, or standard output full or
+closed; 3: results without a picture, page or recording that could not be made; 130 and 143: stopped by
+Ctrl-C or SIGTERM.
 """
 
 import argparse
@@ -14,6 +15,13 @@ from rich.console import Console
 from rich.markup import escape
 
 from models.errors import InvalidValue, NeedleError
+from scripts.streams import (
+    OutputConsole,
+    complain,
+    flush_output,
+    give_up_output,
+    show_what_can_be_shown,
+)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -141,15 +149,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a subcommand; returns the exit code."""
     began_s = time.monotonic()
     args = parser().parse_args(arguments)
-    console = Console()
+    show_what_can_be_shown()
     try:
-        return _run(args, console, began_s)
+        code = _run(args, OutputConsole(), began_s)
+        flush_output()
+        return code
     except NeedleError as error:
-        shown = f"[bold red]needle {args.command}:[/] {escape(str(error))}"
-        Console(stderr=True).print(shown, highlight=False)
+        complain(f"[bold red]needle {args.command}:[/] {escape(str(error))}")
+        return 2
+    except OSError as error:
+        where = error.filename or "not everything could be shown, results are complete or untouched"
+        complain(f"[bold red]needle {args.command}:[/] {escape(f'{where}: {error.strerror or error}')}")
+        give_up_output()
         return 2
     except KeyboardInterrupt:
-        Console(stderr=True).print(f"needle {args.command}: interrupted; no incomplete file is left")
+        complain(f"needle {args.command}: interrupted; no incomplete file is left")
         return 130
 
 

@@ -7,7 +7,8 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
-from sim.files import refuse_existing
+from scripts.results import tell
+from sim.files import Destination
 from studies.published.material_study import MaterialStudy
 from studies.published.report.contents import as_json
 from studies.published.report.files import output_paths, write_report
@@ -36,17 +37,16 @@ def run(folder: Path | None, *, json_only: bool, force: bool, console: Console) 
     Raises:
       OutputExists: a result exists and `force` is not given; before any work.
     """
-    if folder:
-        refuse_existing(output_paths(folder), force=force)
+    destination = Destination(folder=folder, force=force) if folder else None
+    if destination:
+        destination.check(output_paths(destination.folder))
     study = _run_with_progress()
-    paths = write_report(study, folder, force=force) if folder else []
+    written = write_report(study, destination) if destination else None
     if json_only:
         console.print_json(json.dumps(as_json(study), allow_nan=False))
-        return 0
-    _show(study, console)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
-    return 0
+    else:
+        _show(study, console)
+    return tell(written, Console(quiet=True) if json_only else console) if written else 0
 
 
 def _run_with_progress() -> PublishedStudy:

@@ -1,6 +1,7 @@
 """`needle replay`: a rig's log beside what its nominal rig predicts."""
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -9,12 +10,13 @@ import pandas as pd
 from rich.console import Console
 from rich.table import Table
 
-from diagnosis.log.rig_log import RigLog, read_rig_log
+from diagnosis.log.rig_log import RigLog, files_of, read_rig_log
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
-from sim.files import refuse_existing, writing
+from scripts.results import tell
+from sim.files import Destination, ResultSet, finish_interrupted, publishing, write_text
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
 
@@ -33,9 +35,10 @@ class ReplayedTrial:
 
 def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int:
     """Replay every trial; writes predictions, a picture and a recording of the first."""
+    finish_interrupted(log_folder)
     log = read_rig_log(log_folder)
-    paths = output_paths(log, folder)
-    refuse_existing(paths, force=force)
+    destination = Destination(folder=folder, inputs=files_of(log, log_folder), force=force)
+    destination.check(output_paths(log, folder))
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False, markup=False)
     with console.status(f"replaying {len(log.trials)} trials"):
@@ -43,11 +46,9 @@ def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int
     later = nominal.log.warnings[len(log.warnings) :]
     for warning in (*later, *nominal.problem.log.warnings, *nominal.problem.noise.warnings):
         console.print(f"warning: {warning}", highlight=False, markup=False)
+    written = write(nominal, destination)
     console.print(table(nominal))
-    write(nominal, folder, force=force)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
-    return 0
+    return tell(written, console)
 
 
 def output_paths(log: RigLog, folder: Path) -> list[Path]:
@@ -90,30 +91,41 @@ def _chosen(each: list[Pair], trial: int | None) -> list[Pair]:
     return each if trial is None else [each[trial]]
 
 
-def write(nominal: NominalReplay, folder: Path, *, force: bool) -> None:
-    """Predictions as CSV, residuals as a picture, the first trial as a recording."""
+def write(nominal: NominalReplay, destination: Destination) -> ResultSet:
+    """Predictions as CSV; then residuals as a picture, the first trial as a recording."""
     log = nominal.log
-    picture, rrd, *predictions = output_paths(log, folder)
+    paths = output_paths(log, destination.folder)
     each = zip(log.trials, nominal.problem.log.trials, nominal.predictions, strict=True)
     replayed = [
         ReplayedTrial(trial=trial, prediction=prediction.rows(prepared.logged))
         for trial, prepared, prediction in each
     ]
-    for one, path in zip(replayed, predictions, strict=True):
-        rows = one.trial.file_rows
-        there = one.prediction.at(rows.taken_s, one.trial["time_s"])
-        columns = {"time_s": rows.stamps_s} | {f"{name}_nominal": there[name] for name in SENSORS}
-        with writing(path, force=force) as part:
-            pd.DataFrame(columns).to_csv(part, index=False, float_format="%.6g")
-    _draw(replayed, picture, force=force)
-    first = nominal.problem.log.trials[0]
+    with publishing(destination, paths) as written:
+        picture, rrd, *predictions = paths
+        for one, path in zip(replayed, predictions, strict=True):
+            table = _predicted(one).to_csv(index=False, float_format="%.6g")
+            write_text(written.at(path), table)
+        written.optional(picture, partial(_draw, replayed))
+        written.optional(rrd, partial(_record, nominal))
+    return written
+
+
+def _predicted(one: ReplayedTrial) -> pd.DataFrame:
+    """At the rows of the trial's file."""
+    rows = one.trial.file_rows
+    there = one.prediction.at(rows.taken_s, one.trial["time_s"])
+    return pd.DataFrame({"time_s": rows.stamps_s} | {f"{s}_nominal": there[s] for s in SENSORS})
+
+
+def _record(nominal: NominalReplay, path: Path) -> None:
+    log, first = nominal.log, nominal.problem.log.trials[0]
     shape = shape_of(log.rig, first, nominal.rig)
     results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
     parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
-    log_recording(record(shape, parameters), rrd, results=results, force=force)
+    log_recording(record(shape, parameters), path, results=results)
 
 
-def _draw(replayed: list[ReplayedTrial], path: Path, *, force: bool) -> None:
+def _draw(replayed: list[ReplayedTrial], path: Path) -> None:
     size = (11, 2.2 * len(replayed) + 1)
     figure, axes = plt.subplots(len(replayed), 2, figsize=size, layout="constrained", squeeze=False)
     for row, one in zip(axes, replayed, strict=True):
@@ -127,6 +139,5 @@ def _draw(replayed: list[ReplayedTrial], path: Path, *, force: bool) -> None:
     for axis in axes[-1]:
         axis.set(xlabel="time, s")
     axes[0, 0].legend(fontsize=8)
-    with writing(path, force=force) as part:
-        figure.savefig(part, dpi=110, format="png")
+    figure.savefig(path, dpi=110, format="png")
     plt.close(figure)

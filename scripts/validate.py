@@ -7,25 +7,26 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from sim.files import refuse_existing
+from scripts.results import tell
+from sim.files import Destination
 from studies.crosscheck.findings import Findings
 from studies.crosscheck.poles import SOURCES
-from studies.crosscheck.report import FILES, cross_check, write_report
+from studies.crosscheck.report import cross_check, output_paths, write_report
 
 _AGREES = 0.02  # figures within 2 % of each other need no explanation
 
 
 def run(folder: Path | None, *, force: bool, console: Console) -> int:
     """Returns 1 if a bound fails."""
-    if folder:
-        refuse_existing([folder / name for name in FILES], force=force)
+    destination = Destination(folder=folder, force=force) if folder else None
+    if destination:
+        destination.check(output_paths(destination.folder))
     with console.status("checking MuJoCo's needle against closed-form solutions and published figures"):
         findings = cross_check()
+    written = write_report(findings, destination) if destination else None
     show(findings, console)
-    if folder:
-        for path in write_report(findings, folder, force=force):
-            console.print(f"wrote      {path}", highlight=False)
-    return 0 if findings.passed else 1
+    code = tell(written, console) if written else 0
+    return code if findings.passed else 1
 
 
 def show(findings: Findings, console: Console) -> None:

@@ -27,11 +27,12 @@ MAY_IMPORT = {
 ROOMS_OF_VALIDATION = ("rig", "logs", "score")
 # Inside a package the direction is one too: of its folders, each imports only these.
 MAY_IMPORT_INSIDE = {
+    "sim.files": {"sim.files"},
     "sim.kernel": {"sim.kernel", "sim.kernel.stage"},
     "sim.kernel.stage": {"sim.kernel", "sim.kernel.stage"},
     "sim.loop": {"sim.loop"},
     "sim.needles": {"sim", "sim.kernel", "sim.needles"},
-    "sim.recording": {"sim", "sim.kernel", "sim.recording"},
+    "sim.recording": {"sim", "sim.files", "sim.kernel", "sim.recording"},
     "studies.crosscheck": {"studies.crosscheck"},
     "controllers.steering": {"controllers", "controllers.steering"},
     "studies.control": {"studies.control", "studies.control.steering", "studies.crosscheck"},
@@ -40,7 +41,7 @@ MAY_IMPORT_INSIDE = {
         *(f"studies.published.{room}" for room in ("experiments", "fitting", "selection", "report")),
     },
 }
-SIDE_STREAMS = {"sim/recording/rerun_log.py", "sim/recording/rerun_table.py"}
+SIDE_STREAMS = {f"sim/recording/rerun_{name}.py" for name in ("file", "log", "table")}
 
 
 def sources(package):

@@ -15,7 +15,7 @@ _MOST_TRIALS = 4
 _MOST_POINTS = 5000
 
 
-def write_preview(draft: Draft, path: Path, *, force: bool) -> None:
+def write_preview(draft: Draft, path: Path) -> None:
     """Draw the first trials, values as they are in the files."""
     trials = list(draft.series)[:_MOST_TRIALS]
     names = [column.wanted for column in draft.columns]
@@ -34,7 +34,7 @@ def write_preview(draft: Draft, path: Path, *, force: bool) -> None:
         axes[0, k].set_title(trial, fontsize=9)
         axes[-1, k].set_xlabel("time in the files, s")
     _loops(axes[0, -1], draft, trials)
-    with writing(path, force=force) as part:
+    with writing(path) as part:
         figure.savefig(part, dpi=100, format="png")
     plt.close(figure)
 

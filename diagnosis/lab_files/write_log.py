@@ -1,4 +1,4 @@
-"""Writing an imported log, and never over a file of the user's."""
+"""Writing an imported log."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,8 +10,7 @@ from diagnosis.lab_files.mapping import ImportMapping, as_rig
 from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.series import refuse_unreadable
 from diagnosis.lab_files.trial_tables import ImportedTrial, imported_trial
-from models.errors import InvalidValue
-from sim.files import refuse_existing, write_text, writing
+from sim.files import Destination, ResultSet, publishing, write_text
 
 _DIGITS = "%.9g"
 
@@ -31,30 +30,21 @@ def log_paths(mapping: ImportMapping, folder: Path) -> list[Path]:
     return [folder / "rig.yaml", *(folder / trial.file for trial in mapping.trials)]
 
 
-def refuse_to_overwrite(paths: Sequence[Path], inputs: Sequence[Path], *, force: bool) -> None:
-    """Check, before anything is written, that no input would be replaced: not even by `--force`.
+def write_log(
+    mapping: ImportMapping, trials: Sequence[ImportedTrial], destination: Destination
+) -> ResultSet:
+    """Write one CSV per trial and `rig.yaml`, as one.
 
     Raises:
-      InvalidValue: an output is one of the inputs.
-      OutputExists: an output exists and `force` is not given.
+      OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
     """
-    for path in paths:
-        for own in inputs:
-            if path.exists() and own.exists() and path.samefile(own):
-                raise InvalidValue(
-                    "--out", path, "a folder where nothing replaces an input", "give another folder"
-                )
-    refuse_existing(list(paths), force=force)
-
-
-def write_log(
-    mapping: ImportMapping, trials: Sequence[ImportedTrial], folder: Path, *, force: bool
-) -> None:
-    """Write `rig.yaml` and one CSV per trial."""
-    for trial in trials:
-        with writing(folder / trial.name, force=force) as part:
-            pd.DataFrame(trial.table).to_csv(part, index=False, float_format=_DIGITS)
-    sources = "; ".join(f"{t.file} from {', '.join(t.lab_files)}" for t in mapping.trials)
-    head = f"# Made by needle import: {' '.join(sources.split())}\n"
-    content = yaml.safe_dump(as_rig(mapping), sort_keys=False, allow_unicode=True)
-    write_text(folder / "rig.yaml", head + content, force=force)
+    folder = destination.folder
+    with publishing(destination, log_paths(mapping, folder)) as results:
+        for trial in trials:
+            table = pd.DataFrame(trial.table)
+            table.to_csv(results.at(folder / trial.name), index=False, float_format=_DIGITS)
+        sources = "; ".join(f"{t.file} from {', '.join(t.lab_files)}" for t in mapping.trials)
+        head = f"# Made by needle import: {' '.join(sources.split())}\n"
+        content = yaml.safe_dump(as_rig(mapping), sort_keys=False, allow_unicode=True)
+        write_text(results.at(folder / "rig.yaml"), head + content)
+    return results

@@ -70,6 +70,11 @@ def read_rig_log(folder: Path) -> RigLog:
     return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings))
 
 
+def files_of(log: RigLog, folder: Path) -> tuple[Path, ...]:
+    """The files that a log was read from."""
+    return (folder / "rig.yaml", *(folder / entry.file for entry in log.rig.trials))
+
+
 def _readable(path: Path, rig: NominalRig) -> Trial:
     """A trial as its file has it, that can be a trial of the rig at all."""
     trial = read_trial(path)

@@ -17,7 +17,7 @@ from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
 from diagnosis.result import Diagnosis
-from sim.files import writing
+from sim.recording.rerun_file import recorded
 from sim.recording.rerun_log import APPLICATION, log_series
 
 Array = NDArray[np.float64]
@@ -32,10 +32,7 @@ def log_gap(diagnosis: Diagnosis, sentence: str, path: Path, *, force: bool = Fa
     Raises:
       OutputExists: the path exists and `force` is not given.
     """
-    rr.set_strict_mode(True)
-    with writing(path, force=force) as part:
-        stream = rr.RecordingStream(f"{APPLICATION}-gap")
-        stream.save(part, default_blueprint=_blueprint(diagnosis))
+    with recorded(f"{APPLICATION}-gap", _blueprint(diagnosis), path, force=force) as stream:
         stream.log("about", rr.TextDocument(f"# {sentence}", media_type="text/markdown"), static=True)
         each = zip(diagnosis.log.trials, diagnosis.nominal, diagnosis.assessment.explained, strict=True)
         for i, (trial, nominal, explained) in enumerate(each):
@@ -47,7 +44,6 @@ def log_gap(diagnosis: Diagnosis, sentence: str, path: Path, *, force: bool = Fa
                 entity = f"{root}/residual/{sensor}/{name}"
                 log_series(stream, entity, name, trial["time_s"], left, _COLOURS[name])
             log_needle(stream, f"{root}/needle", trial, left_over)
-        stream.disconnect()
 
 
 def _log_signals(stream: Any, root: str, trial: Trial, predictions: Mapping[str, Prediction]) -> None:

@@ -1,8 +1,8 @@
 """A diagnosis as files: `report.json`, `report.html`, `gap.rrd`, `predictions/` (gap-report/1)."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pandas as pd
 
@@ -13,7 +13,7 @@ from diagnosis.report.json_report import as_json
 from diagnosis.report.recording import log_gap
 from diagnosis.report.sentences import headline
 from diagnosis.result import Diagnosis
-from sim.files import refuse_existing, write_text
+from sim.files import Destination, ResultSet, publishing, write_text
 
 
 def output_paths(log: RigLog, folder: Path) -> list[Path]:
@@ -22,40 +22,32 @@ def output_paths(log: RigLog, folder: Path) -> list[Path]:
     return [*whole, *(folder / "predictions" / t.name for t in log.trials)]
 
 
-def write_report(diagnosis: Diagnosis, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write everything, or nothing if it is interrupted; returns the paths.
+def write_report(diagnosis: Diagnosis, destination: Destination) -> ResultSet:
+    """Write everything as one, the numbers first: a page or recording that fails is left out.
 
     Raises:
-      OutputExists: one of them exists and `force` is not given.
+      OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
     """
-    paths = output_paths(diagnosis.log, folder)
-    refuse_existing(paths, force=force)
-    folder.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(prefix=".report-", dir=folder) as temporary:
-        drafts = output_paths(diagnosis.log, Path(temporary))
-        _write_drafts(diagnosis, drafts)
-        for draft, path in zip(drafts, paths, strict=True):
-            path.parent.mkdir(exist_ok=True)
-            draft.replace(path)
-    return paths
-
-
-def _write_drafts(diagnosis: Diagnosis, paths: list[Path]) -> None:
+    paths = output_paths(diagnosis.log, destination.folder)
     report = as_json(diagnosis)
-    write_text(paths[0], json.dumps(report, indent=1, allow_nan=False))
-    write_text(paths[1], page(diagnosis, report))
-    log_gap(diagnosis, headline(diagnosis), paths[2])
-    _write_predictions(diagnosis, paths[3:])
+    with publishing(destination, paths) as results:
+        told, shown, recording, *predictions = paths
+        write_text(results.at(told), json.dumps(report, indent=1, allow_nan=False))
+        for path, table in zip(predictions, _predictions(diagnosis), strict=True):
+            write_text(results.at(path), table.to_csv(index=False, float_format="%.6g"))
+        results.optional(shown, lambda part: write_text(part, page(diagnosis, report)))
+        results.optional(recording, lambda part: log_gap(diagnosis, headline(diagnosis), part))
+    return results
 
 
-def _write_predictions(diagnosis: Diagnosis, paths: list[Path]) -> None:
+def _predictions(diagnosis: Diagnosis) -> Iterator[pd.DataFrame]:
     explained = diagnosis.assessment.explained
-    each = zip(diagnosis.log.trials, diagnosis.nominal, explained, paths, strict=True)
-    for trial, before, after, path in each:
+    each = zip(diagnosis.log.trials, diagnosis.nominal, explained, strict=True)
+    for trial, before, after in each:
         rows = trial.file_rows
         nominal, best = (p.at(rows.taken_s, trial["time_s"]) for p in (before, after))
         columns = {"time_s": rows.stamps_s}
         for sensor in SENSORS:
             columns[f"{sensor}_nominal"] = nominal[sensor]
             columns[f"{sensor}_explained"] = best[sensor]
-        write_text(path, pd.DataFrame(columns).to_csv(index=False, float_format="%.6g"))
+        yield pd.DataFrame(columns)

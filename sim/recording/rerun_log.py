@@ -19,8 +19,8 @@ from models import units
 from models.modes import InsertedNeedle
 from models.needle import Needle
 from models.tissue import Tissue
-from sim.files import writing
 from sim.recording.recording import Recording, unit_of
+from sim.recording.rerun_file import recorded
 
 Array = NDArray[np.float64]
 
@@ -85,10 +85,7 @@ def log_recording(
     Raises:
       OutputExists: the path exists and `force` is not given.
     """
-    rr.set_strict_mode(True)
-    with writing(path, force=force) as part:
-        stream = rr.RecordingStream(application(recording))
-        stream.save(part, default_blueprint=blueprint(recording))
+    with recorded(application(recording), blueprint(recording), path, force=force) as stream:
         _log_text(stream, recording, results)
         for plot, signals in _PLOTS.items():
             for name, (label, colour) in signals.items():
@@ -99,7 +96,6 @@ def log_recording(
         _log_modes(stream, recording)
         _log_path(stream, recording)
         _log_shaft(stream, recording)
-        stream.disconnect()
 
 
 def application(recording: Recording) -> str:

@@ -2,7 +2,9 @@
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +15,7 @@ from matplotlib.figure import Figure
 from models.drive import DriveKind
 from models.materials import tissue_named
 from models.statespace import hankel_ratios
-from sim.files import refuse_existing, write_text, writing
+from sim.files import ResultSet, write_text
 from studies.control import tables
 from studies.control.comparison import StepResponse, as_row
 from studies.control.steering.steering_figures import draw_planes, draw_steered
@@ -99,24 +101,26 @@ def _or_none(value: Any) -> Any:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write every file; returns their paths.
-
-    Raises:
-      OutputExists: one of them exists and `force` is not given.
-    """
-    paths = [folder / name for name in FILES]
-    refuse_existing(paths, force=force)
-    write_text(paths[0], json.dumps(study.as_json(), indent=1, allow_nan=False), force=force)
-    for path, responses in ((paths[1], study.tables), (paths[2], study.robustness)):
+def write_study(study: ControlStudy, results: ResultSet, folder: Path) -> None:
+    """Write all of `FILES` into the results of a folder; a picture that fails is left out."""
+    told, turns, robustness, *pictures = (folder / name for name in FILES)
+    write_text(results.at(told), json.dumps(study.as_json(), indent=1, allow_nan=False))
+    for path, responses in ((turns, study.tables), (robustness, study.robustness)):
         rows = pd.DataFrame([as_row(o) for o in responses])
-        write_text(path, rows.to_csv(index=False), force=force)
-    figures = (_draw_turns(study), draw_steered(study.steering), draw_planes(study.steering))
-    for path, figure in zip(paths[3:], figures, strict=True):
-        with writing(path, force=force) as part:
-            figure.savefig(part, dpi=120, format="png")
-        plt.close(figure)
-    return paths
+        write_text(results.at(path), rows.to_csv(index=False))
+    figures: tuple[Callable[[], Figure], ...] = (
+        partial(_draw_turns, study),
+        partial(draw_steered, study.steering),
+        partial(draw_planes, study.steering),
+    )
+    for path, figure in zip(pictures, figures, strict=True):
+        results.optional(path, partial(_draw, figure))
+
+
+def _draw(make: Callable[[], Figure], path: Path) -> None:
+    figure = make()
+    figure.savefig(path, dpi=120, format="png")
+    plt.close(figure)
 
 
 def _draw_turns(study: ControlStudy) -> Figure:

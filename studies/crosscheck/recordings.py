@@ -1,9 +1,11 @@
 """Runs of the cross-check as recordings: fast turns beside what they are checked against, and Fig. 4."""
 
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
 
+from sim.files import ResultSet
 from sim.recording.recording import Recording, record
 from sim.recording.rerun_log import log_recording
 from studies.crosscheck import motion, turn
@@ -14,17 +16,20 @@ REVERSAL_FILE = "reversal.rrd"
 NAMES = (*FILES.values(), REVERSAL_FILE)
 
 
-def write_recordings(folder: Path, *, force: bool = False) -> None:
-    """Write all of `NAMES`.
-
-    Raises:
-      OutputExists: one of them exists and `force` is not given.
-    """
+def write_recordings(results: ResultSet, folder: Path) -> None:
+    """Write all of `NAMES` into the results of a folder; one that fails is left out."""
     for free, name in FILES.items():
-        checks = turn.compare(turn.turned(free))
-        log_recording(record_turn(free), folder / name, results=_said(checks), force=force)
-    checks = motion.check_balances()
-    log_recording(record_reversal(), folder / REVERSAL_FILE, results=_said(checks), force=force)
+        results.optional(folder / name, partial(_write_turn, free))
+    results.optional(folder / REVERSAL_FILE, _write_reversal)
+
+
+def _write_turn(free_mm: float, path: Path) -> None:
+    checks = turn.compare(turn.turned(free_mm))
+    log_recording(record_turn(free_mm), path, results=_said(checks))
+
+
+def _write_reversal(path: Path) -> None:
+    log_recording(record_reversal(), path, results=_said(motion.check_balances()))
 
 
 def record_turn(free_mm: float) -> Recording:

@@ -2,15 +2,17 @@
 
 import json
 from dataclasses import asdict
+from functools import partial
 from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from sim.files import refuse_existing, write_text, writing
+from sim.files import Destination, ResultSet, publishing, write_text
 from studies.crosscheck import motion, paper, paper_text, poles, recordings, turn
 from studies.crosscheck.findings import Findings, PoleSource
 from studies.crosscheck.linear import linear_checks
@@ -47,36 +49,45 @@ def cross_check() -> Findings:
     )
 
 
-def write_report(findings: Findings, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write every file of the report; returns their paths.
+def write_report(findings: Findings, destination: Destination) -> ResultSet:
+    """Write every file of the report as one; a picture or recording that fails is left out.
 
     Raises:
-      OutputExists: one of them exists and `force` is not given.
+      OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
     """
-    paths = [folder / name for name in FILES]
-    refuse_existing(paths, force=force)
-    write_text(paths[0], json.dumps(findings.as_json(), indent=1, allow_nan=False), force=force)
-    tables = (
+    paths = output_paths(destination.folder)
+    with publishing(destination, paths) as results:
+        told, *tables, picture = paths[:5]
+        write_text(results.at(told), json.dumps(findings.as_json(), indent=1, allow_nan=False))
+        for path, rows in zip(tables, _tables(findings), strict=True):
+            write_text(results.at(path), pd.DataFrame(rows).to_csv(index=False))
+        results.optional(picture, partial(_draw, findings))
+        recordings.write_recordings(results, destination.folder)
+    return results
+
+
+def output_paths(folder: Path) -> list[Path]:
+    """What `write_report` will write."""
+    return [folder / name for name in FILES]
+
+
+def _tables(findings: Findings) -> tuple[list[dict[str, Any]], ...]:
+    """Poles, checks, published figures."""
+    return (
         [asdict(p) | {"error": p.error} for p in findings.poles],
         findings.as_json()["checks"],
         [asdict(c) | {"ratio": c.ratio} for c in findings.comparisons],
     )
-    for path, rows in zip(paths[1:4], tables, strict=True):
-        write_text(path, pd.DataFrame(rows).to_csv(index=False), force=force)
-    _draw(findings, paths[4], force=force)
-    recordings.write_recordings(folder, force=force)
-    return paths
 
 
-def _draw(findings: Findings, path: Path, *, force: bool) -> None:
+def _draw(findings: Findings, path: Path) -> None:
     # Poles, turn and steps one below the other, ratios beside all of them.
     figure, axes = plt.subplot_mosaic("PR;TR;SR", figsize=(14, 12), layout="constrained")
     _draw_poles(axes["P"], findings)
     _draw_turn(axes["T"])
     _draw_steps(axes["S"])
     _draw_ratios(axes["R"], findings)
-    with writing(path, force=force) as part:
-        figure.savefig(part, dpi=130, format="png")
+    figure.savefig(path, dpi=130, format="png")
     plt.close(figure)
 
 

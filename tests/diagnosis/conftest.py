@@ -16,6 +16,7 @@ from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
 from diagnosis.report.write import write_report
 from diagnosis.result import Diagnosis
+from sim.files import Destination
 
 SHARED = {"dry", "nothing"}
 
@@ -57,7 +58,7 @@ def dry(tmp_path_factory):
 def written(dry, tmp_path_factory):
     """The report on dry friction, as files."""
     folder = tmp_path_factory.mktemp("report") / "out"
-    write_report(dry.found, folder)
+    write_report(dry.found, Destination(folder=folder))
     return folder
 
 

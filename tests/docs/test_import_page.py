@@ -20,6 +20,7 @@ from diagnosis.lab_files.readers.read import read_lab_files
 from diagnosis.lab_files.units import MeasuredQuantity, factor_of
 from diagnosis.lab_files.write_log import imported, write_log
 from diagnosis.log.rig_log import read_rig_log
+from sim.files import Destination
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "import.md").read_text()
@@ -101,7 +102,7 @@ def test_the_reasons_on_the_page_are_those_of_the_draft(draft):
 def test_the_edited_mapping_gives_the_log_of_this_repository(tmp_path):
     """To the last digits of the lab's files: 1e-5 rad, 1e-7 N m; the motor's zero is a guess."""
     mapping = read_mapping(LAB / "mapping.yaml", accept_guesses=False)
-    write_log(mapping, imported(mapping, read_lab_files(RUNS)), tmp_path / "log", force=False)
+    write_log(mapping, imported(mapping, read_lab_files(RUNS)), Destination(folder=tmp_path / "log"))
     log = read_rig_log(tmp_path / "log")
     assert log.warnings == ()
     shift = np.degrees(mapping.columns["base_angle_deg"].zero - MOTOR_ZERO_RAD)

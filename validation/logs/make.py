@@ -8,8 +8,9 @@ gives the same bytes, and a log depends on nothing but the seed and its number.
 
 import argparse
 import json
+import signal
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import Pool
 from pathlib import Path
 from typing import Any
 
@@ -85,8 +86,9 @@ def _made(jobs: list[tuple[Any, ...]], workers: int) -> Iterator[tuple[str, Answ
         yield from map(_make_one, jobs)
         return
     compile_kernels()
-    with ProcessPoolExecutor(workers) as pool:
-        yield from pool.map(_make_one, jobs)
+    # These end by themselves after their log if this process is killed.
+    with Pool(workers, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
+        yield from pool.imap(_make_one, jobs)
 
 
 def _make_one(job: tuple[Any, ...]) -> tuple[str, Answer]:

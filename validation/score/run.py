@@ -5,8 +5,6 @@ Reports that exist are kept: a run that was stopped continues where it was.
 
 import json
 import time
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,8 +12,9 @@ from typing import Any
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
+from diagnosis.workers import Heard, Task, process_pool, unheard
 from models.errors import NeedleError
-from sim.files import write_text
+from sim.files import Destination, write_text
 
 
 def diagnose_all(
@@ -25,24 +24,27 @@ def diagnose_all(
     workers: int = 2,
     trials: int | None = None,
     limit_s: float | None = None,
-    watched: Callable[[Sequence[Any]], Iterable[Any]] = iter,
+    progress: Heard = unheard,
 ) -> None:
     """Write `reports/<case>.json` for every folder in `logs`.
 
     Args:
       trials: number of trials to use of every log, the first ones; None: all.
       limit_s: time for each diagnosis; None: no limit.
-      watched: iterates over the tasks, and may show progress.
+      progress: is told how many logs are done.
+
+    Raises:
+      UnsafeOutput, UnwritableOutput: a report may not or cannot be written; those before it stay.
     """
-    missing = [case for case in sorted(logs.iterdir()) if not (reports / f"{case.name}.json").exists()]
-    with ProcessPoolExecutor(workers) as pool:
-        how: dict[str, Any] = {"trials": trials, "limit_s": limit_s}
-        tasks = [pool.submit(_one, case, reports / f"{case.name}.json", **how) for case in missing]
-        for task in watched(tasks):
-            task.result()
+    paths = {case: reports / f"{case.name}.json" for case in sorted(logs.iterdir())}
+    missing = {case: path for case, path in paths.items() if not path.exists()}
+    Destination(folder=reports.parent, inputs=tuple(logs.rglob("*"))).check([*missing.values()])
+    tasks = [Task(effects=(), arguments=(*pair, trials, limit_s)) for pair in missing.items()]
+    with process_pool(workers, progress) as pool:
+        pool.each("logs", _one, tasks)
 
 
-def _one(case: Path, path: Path, *, trials: int | None, limit_s: float | None) -> None:
+def _one(case: Path, path: Path, trials: int | None, limit_s: float | None) -> None:
     limit: dict[str, Any] = {} if limit_s is None else {"limit_s": limit_s}
     start = time.perf_counter()
     try:

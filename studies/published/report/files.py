@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from sim.files import refuse_existing, write_text
+from sim.files import Destination, ResultSet, publishing, write_text
 from studies.published.report.contents import as_json
 from studies.published.report.page import page
 from studies.published.study import PublishedStudy
@@ -14,14 +14,15 @@ def output_paths(folder: Path) -> list[Path]:
     return [folder / "paper.html", folder / "paper.json"]
 
 
-def write_report(study: PublishedStudy, folder: Path, *, force: bool = False) -> list[Path]:
-    """Write page and JSON, the JSON last; returns the paths.
+def write_report(study: PublishedStudy, destination: Destination) -> ResultSet:
+    """Write JSON and page as one; a page that fails is left out.
 
     Raises:
-      OutputExists: one of them exists and `force` is not given.
+      OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
     """
-    paths = output_paths(folder)
-    refuse_existing(paths, force=force)
-    write_text(paths[0], page(study), force=force)
-    write_text(paths[1], json.dumps(as_json(study), indent=1, allow_nan=False), force=force)
-    return paths
+    paths = output_paths(destination.folder)
+    with publishing(destination, paths) as results:
+        shown, told = paths
+        write_text(results.at(told), json.dumps(as_json(study), indent=1, allow_nan=False))
+        results.optional(shown, lambda part: write_text(part, page(study)))
+    return results

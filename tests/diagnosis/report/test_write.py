@@ -9,6 +9,7 @@ import pytest
 from diagnosis.report import write
 from diagnosis.report.write import output_paths, write_report
 from models.errors import OutputExists
+from sim.files import Destination
 
 
 def test_every_file_is_there_and_nothing_else(written, dry):
@@ -37,7 +38,7 @@ def test_predictions_are_at_the_samples_of_the_log(written, dry):
 def test_a_report_that_exists_is_kept(written, dry):
     before = (written / "report.html").read_bytes()
     with pytest.raises(OutputExists):
-        write_report(dry.found, written)
+        write_report(dry.found, Destination(folder=written))
     assert (written / "report.html").read_bytes() == before
 
 
@@ -48,5 +49,16 @@ def test_an_interrupted_report_leaves_nothing(dry, tmp_path, monkeypatch):
     monkeypatch.setattr(write, "page", lambda *_: "a page")
     monkeypatch.setattr(write, "log_gap", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        write_report(dry.found, tmp_path)
+        write_report(dry.found, Destination(folder=tmp_path))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_page_and_a_recording_that_fail_leave_the_numbers(dry, tmp_path, monkeypatch):
+    def fails(*_):
+        raise ValueError("mathtext")
+
+    monkeypatch.setattr(write, "page", fails)
+    monkeypatch.setattr(write, "log_gap", fails)
+    results = write_report(dry.found, Destination(folder=tmp_path))
+    assert sorted(path.name for path in results.left_out) == ["gap.rrd", "report.html"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["predictions", "report.json"]

@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from models.drive import DriveKind
-from models.errors import OutputExists
 from models.materials import tissue_named
+from sim.files import Destination, publishing
 from studies.control import report
 from studies.control.comparison import compare
 from studies.control.report import FILES, ControlStudy, hankel, write_study
@@ -30,16 +30,16 @@ def small(small_steering):
 
 def test_every_file_is_written_and_says_the_same(small, tmp_path, monkeypatch):
     monkeypatch.setattr(report, "_SHOWN", ("base_only",))  # the picture simulates its own turns
-    paths = write_study(small, tmp_path)
-    assert [path.name for path in paths] == list(FILES)
+    paths = [tmp_path / name for name in FILES]
+    with publishing(Destination(folder=tmp_path), paths) as results:
+        write_study(small, results, tmp_path)
+    assert results.made == paths
     content = json.loads(paths[0].read_text(), parse_constant=lambda c: pytest.fail(c))
     table = pd.read_csv(paths[1])
     assert [row["settle_s"] for row in content["table_iv"]] == pytest.approx(list(table["settle_s"]))
     assert content["table_iv"][0]["published_s"] == 0.67
     for path in paths[3:]:
         assert matplotlib.image.imread(path).std() > 0.01  # not blank
-    with pytest.raises(OutputExists):
-        write_study(small, tmp_path)
 
 
 def test_what_does_not_exist_is_null_and_not_nan(small):

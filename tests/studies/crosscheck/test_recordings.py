@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.errors import OutputExists
+from sim.files import Destination, publishing
 from sim.kernel import memory_map
 from sim.recording.rerun_table import entries
 from studies.crosscheck import motion, recordings, turn
@@ -26,9 +26,9 @@ def test_the_reversal_is_the_run_of_the_balances():
 
 
 def test_all_are_written_once_and_show_every_tip(tmp_path):
-    recordings.write_recordings(tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(recordings.NAMES)
+    paths = [tmp_path / name for name in recordings.NAMES]
+    with publishing(Destination(folder=tmp_path), paths) as results:
+        recordings.write_recordings(results, tmp_path)
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
     shown = {e.entity for e in entries(tmp_path / recordings.FILES[50.0])}
     assert {f"/angles/{n}_deg" for n in ("tip_angle", "native_tip", "closed_form_tip")} <= shown
-    with pytest.raises(OutputExists):
-        recordings.write_recordings(tmp_path)

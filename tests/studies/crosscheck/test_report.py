@@ -7,8 +7,9 @@ import matplotlib.image
 import pytest
 
 from models.errors import OutputExists
+from sim.files import Destination
 from studies.crosscheck.findings import Check, Comparison, Findings, Pole, PoleSource
-from studies.crosscheck.report import FILES, write_report
+from studies.crosscheck.report import FILES, output_paths, write_report
 
 CASE = {"length_mm": 50.0, "free_mm": 0.0, "drive": "angle", "bound": 0.005}
 FINDINGS = Findings(
@@ -29,7 +30,8 @@ FINDINGS = Findings(
 def folder(tmp_path_factory):
     """A report, written once: its picture simulates sixteen turns."""
     folder = tmp_path_factory.mktemp("report") / "v"
-    assert [path.name for path in write_report(FINDINGS, folder)] == list(FILES)
+    written = write_report(FINDINGS, Destination(folder=folder))
+    assert written.made == output_paths(folder) == [folder / name for name in FILES]
     return folder
 
 
@@ -56,4 +58,4 @@ def test_the_picture_is_not_blank(folder):
 
 def test_a_report_is_not_written_over_another(folder):
     with pytest.raises(OutputExists, match=r"validate\.json"):
-        write_report(FINDINGS, folder)
+        write_report(FINDINGS, Destination(folder=folder))

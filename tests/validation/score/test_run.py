@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
+from models.errors import UnsafeOutput
 from scripts import blind
 from validation.score import run
 from validation.score.run import diagnose_all
@@ -40,7 +41,7 @@ def test_the_answers_are_read_after_the_reports_are_written(unusable, monkeypatc
     assert [order[0], order[2]] == ["checked", ("scored", unusable, 2, 9.0)]
     logs, how = order[1]
     assert logs == unusable / "logs"
-    assert how.keys() == {"trials", "limit_s", "watched"}
+    assert how.keys() == {"trials", "limit_s", "progress"}
 
 
 @pytest.mark.parametrize("limit_s", [None, 12.0])
@@ -51,7 +52,7 @@ def test_the_limit_of_a_log_reaches_its_diagnosis(tmp_path, monkeypatch, limit_s
     monkeypatch.setattr(run, "replace", lambda log, trials: trials)
     monkeypatch.setattr(run, "diagnose", lambda trials, **how: given.update(how, trials=trials))
     monkeypatch.setattr(run, "as_json", lambda found: {"verdict": "none"})
-    run._one(tmp_path / "case_001", tmp_path / "case_001.json", trials=2, limit_s=limit_s)
+    run._one(tmp_path / "case_001", tmp_path / "case_001.json", 2, limit_s)
     assert given.pop("trials") == [1, 2]
     assert given == {"workers": 1, **({"limit_s": limit_s} if limit_s else {})}
     assert json.loads((tmp_path / "case_001.json").read_text())["verdict"] == "none"
@@ -63,10 +64,19 @@ def test_a_report_that_exists_is_kept_and_tasks_can_be_watched(unusable):
     kept.write_text("kept")
     seen = []
     diagnose_all(
-        unusable / "logs", unusable / "reports", workers=1, watched=lambda t: seen.append(t) or t
+        unusable / "logs", unusable / "reports", workers=1, progress=lambda *told: seen.append(told)
     )
     assert kept.read_text() == "kept"
-    assert seen == [[]]
+    assert seen == [("logs", 0, 0)]
+
+
+def test_no_report_is_written_through_a_link(unusable, tmp_path):
+    """The folder of reports may be a link to where something else lies."""
+    (tmp_path / "mine").mkdir()
+    (unusable / "reports").symlink_to(tmp_path / "mine")
+    with pytest.raises(UnsafeOutput, match="a link"):
+        diagnose_all(unusable / "logs", unusable / "reports", workers=1)
+    assert list((tmp_path / "mine").iterdir()) == []
 
 
 def test_reports_hold_no_ground_truth(folder):

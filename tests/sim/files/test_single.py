@@ -1,9 +1,10 @@
-"""Files are written whole or not at all, and never over others unasked."""
+"""One file is written whole or not at all, and never over another unasked."""
 
 import pytest
 
 from models.errors import OutputExists
-from sim.files import refuse_existing, write_text, writing
+from sim.files import Destination, publishing
+from sim.files.single import write_text, writing
 
 
 def test_an_interrupted_write_leaves_nothing_behind(tmp_path):
@@ -32,13 +33,20 @@ def test_a_finished_write_makes_folders_and_a_file_that_others_may_read(tmp_path
     assert list(path.parent.iterdir()) == [path]
 
 
-def test_existing_files_are_named_before_any_work_unless_forced(tmp_path):
-    there, missing = tmp_path / "there.csv", tmp_path / "missing.csv"
-    there.write_text("mine")
+def test_an_existing_file_is_replaced_if_asked_to_alone(tmp_path):
+    path = tmp_path / "there.csv"
+    path.write_text("mine")
     with pytest.raises(OutputExists, match=r"there\.csv exists.*--force"):
-        refuse_existing([missing, there], force=False)
-    refuse_existing([missing, there], force=True)
-    refuse_existing([missing], force=False)
-    with pytest.raises(OutputExists):
-        write_text(there, "theirs")
-    assert there.read_text() == "mine"
+        write_text(path, "theirs")
+    assert path.read_text() == "mine"
+    write_text(path, "theirs", force=True)
+    assert path.read_text() == "theirs"
+
+
+def test_within_a_set_a_file_waits_for_the_others(tmp_path):
+    path = tmp_path / "set" / "run.csv"
+    with publishing(Destination(folder=path.parent), [path]) as results:
+        write_text(results.at(path), "whole")
+        assert results.at(path).read_text() == "whole"
+        assert not path.exists()
+    assert path.read_text() == "whole"

@@ -1,0 +1,8 @@
+"""Results as files: whole or not at all, one set at a time, and never over what is the user's."""
+
+from sim.files.destination import Destination as Destination
+from sim.files.journal import finish_interrupted as finish_interrupted
+from sim.files.publish import ResultSet as ResultSet
+from sim.files.publish import publishing as publishing
+from sim.files.single import write_text as write_text
+from sim.files.single import writing as writing

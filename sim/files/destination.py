@@ -1,0 +1,125 @@
+"""Where results may go: inside their folder, over results alone, never over or through the user's own.
+
+The one owner of this rule: every command asks here, before it works and again before files get their
+names. `--force` replaces results; it replaces no input of the run, follows no link inside the folder,
+and touches nothing outside of it.
+"""
+
+import os
+import stat
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from models.errors import OutputExists, UnsafeOutput, UnwritableOutput
+from sim.files.failures import failures_of
+
+
+@dataclass(frozen=True, kw_only=True)
+class Destination:
+    """A folder for results.
+
+    Attributes:
+      folder: need not exist; may be a link to a folder, for the user names it.
+      inputs: files that the run reads, which stay as they are whatever their names.
+      force: whether results that exist are replaced.
+    """
+
+    folder: Path
+    inputs: tuple[Path, ...] = ()
+    force: bool = False
+
+    def check(self, paths: Sequence[Path]) -> None:
+        """Refuse, before any work is done, results that may not be written.
+
+        Raises:
+          OutputExists: a result exists, and `force` is not given.
+          UnsafeOutput: a path leaves the folder, goes through a link, is an input, or is there twice.
+          UnwritableOutput: the system would not let it be written.
+        """
+        with failures_of(self.folder):
+            there = _nearest_folder(self.folder)
+            for path in paths:
+                self._refuse_outside(path)
+                _refuse_long_names(path, os.pathconf(there, "PC_NAME_MAX"))
+                self._refuse_what_stands(path)
+        for path in {path for path in paths if paths.count(path) > 1}:
+            raise UnsafeOutput(f"{path}: two results would have this path; give them different names")
+
+    def _refuse_outside(self, path: Path) -> None:
+        inside = path.is_relative_to(self.folder) and path != self.folder
+        if not inside or ".." in path.relative_to(self.folder).parts:
+            raise UnsafeOutput(f"{path}: outside of {self.folder}, where results go; give a plain name")
+
+    def _refuse_what_stands(self, path: Path) -> None:
+        """Look at each folder on the way, then at the path itself."""
+        parts = path.relative_to(self.folder).parts
+        for i in range(1, len(parts) + 1):
+            place = self.folder.joinpath(*parts[:i])
+            found = _status(place)
+            if found is None:
+                return
+            if stat.S_ISLNK(found.st_mode):
+                raise UnsafeOutput(
+                    f"{place}: a link, and results are written through none; remove it, or give "
+                    "another folder"
+                )
+            if place != path:
+                self._refuse_folder(place, found)
+            else:
+                self._refuse_existing(path, found)
+
+    def _refuse_folder(self, place: Path, found: os.stat_result) -> None:
+        _refuse_unwritable(place)
+        if found.st_dev != self.folder.stat().st_dev:
+            raise UnwritableOutput(
+                f"{place}: on another disk than {self.folder}; give a folder that is on one disk"
+            )
+
+    def _refuse_existing(self, path: Path, found: os.stat_result) -> None:
+        for own in self.inputs:
+            if own.exists() and os.path.samestat(own.stat(), found):
+                raise UnsafeOutput(
+                    f"{path}: the same file as {own}, which this run reads; give another folder"
+                )
+        if not self.force:
+            raise OutputExists(f"{path} exists; give another path, or --force to replace it")
+        if not stat.S_ISREG(found.st_mode):
+            raise UnsafeOutput(f"{path}: not a file, and --force replaces files alone; remove it")
+
+
+def _nearest_folder(folder: Path) -> Path:
+    """The folder, or the nearest one above it that exists; results can be written there."""
+    if "\0" in str(folder):
+        raise UnwritableOutput(f"{str(folder)!r}: a path cannot hold the character NUL; leave it out")
+    for place in (folder, *folder.parents):
+        if _status(place) is not None:
+            if not place.exists():
+                raise UnwritableOutput(f"{place}: a link to what does not exist; give another folder")
+            _refuse_unwritable(place)
+            return place
+    return Path()
+
+
+def _refuse_unwritable(place: Path) -> None:
+    if not place.is_dir():
+        raise UnwritableOutput(f"{place}: a file, where a folder is needed; give another folder")
+    if not os.access(place, os.W_OK | os.X_OK):
+        raise UnwritableOutput(f"{place}: may not be written to; give another folder")
+
+
+def _refuse_long_names(path: Path, longest: int) -> None:
+    """The system says so only where all folders on the way exist."""
+    for part in path.parts:
+        if len(os.fsencode(part)) > longest:
+            raise UnwritableOutput(f"{path}: a name of more than {longest} bytes; give a shorter one")
+
+
+def _status(path: Path) -> os.stat_result | None:
+    """What is at a path, links not followed; None: nothing."""
+    if "\0" in str(path):
+        raise UnwritableOutput(f"{str(path)!r}: a path cannot hold the character NUL; leave it out")
+    try:
+        return path.lstat()
+    except FileNotFoundError:
+        return None
