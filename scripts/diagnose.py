@@ -24,6 +24,7 @@ from diagnosis.stopping import StoppedEarly, StopSignal
 from scripts.progress_line import progress_line
 from scripts.results import tell
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
+from scripts.streams import OutputConsole
 from sim.files import Destination, finish_interrupted
 from sim.simulation import prepare_processes
 
@@ -60,7 +61,7 @@ def run(
     destination = Destination(folder=folder, inputs=inputs, force=force) if folder else None
     if destination:
         destination.check(output_paths(log, destination.folder))
-    shown = Console(stderr=True)
+    shown = OutputConsole(stderr=True)
     for warning in log.warnings:
         shown.print(f"warning: {escape(warning)}", highlight=False)
     prepare_processes()  # compiles for half a minute the first time, before there is anything to tell

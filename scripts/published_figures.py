@@ -8,6 +8,7 @@ from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
 from scripts.results import tell
+from scripts.streams import OutputConsole
 from sim.files import Destination
 from studies.published.material_study import MaterialStudy
 from studies.published.report.contents import as_json
@@ -50,7 +51,7 @@ def run(folder: Path | None, *, json_only: bool, force: bool, console: Console) 
 
 
 def _run_with_progress() -> PublishedStudy:
-    shown = Console(stderr=True)
+    shown = OutputConsole(stderr=True)
     with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
         task = bar.add_task("the published figures", total=1.0)
         return run_published_study(

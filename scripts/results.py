@@ -2,6 +2,7 @@
 
 from rich.console import Console
 
+from scripts.streams import OutputConsole
 from sim.files import ResultSet
 
 WITHOUT_ALL = 3
@@ -13,7 +14,7 @@ def tell(results: ResultSet, console: Console) -> int:
     for path in results.made:
         console.print(f"wrote      {path}", highlight=False, markup=False)
     for path, why in results.left_out.items():
-        Console(stderr=True).print(
+        OutputConsole(stderr=True).print(
             f"warning: {path} could not be made ({why}); the other results stand without it",
             highlight=False,
             markup=False,

@@ -1,5 +1,6 @@
 """Standard output and standard error: either may be full, closed, or unable to show a Greek letter."""
 
+import errno
 import os
 import sys
 from contextlib import suppress
@@ -9,11 +10,15 @@ from rich.console import Console
 
 
 class OutputConsole(Console):
-    """Standard output; a pipe that somebody closed is an error like others, and not an exit."""
+    """Standard output or error; a pipe that somebody closed is an error like others, and not an exit."""
 
     def on_broken_pipe(self) -> None:
-        """Called by rich where it handles the error."""
-        raise
+        """Called by rich, which would end the process.
+
+        Raises:
+          BrokenPipeError: always.
+        """
+        raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
 
 
 def show_what_can_be_shown() -> None:
@@ -46,4 +51,4 @@ def give_up_output() -> None:
 def complain(text: str) -> None:
     """Print on standard error, if that can be written to."""
     with suppress(OSError):
-        Console(stderr=True).print(text, highlight=False)
+        OutputConsole(stderr=True).print(text, highlight=False)

@@ -14,6 +14,7 @@ from diagnosis.report.sentences import headline, largest_parts
 from scripts import diagnose as command
 from scripts import replay as replaying
 from scripts.main import main
+from sim.files import ResultSet
 
 
 @pytest.fixture
@@ -113,7 +114,8 @@ def replay_of(tmp_path, monkeypatch, capsys, wide):
     log = write_log(tmp_path / "log")
 
     def replay(change):
-        monkeypatch.setattr(replaying, "write", lambda *_, **__: None)  # its files take a second
+        unwritten = ResultSet(tmp_path, [], tmp_path)
+        monkeypatch.setattr(replaying, "write", lambda *_: unwritten)  # its files take a second
         for name in ("turns.csv", "slides.csv"):
             change_trial(log, lambda t: change(t).iloc[:300], name)
         code = main(["replay", str(log), "--out", str(tmp_path / "out")])
