@@ -1,4 +1,4 @@
-"""Standard output may be full, closed or plain ASCII: one line says so, and nothing ends in a traceback."""
+"""Standard output may be full, closed or plain ASCII: one line says so, and no traceback does."""
 
 import io
 import os
