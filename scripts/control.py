@@ -13,6 +13,7 @@ from scripts.control_tables import (
 )
 from scripts.results import tell
 from scripts.steering_tables import steering_tables
+from scripts.streams import waiting
 from sim.files import Destination, publishing
 from sim.recording.rerun_log import log_recording
 from studies.control.closed_loop_recording import record_closed_loop
@@ -29,7 +30,7 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     paths = [*(folder / name for name in FILES), *recordings.values(), *steps.values()]
     destination = Destination(folder=folder, force=force)
     destination.check(paths)
-    with console.status("simulating closed loops") as status:
+    with waiting("simulating closed loops") as status:
         study = run_study(lambda stage: status.update(f"simulating closed loops: {stage}"))
     with publishing(destination, paths) as written:
         write_study(study, written, folder)

@@ -9,6 +9,7 @@ from rich.table import Table
 
 from models.errors import InvalidValue
 from scripts.results import tell
+from scripts.streams import waiting
 from sim.experiment import perform
 from sim.files import Destination, ResultSet, publishing, write_text
 from sim.model_file import read_model
@@ -62,7 +63,7 @@ def run(
     destination.check([*output_paths(folder, protocol), *([beside] if beside else [])])
     if mjcf and aside:
         aside.check([mjcf])
-    with console.status(f"simulating {protocol.name}"):
+    with waiting(f"simulating {protocol.name}"):
         if controller:
             recording = perform_closed_loop(protocol, controller)
         else:

@@ -158,7 +158,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         complain(f"[bold red]needle {args.command}:[/] {escape(str(error))}")
         return 2
     except OSError as error:
-        where = error.filename or "standard output, of which something is lost; results are not"
+        where = error.filename or "standard output"
         complain(f"[bold red]needle {args.command}:[/] {escape(f'{where}: {error.strerror or error}')}")
         give_up_output()
         return 2

@@ -16,6 +16,7 @@ from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
 from scripts.results import tell
+from scripts.streams import waiting
 from sim.files import Destination, ResultSet, finish_interrupted, publishing, write_text
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
@@ -41,7 +42,7 @@ def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int
     destination.check(output_paths(log, folder))
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False, markup=False)
-    with console.status(f"replaying {len(log.trials)} trials"):
+    with waiting(f"replaying {len(log.trials)} trials"):
         nominal = replay_nominal(log)
     later = nominal.log.warnings[len(log.warnings) :]
     for warning in (*later, *nominal.problem.log.warnings, *nominal.problem.noise.warnings):

@@ -7,6 +7,7 @@ from contextlib import suppress
 from io import TextIOWrapper
 
 from rich.console import Console
+from rich.status import Status
 
 
 class OutputConsole(Console):
@@ -19,6 +20,13 @@ class OutputConsole(Console):
           BrokenPipeError: always.
         """
         raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
+
+
+def waiting(text: str) -> Status:
+    """What a command is at, for who watches: on standard error, for results may go to the other."""
+    console = OutputConsole(stderr=True)
+    console.quiet = not console.is_terminal
+    return console.status(text)
 
 
 def show_what_can_be_shown() -> None:

@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from scripts.results import tell
+from scripts.streams import waiting
 from sim.files import Destination
 from studies.crosscheck.findings import Findings
 from studies.crosscheck.poles import SOURCES
@@ -21,7 +22,7 @@ def run(folder: Path | None, *, force: bool, console: Console) -> int:
     destination = Destination(folder=folder, force=force) if folder else None
     if destination:
         destination.check(output_paths(destination.folder))
-    with console.status("checking MuJoCo's needle against closed-form solutions and published figures"):
+    with waiting("checking MuJoCo's needle against closed-form solutions and published figures"):
         findings = cross_check()
     written = write_report(findings, destination) if destination else None
     show(findings, console)

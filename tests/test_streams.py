@@ -69,3 +69,11 @@ def test_other_consoles_end_the_process_where_this_one_raises():
     with pytest.raises(BrokenPipeError):
         streams.OutputConsole().on_broken_pipe()
     assert "on_broken_pipe" in vars(Console)  # what is overridden is still asked
+
+
+def test_what_a_command_is_at_is_not_written_where_nobody_watches(output, capsys):
+    with closed_pipe() as nobody:
+        output(nobody)
+        with streams.waiting("simulating"):
+            pass
+    assert capsys.readouterr().err == ""
