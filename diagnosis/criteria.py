@@ -14,9 +14,6 @@ Numbers of a numerical method that decide nothing (windows, differences, iterati
 
 # Reading a log: what is refused (log/)
 
-YAML_MOST_BYTES = 200_000
-YAML_MOST_LEVELS = 10
-"""Physical: a rig.yaml has 1 kB and three levels; what is larger is another file, or harmful."""
 NOMINAL_RANGE = {
     ("needle", "diameter_mm"): (0.05, 10.0),
     ("needle", "shear_modulus_gpa"): (0.01, 1000.0),

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import yaml
 from pydantic import Field, field_validator, model_validator
 
 from models.drive import Drive, DriveKind
 from models.errors import InvalidValue
 from models.materials import tissue_named
+from models.names import refuse_no_file_name
 from models.needle import NITINOL, Needle, NonNegative, Positive, needle_named
+from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
@@ -63,6 +64,12 @@ class Protocol(Record):
     segments: Annotated[tuple[Segment, ...], Field(min_length=1)]
     accuracy_deg: Positive | None = None
     """If given, the error of the tip that the step may cause; a larger one is an error."""
+
+    @field_validator("name")
+    @classmethod
+    def _name_is_of_a_file(cls, value: str) -> str:
+        refuse_no_file_name("name", value)
+        return value
 
     @field_validator("needle", mode="before")
     @classmethod
@@ -167,18 +174,13 @@ def read_protocol(path: Path) -> Protocol:
 
     Raises:
       InvalidValue: the file is not YAML, not a protocol, or holds an implausible value; names
-        the field.
+        the file and the field.
     """
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise InvalidValue(str(path), str(error).splitlines()[0], "a readable YAML file") from error
-    if not isinstance(content, dict):
-        raise InvalidValue(str(path), content, "a mapping of the fields of a protocol")
-    protocol = Protocol(**content)
+    content = read_yaml(path, expected="a mapping of the fields of a protocol")
+    protocol = read_record(path, Protocol, content)
     if protocol.needle.shear_modulus_gpa > _STIFFEST_GPA:
         raise InvalidValue(
-            "needle.shear_modulus_gpa",
+            f"{path}: needle.shear_modulus_gpa",
             protocol.needle.shear_modulus_gpa,
             f"at most {_STIFFEST_GPA:g} GPa",
             "check that the value is in GPa",
