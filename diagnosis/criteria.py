@@ -39,6 +39,9 @@ FEWEST_ROWS = 20
 MOST_ROWS = 2_000_000
 MOST_BYTES_PER_ROW = 250
 """Rows of one trial at least, of all trials together at most (hours at 100 Hz), bytes per row."""
+MOST_LOST_ROWS = 100_000
+"""Physical: rows that one pause may be long (1000 s at 100 Hz), since they are replayed as if they were
+there; a needle has forgotten by then all but what dry friction holds. A longer one ends a trial."""
 LONGEST_SAMPLE_S = 5.0
 """Physical: a needle relaxes within seconds; rarer samples tell nothing, and may be in milliseconds."""
 SHORTEST_SAMPLE_S = 1e-5

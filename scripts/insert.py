@@ -4,8 +4,10 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from models.errors import InvalidValue
+from models.user_text import in_xml_comment
 from sim.experiment import perform
 from sim.files import refuse_existing, write_text
 from sim.model_file import read_model
@@ -54,10 +56,10 @@ def run(
     paths = output_paths(folder, protocol)
     refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
     if mjcf:
-        note = _MJCF_NOTE.format(name=protocol.name)
+        note = _MJCF_NOTE.format(name=in_xml_comment(protocol.name))
         write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
         console.print(f"model      {mjcf}", highlight=False)
-    with console.status(f"simulating {protocol.name}"):
+    with console.status(Text(f"simulating {protocol.name}")):
         if controller:
             recording = perform_closed_loop(protocol, controller)
         else:

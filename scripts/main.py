@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
+from rich.text import Text
 
 from models.errors import InvalidValue, NeedleError
+from scripts.terminal import terminal
 
 
 def parser() -> argparse.ArgumentParser:
@@ -141,15 +142,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a subcommand; returns the exit code."""
     began_s = time.monotonic()
     args = parser().parse_args(arguments)
-    console = Console()
+    console = terminal()
     try:
         return _run(args, console, began_s)
     except NeedleError as error:
-        shown = f"[bold red]needle {args.command}:[/] {escape(str(error))}"
-        Console(stderr=True).print(shown, highlight=False)
+        who = (f"needle {args.command}:", "bold red")
+        terminal(stderr=True).print(Text.assemble(who, f" {error}"), highlight=False)
         return 2
     except KeyboardInterrupt:
-        Console(stderr=True).print(f"needle {args.command}: interrupted; no incomplete file is left")
+        terminal(stderr=True).print(f"needle {args.command}: interrupted; no incomplete file is left")
         return 130
 
 

@@ -14,6 +14,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
+from models.user_text import in_figure
 from sim.files import refuse_existing, writing
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
@@ -123,7 +124,7 @@ def _draw(replayed: list[ReplayedTrial], path: Path, *, force: bool) -> None:
                 axis.plot(time_s, one.trial[sensor], color="0.6", lw=0.8, label="measured")
             axis.plot(time_s, one.prediction[sensor], color="tab:red", lw=1, label="nominal")
             axis.set(ylabel=label)
-        row[0].set_title(one.trial.name, loc="left", fontsize=9)
+        row[0].set_title(in_figure(one.trial.name), loc="left", fontsize=9)
     for axis in axes[-1]:
         axis.set(xlabel="time, s")
     axes[0, 0].legend(fontsize=8)

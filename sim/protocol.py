@@ -21,11 +21,13 @@ from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
+from sim.law_table import law_table
+from sim.protocol_cost import refuse_costly, samples_of
 from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
 from sim.spec import Setup
 
-_SAMPLES_A_WAVE = 32
 _STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
+_LARGEST, _SMALLEST = 1e9, 1e-18  # of any number in a file, in its own unit: no rig has more, or less
 
 
 class Segment(Record):
@@ -105,6 +107,8 @@ class Protocol(Record):
                     f"not {free:g} mm free and {inserted:g} mm inserted",
                 )
             self._check_drive(i, segment)
+        rows = len(law_table(self.needle, self.drive, self.tissue))
+        refuse_costly(self.segments, self.discretisation, layers=len(self.tissue.layers), rows=rows)
         return self
 
     def _check_drive(self, i: int, segment: Segment) -> None:
@@ -130,7 +134,7 @@ class Protocol(Record):
         }
         time, angle, free, inserted = 0.0, 0.0, self.free_mm, self.inserted_mm
         for segment in self.segments:
-            share = np.linspace(0.0, 1.0, self._samples(segment))
+            share = np.linspace(0.0, 1.0, int(np.ceil(samples_of(segment))))
             at = time + segment.duration_s * share
             # A jump at the border of two segments takes one part in 10^6 of a segment.
             at[0] += 1e-6 * segment.duration_s if columns["time_s"] else 0.0
@@ -151,10 +155,6 @@ class Protocol(Record):
             angle = float(turned[-1])
             free, inserted = free - segment.advance_mm, inserted + gain
         return Schedule(**{name: np.array(values) for name, values in columns.items()})
-
-    def _samples(self, segment: Segment) -> int:
-        waves = segment.dither_hz * segment.duration_s
-        return 2 if waves == 0 else int(np.ceil(waves * _SAMPLES_A_WAVE)) + 1
 
     def setup(self) -> Setup:
         """The model that the run needs."""
@@ -178,6 +178,7 @@ def read_protocol(path: Path) -> Protocol:
     """
     content = read_yaml(path, expected="a mapping of the fields of a protocol")
     protocol = read_record(path, Protocol, content)
+    _refuse_out_of_scale(path, protocol.model_dump(exclude_unset=True), "")
     if protocol.needle.shear_modulus_gpa > _STIFFEST_GPA:
         raise InvalidValue(
             f"{path}: needle.shear_modulus_gpa",
@@ -186,3 +187,14 @@ def read_protocol(path: Path) -> Protocol:
             "check that the value is in GPa",
         )
     return protocol
+
+
+def _refuse_out_of_scale(path: Path, value: Any, field: str) -> None:
+    """Numbers beyond any rig: a simulation of them would fail, or mean nothing."""
+    inner = value.items() if isinstance(value, dict) else ()
+    inner = enumerate(value) if isinstance(value, list | tuple) else inner
+    for name, part in inner:
+        _refuse_out_of_scale(path, part, f"{field}.{name}" if field else str(name))
+    if isinstance(value, float) and value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
+        expected = f"a number of a size from {_SMALLEST:g} to {_LARGEST:g}, or 0"
+        raise InvalidValue(f"{path}: {field}", value, expected, "check its unit")

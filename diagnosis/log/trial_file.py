@@ -16,6 +16,7 @@ from diagnosis.criteria import (
     FEWEST_ROWS,
     LONGEST_SAMPLE_S,
     MOST_BYTES_PER_ROW,
+    MOST_LOST_ROWS,
     MOST_ROWS,
     READING_RANGE,
     SHORTEST_SAMPLE_S,
@@ -63,8 +64,14 @@ def read_trial(path: Path) -> Trial:
     """
     try:
         _check_header(path, *_first_lines(path))
+        # A text file stays one, whatever its name ends in.
         table = pd.read_csv(
-            path, encoding="utf-8-sig", skipinitialspace=True, skip_blank_lines=False, low_memory=False
+            path,
+            encoding="utf-8-sig",
+            compression=None,
+            skipinitialspace=True,
+            skip_blank_lines=False,
+            low_memory=False,
         )
     except UnicodeDecodeError as error:
         raise UnusableLog(f"{path}: {_NO_TEXT}") from error
@@ -188,4 +195,18 @@ def _check_time(path: Path, time_s: Array) -> None:
         raise UnusableLog(
             f"{path}, column 'time_s': expected samples at most {LONGEST_SAMPLE_S:g} s apart, found "
             f"{np.median(steps):g} s; if these are milliseconds, divide by 1000"
+        )
+    _refuse_long_pauses(path, time_s)
+
+
+def _refuse_long_pauses(path: Path, time_s: Array) -> None:
+    """Pauses are replayed row by row: what that would cost is said before it is begun."""
+    steps = np.diff(time_s)
+    lost = steps / np.median(steps)
+    row = int(np.argmax(lost))
+    if lost[row] > MOST_LOST_ROWS or lost.sum() > MOST_ROWS:
+        raise UnusableLog(
+            f"{path}, line {row + 3}, column 'time_s': expected a time within {MOST_LOST_ROWS} median "
+            f"steps of the line above, found a pause of {steps[row]:.6g} s, {lost[row]:.3g} steps, "
+            f"all of which would be replayed (of a trial: at most {MOST_ROWS}); make two trials of it"
         )

@@ -46,4 +46,4 @@ def test_a_comment_of_xml_ends_where_it_should(text):
 
 
 def test_markdown_of_a_users_text_has_no_marks_of_its_own():
-    assert in_markdown("# a\n![b](c)") == r"\# a \!\[b\]\(c\)"
+    assert in_markdown("# a\n![b](c)") == r"\# a !\[b\](c)"

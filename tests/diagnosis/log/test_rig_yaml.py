@@ -40,6 +40,11 @@ FIELDS = [
     (lambda c: c["trials"].append({"file": "turns.csv"}), r"trials.2.file: 'turns.csv' is named twice"),
     (lambda c: c["trials"].append({"file": "../turns.csv"}), r"trials.2.file.*in the folder"),
     (lambda c: c["trials"].append({"file": "/etc/hosts"}), r"trials.2.file.*in the folder"),
+    (lambda c: c["trials"].append({"file": ""}), r"trials.2.file: .*letters"),
+    (lambda c: c["trials"].append({"file": "."}), r"trials.2.file: .*letters"),
+    (lambda c: c["trials"].append({"file": "a\nb.csv"}), r"trials.2.file: .*control characters"),
+    (lambda c: c["trials"].append({"file": "x" * 201}), r"trials.2.file: .*at most 200 bytes"),
+    (lambda c: c["trials"].append({"file": "a\0b.csv"}), r"control characters"),
     (
         lambda c: c["trials"].append({"file": "C:\\turns.csv"}),
         r"trials.2.file.*in the folder",
