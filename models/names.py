@@ -1,5 +1,7 @@
 """Names that become files: a protocol's, a trial's. What cannot be one is refused when it is read."""
 
+from pathlib import Path
+
 from models.errors import InvalidValue
 from models.user_text import unprintable
 
@@ -25,3 +27,19 @@ def refuse_no_file_name(field: str, name: str) -> None:
         raise InvalidValue(
             field, name, f"{expected}, of at most {MOST_BYTES} bytes, not {size}", "shorten it"
         )
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is such a file; what no file system can have is not there."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def is_folder(path: Path) -> bool:
+    """Whether there is such a folder; what no file system can have is not there."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False

@@ -14,7 +14,7 @@ from diagnosis.log.nominal_rig import (
 from diagnosis.log.trial import UnusableLog
 from diagnosis.log.unit_hints import look_alike
 from models.errors import InvalidValue
-from models.names import refuse_no_file_name
+from models.names import is_file, refuse_no_file_name
 from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 
@@ -32,7 +32,7 @@ def read_rig(path: Path) -> NominalRig:
     Raises:
       UnusableLog: names the file, the field or line, and how to fix it.
     """
-    if not path.is_file():
+    if not is_file(path):
         raise UnusableLog(f"{path}: expected a rig-log/1 folder with a file 'rig.yaml'; there is none")
     try:
         content = read_yaml(path, expected="a mapping that starts with 'format: rig-log/1'")

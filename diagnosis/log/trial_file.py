@@ -23,6 +23,7 @@ from diagnosis.criteria import (
 )
 from diagnosis.log.trial import COLUMNS, OPTIONAL, REQUIRED, Trial, UnusableLog
 from diagnosis.log.unit_hints import look_alike
+from models.names import is_file, is_folder
 
 Array = NDArray[np.float64]
 
@@ -43,8 +44,8 @@ def refuse_too_large(paths: Sequence[Path]) -> None:
     """
     size, lines = 0, 0
     for path in paths:
-        if not path.is_file():
-            found = "a folder" if path.is_dir() else "no such file"
+        if not is_file(path):
+            found = "a folder" if is_folder(path) else "no such file"
             raise UnusableLog(f"{path}: expected a CSV file, found {found}; see 'trials' in rig.yaml")
         size += path.stat().st_size
         if size <= MOST_ROWS * MOST_BYTES_PER_ROW:
@@ -115,13 +116,17 @@ def _check_header(path: Path, first: str, second: str) -> None:
             f"{place}: expected names with commas between, found {first[:60]!r}; "
             "export with commas between the cells and decimal points in the numbers"
         )
-    header, cells = next(csv.reader([first])), next(csv.reader([second]), [])
+    header, cells = _cells(first), _cells(second)
     _check_names(place, [name.strip() for name in header])
     if second and len(cells) != len(header):
         raise UnusableLog(
             f"{path}, line 2: expected {len(header)} cells as in the header, found {len(cells)}; "
             "write numbers with a decimal point, and no comma at the end of a line"
         )
+
+
+def _cells(line: str) -> list[str]:
+    return next(csv.reader([line], skipinitialspace=True), [])
 
 
 def _check_names(place: str, names: Sequence[str]) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from models.errors import InvalidValue
-from models.names import MOST_BYTES, refuse_no_file_name
+from models.names import MOST_BYTES, is_file, is_folder, refuse_no_file_name
 
 
 @pytest.mark.parametrize(
@@ -34,3 +34,11 @@ def test_a_name_of_any_language_is_one(name):
 def test_what_no_file_may_be_called_is_refused_with_a_way_out(name, fix):
     with pytest.raises(InvalidValue, match=rf"^segment: .*{fix}"):
         refuse_no_file_name("segment", name)
+
+
+def test_what_no_file_system_can_have_is_not_there(tmp_path):
+    assert is_folder(tmp_path)
+    assert not is_file(tmp_path)
+    for name in ("x" * 300, "a\0b", "none"):
+        assert not is_file(tmp_path / name)
+        assert not is_folder(tmp_path / name)
