@@ -73,10 +73,27 @@ def read_record(path: Path, kind: type[R], content: Mapping[str, Any]) -> R:
       InvalidValue: names the file and the field.
     """
     try:
-        return kind(**content)
+        record = kind(**content)
     except InvalidValue as error:
         field = error.field.removeprefix(f"{kind.__name__}.")
         raise InvalidValue(f"{path}: {field}", error.found, error.expected, error.fix) from error
+    _refuse_yes_for_a_number(path, content, record, "")
+    return record
+
+
+def _refuse_yes_for_a_number(path: Path, given: Any, built: Any, field: str) -> None:
+    """`yes`, `no`, `on` and `off` are truths of YAML, which pydantic would take for 1 and 0."""
+    if isinstance(given, bool) and isinstance(built, float):
+        raise InvalidValue(f"{path}: {field}", given, "a number")
+    if isinstance(given, Mapping):
+        inner = dict(built) if isinstance(built, Record | Mapping) else {}
+        pairs = [(name, given[name], inner[name]) for name in given if name in inner]
+    elif isinstance(given, list) and isinstance(built, tuple):
+        pairs = [(str(i), *pair) for i, pair in enumerate(zip(given, built, strict=True))]
+    else:
+        return
+    for name, own, made in pairs:
+        _refuse_yes_for_a_number(path, own, made, f"{field}.{name}" if field else name)
 
 
 def _text(path: Path, expected: str) -> str:

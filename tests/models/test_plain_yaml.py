@@ -11,6 +11,8 @@ from models.record import Record
 
 class Place(Record):
     x_mm: float
+    there: bool = True
+    more: tuple["Place", ...] = ()
     inner: "Place | None" = None
 
 
@@ -107,3 +109,15 @@ def test_a_record_of_a_file_names_file_and_field(tmp_path):
         read_record(path, Place, {"x_mm": 1, "inner": {"x_mm": "far"}})
     with pytest.raises(InvalidValue, match=r"file\.yaml: self"):
         read_record(path, Place, {"x_mm": 1, "self": 2})
+
+
+def test_a_truth_is_no_number(tmp_path):
+    path = tmp_path / "file.yaml"
+    assert read_record(path, Place, {"x_mm": 1, "there": False}) == Place(x_mm=1, there=False)
+    for content, field in [
+        ({"x_mm": True}, "x_mm"),
+        ({"x_mm": 1, "inner": {"x_mm": False}}, "inner.x_mm"),
+        ({"x_mm": 1, "more": [{"x_mm": 1}, {"x_mm": True}]}, "more.1.x_mm"),
+    ]:
+        with pytest.raises(InvalidValue, match=rf"file\.yaml: {field}: expected a number, found"):
+            read_record(path, Place, content)
