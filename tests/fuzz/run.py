@@ -55,17 +55,18 @@ def main():
         if args.only in name
     }
     everything, faults = [], []
+    console = Console(markup=False, highlight=False, soft_wrap=True)
     table = Table("family", "inputs", *Kind, "slowest, s", title="Inputs and what came of them")
     with ProcessPoolExecutor(args.processes) as pool:
         done = {name: pool.submit(run, name, count, args.seed) for name, count in counts.items()}
         for name, task in done.items():
             found, wrong = task.result()
-            table.add_row(name, *_row(found))
             everything += found
             faults += [(name, *fault) for fault in wrong]
+            table.add_row(name, *_row(found))
+            console.print(name, *_row(found))
     table.add_section()
     table.add_row("all", *_row(everything))
-    console = Console(markup=False, highlight=False, soft_wrap=True)
     by_place = {"\n".join(said.splitlines()[-6:]): (name, value) for name, said, value in faults}
     for said, (name, value) in by_place.items():
         console.print(f"\n{name}: {str(value)[:600]!r}\n{said[-2000:]}")
