@@ -6,6 +6,7 @@ A protocol is a sequence of segments. Over `duration_s` of each the base turns b
 inserted length; else the inserted length grows by what the free length loses.
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -191,7 +192,7 @@ def read_protocol(path: Path) -> Protocol:
 
 def _refuse_out_of_scale(path: Path, value: Any, field: str) -> None:
     """Numbers beyond any rig: a simulation of them would fail, or mean nothing."""
-    inner = value.items() if isinstance(value, dict) else ()
+    inner: Iterable[tuple[Any, Any]] = value.items() if isinstance(value, dict) else ()
     inner = enumerate(value) if isinstance(value, list | tuple) else inner
     for name, part in inner:
         _refuse_out_of_scale(path, part, f"{field}.{name}" if field else str(name))

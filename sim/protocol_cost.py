@@ -20,8 +20,11 @@ _JUMP = 1e-6  # of a segment, that a jump at its start takes
 class _Timed(Shape):
     """What is asked of a segment."""
 
-    duration_s: float
-    dither_hz: float
+    @property
+    def duration_s(self) -> float: ...
+
+    @property
+    def dither_hz(self) -> float: ...
 
 
 def samples_of(segment: _Timed) -> float:
