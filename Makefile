@@ -5,7 +5,7 @@ STAMP := .venv/.installed
 # Tests over two processes; those that share a fixture stay together.
 SPREAD := -n 2 --dist loadgroup
 
-.PHONY: setup compiled demo test quick coverage check format bench clean
+.PHONY: setup compiled demo test quick fuzz coverage check format bench clean
 
 setup: $(STAMP)
 
@@ -27,6 +27,10 @@ test: compiled
 
 quick: compiled
 	CI=1 $(BIN)/python -m pytest $(SPREAD) -m "not slow"
+
+# Ten thousand inputs that are wrong, and what came of them.
+fuzz: compiled
+	CI=1 PYTHONPATH=.:tests $(BIN)/python -m fuzz.run --inputs 10000
 
 coverage: compiled
 	CI=1 $(BIN)/python -m pytest --cov --cov-report=term-missing:skip-covered

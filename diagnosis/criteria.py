@@ -14,9 +14,6 @@ Numbers of a numerical method that decide nothing (windows, differences, iterati
 
 # Reading a log: what is refused (log/)
 
-YAML_MOST_BYTES = 200_000
-YAML_MOST_LEVELS = 10
-"""Physical: a rig.yaml has 1 kB and three levels; what is larger is another file, or harmful."""
 NOMINAL_RANGE = {
     ("needle", "diameter_mm"): (0.05, 10.0),
     ("needle", "shear_modulus_gpa"): (0.01, 1000.0),
@@ -42,6 +39,9 @@ FEWEST_ROWS = 20
 MOST_ROWS = 2_000_000
 MOST_BYTES_PER_ROW = 250
 """Rows of one trial at least, of all trials together at most (hours at 100 Hz), bytes per row."""
+MOST_LOST_ROWS = 100_000
+"""Physical: rows that one pause may be long (1000 s at 100 Hz), since they are replayed as if they were
+there; a needle has forgotten by then all but what dry friction holds. A longer one ends a trial."""
 LONGEST_SAMPLE_S = 5.0
 """Physical: a needle relaxes within seconds; rarer samples tell nothing, and may be in milliseconds."""
 SHORTEST_SAMPLE_S = 1e-5

@@ -3,6 +3,8 @@
 from pathlib import PurePath
 from typing import Any
 
+_MOST_SHOWN = 500  # characters of a value in a message
+
 
 class NeedleError(Exception):
     """Base of every error that this library raises on purpose."""
@@ -52,8 +54,9 @@ class EnvironmentMismatch(NeedleError):
 
 
 def _shown(value: Any) -> str:
-    """A value as a person wrote it: paths as plain text, everything else as Python shows it."""
-    return str(value) if isinstance(value, PurePath) else repr(value)
+    """A value as a person wrote it: paths as plain text, everything else as Python shows it, cut."""
+    shown = str(value) if isinstance(value, PurePath) else repr(value)
+    return shown if len(shown) <= _MOST_SHOWN else f"{shown[:_MOST_SHOWN]} ..."
 
 
 def _restored(kind: type[InvalidValue], *fields: Any) -> InvalidValue:

@@ -19,7 +19,7 @@ class Record(BaseModel):
         frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True
     )
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, **values: Any) -> None:
         try:
             super().__init__(**values)
         except ValidationError as error:
@@ -37,7 +37,8 @@ def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
     if isinstance(cause, InvalidValue):
         path = ".".join(str(p) for p in first["loc"])
         inner = cause.field.split(".", 1)[-1] if cause.field[0].isupper() else cause.field
-        field = f"{path}.{inner}" if path else cause.field
+        twice = path.rpartition(".")[2] == inner  # the check of one field names it itself
+        field = (path if twice else f"{path}.{inner}") if path else cause.field
         return InvalidValue(field, cause.found, cause.expected, cause.fix)
     field = ".".join(str(p) for p in (record.__name__, *first["loc"]))
     if first["type"] == "extra_forbidden":

@@ -11,6 +11,7 @@ from rich.progress import Progress
 from rich.table import Column, Table
 
 from models.errors import InvalidValue, NeedleError
+from models.names import is_file, is_folder
 from scripts.results import tell
 from sim.files import Destination, ResultSet, publishing, write_text
 from validation.logs.case import ImpossibleDraw
@@ -79,7 +80,7 @@ def run_score(
         raise InvalidValue("trials", trials, "at least 1", "leave it out for all trials")
     if limit_s is not None and not limit_s > 0:
         raise InvalidValue("limit", limit_s, "seconds above 0", "leave it out for no limit")
-    if not (folder / "logs").is_dir() or not (folder / "answers" / "answers.json").is_file():
+    if not is_folder(folder / "logs") or not is_file(folder / "answers" / "answers.json"):
         raise InvalidValue(
             "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
         )

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from rich.console import Console
+from rich.text import Text
 
 from diagnosis.log.rig_log import files_of, read_rig_log
 from diagnosis.nominal_replay import replay_nominal
@@ -71,4 +72,4 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
 
 
 def _announce(console: Console, stage: int, what: str) -> None:
-    console.print(f"[bold]{stage}/{_STAGES}[/] {what}", highlight=False)
+    console.print(Text.assemble((f"{stage}/{_STAGES}", "bold"), f" {what}"))

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.log.rig_log import files_of, read_rig_log
@@ -24,7 +24,7 @@ from diagnosis.stopping import StoppedEarly, StopSignal
 from scripts.progress_line import progress_line
 from scripts.results import tell
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
-from scripts.streams import OutputConsole
+from scripts.terminal import terminal
 from sim.files import Destination, finish_interrupted
 from sim.simulation import prepare_processes
 
@@ -61,9 +61,9 @@ def run(
     destination = Destination(folder=folder, inputs=inputs, force=force) if folder else None
     if destination:
         destination.check(output_paths(log, destination.folder))
-    shown = OutputConsole(stderr=True)
+    shown = terminal(stderr=True)
     for warning in log.warnings:
-        shown.print(f"warning: {escape(warning)}", highlight=False)
+        shown.print(f"warning: {warning}", highlight=False)
     prepare_processes()  # compiles for half a minute the first time, before there is anything to tell
     with stops_on_signals(stop):
         try:
@@ -85,16 +85,16 @@ def run(
 
 def _summary(found: Diagnosis, console: Console) -> None:
     told = found.assessment
-    console.print(f"[bold]{escape(headline(found))}[/]", highlight=False)
+    console.print(Text(headline(found), "bold"))
     for sentence in filter(None, (alike(found), nearest(found))):
-        console.print(escape(sentence), highlight=False)
+        console.print(sentence, highlight=False)
     if sentence := imperfections(found):
-        console.print(escape(sentence), highlight=False)
+        console.print(sentence, highlight=False)
     for warning in found.warnings:
-        console.print(f"warning: {escape(warning)}", highlight=False)
+        console.print(f"warning: {warning}", highlight=False)
     console.print(_breakdown_table(found))
     for sentence in (largest_parts(found), largest_residual(found)):
-        console.print(escape(sentence), highlight=False)
+        console.print(sentence, highlight=False)
     if found.verdict.effects:
         console.print(_parameter_table(as_json(found)["parameters"], "What explains it"))
     elif found.assessment.nearest.effects:
@@ -103,9 +103,9 @@ def _summary(found: Diagnosis, console: Console) -> None:
     if told.detection_limits and not found.verdict.effects:
         console.print(_limits_table(found))
     if told.next_experiment:
-        console.print(f"next: {escape(told.next_experiment)}", highlight=False)
+        console.print(f"next: {told.next_experiment}", highlight=False)
     for sentence in unidentifiable(found.log):
-        console.print(f"open: {escape(sentence)}", highlight=False)
+        console.print(f"open: {sentence}", highlight=False)
 
 
 def _breakdown_table(found: Diagnosis) -> Table:

@@ -5,7 +5,6 @@ from functools import partial
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
 from diagnosis.lab_files.draft_file import loop_lines, mapping_text
@@ -69,8 +68,8 @@ def table(draft: Draft) -> Table:
     """Every guess with its reason."""
     shown = Table("column", "field", "guess", "because", title="Guesses: check each of them")
     for time in draft.times:
-        shown.add_row("time_s", "column", escape(time.source.column), "by its name; it rises")
-        shown.add_row("", "unit", escape(str(time.source.unit)), escape(time.reason), end_section=True)
+        shown.add_row("time_s", "column", time.source.column, "by its name; it rises")
+        shown.add_row("", "unit", str(time.source.unit), time.reason, end_section=True)
     for column in draft.columns:
         fields = [name for name in _FIELDS if name in column.reasons]
         for i, name in enumerate(fields):
@@ -78,8 +77,8 @@ def table(draft: Draft) -> Table:
             shown.add_row(
                 "" if i else column.wanted,
                 name,
-                escape(f"{value:g}" if isinstance(value, float) else str(value)),
-                escape(column.reasons[name]),
+                f"{value:g}" if isinstance(value, float) else str(value),
+                column.reasons[name],
                 end_section=i == len(fields) - 1,
             )
     for sensor, value in draft.noise.items():

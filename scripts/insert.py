@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from models.errors import InvalidValue
+from models.user_text import in_xml_comment
 from scripts.results import tell
 from scripts.streams import waiting
 from sim.experiment import perform
@@ -79,7 +80,7 @@ def run(
 
 
 def _write_model(protocol: Protocol, path: Path) -> None:
-    note = _MJCF_NOTE.format(name=protocol.name)
+    note = _MJCF_NOTE.format(name=in_xml_comment(protocol.name))
     write_text(path, note + needle_spec(protocol.setup()).to_xml())
 
 

@@ -12,16 +12,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
+from rich.text import Text
 
 from models.errors import InvalidValue, NeedleError
-from scripts.streams import (
-    OutputConsole,
-    complain,
-    flush_output,
-    give_up_output,
-    show_what_can_be_shown,
-)
+from scripts.streams import complain, flush_output, give_up_output, show_what_can_be_shown
+from scripts.terminal import terminal
 
 
 def parser() -> argparse.ArgumentParser:
@@ -150,16 +145,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     began_s = time.monotonic()
     args = parser().parse_args(arguments)
     show_what_can_be_shown()
+    who = (f"needle {args.command}:", "bold red")
     try:
-        code = _run(args, OutputConsole(), began_s)
+        code = _run(args, terminal(), began_s)
         flush_output()
         return code
     except NeedleError as error:
-        complain(f"[bold red]needle {args.command}:[/] {escape(str(error))}")
+        complain(Text.assemble(who, f" {error}"))
         return 2
     except OSError as error:
         where = error.filename or "standard output"
-        complain(f"[bold red]needle {args.command}:[/] {escape(f'{where}: {error.strerror or error}')}")
+        complain(Text.assemble(who, f" {where}: {error.strerror or error}"))
         give_up_output()
         return 2
     except KeyboardInterrupt:

@@ -6,9 +6,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
+from rich.text import Text
 
 from scripts.results import tell
-from scripts.streams import OutputConsole
+from scripts.terminal import terminal
 from sim.files import Destination
 from studies.published.material_study import MaterialStudy
 from studies.published.report.contents import as_json
@@ -51,7 +52,7 @@ def run(folder: Path | None, *, json_only: bool, force: bool, console: Console) 
 
 
 def _run_with_progress() -> PublishedStudy:
-    shown = OutputConsole(stderr=True)
+    shown = terminal(stderr=True)
     with Progress(TextColumn("{task.description}"), BarColumn(), console=shown, transient=True) as bar:
         task = bar.add_task("the published figures", total=1.0)
         return run_published_study(
@@ -78,7 +79,7 @@ def _show(study: PublishedStudy, console: Console) -> None:
 
 
 def _show_material(study: MaterialStudy, console: Console) -> None:
-    console.print(f"\n[bold]{verdict_sentence(study)}[/]", highlight=False)
+    console.print(Text(f"\n{verdict_sentence(study)}", "bold"))
     console.print(_table(figure_table(study), "Stated model and published figures"))
     mechanisms = mechanism_table(study, with_values=False)
     console.print(_table(mechanisms, "Mechanisms that may explain the residual (*: accepted)"))

@@ -15,6 +15,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
+from models.user_text import in_figure
 from scripts.results import tell
 from scripts.streams import waiting
 from sim.files import Destination, ResultSet, finish_interrupted, publishing, write_text
@@ -136,7 +137,7 @@ def _draw(replayed: list[ReplayedTrial], path: Path) -> None:
                 axis.plot(time_s, one.trial[sensor], color="0.6", lw=0.8, label="measured")
             axis.plot(time_s, one.prediction[sensor], color="tab:red", lw=1, label="nominal")
             axis.set(ylabel=label)
-        row[0].set_title(one.trial.name, loc="left", fontsize=9)
+        row[0].set_title(in_figure(one.trial.name), loc="left", fontsize=9)
     for axis in axes[-1]:
         axis.set(xlabel="time, s")
     axes[0, 0].legend(fontsize=8)

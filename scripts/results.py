@@ -2,7 +2,7 @@
 
 from rich.console import Console
 
-from scripts.streams import OutputConsole
+from scripts.streams import complain
 from sim.files import ResultSet
 
 WITHOUT_ALL = 3
@@ -14,9 +14,5 @@ def tell(results: ResultSet, console: Console) -> int:
     for path in results.made:
         console.print(f"wrote      {path}", highlight=False, markup=False)
     for path, why in results.left_out.items():
-        OutputConsole(stderr=True).print(
-            f"warning: {path} could not be made ({why}); the other results stand without it",
-            highlight=False,
-            markup=False,
-        )
+        complain(f"warning: {path} could not be made ({why}); the other results stand without it")
     return WITHOUT_ALL if results.left_out else 0

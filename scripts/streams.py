@@ -1,32 +1,21 @@
 """Standard output and standard error: either may be full, closed, or unable to show a Greek letter."""
 
-import errno
 import os
 import sys
 from contextlib import suppress
 from io import TextIOWrapper
 
-from rich.console import Console
 from rich.status import Status
+from rich.text import Text
 
-
-class OutputConsole(Console):
-    """Standard output or error; a pipe that somebody closed is an error like others, and not an exit."""
-
-    def on_broken_pipe(self) -> None:
-        """Called by rich, which would end the process.
-
-        Raises:
-          BrokenPipeError: always.
-        """
-        raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
+from scripts.terminal import terminal
 
 
 def waiting(text: str) -> Status:
     """What a command is at, for who watches: on standard error, for results may go to the other."""
-    console = OutputConsole(stderr=True)
+    console = terminal(stderr=True)
     console.quiet = not console.is_terminal
-    return console.status(text)
+    return console.status(Text(text))
 
 
 def show_what_can_be_shown() -> None:
@@ -56,7 +45,7 @@ def give_up_output() -> None:
         os.close(nowhere)
 
 
-def complain(text: str) -> None:
+def complain(text: str | Text) -> None:
     """Print on standard error, if that can be written to."""
     with suppress(OSError):
-        OutputConsole(stderr=True).print(text, highlight=False)
+        terminal(stderr=True).print(text, highlight=False)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from scripts.results import tell
 from scripts.streams import waiting
@@ -48,7 +49,8 @@ def show(findings: Findings, console: Console) -> None:
             names = [c.item for c in items]
             more = f" and {len(names) - 1} more" if len(names) > 1 else ""
             console.print(f"  {names[0]}{more}: {note}", highlight=False)
-    console.print("[green]every bound holds[/]" if findings.passed else "[red]a bound fails[/]")
+    passed = ("every bound holds", "green") if findings.passed else ("a bound fails", "red")
+    console.print(Text(*passed))
 
 
 def _number(value: float, shape: str) -> str:
@@ -65,7 +67,7 @@ def poles_table(findings: Findings) -> Table:
     for source, of_source in groupby(findings.poles, key=lambda p: p.source):
         table.add_section()
         bound = 100 * SOURCES[source].bound
-        table.add_row("", "", "", f"[bold]{source.words}[/]", f"<= {bound:.2g}")
+        table.add_row("", "", "", Text(source.words, "bold"), f"<= {bound:.2g}")
         cases = groupby(of_source, key=lambda p: (p.length_mm, p.free_mm, p.drive))
         for (length, free, drive), group in cases:
             poles = list(group)
@@ -79,6 +81,6 @@ def checks_table(findings: Findings) -> Table:
     """Every bound."""
     table = Table("bound", "measured", "must be", "unit", "", title="Bounds")
     for c in findings.checks:
-        result = "[green]holds[/]" if c.passed else "[red]fails[/]"
+        result = Text("holds", "green") if c.passed else Text("fails", "red")
         table.add_row(c.name, f"{c.value:.4g}", c.bounds, c.unit, result)
     return table

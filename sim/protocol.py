@@ -6,25 +6,29 @@ A protocol is a sequence of segments. Over `duration_s` of each the base turns b
 inserted length; else the inserted length grows by what the free length loses.
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import yaml
 from pydantic import Field, field_validator, model_validator
 
 from models.drive import Drive, DriveKind
 from models.errors import InvalidValue
 from models.materials import tissue_named
+from models.names import refuse_no_file_name
 from models.needle import NITINOL, Needle, NonNegative, Positive, needle_named
+from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
+from sim.law_table import law_table
+from sim.protocol_cost import refuse_costly, samples_of
 from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
 from sim.spec import Setup
 
-_SAMPLES_A_WAVE = 32
 _STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
+_LARGEST, _SMALLEST = 1e9, 1e-18  # of any number in a file, in its own unit: no rig has more, or less
 
 
 class Segment(Record):
@@ -64,6 +68,12 @@ class Protocol(Record):
     accuracy_deg: Positive | None = None
     """If given, the error of the tip that the step may cause; a larger one is an error."""
 
+    @field_validator("name")
+    @classmethod
+    def _name_is_of_a_file(cls, value: str) -> str:
+        refuse_no_file_name("name", value)
+        return value
+
     @field_validator("needle", mode="before")
     @classmethod
     def _needle_by_name(cls, value: Any) -> Any:
@@ -98,6 +108,8 @@ class Protocol(Record):
                     f"not {free:g} mm free and {inserted:g} mm inserted",
                 )
             self._check_drive(i, segment)
+        rows = len(law_table(self.needle, self.drive, self.tissue))
+        refuse_costly(self.segments, self.discretisation, layers=len(self.tissue.layers), rows=rows)
         return self
 
     def _check_drive(self, i: int, segment: Segment) -> None:
@@ -123,7 +135,7 @@ class Protocol(Record):
         }
         time, angle, free, inserted = 0.0, 0.0, self.free_mm, self.inserted_mm
         for segment in self.segments:
-            share = np.linspace(0.0, 1.0, self._samples(segment))
+            share = np.linspace(0.0, 1.0, int(np.ceil(samples_of(segment))))
             at = time + segment.duration_s * share
             # A jump at the border of two segments takes one part in 10^6 of a segment.
             at[0] += 1e-6 * segment.duration_s if columns["time_s"] else 0.0
@@ -145,10 +157,6 @@ class Protocol(Record):
             free, inserted = free - segment.advance_mm, inserted + gain
         return Schedule(**{name: np.array(values) for name, values in columns.items()})
 
-    def _samples(self, segment: Segment) -> int:
-        waves = segment.dither_hz * segment.duration_s
-        return 2 if waves == 0 else int(np.ceil(waves * _SAMPLES_A_WAVE)) + 1
-
     def setup(self) -> Setup:
         """The model that the run needs."""
         return Setup(
@@ -167,20 +175,27 @@ def read_protocol(path: Path) -> Protocol:
 
     Raises:
       InvalidValue: the file is not YAML, not a protocol, or holds an implausible value; names
-        the field.
+        the file and the field.
     """
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise InvalidValue(str(path), str(error).splitlines()[0], "a readable YAML file") from error
-    if not isinstance(content, dict):
-        raise InvalidValue(str(path), content, "a mapping of the fields of a protocol")
-    protocol = Protocol(**content)
+    content = read_yaml(path, expected="a mapping of the fields of a protocol")
+    protocol = read_record(path, Protocol, content)
+    _refuse_out_of_scale(path, protocol.model_dump(exclude_unset=True), "")
     if protocol.needle.shear_modulus_gpa > _STIFFEST_GPA:
         raise InvalidValue(
-            "needle.shear_modulus_gpa",
+            f"{path}: needle.shear_modulus_gpa",
             protocol.needle.shear_modulus_gpa,
             f"at most {_STIFFEST_GPA:g} GPa",
             "check that the value is in GPa",
         )
     return protocol
+
+
+def _refuse_out_of_scale(path: Path, value: Any, field: str) -> None:
+    """Numbers beyond any rig: a simulation of them would fail, or mean nothing."""
+    inner: Iterable[tuple[Any, Any]] = value.items() if isinstance(value, dict) else ()
+    inner = enumerate(value) if isinstance(value, list | tuple) else inner
+    for name, part in inner:
+        _refuse_out_of_scale(path, part, f"{field}.{name}" if field else str(name))
+    if isinstance(value, float) and value != 0 and not _SMALLEST <= abs(value) <= _LARGEST:
+        expected = f"a number of a size from {_SMALLEST:g} to {_LARGEST:g}, or 0"
+        raise InvalidValue(f"{path}: {field}", value, expected, "check its unit")

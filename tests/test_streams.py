@@ -9,6 +9,7 @@ from rich.console import Console
 
 from scripts import streams
 from scripts.main import main
+from scripts.terminal import terminal
 
 
 @pytest.fixture
@@ -67,7 +68,7 @@ def test_a_complaint_that_nobody_hears_is_no_error(monkeypatch):
 
 def test_other_consoles_end_the_process_where_this_one_raises():
     with pytest.raises(BrokenPipeError):
-        streams.OutputConsole().on_broken_pipe()
+        terminal().on_broken_pipe()
     assert "on_broken_pipe" in vars(Console)  # what is overridden is still asked
 
 

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from diagnosis.lab_files.guesses.draft import Draft
 from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.series import Series
+from models.user_text import in_figure
 from sim.files import writing
 
 _MOST_TRIALS = 4
@@ -26,12 +27,12 @@ def write_preview(draft: Draft, path: Path) -> None:
         axis.set_axis_off()
     for i, name in enumerate(names):
         source = next(column.source for column in draft.columns if column.wanted == name)
-        axes[i, 0].set_ylabel(f"{name}\n{source.column}", fontsize=7)
+        axes[i, 0].set_ylabel(in_figure(f"{name}\n{source.column}"), fontsize=7)
         for k, trial in enumerate(trials):
             if name in draft.series[trial]:
                 _over_time(axes[i, k], draft.series[trial][name], draft.motions.get(trial))
     for k, trial in enumerate(trials):
-        axes[0, k].set_title(trial, fontsize=9)
+        axes[0, k].set_title(in_figure(trial), fontsize=9)
         axes[-1, k].set_xlabel("time in the files, s")
     _loops(axes[0, -1], draft, trials)
     with writing(path) as part:

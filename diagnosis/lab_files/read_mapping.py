@@ -5,8 +5,6 @@ Nothing is filled in here.
 
 from pathlib import Path
 
-import yaml
-
 from diagnosis.lab_files.mapping import (
     MEASURED,
     SECTIONS,
@@ -17,6 +15,10 @@ from diagnosis.lab_files.mapping import (
 from diagnosis.lab_files.units import QUANTITIES, UNITS, MeasuredQuantity, factor_of
 from diagnosis.log.trial import REQUIRED, SENSORS
 from models.errors import InvalidValue
+from models.names import refuse_no_file_name
+from models.plain_yaml import read_record, read_yaml
+
+_EXPECTED = "a mapping that starts with 'format: rig-import/1' (`needle import` drafts one)"
 
 
 def read_mapping(path: Path, *, accept_guesses: bool) -> ImportMapping:
@@ -28,20 +30,8 @@ def read_mapping(path: Path, *, accept_guesses: bool) -> ImportMapping:
     Raises:
       InvalidValue: it cannot be read; or names everything that is missing, impossible or unconfirmed.
     """
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        reason = " ".join(str(error).split())[:300]
-        raise InvalidValue(
-            str(path), reason, "a readable YAML file; `needle import` drafts one"
-        ) from error
-    if not isinstance(content, dict):
-        raise InvalidValue(str(path), content, "a mapping that starts with 'format: rig-import/1'")
-    try:
-        mapping = ImportMapping(**content)
-    except InvalidValue as error:
-        where = f"{path}: {error.field.removeprefix('ImportMapping.')}"
-        raise InvalidValue(where, error.found, error.expected, error.fix) from error
+    content = read_yaml(path, expected=_EXPECTED)
+    mapping = read_record(path, ImportMapping, content)
     wrong = [*_blanks(mapping), *_impossible(mapping)]
     if not accept_guesses:
         wrong += [
@@ -153,4 +143,8 @@ def _known(quantity: MeasuredQuantity) -> str:
 
 
 def _plain_name(file: str) -> bool:
-    return bool(file) and not any(c in file for c in "/\\:\0") and file.lower().endswith(".csv")
+    try:
+        refuse_no_file_name("file", file)
+    except InvalidValue:
+        return False
+    return ":" not in file and file.lower().endswith(".csv")

@@ -32,6 +32,7 @@ Mask = NDArray[np.bool_]
 _BASE = "base_angle_deg"
 _SEARCHED = 0.25  # of the median step, either way, that the period is searched in
 _FIRST = 600  # stamps that the period is searched in
+_PAUSE_STEPS = 10.0
 _FINER = 8  # periods to try per resolvable one
 _REFINEMENTS = 4
 
@@ -82,9 +83,15 @@ def _counts(stamps_s: Array) -> Counts:
 
 
 def _period(stamps_s: Array) -> float:
-    """The period at which stamps have most in phase, near their median step."""
-    stamps = stamps_s[:_FIRST] - stamps_s[0]
-    step = float(np.median(np.diff(stamps)))
+    """The period at which stamps have most in phase, near their median step.
+
+    Of their longest stretch without a pause, across which the phase is lost anyway.
+    """
+    first = stamps_s[:_FIRST]
+    step = float(np.median(np.diff(first)))
+    pauses = np.flatnonzero(np.diff(first) > _PAUSE_STEPS * step) + 1
+    stretch = max(np.split(first, pauses), key=len)
+    stamps = stretch - stretch[0]
     count = max(2, round(_FINER * 2 * _SEARCHED * stamps[-1] / step))
     rates = np.linspace(1 - _SEARCHED, 1 + _SEARCHED, count) / step
     together = np.abs(np.exp(2j * np.pi * rates[:, None] * stamps).sum(axis=1))

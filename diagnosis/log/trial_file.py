@@ -16,12 +16,14 @@ from diagnosis.criteria import (
     FEWEST_ROWS,
     LONGEST_SAMPLE_S,
     MOST_BYTES_PER_ROW,
+    MOST_LOST_ROWS,
     MOST_ROWS,
     READING_RANGE,
     SHORTEST_SAMPLE_S,
 )
 from diagnosis.log.trial import COLUMNS, OPTIONAL, REQUIRED, Trial, UnusableLog
 from diagnosis.log.unit_hints import look_alike
+from models.names import is_file, is_folder
 
 Array = NDArray[np.float64]
 
@@ -42,8 +44,8 @@ def refuse_too_large(paths: Sequence[Path]) -> None:
     """
     size, lines = 0, 0
     for path in paths:
-        if not path.is_file():
-            found = "a folder" if path.is_dir() else "no such file"
+        if not is_file(path):
+            found = "a folder" if is_folder(path) else "no such file"
             raise UnusableLog(f"{path}: expected a CSV file, found {found}; see 'trials' in rig.yaml")
         size += path.stat().st_size
         if size <= MOST_ROWS * MOST_BYTES_PER_ROW:
@@ -63,8 +65,14 @@ def read_trial(path: Path) -> Trial:
     """
     try:
         _check_header(path, *_first_lines(path))
+        # A text file stays one, whatever its name ends in.
         table = pd.read_csv(
-            path, encoding="utf-8-sig", skipinitialspace=True, skip_blank_lines=False, low_memory=False
+            path,
+            encoding="utf-8-sig",
+            compression=None,
+            skipinitialspace=True,
+            skip_blank_lines=False,
+            low_memory=False,
         )
     except UnicodeDecodeError as error:
         raise UnusableLog(f"{path}: {_NO_TEXT}") from error
@@ -108,13 +116,17 @@ def _check_header(path: Path, first: str, second: str) -> None:
             f"{place}: expected names with commas between, found {first[:60]!r}; "
             "export with commas between the cells and decimal points in the numbers"
         )
-    header, cells = next(csv.reader([first])), next(csv.reader([second]), [])
+    header, cells = _cells(first), _cells(second)
     _check_names(place, [name.strip() for name in header])
     if second and len(cells) != len(header):
         raise UnusableLog(
             f"{path}, line 2: expected {len(header)} cells as in the header, found {len(cells)}; "
             "write numbers with a decimal point, and no comma at the end of a line"
         )
+
+
+def _cells(line: str) -> list[str]:
+    return next(csv.reader([line], skipinitialspace=True), [])
 
 
 def _check_names(place: str, names: Sequence[str]) -> None:
@@ -188,4 +200,18 @@ def _check_time(path: Path, time_s: Array) -> None:
         raise UnusableLog(
             f"{path}, column 'time_s': expected samples at most {LONGEST_SAMPLE_S:g} s apart, found "
             f"{np.median(steps):g} s; if these are milliseconds, divide by 1000"
+        )
+    _refuse_long_pauses(path, time_s)
+
+
+def _refuse_long_pauses(path: Path, time_s: Array) -> None:
+    """Pauses are replayed row by row: what that would cost is said before it is begun."""
+    steps = np.diff(time_s)
+    lost = steps / np.median(steps)
+    row = int(np.argmax(lost))
+    if lost[row] > MOST_LOST_ROWS or lost.sum() > MOST_ROWS:
+        raise UnusableLog(
+            f"{path}, line {row + 3}, column 'time_s': expected a time within {MOST_LOST_ROWS} median "
+            f"steps of the line above, found a pause of {steps[row]:.6g} s, {lost[row]:.3g} steps, "
+            f"all of which would be replayed (of a trial: at most {MOST_ROWS}); make two trials of it"
         )

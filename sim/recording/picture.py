@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
+from models.user_text import in_figure
 from sim.files import writing
 from sim.recording.recording import Recording
 
@@ -23,7 +24,7 @@ def draw(recording: Recording, path: Path, *, force: bool = False) -> None:
     time = recording["time_s"]
     axes[0].plot(time, recording["base_angle_deg"], color="0.4", label="base")
     axes[0].plot(time, recording["tip_angle_deg"], color="tab:red", label="tip")
-    axes[0].set(ylabel="angle, deg", title=_title(recording))
+    axes[0].set(ylabel="angle, deg", title=in_figure(_title(recording)))
     axes[1].plot(time, recording["base_torque_n_mm"], color="tab:blue", label="base torque")
     axes[1].set(ylabel="torque, N mm")
     axes[1].legend(loc="upper left")

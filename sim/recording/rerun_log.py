@@ -19,6 +19,7 @@ from models import units
 from models.modes import InsertedNeedle
 from models.needle import Needle
 from models.tissue import Tissue
+from models.user_text import in_markdown
 from sim.recording.recording import Recording, unit_of
 from sim.recording.rerun_file import recorded
 
@@ -174,9 +175,9 @@ def log_series(
 
 
 def _log_text(stream: rr.RecordingStream, recording: Recording, results: Sequence[str]) -> None:
-    lines = [f"# {recording.parameters.get('protocol', 'Recording')}", ""]
-    lines += [str(recording.parameters.get("description", "")), ""]
-    lines += [f"- {line}" for line in results]
+    lines = [f"# {in_markdown(str(recording.parameters.get('protocol', 'Recording')))}", ""]
+    lines += [in_markdown(str(recording.parameters.get("description", ""))), ""]
+    lines += [f"- {in_markdown(line)}" for line in results]
     lines += ["", "## Signals", ""]
     lines += [f"- `{name}`, {unit_of(name)}" for name in recording.names]
     text = json.dumps(recording.parameters, indent=1)

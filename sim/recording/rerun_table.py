@@ -8,6 +8,7 @@ import pyarrow as pa
 from rerun.chunk import RrdReader
 
 from models.errors import NeedleError
+from models.names import is_file
 from sim.recording.rerun_log import TIMELINE
 
 
@@ -39,7 +40,7 @@ def entries(path: Path) -> list[Entry]:
     Raises:
       NotARecording: the file is missing or not a rerun recording.
     """
-    if not path.is_file():
+    if not is_file(path):
         raise NotARecording(f"{path}: expected a rerun recording, found no such file")
     try:
         batches = [(str(c.entity_path), c.to_record_batch()) for c in RrdReader(str(path)).stream()]

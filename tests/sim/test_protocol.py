@@ -62,6 +62,8 @@ def test_dither_is_sampled_finely():
         ({"free_mm": float("nan")}, "free_mm"),
         ({"discretisation": {"elements": 1}}, r"discretisation\.elements"),
         ({"speed": 3}, "speed"),
+        ({"name": "../up"}, "name: .*slashes"),
+        ({"name": ""}, "name: "),
     ],
 )
 def test_what_is_wrong_is_named(changes, field):
@@ -101,3 +103,22 @@ def test_a_file_with_a_stiffness_in_another_unit_is_refused_with_how_to_fix_it(t
 
 def test_a_protocol_made_in_python_may_vary_its_stiffness_beyond_what_a_file_may_hold():
     assert protocol(needle=NITINOL.but(shear_modulus_gpa=1001)).needle.shear_modulus_gpa == 1001
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("name: ../up", r"p\.yaml: name: .*slashes"),
+        ("1: 2", r"p\.yaml, line \d: expected the name of a field"),
+        ("self: 2", r"p\.yaml: self: expected one of the fields"),
+        ("drive: {stiffness_n_mm_per_rad: 1e300}", r"p\.yaml: drive\.stiffness_n_mm_per_rad: .*1e\+09"),
+        ("accuracy_deg: 1e-300", r"p\.yaml: accuracy_deg: .*1e-18"),
+        ("tissue: {name: x, name: y}", r"p\.yaml, line \d: expected each name once"),
+    ],
+)
+def test_an_error_names_the_file_and_the_field(tmp_path, line, said):
+    path = written(tmp_path / "p.yaml", 27)
+    kept = [one for one in path.read_text().splitlines() if not one.startswith(line.split(":")[0] + ":")]
+    path.write_text("\n".join([*kept, line]))
+    with pytest.raises(InvalidValue, match=said):
+        read_protocol(path)

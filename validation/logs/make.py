@@ -8,6 +8,7 @@ gives the same bytes, and a log depends on nothing but the seed and its number.
 
 import argparse
 import json
+import math
 import signal
 from collections.abc import Iterator, Mapping, Sequence
 from multiprocessing import Pool
@@ -26,6 +27,10 @@ from validation.logs.sensors import FINE_TIME, FORMATS, as_csv, measure, rig_yam
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 from validation.rig.simulation import compile_kernels
 from validation.rig.unmodelled import UNMODELLED
+
+MOST_LOGS = 100_000
+"""A day of computing, and 40 GB."""
+MOST_SEED = 2**63
 
 
 def make_logs(
@@ -55,8 +60,8 @@ def make_logs(
 
     Raises:
       FileExistsError: the folder exists.
-      ValueError: a kind, effect or roughness is unknown, `count` is below 1, or the signatures are
-        not in order.
+      ValueError: a kind, effect or roughness is unknown, `count` or `seed` is out of range, or the
+        signatures are not in order.
     """
     kinds = ALL_KINDS if kinds and "all" in kinds else kinds or KINDS
     _check(kinds, ALL_KINDS, "kinds")
@@ -64,7 +69,11 @@ def make_logs(
     _check(roughness or (), tuple(ROUGHNESSES), "roughness")
     if count < 1:
         raise ValueError(f"count: expected at least 1 log, got {count}")
-    if not 0 < signature[0] < signature[1]:
+    if count > MOST_LOGS:
+        raise ValueError(f"count: expected at most {MOST_LOGS} logs, got {count}")
+    if not 0 <= seed < MOST_SEED:
+        raise ValueError(f"seed: expected 0 to {MOST_SEED - 1}, got {seed}")
+    if not 0 < signature[0] < signature[1] < math.inf:
         raise ValueError(f"signature: expected 0 < LOW < HIGH, got {signature}")
     (folder / "logs").mkdir(parents=True, exist_ok=False)
     how = {"short": short, "signature": signature, "alternatives": alternatives}

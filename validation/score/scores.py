@@ -75,14 +75,15 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
 
 def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
     """Strength of the one true effect / the reported detection limit; NaN: none is reported."""
-    if len(answer["effects"]) != 1:
+    if len(answer["effects"]) != 1 or answer["effects"][0] not in LIBRARY:
         return float("nan")
     effect = answer["effects"][0]
     first = LIBRARY[effect].parameters[0]
     limit = report.get("hidden", {}).get(effect, {}).get(first.name)
-    if limit is None:
+    strength = answer["parameters"].get(effect, {}).get(first.name)
+    if limit is None or strength is None:
         return float("nan")
-    true = first.distance_from_neutral(answer["parameters"][effect][first.name])
+    true = first.distance_from_neutral(strength)
     return true / first.distance_from_neutral(limit)
 
 

@@ -9,6 +9,7 @@ from diagnosis.lab_files.readers.mcap_file import read_mcap_file
 from diagnosis.lab_files.readers.parquet_file import read_parquet_file
 from diagnosis.lab_files.readers.text_file import read_text_file
 from models.errors import InvalidValue
+from models.names import is_file
 
 _READERS: dict[str, Callable[[Path], LabFile]] = {
     ".parquet": read_parquet_file,
@@ -34,7 +35,7 @@ def read_lab_files(paths: Sequence[Path]) -> tuple[LabFile, ...]:
     """
     names = [path.name for path in paths]
     for path in paths:
-        if not path.is_file():
+        if not is_file(path):
             raise InvalidValue("FILE", path, "files of measurements; there is none of this name")
         if names.count(path.name) > 1:
             raise InvalidValue("FILE", path, "file names that differ", "rename one of the two")

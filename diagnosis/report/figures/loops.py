@@ -18,6 +18,7 @@ from diagnosis.replay.replay import Prediction
 from diagnosis.report.figures.style import LABELS, MEASURED, PREDICTIONS
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis
+from models.user_text import in_figure
 
 Array = NDArray[np.float64]
 
@@ -43,7 +44,7 @@ def draw_loops(found: Diagnosis) -> Figure:
             for name, own in predictions.items():
                 line = _loop(axis, _columns(trial, own), across, up)
                 line.set(color=PREDICTIONS[name], lw=1, label=name)
-            axis.set_title(trial.name, fontsize=9, loc="left")
+            axis.set_title(in_figure(trial.name), fontsize=9, loc="left")
             axis.set(xlabel=across, ylabel=up)
         for axis in row[len(pictures) :]:
             axis.set_visible(False)

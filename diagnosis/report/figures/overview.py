@@ -11,6 +11,7 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.report.figures.style import LABELS, MEASURED, PREDICTIONS
 from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.result import Diagnosis
+from models.user_text import in_figure
 
 
 def _bars(axis: Axes, names: Sequence[str], values: Sequence[Sequence[float]], title: str) -> None:
@@ -68,7 +69,7 @@ def draw_trials(found: Diagnosis) -> Figure:
                 above.plot(time, both[name][i][sensor], color=colour, lw=1, label=name)
                 if trial.has(sensor):
                     below.plot(time, left[name][i].left[sensor], color=colour, lw=0.5)
-            above.set_title(f"{trial.name}: {LABELS[sensor]}", fontsize=9, loc="left")
+            above.set_title(in_figure(f"{trial.name}: {LABELS[sensor]}"), fontsize=9, loc="left")
             below.set(ylabel="residual / σ", xlabel="time, s")
             below.set_ylim(*_limits_of(below))
     axes[0, 0].legend(fontsize=8)

@@ -40,6 +40,11 @@ FIELDS = [
     (lambda c: c["trials"].append({"file": "turns.csv"}), r"trials.2.file: 'turns.csv' is named twice"),
     (lambda c: c["trials"].append({"file": "../turns.csv"}), r"trials.2.file.*in the folder"),
     (lambda c: c["trials"].append({"file": "/etc/hosts"}), r"trials.2.file.*in the folder"),
+    (lambda c: c["trials"].append({"file": ""}), r"trials.2.file: .*letters"),
+    (lambda c: c["trials"].append({"file": "."}), r"trials.2.file: .*letters"),
+    (lambda c: c["trials"].append({"file": "a\nb.csv"}), r"trials.2.file: .*control characters"),
+    (lambda c: c["trials"].append({"file": "x" * 201}), r"trials.2.file: .*at most 200 bytes"),
+    (lambda c: c["trials"].append({"file": "a\0b.csv"}), r"control characters"),
     (
         lambda c: c["trials"].append({"file": "C:\\turns.csv"}),
         r"trials.2.file.*in the folder",
@@ -86,11 +91,11 @@ def test_a_good_rig_yaml_is_read_as_it_stands(log):
 
 YAMLS = [
     ("", "expected a mapping"),
-    ("a: 1\nneedle: {x: 1}\na: 2\n", "line 3: 'a' is there twice"),
-    ("needle: &n {diameter_mm: 1}\n", "line 1.*anchor or alias 'n'"),
+    ("a: 1\nneedle: {x: 1}\na: 2\n", "line 3: .*not twice, found 'a'; remove"),
+    ("needle: &n {diameter_mm: 1}\n", "line 1.*anchor or alias, found 'n'"),
     ("a: " + "[" * 500 + "]" * 500, "at most 10 levels"),
     ("a: !!python/name:os.system\n", "readable YAML"),
-    ("x" * 300_000, "at most 200000 bytes"),
+    ("x" * 1_100_000, "at most 1000000 bytes"),
 ]
 
 

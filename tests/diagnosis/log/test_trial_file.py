@@ -3,8 +3,9 @@
 import time
 
 import numpy as np
+import pandas as pd
 import pytest
-from analytic_log import TURNS, at, change_text, change_trial, refusal
+from analytic_log import TURNS, at, change_rig, change_text, change_trial, refusal
 
 from diagnosis.criteria import MOST_ROWS
 from diagnosis.log.rig_log import read_rig_log
@@ -110,3 +111,29 @@ def test_what_is_wrong_with_a_trial_is_named(log, change, said):
     change_trial(log, change)
     with pytest.raises(UnusableLog, match=f"(?s)turns.csv.*{said}"):
         read_trial(log / "turns.csv")
+
+
+@pytest.mark.parametrize("pause_s", [1e6, 1e10])
+def test_a_pause_that_cannot_be_replayed_is_refused_with_what_it_would_cost(log, pause_s):
+    def paused(t):
+        t.loc[300:, "time_s"] += pause_s
+        return t
+
+    change_trial(log, paused)
+    said = refusal(log)
+    assert "line 302, column 'time_s'" in said
+    assert "make two trials of it" in said
+    assert f"{pause_s / 0.01:.3g} steps" in said
+
+
+def test_a_pause_of_minutes_is_read(log):
+    change_trial(log, lambda t: t.assign(time_s=t["time_s"] + 300.0 * (t.index >= 300)))
+    assert np.diff(read_rig_log(log).trials[0]["time_s"]).max() == pytest.approx(300.01)
+
+
+@pytest.mark.parametrize("ending", ["zip", "xz", "tar", "zst", "gz", "bz2"])
+def test_a_text_file_is_read_as_text_whatever_its_name_ends_in(log, ending):
+    expected = read_rig_log(log).trials[0].table
+    (log / "turns.csv").rename(log / f"turns.{ending}")
+    change_rig(log, lambda c: c["trials"][0].update(file=f"turns.{ending}"))
+    pd.testing.assert_frame_equal(read_rig_log(log).trials[0].table, expected)

@@ -98,3 +98,21 @@ def test_what_cannot_be_made_is_named_before_anything_is_written(tmp_path, how, 
 def test_a_folder_is_never_overwritten(made):
     with pytest.raises(FileExistsError):
         make_logs(made, seed=3, count=1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"count": -3}, "count: expected at least 1 log"),
+        ({"count": 0}, "count: expected at least 1"),
+        ({"count": 10**9}, "count: expected at most 100000"),
+        ({"seed": -1}, "seed: expected 0"),
+        ({"seed": 2**64}, "seed: expected 0"),
+        ({"signature": (1.0, float("inf"))}, "signature"),
+        ({"signature": (float("nan"), 2.0)}, "signature"),
+    ],
+)
+def test_what_cannot_be_made_is_refused_before_a_folder_is(tmp_path, changes, said):
+    with pytest.raises(ValueError, match=said):
+        make_logs(tmp_path / "set", **({"seed": 1, "count": 1} | changes))
+    assert not (tmp_path / "set").exists()

@@ -50,3 +50,25 @@ def test_an_entry_that_lacks_a_key_is_refused_by_its_name(written, entry):
     text = json.dumps({"case_001": GOOD, "case_002": entry})
     with pytest.raises(InvalidValue, match=r"answers\.json: case_002: expected an object with verdict"):
         read_answers(written(text))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"verdict": 3}, r"case_001\.verdict"),
+        ({"effects": "coulomb_friction"}, r"case_001\.effects: expected a list"),
+        ({"effects": [[]]}, r"case_001\.effects: expected a list"),
+        ({"parameters": []}, r"case_001\.parameters: expected an object"),
+        ({"parameters": {"tip_drag": 3}}, r"case_001\.parameters\.tip_drag: expected an object"),
+        ({"parameters": {"tip_drag": {"damping": "much"}}}, r"parameters\.tip_drag: .*of numbers"),
+        ({"signature": {"tip_drag": None}}, r"case_001\.signature"),
+    ],
+)
+def test_a_value_of_another_kind_is_named(written, change, said):
+    with pytest.raises(InvalidValue, match=said):
+        read_answers(written(json.dumps({"case_001": GOOD | change})))
+
+
+def test_bytes_and_brackets_without_end_are_no_json(written):
+    with pytest.raises(InvalidValue, match="no JSON"):
+        read_answers(written("[" * 100_000))

@@ -1,0 +1,45 @@
+"""Names that become files: a protocol's, a trial's. What cannot be one is refused when it is read."""
+
+from pathlib import Path
+
+from models.errors import InvalidValue
+from models.user_text import unprintable
+
+MOST_BYTES = 200
+"""Physical: file systems take names of 255 bytes; a temporary name and an ending come on top."""
+
+
+def refuse_no_file_name(field: str, name: str) -> None:
+    """Check that a name is one of a file, and of no folder above or below.
+
+    Raises:
+      InvalidValue: names the field, what was found and how to fix it.
+    """
+    expected = "a name that a file may have"
+    if not name.strip() or name in (".", ".."):
+        raise InvalidValue(field, name, expected, "give it a name of letters and digits")
+    if "/" in name or "\\" in name:
+        raise InvalidValue(field, name, expected, "take the slashes out: a name is no path")
+    if unprintable(name) or "\n" in name or "\t" in name:
+        raise InvalidValue(field, name, expected, "take the control characters out")
+    size = len(name.encode("utf-8"))
+    if size > MOST_BYTES:
+        raise InvalidValue(
+            field, name, f"{expected}, of at most {MOST_BYTES} bytes, not {size}", "shorten it"
+        )
+
+
+def is_file(path: Path) -> bool:
+    """Whether there is such a file; what no file system can have is not there."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def is_folder(path: Path) -> bool:
+    """Whether there is such a folder; what no file system can have is not there."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
