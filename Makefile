@@ -43,6 +43,10 @@ format: $(STAMP)
 bench: $(STAMP)
 	CI=1 $(BIN)/python -m benchmarks.run --out out/bench
 
+docs: $(STAMP)
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs out/docs
+	@echo "wrote      out/docs/index.html"
+
 package: $(STAMP)
 	.ci/package $(BIN)/python out/dist
 

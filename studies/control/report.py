@@ -7,15 +7,15 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
-import pandas as pd
 from matplotlib.figure import Figure
 
 from models.drive import DriveKind
 from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.files import refuse_existing, write_text, writing
+from sim.recording.html_table import html_table
 from studies.control import tables
-from studies.control.comparison import StepResponse, as_row
+from studies.control.comparison import StepResponse, as_row, response_table
 from studies.control.steering.steering_figures import draw_planes, draw_steered
 from studies.control.steering.steering_report import steering_json
 from studies.control.steering.steering_study import SteeringStudy
@@ -30,6 +30,10 @@ FILES = (
     "steered.png",
     "planar.png",
 )
+_IN_A_NOTEBOOK = (
+    *("depth_cm", "free_mm", "controller", "settle_s", "published_settle_s"),
+    *("integral_deg_s", "published_integral_deg_s", "overshoot_deg", "failed"),
+)
 _SHOWN = ("base_only", "base_only_at_limit", "feedforward", "feedback", "lqr", "least_time")
 
 
@@ -40,6 +44,13 @@ class ControlStudy:
     tables: list[StepResponse]
     robustness: list[StepResponse]
     steering: SteeringStudy
+
+    def _repr_html_(self) -> str:
+        """Tables IV and V, for a notebook."""
+        return html_table(
+            "Tables IV and V: steps of 90 deg on the MuJoCo needle",
+            response_table(self.tables)[[*_IN_A_NOTEBOOK]],
+        )
 
     def as_json(self) -> dict[str, Any]:
         """`table_iv`, `table_v`, `steered_mm` and the rest, in plain values."""
@@ -109,8 +120,7 @@ def write_study(study: ControlStudy, folder: Path, *, force: bool = False) -> li
     refuse_existing(paths, force=force)
     write_text(paths[0], json.dumps(study.as_json(), indent=1, allow_nan=False), force=force)
     for path, responses in ((paths[1], study.tables), (paths[2], study.robustness)):
-        rows = pd.DataFrame([as_row(o) for o in responses])
-        write_text(path, rows.to_csv(index=False), force=force)
+        write_text(path, response_table(responses).to_csv(index=False), force=force)
     figures = (_draw_turns(study), draw_steered(study.steering), draw_planes(study.steering))
     for path, figure in zip(paths[3:], figures, strict=True):
         with writing(path, force=force) as part:
