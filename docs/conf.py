@@ -12,6 +12,7 @@ sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 from commands import commands_page  # noqa: E402 - beside this file
 
+from models.record import Record  # noqa: E402
 from scripts.main import parser  # noqa: E402
 
 project = "needle-torsion"
@@ -21,6 +22,9 @@ html_theme = "furo"
 html_title = project
 html_show_sphinx = False
 html_copy_source = False
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+smartquotes = False  # two hyphens begin an option
 myst_heading_anchors = 4
 default_role = "code"  # docstrings mark code as Markdown does
 autodoc_member_order = "bysource"
@@ -51,7 +55,18 @@ def _is_page(folder: Path, link: str) -> bool:
     return target.is_relative_to(HERE)
 
 
+def name_fields(
+    app: Sphinx, what: str, name: str, of: object, options: object, signature: str, returns: str
+) -> tuple[str, str] | None:
+    """Records by the names of their fields, which say the units; what is left out has a default."""
+    if not (isinstance(of, type) and issubclass(of, Record)):
+        return None
+    fields = [n if field.is_required() else f"{n}=..." for n, field in of.model_fields.items()]
+    return f"(*, {', '.join(fields)})", ""
+
+
 def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
+    app.connect("autodoc-process-signature", name_fields)
     app.connect("source-read", prepare_page)
     app.add_lexer("csv", TextLexer)
