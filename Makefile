@@ -5,14 +5,14 @@ STAMP := .venv/.installed
 # Tests over two processes; those that share a fixture stay together.
 SPREAD := -n 2 --dist loadgroup
 
-.PHONY: setup compiled demo test quick fuzz coverage check format bench clean
+.PHONY: setup compiled demo test quick fuzz coverage check format bench docs package clean
 
 setup: $(STAMP)
 
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade pip
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[dev]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[dev,docs]"
 	touch $(STAMP)
 
 demo: $(STAMP)
@@ -46,6 +46,13 @@ format: $(STAMP)
 
 bench: $(STAMP)
 	CI=1 $(BIN)/python -m benchmarks.run --out out/bench
+
+docs: $(STAMP)
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs out/docs
+	@echo "wrote      out/docs/index.html"
+
+package: $(STAMP)
+	.ci/package $(BIN)/python out/dist
 
 clean:
 	rm -rf .venv out *.egg-info

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import pandas as pd
+
 from diagnosis.assessment.assess import Assessment
 from diagnosis.log.rig_log import RigLog
 from diagnosis.prepare.noise.sensor_noise import Noise
@@ -9,6 +11,7 @@ from diagnosis.replay.replay import Prediction
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.verdict import Verdict
 from diagnosis.stopping import EarlyStop
+from sim.recording.html_table import html_table
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +42,30 @@ class Diagnosis:
             *self._failures,
             *self.assessment.warnings,
         )
+
+    def _repr_html_(self) -> str:
+        """Verdict, parameters and warnings, for a notebook; the report has all of it."""
+        tables = [html_table(self._in_short, self._parameters)]
+        if self.warnings:
+            tables.append(html_table("warnings", pd.DataFrame({"": self.warnings})))
+        return "".join(tables)
+
+    @property
+    def _in_short(self) -> str:
+        verdict, gap = self.verdict, self.assessment.gap
+        early = f"stopped early ({self.stopped.why}), best so far: " if self.stopped else ""
+        named = " ".join([verdict.kind.value, " + ".join(verdict.effects)]).strip()
+        return f"{early}{named}; residual {gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
+
+    @property
+    def _parameters(self) -> pd.DataFrame:
+        rows = {
+            f"{effect} {name}": (p.value, p.low, p.high, p.unit)
+            for effect, own in self.assessment.parameters.items()
+            for name, p in own.items()
+        }
+        columns = ["value", "low, 95 %", "high, 95 %", "unit"]
+        return pd.DataFrame.from_dict(rows, orient="index", columns=columns)
 
     @property
     def _failures(self) -> tuple[str, ...]:

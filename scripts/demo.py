@@ -26,7 +26,9 @@ from sim.simulation import prepare_processes
 from studies.crosscheck.report import cross_check, write_report
 from studies.crosscheck.report import output_paths as check_paths
 
-EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+_PLACES = [folder / "examples" for folder in Path(__file__).resolve().parents[:2]]
+EXAMPLES = next(place for place in _PLACES if place.is_dir())
+"""Beside this file where installed, one folder higher in the repository."""
 EXAMPLE, DRY = EXAMPLES / "rig-log", EXAMPLES / "rig-log-dry"
 _STAGES = 5
 

@@ -21,6 +21,7 @@ from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
 from sim.files import writing
 from sim.kernel import memory_map
+from sim.recording.html_table import html_table
 from sim.simulation import Run
 
 Array = NDArray[np.float64]
@@ -76,6 +77,14 @@ class Recording:
         """Numbered signals `prefix_000_...`, (N, count)."""
         names = [c for c in self.table.columns if re.match(rf"{prefix}_\d{{3}}_", str(c))]
         return np.asarray(self.table[names], float)
+
+    def _repr_html_(self) -> str:
+        """What was run, and the range of every signal, for a notebook."""
+        time = self["time_s"]
+        what = self.parameters.get("description") or self.parameters.get("protocol") or "a recording"
+        ranges = {n: (self[n].min(), self[n].max(), self[n][-1]) for n in self.names[1:]}
+        shown = pd.DataFrame.from_dict(ranges, orient="index", columns=["least", "greatest", "last"])
+        return html_table(f"{what}: {time.size} samples, {time[0]:g} to {time[-1]:g} s", shown)
 
     def write(self, path: Path, *, force: bool = False) -> None:
         """Write as CSV or Parquet, by the ending of the path.

@@ -6,8 +6,11 @@ about 0.3 s, to which the paper's own improvements refer.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
+
+import pandas as pd
 
 from models import published
 from models.tissue import Tissue
@@ -178,3 +181,8 @@ def as_row(response: StepResponse) -> dict[str, Any]:
     """The metrics in plain values, by the names of the CSV's columns."""
     failed = {"failed": "; ".join(response.failures)}
     return asdict(response) | {"worse_than_none": response.worse_than_none} | failed
+
+
+def response_table(responses: Sequence[StepResponse]) -> pd.DataFrame:
+    """The metrics as a table, one row per response."""
+    return pd.DataFrame([as_row(response) for response in responses])

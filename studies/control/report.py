@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
-import pandas as pd
 from matplotlib.figure import Figure
 
 from models.drive import DriveKind
 from models.materials import tissue_named
 from models.statespace import hankel_ratios
 from sim.files import ResultSet, write_text
+from sim.recording.html_table import html_table
 from studies.control import tables
-from studies.control.comparison import StepResponse, as_row
+from studies.control.comparison import StepResponse, as_row, response_table
 from studies.control.steering.steering_figures import draw_planes, draw_steered
 from studies.control.steering.steering_report import steering_json
 from studies.control.steering.steering_study import SteeringStudy
@@ -32,6 +32,10 @@ FILES = (
     "steered.png",
     "planar.png",
 )
+_IN_A_NOTEBOOK = (
+    *("depth_cm", "free_mm", "controller", "settle_s", "published_settle_s"),
+    *("integral_deg_s", "published_integral_deg_s", "overshoot_deg", "failed"),
+)
 _SHOWN = ("base_only", "base_only_at_limit", "feedforward", "feedback", "lqr", "least_time")
 
 
@@ -42,6 +46,13 @@ class ControlStudy:
     tables: list[StepResponse]
     robustness: list[StepResponse]
     steering: SteeringStudy
+
+    def _repr_html_(self) -> str:
+        """Tables IV and V, for a notebook."""
+        return html_table(
+            "Tables IV and V: steps of 90 deg on the MuJoCo needle",
+            response_table(self.tables)[[*_IN_A_NOTEBOOK]],
+        )
 
     def as_json(self) -> dict[str, Any]:
         """`table_iv`, `table_v`, `steered_mm` and the rest, in plain values."""
@@ -106,8 +117,7 @@ def write_study(study: ControlStudy, results: ResultSet, folder: Path) -> None:
     told, turns, robustness, *pictures = (folder / name for name in FILES)
     write_text(results.at(told), json.dumps(study.as_json(), indent=1, allow_nan=False))
     for path, responses in ((turns, study.tables), (robustness, study.robustness)):
-        rows = pd.DataFrame([as_row(o) for o in responses])
-        write_text(results.at(path), rows.to_csv(index=False))
+        write_text(results.at(path), response_table(responses).to_csv(index=False))
     figures: tuple[Callable[[], Figure], ...] = (
         partial(_draw_turns, study),
         partial(draw_steered, study.steering),

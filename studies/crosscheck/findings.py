@@ -5,6 +5,10 @@ from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
+import pandas as pd
+
+from sim.recording.html_table import html_table
+
 
 def _or_none(value: Any) -> Any:
     """JSON has no NaN: what does not exist is null."""
@@ -103,6 +107,14 @@ class Findings:
     def passed(self) -> bool:
         """Whether every bound holds."""
         return all(check.passed for check in self.checks)
+
+    def _repr_html_(self) -> str:
+        """Every bound, for a notebook."""
+        rows = {
+            c.name: (c.value, c.bounds, c.unit, "holds" if c.passed else "fails") for c in self.checks
+        }
+        shown = pd.DataFrame.from_dict(rows, orient="index", columns=["measured", "must be", "unit", ""])
+        return html_table("every bound holds" if self.passed else "a bound fails", shown)
 
     def as_json(self) -> dict[str, Any]:
         """Plain values: `passed`, `poles`, `checks`, `comparisons`."""

@@ -39,3 +39,11 @@ def test_warnings_are_those_of_the_log_of_noise_of_the_search_and_of_the_replay(
     )
     first, second, _, last = found.warnings
     assert (first, second, last) == ("log", "noise", "replay")
+
+
+def test_a_notebook_shows_verdict_parameters_and_warnings_and_escapes_them(dry):
+    shown = replace(dry.found, log=replace(dry.log, warnings=("<script>",)))._repr_html_()
+    assert "explained coulomb_friction" in shown
+    assert "<th>coulomb_friction level</th>" in shown
+    assert "&lt;script&gt;" in shown
+    assert "<script>" not in shown

@@ -9,12 +9,36 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
 from diagnosis.workers import Heard, Task, process_pool, unheard
 from models.errors import NeedleError
 from sim.files import Destination, write_text
+from validation.score.answers import read_answers
+from validation.score.scores import read_scores, reports_in
+
+
+def score_logs(
+    folder: Path, *, workers: int = 2, trials: int | None = None, limit_s: float | None = None
+) -> pd.DataFrame:
+    """Diagnose the logs of a folder that have no report yet, then compare with the ground truth.
+
+    Args:
+      folder: with `logs/` and `answers/`, as `make_logs` writes them.
+
+    Returns:
+      One row per log, as `read_scores`.
+
+    Raises:
+      InvalidValue: the ground truth is unusable; that is seen before anything is diagnosed.
+    """
+    read_answers(folder)
+    reports = reports_in(folder, trials, limit_s)
+    diagnose_all(folder / "logs", reports, workers=workers, trials=trials, limit_s=limit_s)
+    return read_scores(folder, trials, limit_s)
 
 
 def diagnose_all(

@@ -1,5 +1,7 @@
 """Recordings on disk: complete, exact, never over somebody's data."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -77,3 +79,12 @@ def test_a_recording_says_everything_that_the_run_depended_on(recording):
     assert recording.parameters["mesh"] == "tissue"
     assert recording.parameters["discretisation"]["slip"] == "material"
     assert recording.parameters["needle"]["shear_modulus_gpa"] == 27.2
+
+
+def test_a_notebook_shows_what_was_run_and_escapes_it(recording):
+    evil = replace(recording, parameters={"description": "<script>"})
+    shown = evil._repr_html_()
+    assert "&lt;script&gt;" in shown
+    assert "<script>" not in shown
+    assert all(f"<th>{name}</th>" in shown for name in recording.names[1:])
+    assert f"{recording['tip_angle_deg'][-1]:.4g}" in shown

@@ -7,7 +7,7 @@ import pytest
 
 from models.materials import tissue_named
 from studies.control import comparison
-from studies.control.comparison import as_row, better_percent, compare
+from studies.control.comparison import as_row, better_percent, compare, response_table
 from studies.control.tables import CONTROLLERS
 
 VISCOUS = tissue_named("viscous-plastisol")
@@ -111,3 +111,9 @@ def test_without_the_baselines_nothing_is_said_of_the_same_limits():
     )[0]
     assert math.isnan(alone.settle_better_same_limits)
     assert alone.settle_better == 0.0
+
+
+def test_responses_are_a_table_with_a_row_each(at_10_cm):
+    table = response_table([*at_10_cm.values()])
+    assert list(table["controller"]) == list(at_10_cm)
+    assert list(table.columns) == list(as_row(at_10_cm["feedforward"]))

@@ -54,3 +54,9 @@ def test_hankel_values_fall_and_four_of_them_hold_nearly_everything():
     assert ratios[0] == 1.0
     assert sum(ratios[3:]) < 0.01 * sum(ratios)
     assert closed_form_needle(200.0, 0.0, DriveKind.TORQUE).inserted_mm == 200.0
+
+
+def test_a_notebook_shows_tables_iv_and_v(small):
+    shown = small._repr_html_()
+    assert "feedforward" in shown
+    assert "0.67" in shown  # published for the base alone, 5 cm deep

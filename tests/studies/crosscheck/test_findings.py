@@ -56,3 +56,13 @@ def test_every_pole_says_its_source_as_a_plain_word():
         json.loads(json.dumps(Findings(poles=[POLE]).as_json()))["poles"][0]["source"] == "first_order"
     )
     assert [source.words for source in PoleSource] == ["second order", "first order", "native"]
+
+
+def test_a_notebook_shows_every_bound_and_whether_it_holds():
+    good, bad = (Check(name=f"<{v}>", value=v, unit="-", high=1) for v in (0.5, 1.5))
+    assert "every bound holds" in Findings(checks=[good])._repr_html_()
+    shown = Findings(checks=[good, bad])._repr_html_()
+    assert "a bound fails" in shown
+    assert all(
+        text in shown for text in ("&lt;0.5&gt;", "&lt;1.5&gt;", "<td>holds</td>", "<td>fails</td>")
+    )

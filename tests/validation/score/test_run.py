@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
-from models.errors import UnsafeOutput
+from models.errors import InvalidValue, UnsafeOutput
 from scripts import blind
 from validation.score import run
-from validation.score.run import diagnose_all
+from validation.score.run import diagnose_all, score_logs
 
 
 @pytest.fixture
@@ -83,3 +83,16 @@ def test_reports_hold_no_ground_truth(folder):
     """The diagnosis is given a log's folder alone."""
     for path in (folder / "reports").iterdir():
         assert not {"kind", "signature", "answer"} & json.loads(path.read_text()).keys()
+
+
+def test_unusable_ground_truth_is_seen_before_anything_is_diagnosed(unusable):
+    (unusable / "answers").mkdir()
+    (unusable / "answers" / "answers.json").write_text("{}")
+    with pytest.raises(InvalidValue, match="answers.json"):
+        score_logs(unusable)
+    assert not (unusable / "reports").exists()
+
+
+def test_logs_are_diagnosed_and_compared_in_one_call(folder, scores):
+    """Reports that exist are kept, so this takes no time."""
+    assert score_logs(folder).equals(scores)

@@ -1,0 +1,37 @@
+"""A lab's files as a log, in one call: what `needle import --map` does."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from diagnosis.lab_files.read_mapping import read_mapping
+from diagnosis.lab_files.readers.read import read_lab_files
+from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log
+from diagnosis.log.rig_log import RigLog, read_rig_log
+
+
+def import_log(
+    files: Sequence[Path],
+    mapping: Path,
+    folder: Path,
+    *,
+    accept_guesses: bool = False,
+    force: bool = False,
+) -> RigLog:
+    """Write files as a rig-log/1 folder by a confirmed mapping, and read that.
+
+    Args:
+      files: CSV or other text, Parquet, MAT, MCAP.
+      mapping: a `mapping.yaml`, as `needle import` drafts it.
+      folder: where `rig.yaml` and the trials go.
+      accept_guesses: take what a draft guessed for confirmed.
+      force: replace a log that exists; an input is never replaced.
+
+    Raises:
+      InvalidValue: names the file, the column, or what the mapping leaves open.
+      OutputExists: a file exists and `force` is not given.
+      UnusableLog: the log cannot be used.
+    """
+    told, lab_files = read_mapping(mapping, accept_guesses=accept_guesses), read_lab_files(files)
+    refuse_to_overwrite(log_paths(told, folder), [mapping, *files], force=force)
+    write_log(told, imported(told, lab_files), folder, force=force)
+    return read_rig_log(folder)
