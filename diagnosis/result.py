@@ -1,6 +1,7 @@
 """Everything that a report is made of."""
 
 from dataclasses import dataclass
+from datetime import date
 
 from diagnosis.assessment.assess import Assessment
 from diagnosis.log.rig_log import RigLog
@@ -19,6 +20,7 @@ class Diagnosis:
       nominal: readings that the nominal rig predicts, at the samples of the log, by trial.
       record: of the search, stage by stage.
       stopped: what a stop left out; None: it went to its end.
+      diagnosed_on: the day of the diagnosis, as whoever asked for it says; None: not said.
     """
 
     log: RigLog
@@ -28,6 +30,7 @@ class Diagnosis:
     assessment: Assessment
     record: tuple[RecordEntry, ...]
     stopped: EarlyStop | None = None
+    diagnosed_on: date | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -49,15 +49,18 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
     """What to change where the log is explained, and what would make it surer."""
     remedy = remedies(verdict.effects, parameters, problem.log.rig)
     if verdict.confusable:
-        both = " from ".join(_or(verdict.confusable))
-        return f"{check_that_tells(verdict.confusable)}, to tell {both}; if it is the first, {remedy}"
-    return "; ".join(filter(None, (f"{remedy}, and diagnose a new log", _narrowed(problem, verdict))))
+        first, *others = (_together(names) for names in verdict.confusable)
+        return (
+            f"{check_that_tells(verdict.confusable)}: that tells {first} from {', or '.join(others)}; "
+            f"if it is the former, {remedy}"
+        )
+    again = "then record and diagnose once more"
+    return "; ".join(filter(None, (remedy, again, _narrowed(problem, verdict))))
 
 
-def _or(sets: Sequence[Sequence[str]]) -> tuple[str, str]:
-    """The first of several sets, and the others."""
-    first, *others = (" with ".join(LIBRARY[name].title for name in names) for names in sets)
-    return first, " or ".join(others)
+def _together(names: Sequence[str]) -> str:
+    """A set of effects in plain words."""
+    return " together with ".join(LIBRARY[name].title for name in names) or "the nominal rig"
 
 
 def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
@@ -72,7 +75,7 @@ def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
         return f"no single run that this rig can do would narrow the interval of {name} by a tenth"
     return (
         f"to know {name} better, {found.experiment.words}: that would narrow its interval to about "
-        f"{100 * found.factor:.0f} %"
+        f"{100 * found.factor:.0f} % of what it is"
     )
 
 

@@ -100,4 +100,5 @@ def _outlook(problem: FitProblem, trial: PreparedTrial, fit: Fit) -> tuple[Array
 
 def _root(fit: Fit) -> Array:
     """A root L of the covariance of a fit's vector, L L' = C, (n, n)."""
-    return np.linalg.cholesky(np.linalg.pinv(information(fit)) + 1e-12 * np.eye(fit.x.size))
+    spread = np.linalg.pinv(information(fit)) + 1e-12 * np.eye(fit.x.size)
+    return np.asarray(np.linalg.cholesky(spread), float)
