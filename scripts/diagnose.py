@@ -28,7 +28,7 @@ from scripts.stop_signals import EXIT_CODES, stops_on_signals
 from sim.files import refuse_existing
 from sim.simulation import prepare_processes
 
-_REPORT_LEAST_S = 3.0  # kept of a limit for the report
+_REPORT_LEAST_S = 4.0  # kept of a limit for the report
 _REPORT_STARTS = 1.5  # times what Python took to start: on a busy machine both are slow
 
 
