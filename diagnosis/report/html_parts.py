@@ -8,10 +8,12 @@ from collections.abc import Iterable, Sequence
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from PIL import Image
 
 from diagnosis.report.html_style import STYLE
 
 _DPI = 100
+_COLOURS = 64  # of lines and letters: a third of the bytes that all colours take
 _WIDE_AT = 8.5  # inches: wider pictures scroll on a phone, so that their words stay readable
 
 
@@ -89,12 +91,19 @@ def picture(figure: Figure, alt: str = "") -> str:
     """
     width, height = (round(_DPI * side) for side in figure.get_size_inches())
     wide = " wide" if width > _DPI * _WIDE_AT else ""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, dpi=_DPI, format="png")
+    data = base64.b64encode(_png(figure)).decode()
     plt.close(figure)
-    data = base64.b64encode(buffer.getvalue()).decode()
     image = (
         f'<img alt="{html.escape(alt)}" width="{width}" height="{height}" '
         f'src="data:image/png;base64,{data}">'
     )
     return f'<figure class="scroll{wide}" tabindex="0" aria-label="Picture">{image}</figure>'
+
+
+def _png(figure: Figure) -> bytes:
+    """A picture of few colours."""
+    whole, small = io.BytesIO(), io.BytesIO()
+    figure.savefig(whole, dpi=_DPI, format="png")
+    drawn = Image.open(whole).convert("RGB")
+    drawn.quantize(_COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(small, "png")
+    return small.getvalue()

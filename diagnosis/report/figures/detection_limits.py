@@ -19,12 +19,12 @@ class LimitShare:
     """A detection limit as a share of something that the rig has.
 
     Attributes:
-      percent: of `reference`; infinite: any strength may go unseen.
+      share_percent: of `reference`; infinite: any strength may go unseen.
       reference: in words.
     """
 
     effect: str
-    percent: float
+    share_percent: float
     reference: str
 
 
@@ -34,19 +34,23 @@ def limit_shares(found: Diagnosis) -> list[LimitShare]:
     shares = [
         _share(name, values, references) for name, values in found.assessment.detection_limits.items()
     ]
-    return sorted(shares, key=lambda one: one.percent)
+    return sorted(shares, key=lambda one: one.share_percent)
 
 
 def draw_limits(found: Diagnosis) -> Figure:
     """A bar for each effect, as long as what may go unseen."""
-    shares = [one for one in limit_shares(found) if math.isfinite(one.percent)]
+    shares = [one for one in limit_shares(found) if math.isfinite(one.share_percent)]
     figure, axis = plt.subplots(figsize=(WIDE, 1.0 + 0.27 * len(shares)), layout="constrained")
-    rows, percent = np.arange(len(shares)), np.array([one.percent for one in shares])
+    rows, percent = np.arange(len(shares)), np.array([one.share_percent for one in shares])
     lowest = 10.0 ** math.floor(math.log10(max(percent.min(initial=1.0), 1e-6)))
     axis.barh(rows, percent - lowest, left=lowest, color=PREDICTIONS["nominal"], height=0.6)
     for row, one in enumerate(shares):
         axis.text(
-            1.1 * one.percent, row, f"{one.percent:.2g} % of {one.reference}", va="center", fontsize=8
+            1.1 * one.share_percent,
+            row,
+            f"{one.share_percent:.2g} % of {one.reference}",
+            va="center",
+            fontsize=8,
         )
     axis.set_yticks(rows, [one.effect for one in shares], fontsize=9)
     axis.invert_yaxis()
@@ -60,8 +64,8 @@ def describe_limits(found: Diagnosis) -> str:
     """The picture in words."""
     shares = limit_shares(found)
     told = "; ".join(
-        f"{one.effect} {one.percent:.2g} % of {one.reference}"
-        if math.isfinite(one.percent)
+        f"{one.effect} {one.share_percent:.2g} % of {one.reference}"
+        if math.isfinite(one.share_percent)
         else f"{one.effect} any strength"
         for one in shares
     )
@@ -75,9 +79,9 @@ def _share(
     own = {p.name: p for p in LIBRARY[name].parameters if p.neutral is not None}
     each = [(_percent(own[p], v, references), own[p].unit) for p, v in values.items() if p in own]
     if not each:
-        return LimitShare(effect=name, percent=math.inf, reference="")
+        return LimitShare(effect=name, share_percent=math.inf, reference="")
     percent, unit = max(each)
-    return LimitShare(effect=name, percent=percent, reference=references[unit][1])
+    return LimitShare(effect=name, share_percent=percent, reference=references[unit][1])
 
 
 def _percent(parameter: Parameter, value: float, references: Mapping[str, tuple[float, str]]) -> float:

@@ -23,7 +23,7 @@ SECTIONS = [
     "Sensors and numerical error",
     "The rig and its trials",
 ]
-MOST_BYTES = 3e6
+MOST_BYTES = 1e6
 
 
 @pytest.fixture(scope="session")
