@@ -453,6 +453,15 @@ ALMOST_NOTHING_SIGMA = 0.01
 leaves above the noise."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
+CONFIDENCE = 0.95
+"""Of the joint region of two parameters, as of every interval."""
+CERTAIN_PROBABILITY = 0.999
+SHOWN_PROBABILITY = 0.0005
+"""Probabilities above the first are told as that, as no library has everything; those below the second,
+which rounds to 0.000, are not told."""
+WORTH_A_RUN = 0.9
+"""Times its interval to which a further run has to bring a parameter to be proposed for that alone: a
+tenth is the least that anybody sees."""
 
 # Stopping early (pipeline.py)
 

@@ -5,6 +5,7 @@ RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -
 
 import time
 from dataclasses import dataclass, replace
+from datetime import date
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +62,7 @@ def diagnose(
     limit_s: float | None = None,
     stop: StopSignal | None = None,
     progress: Watcher = silent,
+    diagnosed_on: date | None = None,
 ) -> Diagnosis:
     """Diagnose a log, to the end or as far as there is time.
 
@@ -69,6 +71,7 @@ def diagnose(
       limit_s: time after which the best so far is told; None: as long as it takes.
       stop: a signal with a limit of its own, which others may give at any time.
       progress: is told how far it is: at every stage and task, and ten times a second between.
+      diagnosed_on: day that the report names; None: none.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
@@ -101,6 +104,7 @@ def diagnose(
         assessment=assessment,
         record=last.record,
         stopped=_early_stop(stop, cut),
+        diagnosed_on=diagnosed_on,
     )
 
 

@@ -1,6 +1,7 @@
 """Everything that a report is made of."""
 
 from dataclasses import dataclass
+from datetime import date
 
 import pandas as pd
 
@@ -22,6 +23,7 @@ class Diagnosis:
       nominal: readings that the nominal rig predicts, at the samples of the log, by trial.
       record: of the search, stage by stage.
       stopped: what a stop left out; None: it went to its end.
+      diagnosed_on: the day of the diagnosis, as whoever asked for it says; None: not said.
     """
 
     log: RigLog
@@ -31,6 +33,7 @@ class Diagnosis:
     assessment: Assessment
     record: tuple[RecordEntry, ...]
     stopped: EarlyStop | None = None
+    diagnosed_on: date | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:

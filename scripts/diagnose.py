@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Iterator, Mapping
+from datetime import date
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +14,10 @@ from rich.text import Text
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.log.rig_log import files_of, read_rig_log
 from diagnosis.pipeline import diagnose
+from diagnosis.report.answer import answer
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sensors import imperfections
-from diagnosis.report.sentences import alike, headline, largest_parts, largest_residual, nearest
+from diagnosis.report.sentences import explanations, largest_parts, largest_residual
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
@@ -28,8 +30,7 @@ from scripts.terminal import terminal
 from sim.files import Destination, finish_interrupted
 from sim.simulation import prepare_processes
 
-_SHOWN = 0.0005  # what rounds to more than 0.000
-_REPORT_LEAST_S = 3.0  # kept of a limit for the report
+_REPORT_LEAST_S = 4.0  # kept of a limit for the report
 _REPORT_STARTS = 1.5  # times what Python took to start: on a busy machine both are slow
 
 
@@ -68,7 +69,7 @@ def run(
     with stops_on_signals(stop):
         try:
             with progress_line(shown, stop) as show:
-                found = diagnose(log, stop=stop, progress=show)
+                found = diagnose(log, stop=stop, progress=show, diagnosed_on=date.today())
         except StoppedEarly as early:
             if not stop.requested:
                 raise
@@ -85,8 +86,9 @@ def run(
 
 def _summary(found: Diagnosis, console: Console) -> None:
     told = found.assessment
-    console.print(Text(headline(found), "bold"))
-    for sentence in filter(None, (alike(found), nearest(found))):
+    what, sure, then = answer(found)
+    console.print(Text(what, "bold"))
+    for sentence in (sure, then):
         console.print(sentence, highlight=False)
     if sentence := imperfections(found):
         console.print(sentence, highlight=False)
@@ -102,8 +104,6 @@ def _summary(found: Diagnosis, console: Console) -> None:
     console.print(_ranking_table(found))
     if told.detection_limits and not found.verdict.effects:
         console.print(_limits_table(found))
-    if told.next_experiment:
-        console.print(f"next: {told.next_experiment}", highlight=False)
     for sentence in unidentifiable(found.log):
         console.print(f"open: {sentence}", highlight=False)
 
@@ -143,7 +143,6 @@ def _limits_table(found: Diagnosis) -> Table:
 
 def _ranking_table(found: Diagnosis) -> Table:
     table = Table("explanation", "probability", title="Ranking")
-    for name, probability in found.verdict.ranking[:5]:
-        if probability >= _SHOWN:
-            table.add_row(name, f"{probability:.3f}")
+    for name, probability in explanations(found)[:5]:
+        table.add_row(name, f"{probability:.3f}")
     return table

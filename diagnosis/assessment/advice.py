@@ -1,33 +1,82 @@
-"""What to run next: where two explanations are left, the run that would tell them apart."""
+"""What to do next, in words.
+
+Where one explanation is left: what to change of rig or model, and the run that would narrow its leading
+parameter. Where several are left: the run or the calibration that would tell them apart.
+"""
 
 from collections.abc import Sequence
 
 from diagnosis.assessment.experiments import experiments, has_axis, sliding_experiments
-from diagnosis.assessment.next_experiment import best_experiment
-from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS
+from diagnosis.assessment.next_experiment import best_experiment, narrowest
+from diagnosis.assessment.remedies import Parameters, check_that_tells, remedies
+from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS, WORTH_A_RUN
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.stopping import stopping
 
 _WITHOUT_AXIS = "at two rates and two amplitudes, with reversals and with rests of two lengths"
 
 
 def advise(
-    problem: FitProblem, verdict: Verdict, nominal: ResidualBreakdown, left: ResidualBreakdown
+    problem: FitProblem,
+    verdict: Verdict,
+    nominal: ResidualBreakdown,
+    left: ResidualBreakdown,
+    parameters: Parameters,
 ) -> str:
-    """A sentence or two; empty where nothing is left to tell apart.
+    """A sentence or two; empty where nothing is left to do.
 
     Args:
       problem: the decimated log, on which runs are simulated.
       nominal: the residual of the nominal rig.
       left: what the best explanation leaves.
+      parameters: of the accepted effects.
     """
-    if verdict.kind is VerdictKind.UNDECIDED:
-        return _tell_apart(problem, verdict)
-    if verdict.kind is VerdictKind.UNKNOWN:
-        return _look_closer(problem, nominal, left)
+    match verdict.kind:
+        case VerdictKind.UNDECIDED:
+            return _tell_apart(problem, verdict)
+        case VerdictKind.UNKNOWN:
+            return _look_closer(problem, nominal, left)
+        case VerdictKind.EXPLAINED:
+            return _change(problem, verdict, parameters)
     return ""
+
+
+def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> str:
+    """What to change where the log is explained, and what would make it surer."""
+    remedy = remedies(verdict.effects, parameters, problem.log.rig)
+    if verdict.confusable:
+        first, *others = (_together(names) for names in verdict.confusable)
+        return (
+            f"{check_that_tells(verdict.confusable)}: that tells {first} from {', or '.join(others)}; "
+            f"if it is the former, {remedy}"
+        )
+    again = "then record and diagnose once more"
+    return "; ".join(filter(None, (remedy, again, _narrowed(problem, verdict))))
+
+
+def _together(names: Sequence[str]) -> str:
+    """A set of effects in plain words."""
+    return " together with ".join(LIBRARY[name].title for name in names) or "the nominal rig"
+
+
+def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
+    """The run that would narrow the leading parameter of the strongest effect; empty: no time."""
+    fit, effect = verdict.best.fit, LIBRARY[verdict.effects[0]]
+    feasible = list(experiments(problem.log)) if not stopping() else []
+    if not feasible:
+        return ""
+    found = narrowest(problem, fit, fit.parameterization.owners.index(effect.name), feasible)
+    name = f"{effect.name} {effect.parameters[0].name}"
+    if found.factor > WORTH_A_RUN:
+        return f"no single run that this rig can do would narrow the interval of {name} by a tenth"
+    return (
+        f"to know {name} better, {found.experiment.words}: that would narrow its interval to about "
+        f"{100 * found.factor:.0f} % of what it is"
+    )
 
 
 def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
@@ -42,7 +91,8 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
         return f"{found.experiment.words}, about {runs:.0f} times: in each run {apart}"
     return _only_sliding(problem, one.fit, other.fit, names) or (
         f"no run that this rig can do would tell {names[0]} from {names[1]}: in the best, "
-        f"{found.experiment.words}, they would lie {found.separation:.2f} standard deviations apart"
+        f"{found.experiment.words}, they would lie {found.separation:.2f} standard deviations apart; "
+        f"measure by itself: {check_that_tells([one.named, other.named])}"
     )
 
 

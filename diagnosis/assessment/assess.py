@@ -1,6 +1,6 @@
 """Everything that is told beside the verdict."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,17 +10,22 @@ from diagnosis.assessment.advice import advise
 from diagnosis.assessment.detection_limits import detection_limits
 from diagnosis.assessment.forward_step import forward_selection, gap_with_one_more, on_decimated
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
-from diagnosis.assessment.intervals import Interval, intervals
+from diagnosis.assessment.intervals import Interval, covariance, intervals
+from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.noise_reestimation import in_units_of
+from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.replay.drift import drift_range_sigma, with_drift
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.twist import ShaftTwist, shaft_twist
+from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
@@ -42,6 +47,7 @@ TO_ITS_END = "diagnose this log to its end first: what was not tried may explain
 """In place of a next experiment where the search was cut short."""
 FINER, REPLICATES = "numerical error", "noise of the base angle in the intervals"
 ONE_MORE, LIMITS, NEXT = "adding another effect", "detection limits", "next experiment"
+TWIST = "twist along the shaft"
 """Parts that a stop leaves out."""
 
 
@@ -56,6 +62,7 @@ class Assessment:
       breakdown_after: of what the nearest explanation leaves.
       shape, shape_after: of the same two residuals.
       parameters: by effect that was accepted.
+      joint: how the parameters of the nearest explanation are uncertain together.
       imperfections: of sensors that the nearest explanation rests on, with their parameters.
       torque_drift_sigma: largest range of the drift within a trial that was allowed for.
       with_one_more: gap that one more effect may bring it down to, by effect.
@@ -64,6 +71,8 @@ class Assessment:
       next_experiment: in words; empty where nothing is left to tell apart.
       numerical_error: of the replay, in sigma, by sensor; empty where there was no time for it.
       explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
+      twist: along the shaft where the residual of the nominal rig is largest, by the nominal rig, with
+        each effect alone and with all; None where there was no time for it.
     """
 
     gap: GapReduction
@@ -73,6 +82,7 @@ class Assessment:
     shape: ResidualShape
     shape_after: ResidualShape
     parameters: dict[str, dict[str, Interval]]
+    joint: JointUncertainty
     imperfections: dict[str, dict[str, Interval]]
     torque_drift_sigma: float
     with_one_more: dict[str, float]
@@ -80,6 +90,7 @@ class Assessment:
     next_experiment: str
     numerical_error: dict[str, float]
     explained: list[Prediction]
+    twist: ShaftTwist | None
     warnings: tuple[str, ...]
 
 
@@ -117,7 +128,8 @@ def assess(
     where = residual_breakdown(before), residual_breakdown(left)
     after, lost = _held_out(problem, near)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
-    own = intervals(problem, near.fit, change, left=_above_noise(near))
+    spread = covariance(problem, near.fit, change, left=_above_noise(near))
+    own = intervals(near.fit, spread)
     if stop.due:
         stop.leave_out(REPLICATES)
     plain = problem.noise.uncoloured
@@ -125,6 +137,9 @@ def assess(
         nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
     )
     named = verdict.effects or strongest_first(problem, near)
+    accepted = {e: p for e, p in own.items() if e in verdict.effects}
+    moment = largest_moment(before)
+    twist = stop.unless_due(TWIST, lambda: _twist(problem, near, named, moment))
     return Assessment(
         gap=gap,
         nearest=nearest_of(near, named, own, gap),
@@ -132,14 +147,18 @@ def assess(
         breakdown_after=where[1],
         shape=residual_shape(before),
         shape_after=residual_shape(left),
-        parameters={e: p for e, p in own.items() if e in verdict.effects},
+        parameters=accepted,
+        joint=joint_uncertainty(near.fit, spread, named),
         imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
         torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,
         detection_limits=limits,
-        next_experiment=_next_experiment(coarse, verdict, where, stop) if complete else TO_ITS_END,
+        next_experiment=_next_experiment(coarse, verdict, where, accepted, stop)
+        if complete
+        else TO_ITS_END,
         numerical_error=error,
         explained=explained,
+        twist=twist,
         warnings=(
             *problem.log.warnings,
             *numerical_warnings(error),
@@ -170,12 +189,37 @@ def _next_experiment(
     coarse: FitProblem,
     verdict: Verdict,
     where: tuple[ResidualBreakdown, ResidualBreakdown],
+    parameters: Mapping[str, Mapping[str, Interval]],
     stop: StopSignal,
 ) -> str:
-    """Only what tells two explanations apart has to be simulated, and takes time."""
+    """Only what tells two explanations apart has to be simulated to say anything, and takes time."""
+    arguments = (coarse, verdict, *where, parameters)
+    if verdict.kind is VerdictKind.EXPLAINED and stop.due:
+        stop.leave_out(NEXT)  # what to change stands; the run that would narrow it is not looked for
     if verdict.kind is not VerdictKind.UNDECIDED:
-        return advise(coarse, verdict, *where)
-    return stop.unless_due(NEXT, lambda: advise(coarse, verdict, *where)) or ""
+        return advise(*arguments)
+    return stop.unless_due(NEXT, lambda: advise(*arguments)) or ""
+
+
+def _twist(
+    problem: FitProblem, near: Candidate, effects: Sequence[str], moment: tuple[str, float]
+) -> ShaftTwist | None:
+    """Along the shaft at a moment, by the nominal rig, with each effect alone and with all."""
+    rigs = {"nominal": NOMINAL}
+    if len(effects) > 1:
+        rigs |= {name: _alone(problem, near, name, effects) for name in effects}
+    rigs["explained"] = near.fit.parameterization.rig(near.fit.x)
+    try:
+        return shaft_twist(problem.log, *moment, rigs, problem.resolution)
+    except SimulationFailed:
+        return None
+
+
+def _alone(problem: FitProblem, near: Candidate, name: str, effects: Sequence[str]) -> RigParameters:
+    """The rig with one of several effects, and with what is open besides."""
+    nuisance = [e for e in near.fit.parameterization.nuisance if e.name not in effects]
+    alone = parameterization_of([name], nuisance, problem.library)
+    return alone.rig(alone.joined({e.name: near.fit.parts[e.name] for e in alone.all}))
 
 
 def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:

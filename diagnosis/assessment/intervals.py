@@ -37,29 +37,38 @@ class Interval:
     unit: str
 
 
-def intervals(
+def covariance(
     problem: FitProblem,
     fit: Fit,
     change: Sequence[Mapping[str, Array]],
     *,
     left: float = 1.0,
-) -> dict[str, dict[str, Interval]]:
-    """By effect and parameter, nuisance included.
+) -> Array:
+    """Covariance of the vector of a fit, (n, n), in the units that it is fitted in.
 
     Args:
       change: of the prediction with a finer replay, / sigma, by trial and sensor; none: not looked at.
       left: by how much the residual is above the noise; noise is taken to be as much larger.
     """
     if fit.x.size == 0:
-        return {}
+        return np.zeros((0, 0))
     inverse = np.asarray(np.linalg.pinv(information(fit)), float)
     again = _shifts(problem, fit, inverse)
     moved = [np.concatenate([*c.values(), _NOTHING]) for c in change]
     finer = _answer(fit, inverse, moved) if moved else np.zeros(fit.x.size)
-    spread = np.sqrt(left**2 * np.diag(inverse) + np.mean(again**2, axis=0) + finer**2)
+    return np.asarray(left**2 * inverse + again.T @ again / len(again) + np.outer(finer, finer))
+
+
+def intervals(fit: Fit, spread: Array) -> dict[str, dict[str, Interval]]:
+    """By effect and parameter, nuisance included.
+
+    Args:
+      spread: covariance of the vector of the fit, (n, n).
+    """
     parameterization = fit.parameterization
     low, high = parameterization.bounds()
-    ends = [np.clip(fit.x + s * INTERVAL_Z * spread, low, high) for s in (-1, 1)]
+    half = INTERVAL_Z * np.sqrt(np.diag(spread))
+    ends = [np.clip(fit.x + s * half, low, high) for s in (-1, 1)]
     values = [parameterization.values(x) for x in (fit.x, *ends)]
     found: dict[str, dict[str, Interval]] = {}
     each = zip(parameterization.owners, parameterization.parameters, *values, strict=True)

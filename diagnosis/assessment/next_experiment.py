@@ -1,4 +1,4 @@
-"""The run that would best tell two explanations apart, found by simulating candidates.
+"""The run that would best tell two explanations apart, or narrow a parameter, by simulating candidates.
 
 A rig can do what its log shows that it can: depths, free lengths, axial speeds and
 rates of turning are taken from there (experiments.py). Each candidate run is predicted by both
@@ -7,7 +7,8 @@ moving its parameters within what the log leaves open, is the expected separatio
 
     sqrt(d' (1 + Ja Ca Ja' + Jb Cb Jb')^-1 d),
 
-in standard deviations of a test between the two.
+in standard deviations of a test between the two. Where one explanation is left, the same slopes say
+what a run would make of the covariance of its parameters: C (1 + J' J C)^-1.
 """
 
 from collections.abc import Iterable
@@ -46,6 +47,28 @@ def best_experiment(
     return max(proposals, key=lambda p: p.separation)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Narrowing:
+    """A run, and to what times its interval it would bring a parameter."""
+
+    experiment: Experiment
+    factor: float
+
+
+def narrowest(problem: FitProblem, fit: Fit, entry: int, feasible: Iterable[Experiment]) -> Narrowing:
+    """Of the runs that the rig can do, the one that narrows one entry of a fit's vector most."""
+    runs = [Narrowing(experiment=e, factor=narrowing(problem, e, fit, entry)) for e in feasible]
+    return min(runs, key=lambda run: run.factor)
+
+
+def narrowing(problem: FitProblem, experiment: Experiment, fit: Fit, entry: int) -> float:
+    """Standard deviation of an entry of the vector after a run, over that before it; 1: no change."""
+    _, slopes = _outlook(problem, experiment.trial, fit)
+    own = _root(fit)[entry]
+    after = np.linalg.solve(np.eye(own.size) + slopes.T @ slopes, own)
+    return float(np.sqrt(max(float(own @ after), 0.0) / float(own @ own)))
+
+
 def separation(problem: FitProblem, experiment: Experiment, one: Fit, other: Fit) -> float:
     """Expected standard deviations between two fits on a run of both sensors that the log has."""
     a, spread_a = _outlook(problem, experiment.trial, one)
@@ -72,5 +95,10 @@ def _outlook(problem: FitProblem, trial: PreparedTrial, fit: Fit) -> tuple[Array
     slopes = [(moved - readings[0]) / _DIFFERENCE for moved in readings[1:]]
     if not slopes:
         return readings[0], np.zeros((readings[0].size, 0))
-    root = np.linalg.cholesky(np.linalg.pinv(information(fit)) + 1e-12 * np.eye(fit.x.size))
-    return readings[0], np.stack(slopes, axis=-1) @ root
+    return readings[0], np.stack(slopes, axis=-1) @ _root(fit)
+
+
+def _root(fit: Fit) -> Array:
+    """A root L of the covariance of a fit's vector, L L' = C, (n, n)."""
+    spread = np.linalg.pinv(information(fit)) + 1e-12 * np.eye(fit.x.size)
+    return np.asarray(np.linalg.cholesky(spread), float)

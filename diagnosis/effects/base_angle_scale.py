@@ -20,4 +20,8 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy="divide the readings of the base's encoder by {scale}, or correct its gear ratio",
+    check=(
+        "turn the shaft of the drive by one full turn, seen by a mark, and compare it with the encoder"
+    ),
 )

@@ -27,4 +27,9 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy=(
+        "put a torsion spring of {stiffness} between drive shaft and needle into the model, or "
+        "stiffen the coupling"
+    ),
+    check="hold the needle right behind the chuck, turn the base, and take torque over angle",
 )

@@ -25,4 +25,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy="add dry friction of {level} along the inserted shaft to the model",
+    check="turn slowly at two steady rates: the part of the torque that both share is dry friction",
 )

@@ -20,4 +20,10 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy="set tissue.damping_n_mm_s_per_mm in rig.yaml to {constant}",
+    corrects="tissue.damping_n_mm_s_per_mm",
+    check=(
+        "turn at two steady rates: the difference of the torques over that of the rates and over "
+        "the inserted length is the damping"
+    ),
 )

@@ -21,4 +21,8 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="base_torque_n_mm",
+    remedy=(
+        "add dry friction of {level} between torque sensor and chuck to the model, or free the bearing"
+    ),
+    check="turn the drive without a needle: what the torque sensor reads is the friction of the bearing",
 )

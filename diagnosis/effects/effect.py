@@ -115,6 +115,10 @@ class Effect:
       differences: that slopes are taken over, in the units of the fit, one fit after the
         other. Where stick and slip make a residual rough, a wide one sees past that.
       trial: the one trial that it is about; empty: all.
+      remedy: what to change of rig or model where it is found, as an order; values of parameters by
+        name in braces, that of `corrects` as {constant}.
+      corrects: constant of rig.yaml whose true value is the nominal one times the first parameter.
+      check: how to measure it by itself, as an order.
     """
 
     name: str
@@ -126,6 +130,9 @@ class Effect:
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
     trial: str = ""
+    remedy: str = ""
+    corrects: str = ""
+    check: str = ""
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

@@ -18,4 +18,6 @@ EFFECT = Effect(
         Parameter(name="offset", unit="mm", low=-40.0, high=40.0, start=(5.0, -5.0), scale=10.0),
     ),
     apply=_apply,
+    remedy="add {offset} to inserted_mm in all trials",
+    check="measure the inserted length by itself: with the tip at the surface, inserted_mm has to be 0",
 )

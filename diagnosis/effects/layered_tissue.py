@@ -29,4 +29,9 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy=(
+        "model two layers of tissue that meet at {boundary} of the inserted length, the deep one "
+        "with {ratio} times the damping of the shallow one"
+    ),
+    check="repeat one turn at several depths: the torque per mm changes where a layer begins",
 )

@@ -35,4 +35,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy="use a straight needle, or add to the model a torque of {torque} times sin(angle - {phase})",
+    check="turn slowly by a full turn: the torque of a bent shaft swings once in a turn",
 )

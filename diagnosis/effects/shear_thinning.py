@@ -32,4 +32,11 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy=(
+        "let the viscous torque of the model grow with the rate to the power of {exponent}, "
+        "nominal at 1 rad/s"
+    ),
+    check=(
+        "turn at three steady rates: on logarithmic axes the slope of torque over rate is the exponent"
+    ),
 )

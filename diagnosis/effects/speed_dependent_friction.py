@@ -25,4 +25,9 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy=(
+        "add to the model dry friction of {level} along the inserted shaft that is shared with "
+        "the axial motion"
+    ),
+    check="repeat one slow turn at rest and while the needle slides",
 )

@@ -61,4 +61,9 @@ EFFECT = Effect(
     apply=_apply,
     contains={"coulomb_friction": _beyond_dry_friction},
     differences=(0.1, 0.03),
+    remedy="add to the model dry friction of {kinetic} that rises to {static} at rates below {stribeck}",
+    check=(
+        "turn at several steady rates, down to the slowest that the drive can hold: the torque "
+        "rises as the rate falls"
+    ),
 )

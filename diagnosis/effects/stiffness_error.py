@@ -20,4 +20,7 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy="set needle.shear_modulus_gpa in rig.yaml to {constant}",
+    corrects="needle.shear_modulus_gpa",
+    check="twist a known length of the shaft in air and take torque over angle",
 )

@@ -17,4 +17,6 @@ EFFECT = Effect(
     parameters=(Parameter(name="bias", unit="deg", low=-60.0, high=60.0, start=(2.0, -2.0)),),
     apply=_apply,
     needs="tip_angle_deg",
+    remedy="subtract {bias} from the readings of the tip sensor",
+    check="read the tip sensor on a relaxed needle: it has to show 0",
 )

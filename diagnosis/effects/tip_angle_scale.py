@@ -21,4 +21,6 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="tip_angle_deg",
+    remedy="calibrate the tip sensor: divide its readings by {scale}",
+    check="turn the needle in air by a known angle and compare it with the tip sensor",
 )

@@ -25,4 +25,6 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy="add viscous drag of {damping} at the tip to the model",
+    check="repeat one fast turn at several depths: drag at the tip does not grow with depth",
 )

@@ -19,4 +19,6 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="tip_angle_deg",
+    remedy="move the readings of the tip sensor {delay} earlier",
+    check="turn the needle in air by a step: the tip follows at once, and what is late is the sensor",
 )

@@ -38,4 +38,8 @@ EFFECT = Effect(
         ),
     ),
     apply=_apply,
+    remedy=(
+        "give the tissue of the model a stiffness of {stiffness} and a time constant of {time_constant}"
+    ),
+    check="turn by a few degrees, hold, and let go: elastic tissue turns the needle back",
 )

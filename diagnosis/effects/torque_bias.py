@@ -19,4 +19,6 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="base_torque_n_mm",
+    remedy="subtract {bias} from the readings of the torque sensor",
+    check="read the torque sensor without a needle: it has to show 0",
 )

@@ -21,4 +21,6 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="base_torque_n_mm",
+    remedy="calibrate the torque sensor: divide its readings by {scale}",
+    check="calibrate the torque sensor with a known weight on a lever",
 )

@@ -19,4 +19,9 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="base_torque_n_mm",
+    remedy="move the readings of the torque sensor {delay} earlier",
+    check=(
+        "strike the drive while it is held: torque and motion begin at once, and what is late is "
+        "the sensor"
+    ),
 )

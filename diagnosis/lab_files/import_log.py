@@ -5,8 +5,9 @@ from pathlib import Path
 
 from diagnosis.lab_files.read_mapping import read_mapping
 from diagnosis.lab_files.readers.read import read_lab_files
-from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log
+from diagnosis.lab_files.write_log import imported, log_paths, write_log
 from diagnosis.log.rig_log import RigLog, read_rig_log
+from sim.files import Destination
 
 
 def import_log(
@@ -29,9 +30,11 @@ def import_log(
     Raises:
       InvalidValue: names the file, the column, or what the mapping leaves open.
       OutputExists: a file exists and `force` is not given.
+      UnsafeOutput, UnwritableOutput: the log may not or cannot be written there.
       UnusableLog: the log cannot be used.
     """
     told, lab_files = read_mapping(mapping, accept_guesses=accept_guesses), read_lab_files(files)
-    refuse_to_overwrite(log_paths(told, folder), [mapping, *files], force=force)
-    write_log(told, imported(told, lab_files), folder, force=force)
+    destination = Destination(folder=folder, inputs=(mapping, *files), force=force)
+    destination.check(log_paths(told, folder))
+    write_log(told, imported(told, lab_files), destination)
     return read_rig_log(folder)

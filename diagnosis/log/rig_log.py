@@ -29,11 +29,13 @@ class RigLog:
 
     Attributes:
       warnings: what was doubtful, and what was done with it.
+      name: of its folder; empty: it was not read from one.
     """
 
     rig: NominalRig
     trials: tuple[Trial, ...]
     warnings: tuple[str, ...] = ()
+    name: str = ""
 
 
 def read_rig_log(folder: Path) -> RigLog:
@@ -67,7 +69,7 @@ def read_rig_log(folder: Path) -> RigLog:
         *lag_warnings(trials, rig.rigidity_n_mm2, damping),
         *plausibility_warnings(trials, noise),
     ]
-    return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings))
+    return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings), name=folder.resolve().name)
 
 
 def files_of(log: RigLog, folder: Path) -> tuple[Path, ...]:

@@ -3,39 +3,58 @@
 import base64
 import html
 import io
+import re
 from collections.abc import Iterable, Sequence
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from PIL import Image
 
-_STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;
-color:#222}h1{font-size:1.4em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%}
-table{border-collapse:collapse;font-size:.9em}td,th{border-bottom:1px solid #ccc;
-padding:.2em .8em;text-align:left;vertical-align:top}.warning{background:#fff3cd;padding:.5em 1em}"""
+from diagnosis.report.html_style import STYLE
+
+_DPI = 100
+_COLOURS = 64  # of lines and letters: a third of the bytes that all colours take
+_WIDE_AT = 8.5  # inches: wider pictures scroll on a phone, so that their words stay readable
 
 
 def document(title: str, parts: Iterable[str]) -> str:
     """A whole page from parts that are HTML already."""
     body = "\n".join(parts)
     return (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
-        f"<title>{html.escape(title)}</title><style>{_STYLE}</style></head><body>{body}</body></html>\n"
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{html.escape(title)}</title><style>{STYLE}</style></head>"
+        '<body><a class="skip" href="#main">Skip to the answer</a>'
+        f'<main id="main">{body}</main></body></html>\n'
     )
 
 
 def heading(text: str, level: int = 2) -> str:
-    """A heading."""
-    return f"<h{level}>{html.escape(text)}</h{level}>"
+    """A heading; those below the first can be linked to."""
+    own = "" if level == 1 else f' id="{anchor(text)}"'
+    return f"<h{level}{own}>{html.escape(text)}</h{level}>"
 
 
-def paragraph(text: str) -> str:
-    """A paragraph of plain text."""
-    return f"<p>{html.escape(text)}</p>"
+def anchor(text: str) -> str:
+    """The address of a heading within the page."""
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
+
+
+def contents(titles: Iterable[str]) -> str:
+    """Links to the headings of the second level."""
+    lines = (f'<li><a href="#{anchor(t)}">{html.escape(t)}</a></li>' for t in titles)
+    return f'<nav aria-label="Contents"><strong>Contents</strong><ul>{"".join(lines)}</ul></nav>'
+
+
+def paragraph(text: str, kind: str = "") -> str:
+    """A paragraph of plain text; `kind` is its look in the style sheet."""
+    own = f' class="{kind}"' if kind else ""
+    return f"<p{own}>{html.escape(text)}</p>"
 
 
 def warnings(texts: Iterable[str]) -> list[str]:
     """A box per warning."""
-    return [f'<p class="warning">{html.escape(text)}</p>' for text in texts]
+    return [paragraph(text, "warning") for text in texts]
 
 
 def bullets(lines: Iterable[str]) -> str:
@@ -43,11 +62,25 @@ def bullets(lines: Iterable[str]) -> str:
     return "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in lines) + "</ul>"
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table of plain text."""
-    cells = "".join(f"<th>{html.escape(name)}</th>" for name in head)
-    lines = ["".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in rows]
-    return f"<table><tr>{cells}</tr>{''.join(f'<tr>{line}</tr>' for line in lines)}</table>"
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:
+    """A table of plain text, which scrolls within itself where it is too wide.
+
+    Args:
+      caption: what it shows; empty: what stands above it says so.
+    """
+    cells = "".join(f'<th scope="col">{html.escape(name)}</th>' for name in head)
+    body = "".join(f"<tr>{_row(row)}</tr>" for row in rows)
+    told = f"<caption>{html.escape(caption)}</caption>" if caption else ""
+    label = html.escape(f"Table: {caption or ', '.join(head)}")
+    return (
+        f'<div class="scroll" role="group" tabindex="0" aria-label="{label}"><table>{told}'
+        f"<thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table></div>"
+    )
+
+
+def _row(cells: Sequence[str]) -> str:
+    first, *others = (html.escape(cell) for cell in cells)
+    return f'<th scope="row">{first}</th>' + "".join(f"<td>{cell}</td>" for cell in others)
 
 
 def picture(figure: Figure, alt: str = "") -> str:
@@ -56,8 +89,21 @@ def picture(figure: Figure, alt: str = "") -> str:
     Args:
       alt: what the picture shows, for readers who cannot see it.
     """
-    buffer = io.BytesIO()
-    figure.savefig(buffer, dpi=90, format="png")
+    width, height = (round(_DPI * side) for side in figure.get_size_inches())
+    wide = " wide" if width > _DPI * _WIDE_AT else ""
+    data = base64.b64encode(_png(figure)).decode()
     plt.close(figure)
-    data = base64.b64encode(buffer.getvalue()).decode()
-    return f'<img alt="{html.escape(alt)}" src="data:image/png;base64,{data}">'
+    image = (
+        f'<img alt="{html.escape(alt)}" width="{width}" height="{height}" '
+        f'src="data:image/png;base64,{data}">'
+    )
+    return f'<figure class="scroll{wide}" tabindex="0" aria-label="Picture">{image}</figure>'
+
+
+def _png(figure: Figure) -> bytes:
+    """A picture of few colours."""
+    whole, small = io.BytesIO(), io.BytesIO()
+    figure.savefig(whole, dpi=_DPI, format="png")
+    drawn = Image.open(whole).convert("RGB")
+    drawn.quantize(_COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(small, "png")
+    return small.getvalue()

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from diagnosis.criteria import ALMOST_NOTHING_SIGMA
+from diagnosis.criteria import ALMOST_NOTHING_SIGMA, SHOWN_PROBABILITY
 from diagnosis.effects import LIBRARY
 from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
@@ -88,6 +88,21 @@ def titles(effects: Sequence[str]) -> str:
     """Effects in plain words."""
     *others, last = [LIBRARY[name].title for name in effects] or [""]
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def explanations(found: Diagnosis) -> list[tuple[str, float]]:
+    """Explanations with their probabilities, most probable first; a set of effects is one.
+
+    Those whose probability rounds to nothing are left out.
+    """
+    sets = [(explanation_name(names), p) for names, p in found.verdict.explanations]
+    every = sets or found.verdict.ranking
+    return [one for one in every if one[1] >= SHOWN_PROBABILITY]
+
+
+def explanation_name(effects: Sequence[str]) -> str:
+    """The name of a set of effects in a table, whatever their order."""
+    return " + ".join(sorted(effects)) or "none"
 
 
 def reduction(found: Diagnosis) -> str:

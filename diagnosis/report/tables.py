@@ -7,6 +7,8 @@ from typing import Any
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.report.html_parts import table
+from diagnosis.report.sentences import explanations
+from diagnosis.result import Diagnosis
 from diagnosis.selection.record import Decision, RecordEntry
 
 _FOUR_DECIMALS = (0.1, 10.0)  # factors near 1 are told by four decimals, else three digits
@@ -19,19 +21,27 @@ def parameter_table(parameters: Mapping[str, Any]) -> str:
         for effect, values in parameters.items()
         for name, p in values.items()
     ]
-    return table(("effect", "parameter", "value", "95 % interval", "unit"), rows)
+    head = ("effect", "parameter", "value", "95 % interval", "unit")
+    return table(head, rows, "Fitted parameters")
+
+
+def explanation_table(found: Diagnosis) -> str:
+    """Explanations with their probabilities; a set of effects is one row."""
+    rows = [(name, f"{p:.3f}") for name, p in explanations(found)]
+    return table(("explanation", "probability"), rows, "Probability of each explanation")
 
 
 def limits_table(limits: Mapping[str, Mapping[str, float]]) -> str:
     """Detection limits of further effects."""
     rows = [(effect, limit_in_words(effect, values)) for effect, values in limits.items()]
-    return table(("effect", "may be present and go unseen"), rows)
+    return table(("effect", "may be present and go unseen"), rows, "Detection limits")
 
 
 def search_table(record: Sequence[RecordEntry]) -> str:
     """Every decision of every stage of the search; what was not fitted for one reason is one row."""
     rows = [_row(list(same)) for _, same in groupby(record, _as_one)]
-    return table(("stage", "explanation", "decision", "residual / σ", "score", "reason"), rows)
+    head = ("stage", "explanation", "decision", "residual / σ", "score", "reason")
+    return table(head, rows, "Decisions of the search")
 
 
 def _as_one(entry: RecordEntry) -> tuple[str, Decision, str] | int:

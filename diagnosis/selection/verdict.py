@@ -37,6 +37,8 @@ class Verdict:
       best: the candidate that predictions and parameters are of.
       rivals: candidates that explain the log as well as the best.
       ranking: single effects, none and unknown with probabilities that add up to 1.
+      explanations: sets of effects that were fitted, most probable first; an empty set is the nominal
+        rig. Probabilities add up to 1; there are none where nothing explains the log.
     """
 
     kind: VerdictKind
@@ -45,6 +47,7 @@ class Verdict:
     best: Candidate
     rivals: tuple[Candidate, ...] = ()
     ranking: tuple[tuple[str, float], ...]
+    explanations: tuple[tuple[tuple[str, ...], float], ...] = ()
 
     @property
     def settled(self) -> bool:
@@ -76,6 +79,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         best=best,
         rivals=tuple(rivals),
         ranking=_ranking(candidates, known=True),
+        explanations=_explanations(candidates),
     )
 
 
@@ -162,20 +166,28 @@ def _says(one: Candidate) -> tuple[str, ...]:
     return (*one.named, *(name for name in one.names if name in IMPERFECTIONS))
 
 
+def _explanations(candidates: Sequence[Candidate]) -> tuple[tuple[tuple[str, ...], float], ...]:
+    """Probabilities of sets of effects: exp(-score / 2), normalised; fits of one set add up."""
+    least, weights = min(c.score for c in candidates), dict[frozenset[str], float]()
+    for c in candidates:
+        named = frozenset(c.named)
+        weights[named] = weights.get(named, 0.0) + math.exp(-0.5 * min(c.score - least, 1400.0))
+    order = {frozenset(c.named): c.named for c in reversed(candidates)}
+    ranked = sorted(weights.items(), key=lambda item: -item[1])
+    return tuple((order[named], weight / sum(weights.values())) for named, weight in ranked)
+
+
 def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:
-    """Probabilities of single effects, none and unknown: exp(-score / 2), normalised."""
+    """Probabilities of single effects, none and unknown: effects of a set share that of the set."""
     weights = dict.fromkeys((*LIBRARY, "none", "unknown"), 0.0)
     if not known:
         weights["unknown"] = 1.0
     else:
-        least = min(c.score for c in candidates)
-        for c in candidates:
-            weight = math.exp(-0.5 * min(c.score - least, 1400.0))
-            for name in c.named or ("none",):
-                weights[name] += weight / max(len(c.named), 1)
-    total = sum(weights.values())
+        for named, probability in _explanations(candidates):
+            for name in named or ("none",):
+                weights[name] += probability / max(len(named), 1)
     ranked = sorted(weights.items(), key=lambda item: -item[1])
-    return tuple((name, weight / total) for name, weight in ranked)
+    return tuple((name, weight / sum(weights.values())) for name, weight in ranked)
 
 
 def places(effects: Sequence[str]) -> str:

@@ -81,8 +81,12 @@ def test_a_verdict_stands_where_the_assessment_alone_is_cut_short(stopped_at):
         "adding another effect",
         "detection limits",
         "noise of the base angle in the intervals",
+        "twist along the shaft",
+        "next experiment",
     }
-    assert found.assessment.next_experiment == ""
+    assert found.assessment.next_experiment.startswith("add dry friction of 0.00")
+    assert found.assessment.next_experiment.endswith("; then record and diagnose once more")
+    assert found.assessment.twist is None
     assert "best so far: Dry (Coulomb) friction along the shaft explains the gap" in headline(found)
 
 

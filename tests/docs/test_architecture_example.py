@@ -7,7 +7,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from diagnosis.assessment.intervals import intervals
+from diagnosis.assessment.intervals import covariance, intervals
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.nuisance import nuisance_of
@@ -92,7 +92,7 @@ def test_a_fit_recovers_the_parameters_of_the_example_effect_within_their_interv
     change = refinement_change(
         problem.log, problem.noise, best, replay(problem.log, best), problem.resolution
     )
-    found = intervals(problem, fit, change)[effect.name]
+    found = intervals(fit, covariance(problem, fit, change))[effect.name]
     for name, value in TRUTH.items():
         assert found[name].low <= value <= found[name].high, name
         # Narrow enough to exclude that the effect is absent.

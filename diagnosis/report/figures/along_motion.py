@@ -1,6 +1,7 @@
 """The residual along the motion of the base: over its stroke, after a reversal, and by its rate."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from diagnosis.criteria import TURNING_DEG_S
-from diagnosis.report.figures.style import LABELS, PREDICTIONS
+from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
 from diagnosis.residuals.along_motion import BASE_ANGLE, RATE, SINCE_REVERSAL, Coordinate, part_means
 from diagnosis.residuals.motion import direction
 from diagnosis.residuals.trial_residual import TrialResidual, by_sensor, trial_residuals
@@ -17,7 +18,7 @@ from diagnosis.result import Diagnosis
 
 Array = NDArray[np.float64]
 
-_WAYS = {1.0: ("-", "forward"), -1.0: (":", "back")}
+_WAYS = {1.0: (">", "forward"), -1.0: ("<", "back")}
 
 
 def draw_along_motion(found: Diagnosis) -> Figure:
@@ -26,29 +27,56 @@ def draw_along_motion(found: Diagnosis) -> Figure:
     nominal = by_sensor(trial_residuals(found.log, found.nominal, found.noise))
     both = {"nominal": nominal, "explained": by_sensor(explained)}
     figure, axes = plt.subplots(
-        len(nominal), 3, figsize=(13, 2.9 * len(nominal)), layout="constrained", squeeze=False
+        len(nominal), 3, figsize=(WIDE, 2.9 * len(nominal)), layout="constrained", squeeze=False
     )
     for row, sensor in zip(axes, nominal, strict=True):
         for name, own in both.items():
-            colour, residuals = PREDICTIONS[name], own[sensor]
-            _draw_by_angle(row[0], residuals, sensor, colour, name)
+            residuals = own[sensor]
+            look: dict[str, Any] = {"color": PREDICTIONS[name], "ls": LINES[name], "ms": 4}
+            _draw_by_angle(row[0], residuals, sensor, name)
             since, gap = _means(SINCE_REVERSAL, residuals, [r.left[sensor] ** 2 for r in residuals])
-            row[1].plot(since, np.sqrt(gap), "o-", color=colour, ms=3)
+            row[1].plot(since, np.sqrt(gap), marker="o", **look)
             rate, mean = _means(RATE, residuals, [r.left[sensor] for r in residuals])
-            row[2].plot(rate, mean, "o-", color=colour, ms=3)
+            row[2].plot(rate, mean, marker="o", **look)
         _label_motion(row, sensor)
     axes[0, 0].legend(fontsize=7)
     return figure
 
 
-def _draw_by_angle(
-    axis: Axes, residuals: Sequence[TrialResidual], sensor: str, colour: str, name: str
-) -> None:
+def describe_along_motion(found: Diagnosis) -> str:
+    """The picture in words: the largest of each part."""
+    told = found.assessment
+    parts = (
+        ("along the stroke, at a base angle of", "deg", "base_angle_deg"),
+        ("after a reversal, at", "s", "since_reversal_s"),
+        ("against the rate, at", "deg/s", "rate_deg_s"),
+    )
+    each = [
+        _largest(words, unit, getattr(told.shape, name), getattr(told.shape_after, name))
+        for words, unit, name in parts
+    ]
+    return (
+        f"Residual / σ along the motion, nominal and explained. Largest {'; '.join(filter(None, each))}."
+    )
+
+
+def _largest(
+    words: str, unit: str, before: Sequence[tuple[float, float]], after: Sequence[tuple[float, float]]
+) -> str:
+    """Where a coordinate has the largest residual, with that of the explanation at its largest."""
+    if not before or not after:
+        return ""
+    place, value = max(before, key=lambda part: part[1])
+    return f"{words} {place:.3g} {unit}: {value:.2f}, explained at most {max(v for _, v in after):.2f}"
+
+
+def _draw_by_angle(axis: Axes, residuals: Sequence[TrialResidual], sensor: str, name: str) -> None:
     """Mean residual along the stroke, each way by itself."""
-    for way, (line, word) in _WAYS.items():
+    look: dict[str, Any] = {"color": PREDICTIONS[name], "ls": LINES[name], "ms": 5}
+    for way, (mark, word) in _WAYS.items():
         own = [np.where(direction(r.trial) == way, r.left[sensor], np.nan) for r in residuals]
         angle, mean = _means(BASE_ANGLE, residuals, own)
-        axis.plot(angle, mean, line, marker="o", ms=3, color=colour, label=f"{name}, {word}")
+        axis.plot(angle, mean, marker=mark, label=f"{name}, {word}", **look)
 
 
 def _means(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
-from diagnosis.report.figures.style import LABELS, MEASURED, PREDICTIONS
+from diagnosis.report.figures.style import LABELS, LINES, MEASURED, PREDICTIONS, WIDE, rms
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis
 from models.user_text import in_figure
@@ -33,7 +33,7 @@ def draw_loops(found: Diagnosis) -> Figure:
     shown = telling_trials(found)
     rows, columns = len(shown), max(len(_pictures(found.log.trials[i])) for i in shown)
     figure, axes = plt.subplots(
-        rows, columns, figsize=(6.5 * columns, 3.4 * rows), layout="constrained", squeeze=False
+        rows, columns, figsize=(WIDE / 2 * columns, 3.0 * rows), layout="constrained", squeeze=False
     )
     for row, i in zip(axes, shown, strict=True):
         trial = found.log.trials[i]
@@ -43,13 +43,29 @@ def draw_loops(found: Diagnosis) -> Figure:
             _loop(axis, _columns(trial, trial), across, up).set(color=MEASURED, lw=3, label="measured")
             for name, own in predictions.items():
                 line = _loop(axis, _columns(trial, own), across, up)
-                line.set(color=PREDICTIONS[name], lw=1, label=name)
+                line.set(color=PREDICTIONS[name], ls=LINES[name], lw=1, label=name)
             axis.set_title(in_figure(trial.name), fontsize=9, loc="left")
             axis.set(xlabel=across, ylabel=up)
         for axis in row[len(pictures) :]:
             axis.set_visible(False)
     axes[0, 0].legend(fontsize=8)
     return figure
+
+
+def describe_loops(found: Diagnosis) -> str:
+    """The picture in words."""
+    told = []
+    for i in telling_trials(found):
+        trial = found.log.trials[i]
+        up = _pictures(trial)[0][1]
+        read = _columns(trial, trial)[up]
+        both = (found.nominal[i], found.assessment.explained[i])
+        off, left = (rms([read - _columns(trial, own)[up]]) for own in both)
+        told.append(
+            f"{trial.name}: {up} from {np.nanmin(read):.3g} to {np.nanmax(read):.3g}; the nominal "
+            f"loop is off by {off:.2g}, the explained one by {left:.2g}"
+        )
+    return f"Loops, measured, nominal and explained. {'. '.join(told)} (root mean square)."
 
 
 def telling_trials(found: Diagnosis) -> list[int]:

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from diagnosis.report.figures.style import LABELS, PREDICTIONS
+from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 
@@ -18,7 +18,7 @@ def draw_memory(found: Diagnosis) -> Figure:
     shapes = {"nominal": told.shape, "explained": told.shape_after}
     sensors = list(told.breakdown.signal)
     figure, axes = plt.subplots(
-        len(sensors), 2, figsize=(13, 2.9 * len(sensors)), layout="constrained", squeeze=False
+        len(sensors), 2, figsize=(WIDE, 2.9 * len(sensors)), layout="constrained", squeeze=False
     )
     for row, sensor in zip(axes, sensors, strict=True):
         _draw_spectrum(row[0], sensor, shapes)
@@ -30,13 +30,31 @@ def draw_memory(found: Diagnosis) -> Figure:
     return figure
 
 
+def describe_memory(found: Diagnosis) -> str:
+    """The picture in words: how far neighbouring samples tell of each other."""
+    told = found.assessment
+    before, after = told.shape.autocorrelation, told.shape_after.autocorrelation
+    each = [
+        f"{LABELS[sensor].split(',')[0]} {before[sensor].lag_one_correlation:.2f}, explained "
+        f"{after[sensor].lag_one_correlation:.2f}"
+        for sensor in before
+        if sensor in after
+    ]
+    return (
+        "Spectrum and autocorrelation of the residual, nominal and explained, beside white noise. "
+        f"Correlation from one sample to the next: {'; '.join(each) or 'not known'}."
+    )
+
+
 def _draw_spectrum(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape]) -> None:
     for name, shape in shapes.items():
         if sensor in shape.spectrum:
             hertz, power = np.transpose(shape.spectrum[sensor].power_per_hz)
-            axis.loglog(hertz, power, color=PREDICTIONS[name], label=name)
+            axis.loglog(hertz, power, color=PREDICTIONS[name], ls=LINES[name], label=name)
             white = shape.spectrum[sensor].white_per_hz
-            axis.axhline(white, color="k", lw=1, label="white noise" if name == "explained" else None)
+            axis.axhline(
+                white, color="k", lw=1, ls=":", label="white noise" if name == "explained" else None
+            )
     axis.set_title(f"{LABELS[sensor]}: spectrum of the residual", fontsize=9, loc="left")
     axis.set(xlabel="frequency, Hz", ylabel="σ² / Hz")
 
@@ -45,7 +63,7 @@ def _draw_autocorrelation(axis: Axes, sensor: str, shapes: Mapping[str, Residual
     for name, shape in shapes.items():
         if sensor in shape.autocorrelation:
             own = shape.autocorrelation[sensor]
-            axis.semilogx(*np.transpose(own.by_lag_s), color=PREDICTIONS[name])
+            axis.semilogx(*np.transpose(own.by_lag_s), color=PREDICTIONS[name], ls=LINES[name])
             if name == "explained":
                 axis.axhspan(-own.white_limit, own.white_limit, color="0.85", zorder=0)
     axis.set_title(f"{LABELS[sensor]}: autocorrelation of the residual", fontsize=9, loc="left")

@@ -1,5 +1,24 @@
-"""What the pictures of a report have in common: colours of the predictions, names of the sensors."""
+"""What the pictures of a report have in common: colours, lines and hatches, names of the sensors.
+
+What is nominal and what is explained differ in line, hatch and lightness as well as in colour, so that a
+page printed in grey, or seen by an eye that tells no red from blue, says the same.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
 
 MEASURED = "0.6"
-PREDICTIONS = {"nominal": "tab:blue", "explained": "tab:red"}
+PREDICTIONS = {"nominal": "#3c8dd5", "explained": "#940f1c"}
+LINES = {"nominal": "--", "explained": "-"}
+HATCHES = {"nominal": "////", "explained": ""}
 LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
+WIDE = 11.0
+"""Width of a picture, inches; on a phone it scrolls."""
+
+
+def rms(parts: Iterable[NDArray[np.float64]]) -> float:
+    """Root mean square of what was read of several arrays; 0 of nothing."""
+    every = np.concatenate([*(part[np.isfinite(part)] for part in parts), np.zeros(0)])
+    return float(np.sqrt(np.mean(every**2))) if every.size else 0.0

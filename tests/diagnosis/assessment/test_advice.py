@@ -9,7 +9,9 @@ from diagnosis_fixtures import RIG, prepared, scored, trial, turns
 from diagnosis.assessment import advice
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.experiments import Experiment
-from diagnosis.assessment.next_experiment import Proposal
+from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.next_experiment import Narrowing, Proposal
+from diagnosis.effects import LIBRARY
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.selection.verdict import VerdictKind, verdict_on
@@ -40,7 +42,7 @@ def test_two_explanations_are_told_apart_by_as_many_runs_as_that_takes(monkeypat
     proposal = Proposal(experiment=run, separation=separation)
     monkeypatch.setattr(advice, "best_experiment", lambda *_: proposal)
     assert UNDECIDED.kind is VerdictKind.UNDECIDED
-    assert advise(PROBLEM, UNDECIDED, NOMINAL, LEFT).startswith(said)
+    assert advise(PROBLEM, UNDECIDED, NOMINAL, LEFT, {}).startswith(said)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +58,7 @@ def test_sliding_is_asked_of_a_rig_without_an_axis_only_where_no_turn_tells(monk
         return Proposal(experiment=run, separation=sliding if "sliding" in run.words else 0.1)
 
     monkeypatch.setattr(advice, "best_experiment", best)
-    found = advise(PROBLEM, UNDECIDED, NOMINAL, LEFT)
+    found = advise(PROBLEM, UNDECIDED, NOMINAL, LEFT, {})
     assert found.startswith(said)
     assert "deep" not in found
 
@@ -64,18 +66,65 @@ def test_sliding_is_asked_of_a_rig_without_an_axis_only_where_no_turn_tells(monk
 def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     unknown = replace(UNDECIDED, kind=VerdictKind.UNKNOWN)
     slides = PreparedLog(rig=RIG, trials=(prepared(trial(turns(2.0), speed=-1.0)),))
-    said = advise(SimpleNamespace(log=slides), unknown, NOMINAL, LEFT)
+    said = advise(SimpleNamespace(log=slides), unknown, NOMINAL, LEFT, {})
     assert f"of the nominal model is {NOMINAL.largest}" in said
     assert f"what the best explanation leaves is {LEFT.largest}: repeat that phase alone" in said
     assert "at two depths and two rates" in said
 
 
 def test_a_rig_without_depth_gets_no_advice_about_depths():
-    said = advise(PROBLEM, replace(UNDECIDED, kind=VerdictKind.UNKNOWN), NOMINAL, LEFT)
+    said = advise(PROBLEM, replace(UNDECIDED, kind=VerdictKind.UNKNOWN), NOMINAL, LEFT, {})
     assert "at two rates and two amplitudes, with reversals and with rests" in said
     assert "depth" not in said
 
 
-def test_where_nothing_is_left_to_tell_apart_nothing_is_said():
-    settled = verdict_on([scored(["tip_drag"], 100.0)])
-    assert advise(PROBLEM, settled, NOMINAL, LEFT) == ""
+def test_where_no_run_tells_the_measurement_that_does_by_itself_is_named(monkeypatch):
+    proposal = Proposal(experiment=Experiment(words="turn slowly", trial=READY), separation=0.1)
+    monkeypatch.setattr(advice, "best_experiment", lambda *_: proposal)
+    said = advise(PROBLEM, UNDECIDED, NOMINAL, LEFT, {})
+    assert said.endswith(f"measure by itself: {LIBRARY['tip_drag'].check}")
+
+
+DRAG = {"tip_drag": {"damping": Interval(value=0.2, low=0.1, high=0.3, unit="N mm s / rad")}}
+SETTLED = verdict_on([scored(["tip_drag"], 100.0)])
+CHANGE = "add viscous drag of 0.2 N mm s / rad at the tip to the model"
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"),
+    [
+        (
+            0.5,
+            "to know tip_drag damping better, turn slowly: that would narrow its interval to about 50 %",
+        ),
+        (0.95, "no single run that this rig can do would narrow the interval of tip_drag damping"),
+    ],
+)
+def test_an_explanation_is_told_with_what_to_change_and_what_would_narrow_it(monkeypatch, factor, said):
+    run = Narrowing(experiment=Experiment(words="turn slowly", trial=READY), factor=factor)
+    monkeypatch.setattr(advice, "narrowest", lambda *_: run)
+    found = advise(PROBLEM, SETTLED, NOMINAL, LEFT, DRAG)
+    assert found.startswith(f"{CHANGE}; then record and diagnose once more; {said}")
+
+
+def test_without_time_what_to_change_is_told_alone(monkeypatch):
+    monkeypatch.setattr(advice, "narrowest", pytest.fail)
+    monkeypatch.setattr(advice, "stopping", lambda: True)
+    assert advise(PROBLEM, SETTLED, NOMINAL, LEFT, DRAG).endswith("diagnose once more")
+
+
+def test_what_has_a_rival_that_looks_the_same_is_to_be_calibrated(monkeypatch):
+    monkeypatch.setattr(advice, "narrowest", pytest.fail)
+    alike = (("torque_scale",), ("damping_error", "stiffness_error"))
+    gain = replace(SETTLED, effects=("torque_scale",), confusable=alike)
+    values = {"torque_scale": {"scale": Interval(value=1.1, low=1.0, high=1.2, unit="-")}}
+    assert advise(PROBLEM, gain, NOMINAL, LEFT, values) == (
+        "calibrate the torque sensor with a known weight on a lever: that tells a wrong gain of the "
+        "torque sensor from a wrong damping of the tissue together with a wrong torsional stiffness; "
+        "if it is the former, calibrate the torque sensor: divide its readings by 1.1"
+    )
+
+
+def test_where_nothing_is_left_to_do_nothing_is_said():
+    nothing = replace(SETTLED, kind=VerdictKind.NONE, effects=())
+    assert advise(PROBLEM, nothing, NOMINAL, LEFT, {}) == ""

@@ -59,6 +59,10 @@ def test_an_explanation_is_told_with_its_parameters_gap_and_limits(log, nominal,
     assert told.gap.after < 1.1
     assert set(told.with_one_more) == set(told.detection_limits) == {"tip_drag"}
     assert told.warnings == ()
+    assert told.next_experiment.startswith("add dry friction of 0.00")
+    assert told.joint.names[0] == "coulomb_friction.level"
+    assert told.joint.values[0] == level.value
+    assert list(told.twist.along) == ["nominal", "explained"]
     assert told.breakdown_after.signal["tip_angle_deg"] < told.breakdown.signal["tip_angle_deg"]
     before, after = (s.autocorrelation["tip_angle_deg"] for s in (told.shape, told.shape_after))
     assert before.lag_one_correlation > 0.5 > abs(after.lag_one_correlation)

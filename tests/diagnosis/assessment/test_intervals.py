@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, fit_of, log_of, problem_of
 
-from diagnosis.assessment.intervals import intervals
+from diagnosis.assessment.intervals import covariance, intervals
 from diagnosis.criteria import INTERVAL_Z
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
@@ -24,6 +24,11 @@ def bias():
     return problem, fit_effects(problem, ("tip_angle_bias",))
 
 
+def intervals_of(problem, fit, change):
+    """Intervals of a fit, given what a finer replay changes."""
+    return intervals(fit, covariance(problem, fit, change))
+
+
 def unchanged(samples=SAMPLES):
     """A finer replay that changes nothing."""
     return [dict.fromkeys(("base_torque_n_mm", "tip_angle_deg"), np.zeros(samples))]
@@ -34,7 +39,7 @@ def half_width(interval):
 
 
 def test_a_mean_is_known_to_the_noise_over_the_root_of_the_samples(bias):
-    found = intervals(*bias, unchanged())["tip_angle_bias"]["bias"]
+    found = intervals_of(*bias, unchanged())["tip_angle_bias"]["bias"]
     assert half_width(found) == pytest.approx(INTERVAL_Z * TIP / math.sqrt(SAMPLES), rel=1e-6)
     assert found.low < 2.0 < found.high
     assert found.unit == "deg"
@@ -43,7 +48,7 @@ def test_a_mean_is_known_to_the_noise_over_the_root_of_the_samples(bias):
 def test_numerical_error_of_the_replay_widens_the_interval(bias):
     """A finer replay that moves the tip by c everywhere would move the bias by c."""
     shifted = {"base_torque_n_mm": np.zeros(SAMPLES), "tip_angle_deg": np.full(SAMPLES, 0.2)}
-    found = intervals(*bias, [shifted])["tip_angle_bias"]["bias"]
+    found = intervals_of(*bias, [shifted])["tip_angle_bias"]["bias"]
     spread = math.hypot(TIP / math.sqrt(SAMPLES), 0.2 * TIP)
     assert half_width(found) == pytest.approx(INTERVAL_Z * spread, rel=1e-6)
 
@@ -52,7 +57,7 @@ def test_noise_of_the_base_widens_the_interval(bias):
     problem, fit = bias
     noisy = replace(problem, noise=replace(problem.noise, sigma=SIGMA | {"base_angle_deg": 20 * BASE}))
     widths = [
-        half_width(intervals(p, fit, unchanged())["tip_angle_bias"]["bias"]) for p in (problem, noisy)
+        half_width(intervals_of(p, fit, unchanged())["tip_angle_bias"]["bias"]) for p in (problem, noisy)
     ]
     assert widths[1] > 1.02 * widths[0]
 
@@ -60,7 +65,7 @@ def test_noise_of_the_base_widens_the_interval(bias):
 def test_ends_stay_within_bounds():
     problem = replace(problem_of(log_of(RigParameters(), seconds=2.0), sigma=SIGMA), nuisance=())
     fit = fit_effects(problem, ("tip_sensor_delay",))
-    found = intervals(problem, fit, unchanged(200))["tip_sensor_delay"]["delay"]
+    found = intervals_of(problem, fit, unchanged(200))["tip_sensor_delay"]["delay"]
     assert found.low >= 0.0
 
 
@@ -70,11 +75,11 @@ def test_an_angle_is_told_in_the_half_periods_about_0(bias):
     slopes = np.random.default_rng(1).normal(size=(2 * SAMPLES, 2))
     residual = problem.residuals([fit_of(("needle_curvature",), x=start).parameterization.rig(start)])
     fit = fit_of(("needle_curvature",), x=start, jacobian=[slopes], by_trial=residual[0])
-    phase = intervals(problem, fit, unchanged())["needle_curvature"]["phase"]
+    phase = intervals_of(problem, fit, unchanged())["needle_curvature"]["phase"]
     assert phase.value == pytest.approx(-10.0)
     assert phase.low < phase.value < phase.high
 
 
 def test_nothing_that_is_open_has_no_interval(bias):
     problem, _ = bias
-    assert intervals(problem, fit_of(()), [{}]) == {}
+    assert intervals_of(problem, fit_of(()), [{}]) == {}

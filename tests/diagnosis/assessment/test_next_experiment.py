@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import RIG, TIP, fit_of, log_of, problem_of
 
 from diagnosis.assessment.experiments import SAMPLE_S, experiments
-from diagnosis.assessment.next_experiment import best_experiment, separation
+from diagnosis.assessment.next_experiment import best_experiment, narrowest, narrowing, separation
 from diagnosis.replay.rig_parameters import NOMINAL
 
 BIAS_DEG = 0.05
@@ -61,6 +61,22 @@ def test_the_longest_run_is_best_for_a_bias(problem):
     longest = max(feasible, key=lambda e: e.trial.time_s.size)
     assert best.experiment is longest
     assert best.separation == pytest.approx(expected(problem, longest), rel=1e-4)
+
+
+def test_a_run_narrows_a_mean_by_its_share_of_the_samples(problem, run):
+    """Known to the bias b itself, and d standard deviations from 0 in a run: 1 / sqrt(1 + d^2)."""
+    scale = fit_of(("tip_angle_bias",)).parameterization.parameters[0].scale
+    loose = fit_with_bias([[[scale / BIAS_DEG]]])
+    d = expected(problem, run)
+    assert narrowing(problem, run, loose, 0) == pytest.approx(1 / np.sqrt(1 + d**2), rel=1e-4)
+
+
+def test_what_is_certain_is_not_narrowed_and_the_longest_run_narrows_a_bias_most(problem):
+    feasible = list(experiments(problem.log))[:4]
+    assert narrowing(problem, feasible[0], fit_with_bias(SURE), 0) == pytest.approx(1.0, abs=1e-3)
+    scale = fit_of(("tip_angle_bias",)).parameterization.parameters[0].scale
+    found = narrowest(problem, fit_with_bias([[[scale / BIAS_DEG]]]), 0, feasible)
+    assert found.experiment is max(feasible, key=lambda e: e.trial.time_s.size)
 
 
 def test_only_sensors_that_the_log_has_count(problem, run):

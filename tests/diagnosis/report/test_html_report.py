@@ -1,13 +1,29 @@
 """The page for people."""
 
 from dataclasses import replace
+from datetime import date
+from itertools import pairwise
 
 import matplotlib.pyplot as plt
 import pytest
+from html_outline import HtmlOutline
 
 from diagnosis.report import html_report
+from diagnosis.report.answer import answer
 from diagnosis.report.html_report import page
-from diagnosis.report.sentences import headline
+from diagnosis.report.sections import alternatives, evidence, limits, parameters
+
+SECTIONS = [
+    "Why to believe it",
+    "Where the residual is",
+    "Parameters",
+    "What else it may be",
+    "Detection limits",
+    "How the search went",
+    "Sensors and numerical error",
+    "The rig and its trials",
+]
+MOST_BYTES = 1e6
 
 
 @pytest.fixture(scope="session")
@@ -15,56 +31,83 @@ def dry_page(written):
     return (written / "report.html").read_text()
 
 
+@pytest.fixture(scope="session")
+def outline(dry_page):
+    return HtmlOutline(dry_page)
+
+
 @pytest.fixture
 def undrawn(monkeypatch):
-    """Pages without their pictures, which take a second each."""
-    for name in ("draw_ranking", "draw_trials"):
-        monkeypatch.setattr(html_report, name, lambda _: plt.figure())
+    """Pages without their pictures, which take half a second each."""
+    for module in (alternatives, evidence, limits, parameters):
+        for name in [n for n in vars(module) if n.startswith("draw_")]:
+            monkeypatch.setattr(module, name, lambda *_: plt.figure())
     monkeypatch.setattr(html_report, "where_section", lambda _: [])
 
 
-def test_the_page_starts_with_the_verdict(dry_page, dry):
-    assert f"<h1>{headline(dry.found)}</h1>" in dry_page
-    assert "explains the gap" in dry_page
+def test_the_page_starts_with_the_answer_in_three_sentences(dry_page, dry):
+    what, sure, then = answer(dry.found)
+    places = [dry_page.index(part) for part in (f"<h1>{what}</h1>", sure, then, "<nav", "<h2", "<img")]
+    assert places == sorted(places)
 
 
-def test_the_page_opens_without_a_network(dry_page):
+def test_the_page_opens_without_a_network(dry_page, outline):
     assert "://" not in dry_page
-    assert dry_page.count("data:image/png;base64,") == 6
-    assert len(dry_page) < 3e6
+    assert len(dry_page) < MOST_BYTES
+    images = outline.attributes("img")
+    assert len(images) == 8 + len({"trial_01", "trial_02", "trial_03"})
+    assert all(own["src"].startswith("data:image/png;base64,") for own in images)
+    assert not {"script", "link", "iframe", "object"} & {name for name, _ in outline.tags}
 
 
-def test_the_page_shows_where_the_gap_is(dry_page):
-    where = dry_page.split("<h2>Where the gap is</h2>")[1].split("<h2>")[0]
-    below = ("Loops of torque and lag", "Along the motion", "Spectrum and memory", "Which signal leads")
-    assert [where.count(f"<h3>{title}</h3>") for title in below] == [1] * 4
+def test_the_sections_stand_in_the_order_in_which_they_are_asked_for(outline):
+    assert [text for level, text in outline.headings if level == 2] == SECTIONS
 
 
-def test_the_page_shows_how_the_search_went(dry_page, dry):
-    assert "<h2>How the search went</h2>" in dry_page
-    after = dry_page.split("How the search went")[1]
-    fitted = [entry for entry in dry.found.record if entry.gap is not None]
-    assert after.count("<tr>") > len(fitted)
-    assert all(name in after for entry in dry.found.record for name in entry.effects)
-    assert "promises to stay far above what is at the noise floor" in after
+def test_headings_go_down_one_level_at_a_time_and_there_is_one_of_the_first(outline):
+    levels = [level for level, _ in outline.headings]
+    assert levels.count(1) == 1
+    assert all(after - before <= 1 for before, after in pairwise(levels))
 
 
-def test_the_page_shows_parameters_limits_and_what_is_open(dry_page):
-    assert "N mm / mm" in dry_page
-    for title in ("Detection limits", "What these trials cannot tell", "Noise and numerical error"):
-        assert f"<h2>{title}</h2>" in dry_page
+def test_every_link_has_its_end_and_every_section_its_link(outline):
+    ends = [own["href"].removeprefix("#") for own in outline.attributes("a")]
+    assert len(outline.ids) == len(set(outline.ids))
+    assert set(ends) <= set(outline.ids)
+    assert len(ends) == 1 + len(SECTIONS)
+
+
+def test_every_picture_is_told_in_words_with_numbers(outline):
+    for own in outline.attributes("img"):
+        assert len(own["alt"]) > 40
+        assert any(c.isdigit() for c in own["alt"])
+
+
+def test_tags_are_closed_in_order_and_tables_have_captions_and_scopes(outline):
+    assert outline.unbalanced == []
+    assert len(outline.attributes("caption")) == len(outline.attributes("table")) >= 6
+    assert all(own.get("scope") in ("col", "row") for own in outline.attributes("th"))
+
+
+def test_whatever_scrolls_can_be_reached_by_keyboard_and_has_a_name(outline):
+    scrolling = [own for _, own in outline.tags if "scroll" in own.get("class", "")]
+    assert len(scrolling) == len(outline.attributes("img")) + len(outline.attributes("table"))
+    assert all(own["tabindex"] == "0" and own["aria-label"] for own in scrolling)
+
+
+def test_the_head_names_log_and_day(dry, undrawn):
+    log = replace(dry.found.log, name="run 7")
+    found = replace(dry.found, log=log, diagnosed_on=date(2026, 2, 3))
+    told = page(found, dry.report)
+    assert "log run 7, diagnosed on 2026-02-03, needle-torsion" in told
+    assert "<title>run 7: gap report</title>" in told
 
 
 def test_warnings_stand_in_boxes(dry, undrawn):
-    warned = page(dry.found, {**dry.report, "warnings": ["mind the <gap>"], "parameters": {}})
-    assert '<p class="warning">mind the &lt;gap&gt;</p>' in warned
+    warned = replace(dry.found, log=replace(dry.log, warnings=("mind the <gap>",)))
+    assert '<p class="warning">mind the &lt;gap&gt;</p>' in page(warned, dry.report)
 
 
 def test_without_limits_there_is_no_heading_for_them(dry, undrawn):
     told = replace(dry.found.assessment, detection_limits={})
-    assert "Detection limits" not in page(replace(dry.found, assessment=told), dry.report)
-
-
-def test_the_next_experiment_stands_with_what_is_open(dry, undrawn):
-    asked = page(dry.found, {**dry.report, "next_experiment": "turn slowly"})
-    assert "<li>Next: turn slowly</li>" in asked
+    assert 'id="detection-limits"' not in page(replace(dry.found, assessment=told), dry.report)

@@ -9,6 +9,8 @@ from diagnosis.assessment.advice import advise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
     alike,
+    explanation_name,
+    explanations,
     headline,
     largest_parts,
     largest_residual,
@@ -128,6 +130,15 @@ def test_what_the_named_effect_cannot_be_told_from_stands_beside_it(dry):
     assert alike(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",)))) == ""
 
 
+def test_explanations_are_sets_that_add_up_to_one_or_the_ranking_where_there_are_none(dry):
+    assert explanations(dry.found)[0][0] == "coulomb_friction"
+    assert sum(p for _, p in dry.found.verdict.explanations) == pytest.approx(1.0)
+    unknown = concluding(dry.found, explanations=(), ranking=(("unknown", 1.0), ("none", 0.0)))
+    assert explanations(unknown) == [("unknown", 1.0)]
+    assert explanation_name(("torque_bias", "tip_drag")) == explanation_name(TWO)
+    assert explanation_name(()) == "none"
+
+
 def test_one_trial_is_not_called_held_out(dry):
     alone = replace(dry.found, log=replace(dry.found.log, trials=dry.found.log.trials[:1]))
     assert "held-out" in reduction(dry.found)
@@ -172,7 +183,7 @@ def test_table_sentence_and_advice_name_the_same_parts_with_the_same_numbers(dry
     told = dry.found.assessment
     unknown = concluding(dry.found, kind=VerdictKind.UNKNOWN).verdict
     problem = SimpleNamespace(log=prepare(dry.found.log)[0])
-    advice = advise(problem, unknown, told.breakdown, told.breakdown_after)
+    advice = advise(problem, unknown, told.breakdown, told.breakdown_after, {})
     for parts in (told.breakdown, told.breakdown_after):
         signal = max(parts.signal, key=parts.signal.get)
         phase = max(parts.phase, key=parts.phase.get)

@@ -1,11 +1,18 @@
 """The tables of the page."""
 
 import re
+from dataclasses import replace
 
 import pytest
 from diagnosis_fixtures import scored
 
-from diagnosis.report.tables import limit_in_words, limits_table, parameter_table, search_table
+from diagnosis.report.tables import (
+    explanation_table,
+    limit_in_words,
+    limits_table,
+    parameter_table,
+    search_table,
+)
 from diagnosis.selection.record import dropped, failed, kept, not_fitted
 from diagnosis.workers import Failure
 
@@ -13,7 +20,7 @@ from diagnosis.workers import Failure
 def cells(table):
     """Rows of a table of plain text."""
     rows = re.findall(r"<tr>(.*?)</tr>", table)
-    return [re.findall(r"<t[hd]>(.*?)</t[hd]>", row) for row in rows]
+    return [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in rows]
 
 
 @pytest.mark.parametrize(
@@ -41,6 +48,13 @@ def test_a_parameter_is_told_with_its_interval_and_unit():
     level = {"value": 0.0015, "low": 0.00148, "high": 0.00152, "unit": "N mm / mm"}
     row = cells(parameter_table({"coulomb_friction": {"level": level}}))[1]
     assert row == ["coulomb_friction", "level", "0.0015", "0.00148 to 0.00152", "N mm / mm"]
+
+
+def test_a_pair_is_one_row_at_its_probability_and_what_rounds_to_nothing_is_none(dry):
+    sets = ((("torque_bias", "tip_drag"), 0.9), ((), 0.0999), (("stiction",), 0.0001))
+    found = replace(dry.found, verdict=replace(dry.found.verdict, explanations=sets))
+    rows = cells(explanation_table(found))[1:]
+    assert rows == [["tip_drag + torque_bias", "0.900"], ["none", "0.100"]]
 
 
 def test_every_decision_of_the_search_is_a_row():

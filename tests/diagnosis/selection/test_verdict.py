@@ -113,6 +113,15 @@ def test_probabilities_are_those_of_the_scores():
     assert set(ranking) == {*LIBRARY, "none", "unknown"}
 
 
+def test_a_pair_is_one_explanation_and_each_of_its_effects_has_half_of_it_in_the_ranking():
+    found = verdict((["tip_drag", "torque_bias"], 100.0), (["entry_friction"], 104.0))
+    sets = {frozenset(names): p for names, p in found.explanations}
+    assert sum(sets.values()) == pytest.approx(1.0)
+    pair = sets[frozenset(("tip_drag", "torque_bias"))]
+    assert pair / sets[frozenset(("entry_friction",))] == pytest.approx(2.718281828**2)
+    assert dict(found.ranking)["tip_drag"] == pytest.approx(0.5 * pair)
+
+
 def test_the_place_is_that_of_the_first_effect():
     assert places(("tip_drag", "torque_bias")) == "needle"
     assert places(()) == ""

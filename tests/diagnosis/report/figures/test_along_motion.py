@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from diagnosis.log.trial import Trial
-from diagnosis.report.figures.along_motion import draw_along_motion
+from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
 
 
 @pytest.fixture(autouse=True)
@@ -18,7 +18,7 @@ def _closed():
 
 def drawn(axis):
     """Lines with their labels, without the guides."""
-    return [line for line in axis.get_lines() if line.get_marker() == "o"]
+    return [line for line in axis.get_lines() if line.get_marker() in "o><"]
 
 
 def test_each_sensor_is_shown_against_angle_reversal_and_rate(dry):
@@ -41,6 +41,14 @@ def test_dry_friction_that_the_nominal_model_lacks_has_the_sign_of_the_motion(dr
     forward, back = drawn(draw_along_motion(dry.found).axes[0])[:2]
     assert np.mean(forward.get_ydata()) > 1
     assert np.mean(back.get_ydata()) < -1
+
+
+def test_words_say_where_the_residual_is_largest(dry):
+    told = dry.found.assessment
+    since, value = max(told.shape.since_reversal_s, key=lambda part: part[1])
+    assert f"after a reversal, at {since:.3g} s: {value:.2f}, explained" in describe_along_motion(
+        dry.found
+    )
 
 
 def test_one_sensor_has_one_row(dry):

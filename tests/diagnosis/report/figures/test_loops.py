@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from diagnosis.log.trial import Trial
-from diagnosis.report.figures.loops import draw_loops, telling_trials
+from diagnosis.report.figures.loops import describe_loops, draw_loops, telling_trials
 
 NAMES = ["measured", "nominal", "explained"]
 
@@ -45,6 +45,15 @@ def test_the_explained_loop_is_nearer_to_the_measured_one(dry):
         torque = {name: own[1] for name, own in lines(axis).items()}
         left = [np.std(torque["measured"] - torque[name]) for name in NAMES[1:]]
         assert left[1] < left[0]
+
+
+def test_words_say_how_far_each_loop_is_off(dry):
+    said = describe_loops(dry.found)
+    trial, i = dry.log.trials[1], 1
+    assert i in telling_trials(dry.found)
+    left = trial["base_torque_n_mm"] - dry.found.nominal[i]["base_torque_n_mm"]
+    assert f"the nominal loop is off by {np.sqrt(np.mean(left**2)):.2g}, the explained one by " in said
+    assert trial.name in said
 
 
 def test_without_a_sensor_the_loop_of_the_other_is_left(dry):

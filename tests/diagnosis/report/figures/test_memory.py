@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from diagnosis.report.figures.memory import draw_memory
+from diagnosis.report.figures.memory import describe_memory, draw_memory
 
 
 @pytest.fixture(autouse=True)
@@ -37,6 +37,14 @@ def test_the_autocorrelation_falls_into_the_band_of_white_noise(dry):
     assert limit == pytest.approx(own.white_limit)
     assert before[0] > 0.5
     assert np.mean(np.abs(after) > limit) < 0.25
+
+
+def test_words_have_the_correlation_from_one_sample_to_the_next(dry):
+    told = dry.found.assessment
+    before, after = (
+        s.autocorrelation["tip_angle_deg"].lag_one_correlation for s in (told.shape, told.shape_after)
+    )
+    assert f"tip {before:.2f}, explained {after:.2f}" in describe_memory(dry.found)
 
 
 def test_a_residual_without_spectrum_or_memory_is_left_out(dry):

@@ -1,13 +1,13 @@
-"""The section that shows where the gap is."""
+"""Where the residual is."""
 
 import matplotlib.pyplot as plt
 import pytest
 
-from diagnosis.report import where
+from diagnosis.report.sections import where
+from diagnosis.report.sections.where import where_section
 from diagnosis.report.sentences import largest_parts, leading
-from diagnosis.report.where import where_section
 
-PICTURES = ("draw_breakdown", "draw_loops", "draw_along_motion", "draw_memory")
+PICTURES = ("draw_breakdown", "draw_along_motion", "draw_memory")
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def undrawn(monkeypatch):
 
 def test_every_picture_has_a_heading_a_sentence_and_words_for_who_cannot_see_it(dry, undrawn):
     parts = where_section(dry.found)
-    pictures = [i for i, part in enumerate(parts) if part.startswith("<img")]
+    pictures = [i for i, part in enumerate(parts) if part.startswith("<figure")]
     assert len(pictures) == len(PICTURES)
     for i in pictures:
         assert parts[i - 2].startswith("<h")

@@ -1,21 +1,15 @@
-"""The section of `report.html` that shows where the gap is: by part, in loops, along the motion."""
+"""Where the residual is: by part, along the motion, in its spectrum, and which signal leads."""
 
 from diagnosis.report import html_parts as html
-from diagnosis.report.figures.along_motion import draw_along_motion
-from diagnosis.report.figures.loops import draw_loops
-from diagnosis.report.figures.memory import draw_memory
-from diagnosis.report.figures.overview import draw_breakdown
+from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
+from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
+from diagnosis.report.figures.memory import describe_memory, draw_memory
 from diagnosis.report.sentences import largest_parts, largest_residual, leading
 from diagnosis.result import Diagnosis
 
 _BREAKDOWN = (
-    "Root mean square of measured minus predicted, in units of each sensor's noise (σ), before and "
-    "after adding the effect."
-)
-_LOOPS = (
-    "Trials whose loops differ most from those of the nominal model. A loop of torque against base "
-    "angle that is as wide at any rate is dry friction, one that widens with the rate is damping; a "
-    "flat part after each reversal is play; lag against torque is a line for an elastic shaft."
+    "Root mean square of measured minus predicted, in units of each sensor's noise (σ), of the nominal "
+    "model and of the best explanation."
 )
 _ALONG = (
     "A mean residual that steps with the sign of the rate is dry friction, one that grows with the rate "
@@ -37,25 +31,17 @@ _LEADS = (
 def where_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
     return [
-        html.heading("Where the gap is"),
+        html.heading("Where the residual is"),
         html.paragraph(_BREAKDOWN),
-        html.picture(
-            draw_breakdown(found),
-            "Bars of residual / σ by signal, phase, frequency and depth, nominal and explained",
-        ),
+        html.picture(draw_breakdown(found), describe_breakdown(found)),
         html.paragraph(f"{largest_parts(found)}."),
         html.paragraph(f"{largest_residual(found)}."),
-        html.heading("Loops of torque and lag", level=3),
-        html.paragraph(_LOOPS),
-        html.picture(draw_loops(found), "Torque against base angle, and lag against torque, by trial"),
         html.heading("Along the motion", level=3),
         html.paragraph(_ALONG),
-        html.picture(
-            draw_along_motion(found), "Residual against base angle, after a reversal, against the rate"
-        ),
+        html.picture(draw_along_motion(found), describe_along_motion(found)),
         html.heading("Spectrum and memory", level=3),
         html.paragraph(_MEMORY),
-        html.picture(draw_memory(found), "Spectrum and autocorrelation of the residual by sensor"),
+        html.picture(draw_memory(found), describe_memory(found)),
         html.heading("Which signal leads", level=3),
         html.paragraph(f"{leading(found)}."),
         html.paragraph(_LEADS),

@@ -1,0 +1,93 @@
+"""How the parameters of a fit are uncertain together.
+
+Two parameters are known to an ellipse, not to a rectangle: where they are correlated, one may be larger
+if the other is smaller. In 95 of 100 logs both at once lie inside of
+
+    (x - fit)' C^-1 (x - fit) = -2 log(1 - 0.95).
+
+C is the covariance of the two, in the units that they are fitted in; a parameter that is fitted in its
+logarithm bends the ellipse.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import CONFIDENCE
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Parameter
+from diagnosis.fitting.fit import Fit
+
+Array = NDArray[np.float64]
+
+_POINTS = 121
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class JointUncertainty:
+    """Parameters with their covariance.
+
+    Attributes:
+      owners: effect of each.
+      x: values, (n,), and `covariance`, (n, n), in the units that they are fitted in.
+    """
+
+    owners: tuple[str, ...]
+    parameters: tuple[Parameter, ...]
+    x: Array
+    covariance: Array
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """As effect.parameter."""
+        return tuple(f"{o}.{p.name}" for o, p in zip(self.owners, self.parameters, strict=True))
+
+    @property
+    def values(self) -> Array:
+        """In the units of the parameters, (n,)."""
+        return np.array([p.from_fit(float(v)) for p, v in zip(self.parameters, self.x, strict=True)])
+
+    def correlation(self, i: int, j: int) -> float:
+        """Of two parameters, -1 to 1; 0 where one of them is certain."""
+        product = float(self.covariance[i, i] * self.covariance[j, j])
+        return float(self.covariance[i, j]) / math.sqrt(product) if product > 0 else 0.0
+
+    def ellipse(self, i: int, j: int) -> Array:
+        """Outline of the 95 % region of two parameters, in their units, (2, N)."""
+        own = np.ix_([i, j], [i, j])
+        size, axes = np.linalg.eigh(self.covariance[own])
+        angle = np.linspace(0.0, 2.0 * np.pi, _POINTS)
+        radius = math.sqrt(-2.0 * math.log(1.0 - CONFIDENCE))
+        circle = (
+            radius * np.sqrt(np.maximum(size, 0.0))[:, None] * np.stack([np.cos(angle), np.sin(angle)])
+        )
+        outline = self.x[[i, j], None] + axes @ circle
+        both = (self.parameters[i], self.parameters[j])
+        return np.array(
+            [[p.from_fit(float(v)) for v in row] for p, row in zip(both, outline, strict=True)]
+        )
+
+
+def joint_uncertainty(fit: Fit, spread: Array, effects: Sequence[str]) -> JointUncertainty:
+    """Of the reported parameters of effects in their order, then of the rig's constants that are open.
+
+    Args:
+      spread: covariance of the vector of the fit, (n, n).
+    """
+    every = fit.parameterization
+    constants = [e.name for e in every.nuisance if e.name in LIBRARY and e.name not in effects]
+    entries = [
+        i
+        for name in (*effects, *constants)
+        for i, owner in enumerate(every.owners)
+        if owner == name and every.parameters[i].reported
+    ]
+    return JointUncertainty(
+        owners=tuple(every.owners[i] for i in entries),
+        parameters=tuple(every.parameters[i] for i in entries),
+        x=fit.x[entries],
+        covariance=spread[np.ix_(entries, entries)],
+    )

@@ -1,0 +1,55 @@
+"""What to change where an effect is found: the words of its file, with the values that were fitted."""
+
+from collections.abc import Mapping, Sequence
+
+from diagnosis.assessment.intervals import Interval
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Effect, Place
+from diagnosis.log.nominal_rig import NominalRig
+
+Parameters = Mapping[str, Mapping[str, Interval]]
+
+
+def remedies(effects: Sequence[str], parameters: Parameters, rig: NominalRig) -> str:
+    """What to change of rig or model, effect by effect, as an order without a full stop.
+
+    Args:
+      parameters: of each effect.
+    """
+    return "; ".join(_remedy(LIBRARY[name], parameters.get(name, {}), rig) for name in effects)
+
+
+def check_that_tells(sets: Sequence[Sequence[str]]) -> str:
+    """The measurement that tells sets of effects apart by itself: of what only one of them has.
+
+    A sensor is the easiest to calibrate, then a constant of the rig, alone and at rest.
+    """
+    shared = set.intersection(*(set(names) for names in sets)) if sets else set()
+    apart = [LIBRARY[name] for names in sets for name in names if name not in shared]
+    easiest = sorted(apart, key=lambda effect: _EASY.get(effect.place, len(_EASY)))
+    return easiest[0].check if easiest else ""
+
+
+_EASY = {Place.SENSOR: 0, Place.PARAMETERS: 1}
+
+
+def _remedy(effect: Effect, own: Mapping[str, Interval], rig: NominalRig) -> str:
+    words = {name: in_words(interval) for name, interval in own.items()}
+    if effect.corrects and own:
+        words["constant"] = f"{_nominal(effect, rig) * next(iter(own.values())).value:.4g}"
+    try:
+        return effect.remedy.format_map(words) or f"put into the model: {effect.title}"
+    except KeyError:  # a parameter that was not fitted
+        return f"put into the model: {effect.title}"
+
+
+def _nominal(effect: Effect, rig: NominalRig) -> float:
+    """The constant of rig.yaml that an effect corrects."""
+    group, _, name = effect.corrects.partition(".")
+    return float(getattr(getattr(rig, group), name))
+
+
+def in_words(interval: Interval) -> str:
+    """A value with its unit; factors by four digits."""
+    digits = ".4g" if interval.unit == "-" else ".3g"
+    return f"{interval.value:{digits}} {interval.unit}".removesuffix(" -")

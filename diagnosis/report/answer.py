@@ -1,0 +1,85 @@
+"""The answer in three sentences: what was found, how sure that is and how much it explains, what to do.
+
+They open the page and the summary on the screen.
+"""
+
+from diagnosis.criteria import CERTAIN_PROBABILITY
+from diagnosis.report.sentences import explanation_name, explanations, headline, titles
+from diagnosis.result import Diagnosis
+from diagnosis.selection.verdict import VerdictKind
+
+_NOT_HELD_OUT = "on the one trial that there is, which is that of the fit"
+_HELD_OUT = "on trials that the fit has not seen"
+
+
+def answer(found: Diagnosis) -> tuple[str, str, str]:
+    """What was found; how sure that is and how much it explains; what to do next."""
+    return f"{headline(found)}.", f"{_sure(found)}.", f"{_next(found)}."
+
+
+def _sure(found: Diagnosis) -> str:
+    if found.stopped and found.stopped.search:
+        best = _share(found, "the best so far")
+        return f"Not sure, as what was not tried may explain the log as well; {best}"
+    match found.verdict.kind:
+        case VerdictKind.NONE:
+            return _sure_of_nothing(found)
+        case VerdictKind.EXPLAINED:
+            return f"{_probability(found)}; {_share(found, 'it')}{_beside(found)}"
+        case VerdictKind.UNDECIDED:
+            return f"Sure that it is one of these, not of which; {_share(found, 'the first')}"
+    return _nearest(found)
+
+
+def _beside(found: Diagnosis) -> str:
+    """What no reading of this log can tell from what is named."""
+    others = [titles(names) for names in found.verdict.confusable[1:]]
+    return f"; no reading of this log tells it from {', or '.join(others)}" if others else ""
+
+
+def _nearest(found: Diagnosis) -> str:
+    near = found.assessment.nearest
+    if not near.effects:
+        return "Nothing that was tried improves on the nominal model"
+    share = _share(found, f"the nearest that was tried, {titles(near.effects)},")
+    return f"{share[0].upper()}{share[1:]}; what is left is {found.assessment.breakdown_after.largest}"
+
+
+def _sure_of_nothing(found: Diagnosis) -> str:
+    limits = found.assessment.detection_limits
+    if not limits:
+        return "How strong an effect may be and go unseen was not looked at"
+    return (
+        f"Sure down to the detection limits: of {len(limits)} effects, one that is stronger than its "
+        "limit would have shown in 95 of 100 such logs"
+    )
+
+
+def _probability(found: Diagnosis) -> str:
+    """Of what is named, beside the most probable of what else was tried."""
+    name = explanation_name(found.verdict.effects)
+    own = dict(explanations(found)).get(name, 0.0)
+    others = [one for one in explanations(found) if one[0] != name]
+    beside = f", the next is {others[0][0]} with {others[0][1]:.3f}" if others else ""
+    told = f"above {CERTAIN_PROBABILITY}" if own > CERTAIN_PROBABILITY else f"{own:.3f}"
+    return f"Probability {told} among all explanations that were tried{beside}"
+
+
+def _share(found: Diagnosis, which: str) -> str:
+    gap, where = found.assessment.gap, _HELD_OUT if len(found.log.trials) > 1 else _NOT_HELD_OUT
+    return (
+        f"{which} explains {found.assessment.nearest.power_explained_percent:.1f} % of the power of the "
+        f"residual beyond noise, {where}: {gap.before:.2f} σ → {gap.after:.2f} σ"
+    )
+
+
+def _next(found: Diagnosis) -> str:
+    advice = found.assessment.next_experiment
+    if advice:
+        return f"Next: {advice}"
+    if found.verdict.kind is VerdictKind.NONE:
+        return (
+            "Next: nothing has to change; if an effect that stays below its detection limit would "
+            "matter to you, record trials that load it more"
+        )
+    return "Next: diagnose this log to its end; what to do next was not looked for"

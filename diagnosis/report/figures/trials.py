@@ -1,0 +1,75 @@
+"""One trial along time: measured, nominal and explained, with residuals below."""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from diagnosis.log.trial import SENSORS
+from diagnosis.replay.replay import Prediction
+from diagnosis.report.figures.style import LABELS, LINES, MEASURED, PREDICTIONS, WIDE, rms
+from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
+from diagnosis.result import Diagnosis
+from models.user_text import in_figure
+
+
+def draw_trial(found: Diagnosis, i: int) -> Figure:
+    """Measured, nominal and explained of one trial, residuals below."""
+    trial, predictions, left = found.log.trials[i], _predictions(found, i), _residuals(found, i)
+    figure, axes = plt.subplots(
+        2, 2, figsize=(WIDE, 3.8), height_ratios=(3, 2), sharex=True, layout="constrained"
+    )
+    for (above, below), sensor in zip(axes.T, SENSORS, strict=True):
+        time = trial["time_s"]
+        if trial.has(sensor):
+            above.plot(time, trial[sensor], color=MEASURED, lw=1.6, label="measured")
+            below.axhspan(-2, 2, color="0.9", zorder=0)
+        for name, colour in PREDICTIONS.items():
+            look = {"color": colour, "ls": LINES[name], "label": name}
+            above.plot(time, predictions[name][sensor], lw=1.2, **look)
+            if trial.has(sensor):
+                below.plot(time, left[name].left[sensor], color=colour, lw=0.5)
+        above.set_title(in_figure(f"{trial.name}: {LABELS[sensor]}"), fontsize=10, loc="left")
+        below.set(ylabel="residual / σ", xlabel="time, s")
+        below.set_ylim(*_limits_of(below))
+    axes[0, 0].legend(fontsize=8)
+    return figure
+
+
+def describe_trial(found: Diagnosis, i: int) -> str:
+    """The picture in words."""
+    left = _residuals(found, i)
+    told = "; ".join(
+        f"{LABELS[sensor].split(',')[0]} {rms([own]):.2f} σ, then {rms([after]):.2f} σ"
+        for (sensor, own), after in zip(
+            left["nominal"].left.items(), left["explained"].left.values(), strict=True
+        )
+    )
+    seconds = float(found.log.trials[i]["time_s"][-1])
+    return (
+        f"{found.log.trials[i].name} over {seconds:.0f} s: measured, nominal and explained, with "
+        f"residuals below. Residual of the nominal model, then of the explanation: {told or 'none'}."
+    )
+
+
+def _predictions(found: Diagnosis, i: int) -> dict[str, Prediction]:
+    return {"nominal": found.nominal[i], "explained": found.assessment.explained[i]}
+
+
+def _residuals(found: Diagnosis, i: int) -> dict[str, TrialResidual]:
+    """Of one trial, by prediction."""
+    alone = replace(found.log, trials=(found.log.trials[i],))
+    return {
+        name: trial_residuals(alone, [own], found.noise)[0]
+        for name, own in _predictions(found, i).items()
+    }
+
+
+def _limits_of(axis: Axes) -> tuple[float, float]:
+    """Residual limits that a few outliers do not set."""
+    values = [np.asarray(line.get_ydata(), float) for line in axis.get_lines()]
+    finite = np.concatenate([v[np.isfinite(v)] for v in values]) if values else np.zeros(1)
+    reach = max(4.0, float(np.quantile(np.abs(finite), 0.995)) * 1.1) if finite.size else 4.0
+    return -reach, reach

@@ -1,0 +1,36 @@
+"""What else it may be: probabilities, what looks alike, what the trials cannot tell."""
+
+import math
+
+from diagnosis.assessment.identifiability import unidentifiable
+from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
+from diagnosis.report import html_parts as html
+from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
+from diagnosis.report.sentences import alike, with_one_more
+from diagnosis.report.tables import explanation_table
+from diagnosis.result import Diagnosis
+
+_RANKING = (
+    "Probability of each explanation, given the library, the noise and these trials; effects that "
+    f"explain a log together are one explanation. Odds below {math.exp(SIMPLE_LEAD / 2):.0f} to 1 "
+    "decide nothing: a second effect, or more parameters, have to lead by more before they are "
+    "named. An effect that contains a simpler one has to lead that by "
+    f"{math.exp(NESTED_LEAD / 2):.0f} to 1."
+)
+
+
+def alternatives_section(found: Diagnosis) -> list[str]:
+    """Everything under this heading."""
+    return [
+        html.heading("What else it may be"),
+        *([html.paragraph(f"{same}.")] if (same := alike(found)) else []),
+        html.paragraph(_RANKING),
+        html.picture(draw_ranking(found), describe_ranking(found)),
+        explanation_table(found),
+        *([html.paragraph(more)] if (more := with_one_more(found)) else []),
+        html.heading("What these trials cannot tell", level=3),
+        html.bullets(
+            list(unidentifiable(found.log))
+            or ["Every effect of the library would show in these trials."]
+        ),
+    ]

@@ -1,0 +1,52 @@
+"""Why to believe the answer: how much is explained, every trial, loops, twist of the shaft."""
+
+from diagnosis.report import html_parts as html
+from diagnosis.report.figures.loops import describe_loops, draw_loops
+from diagnosis.report.figures.trials import describe_trial, draw_trial
+from diagnosis.report.figures.twist import describe_twist, draw_twist
+from diagnosis.report.sentences import reduction
+from diagnosis.result import Diagnosis
+
+_TRIALS = (
+    "Grey: measured. Dashed blue: the nominal model. Solid red: the best explanation. Below each "
+    "signal: measured minus predicted, in σ (one standard deviation of the sensor's noise); in the "
+    "grey band lie 95 % of the samples if nothing but noise is left."
+)
+_LOOPS = (
+    "Trials whose loops differ most from those of the nominal model. A loop of torque against base "
+    "angle that is as wide at any rate is dry friction, one that widens with the rate is damping; a "
+    "flat part after each reversal is play; lag against torque is a line for an elastic shaft."
+)
+_TWIST = (
+    "How far each place of the shaft has turned, at the moment when the nominal model is off most. "
+    "Friction and damping along the shaft bend the line within the tissue, what happens at the entry "
+    "or at the tip breaks or tilts it there, drive and play shift all of it; what a sensor does "
+    "alone leaves it as it is."
+)
+
+
+def evidence_section(found: Diagnosis) -> list[str]:
+    """Everything under this heading."""
+    trials = range(len(found.log.trials))
+    return [
+        html.heading("Why to believe it"),
+        html.paragraph(reduction(found)),
+        html.heading("Measured, nominal and explained", level=3),
+        html.paragraph(_TRIALS),
+        *(html.picture(draw_trial(found, i), describe_trial(found, i)) for i in trials),
+        html.heading("Loops of torque and lag", level=3),
+        html.paragraph(_LOOPS),
+        html.picture(draw_loops(found), describe_loops(found)),
+        *_twist(found),
+    ]
+
+
+def _twist(found: Diagnosis) -> list[str]:
+    twist = found.assessment.twist
+    if twist is None:
+        return []
+    return [
+        html.heading("Twist along the shaft", level=3),
+        html.paragraph(_TWIST),
+        html.picture(draw_twist(twist), describe_twist(twist)),
+    ]

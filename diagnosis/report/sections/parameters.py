@@ -1,0 +1,46 @@
+"""Parameters of the best explanation: a table, and how they are uncertain together."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from diagnosis.report import html_parts as html
+from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
+from diagnosis.report.sentences import nearest
+from diagnosis.report.tables import parameter_table
+from diagnosis.result import Diagnosis
+
+_INTERVALS = (
+    "Each interval holds the true value in 95 of 100 logs, if the explanation is right and the "
+    "constants of rig.yaml are. The ellipses say it of two parameters at once: one "
+    "that leans says that one may be larger if the other is too, or smaller. Stiffness and damping "
+    "of the rig are left open in every fit, as a share of their nominal values."
+)
+_NEAREST = (
+    "This is not an explanation: something else is at work as well, or instead. Its intervals are wide "
+    "enough for what it leaves, but they assume that the rest is like noise."
+)
+
+
+def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:
+    """Everything under this heading; `report` is report.json. Nothing where nothing was fitted."""
+    if sentence := nearest(found):
+        own = report["nearest"]["parameters"]
+        parts = [html.heading("What comes nearest"), html.paragraph(f"{sentence}.")]
+        return [*parts, *_values(found, own), html.paragraph(_NEAREST)]
+    own = report["parameters"]
+    return [html.heading("Parameters"), *_values(found, own)] if own else []
+
+
+def _values(found: Diagnosis, parameters: Mapping[str, Any]) -> list[str]:
+    joint = found.assessment.joint
+    if not parameters:
+        return []
+    parts = [parameter_table(parameters)]
+    if not pairs_of(joint):
+        return parts
+    return [
+        *parts,
+        html.heading("Joint uncertainty", level=3),
+        html.paragraph(_INTERVALS),
+        html.picture(draw_joint(joint), describe_joint(joint)),
+    ]

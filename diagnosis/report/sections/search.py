@@ -1,0 +1,16 @@
+"""How the search went: every decision with its reason."""
+
+from diagnosis.report import html_parts as html
+from diagnosis.report.tables import search_table
+from diagnosis.result import Diagnosis
+
+_SEARCH = "Which stage made, kept or dropped which explanation, and why."
+
+
+def search_section(found: Diagnosis) -> list[str]:
+    """Everything under this heading."""
+    return [
+        html.heading("How the search went"),
+        html.paragraph(_SEARCH),
+        search_table(found.record),
+    ]

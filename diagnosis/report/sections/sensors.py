@@ -1,0 +1,16 @@
+"""The sensors: their noise, what they do beside it, and the numerical error of the replay."""
+
+from diagnosis.report import html_parts as html
+from diagnosis.report.sensors import imperfections
+from diagnosis.report.sentences import replay_quality
+from diagnosis.result import Diagnosis
+
+
+def sensors_section(found: Diagnosis) -> list[str]:
+    """Everything under this heading."""
+    beside = imperfections(found) or "The sensors show noise alone; nothing else had to be allowed for"
+    return [
+        html.heading("Sensors and numerical error"),
+        html.paragraph(f"{beside}."),
+        html.bullets(replay_quality(found)),
+    ]

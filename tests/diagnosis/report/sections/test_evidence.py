@@ -1,0 +1,31 @@
+"""Why to believe the answer."""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import pytest
+
+from diagnosis.report.sections import evidence
+from diagnosis.report.sections.evidence import evidence_section
+from diagnosis.report.sentences import reduction
+
+
+@pytest.fixture(autouse=True)
+def _undrawn(monkeypatch):
+    for name in ("draw_trial", "draw_loops", "draw_twist"):
+        monkeypatch.setattr(evidence, name, lambda *_: plt.figure())
+
+
+def test_every_trial_has_a_picture_of_its_own_then_loops_and_twist(dry):
+    parts = evidence_section(dry.found)
+    assert f"<p>{reduction(dry.found)}</p>" in parts
+    pictures = [part for part in parts if part.startswith("<figure")]
+    assert len(pictures) == len(dry.log.trials) + 2
+    for picture, trial in zip(pictures, dry.log.trials, strict=False):
+        assert f'alt="{trial.name} over' in picture
+
+
+def test_without_time_for_the_twist_it_is_left_out(dry):
+    told = replace(dry.found.assessment, twist=None)
+    parts = evidence_section(replace(dry.found, assessment=told))
+    assert not any("Twist along the shaft" in part for part in parts)

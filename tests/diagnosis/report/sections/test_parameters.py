@@ -1,0 +1,39 @@
+"""Parameters of the best explanation."""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import pytest
+
+from diagnosis.report.sections import parameters
+from diagnosis.report.sections.parameters import parameters_section
+from diagnosis.selection.verdict import VerdictKind
+
+
+@pytest.fixture(autouse=True)
+def _undrawn(monkeypatch):
+    monkeypatch.setattr(parameters, "draw_joint", lambda _: plt.figure())
+
+
+def test_values_stand_above_their_joint_uncertainty(dry):
+    title, values, joint, _, picture = parameters_section(dry.found, dry.report)
+    assert "Parameters" in title
+    assert "coulomb_friction" in values
+    assert "Joint uncertainty" in joint
+    assert "coulomb_friction.level and stiffness_error.scale" in picture
+
+
+def test_of_an_unknown_log_it_is_what_comes_nearest(dry):
+    unknown = replace(
+        dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN, effects=())
+    )
+    said = "".join(parameters_section(unknown, {**dry.report, "parameters": {}}))
+    assert "<h2" in said
+    assert "What comes nearest" in said
+    assert "This is not an explanation" in said
+    assert "coulomb_friction" in said
+
+
+def test_where_nothing_was_fitted_there_is_no_section(dry):
+    nothing = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.NONE, effects=()))
+    assert parameters_section(nothing, {**dry.report, "parameters": {}}) == []

@@ -1,0 +1,19 @@
+"""Sensors and numerical error."""
+
+from dataclasses import replace
+
+from diagnosis.report.sections.sensors import sensors_section
+from diagnosis.report.sentences import replay_quality
+
+
+def test_noise_and_numerical_error_are_told_of_each_sensor(dry):
+    title, beside, lines = sensors_section(dry.found)
+    assert "Sensors and numerical error" in title
+    assert "noise alone" in beside
+    assert all(line in lines for line in replay_quality(dry.found))
+
+
+def test_what_had_to_be_allowed_for_is_told(dry):
+    told = replace(dry.found.assessment, torque_drift_sigma=2.0)
+    found = replace(dry.found, assessment=told)
+    assert "a drift of the torque sensor, by up to 2.0 σ" in sensors_section(found)[1]

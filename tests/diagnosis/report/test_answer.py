@@ -1,0 +1,92 @@
+"""The answer in three sentences, for every verdict."""
+
+from dataclasses import replace
+
+import pytest
+
+from diagnosis.report.answer import answer
+from diagnosis.report.sentences import headline, titles
+from diagnosis.selection.verdict import VerdictKind
+from diagnosis.stopping import EarlyStop
+
+STOPPED = EarlyStop(why="limit of 30 s", stage="fitting pairs", left_out=("pairs",), search=True)
+ALIKE = (("coulomb_friction",), ("tip_drag", "torque_bias"), ("stiction",))
+
+
+def concluding(found, advice="", **verdict):
+    """The diagnosis with another verdict and advice."""
+    told = replace(found.assessment, next_experiment=advice)
+    return replace(found, verdict=replace(found.verdict, **verdict), assessment=told)
+
+
+def test_what_is_explained_is_told_with_probability_share_and_what_to_change(dry):
+    what, sure, then = answer(dry.found)
+    assert what == f"{headline(dry.found)}."
+    assert sure.startswith("Probability 0.99")
+    assert "it explains 100.0 % of the power of the residual beyond noise, on trials that the" in sure
+    assert then == f"Next: {dry.found.assessment.next_experiment}."
+    assert "Next: add dry friction of 0.001" in then
+
+
+def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
+    _, sure, _ = answer(concluding(dry.found, confusable=ALIKE))
+    assert sure.endswith(
+        f"tells it from {titles(('tip_drag', 'torque_bias'))}, or {titles(('stiction',))}."
+    )
+
+
+@pytest.mark.parametrize(
+    ("verdict", "sure", "then"),
+    [
+        (
+            {"kind": VerdictKind.NONE, "effects": ()},
+            "Sure down to the detection limits: of ",
+            "Next: nothing has to change",
+        ),
+        (
+            {"kind": VerdictKind.UNDECIDED, "confusable": ALIKE, "advice": "turn slowly"},
+            "Sure that it is one of these, not of which; the first explains 100.0 %",
+            "Next: turn slowly.",
+        ),
+        (
+            {"kind": VerdictKind.UNKNOWN, "effects": (), "advice": "look closer"},
+            "The nearest that was tried, dry (Coulomb) friction along the shaft, explains",
+            "Next: look closer.",
+        ),
+    ],
+)
+def test_every_verdict_has_its_sentences(dry, verdict, sure, then):
+    found = answer(concluding(dry.found, **verdict))
+    assert found[1].startswith(sure)
+    assert found[2].startswith(then)
+    assert all(sentence.endswith(".") and ".." not in sentence for sentence in found)
+
+
+def test_a_search_that_was_cut_short_is_not_sure(dry):
+    found = replace(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=ALIKE), stopped=STOPPED)
+    what, sure, then = answer(found)
+    assert what.startswith("Stopped early")
+    assert sure.startswith("Not sure, as what was not tried may explain the log as well; the best so")
+    assert then == "Next: diagnose this log to its end; what to do next was not looked for."
+
+
+def test_one_trial_is_not_called_unseen(dry):
+    alone = replace(dry.found, log=replace(dry.log, trials=dry.log.trials[:1]))
+    assert "not seen" not in answer(alone)[1]
+    assert "which is that of the fit" in answer(alone)[1]
+
+
+def test_without_limits_nothing_is_sure_and_without_an_effect_nothing_is_near(dry):
+    told = replace(dry.found.assessment, detection_limits={})
+    nothing = concluding(replace(dry.found, assessment=told), kind=VerdictKind.NONE, effects=())
+    assert answer(nothing)[1] == "How strong an effect may be and go unseen was not looked at."
+    bare = replace(dry.found.assessment, nearest=replace(dry.found.assessment.nearest, effects=()))
+    unknown = concluding(replace(dry.found, assessment=bare), kind=VerdictKind.UNKNOWN, effects=())
+    assert answer(unknown)[1] == "Nothing that was tried improves on the nominal model."
+
+
+def test_a_probability_is_never_one(dry):
+    certain = concluding(dry.found, explanations=((("coulomb_friction",), 1.0),))
+    assert answer(certain)[1].startswith(
+        "Probability above 0.999 among all explanations that were tried;"
+    )
