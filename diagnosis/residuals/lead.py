@@ -61,7 +61,8 @@ def lead(signals: tuple[str, str], parts: Sequence[tuple[Array, Array]], step_s:
     sign = 1.0 if curve[np.argmax(np.abs(curve))] > 0 else -1.0
     at = _peak(sign * curve)
     low, high = np.quantile(_resampled_peaks(sign * products, pairs), [0.025, 0.975])
-    height, limit = float(np.abs(curve).max()), LEAD_SIGMA * _chance(parts, most)
+    # A lag leaves out ends of the trials: where these are quiet, the ratio comes to a little above 1.
+    height, limit = min(float(np.abs(curve).max()), 1.0), LEAD_SIGMA * _chance(parts, most)
     certain = height > limit and low * high > 0 and abs(at - most) < most
     first = at > most
     by, ends = (at - most, (low, high)) if first or not certain else (most - at, (-high, -low))

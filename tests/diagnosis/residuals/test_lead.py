@@ -39,6 +39,17 @@ def test_a_late_copy_is_behind_by_its_delay(steps, sign):
     assert np.sign(found.correlation) == sign
 
 
+def test_a_correlation_is_1_at_most_where_the_ends_are_quiet():
+    """A copy that is late by a second; the first second of the one and the last of the other are 0."""
+    rng = np.random.default_rng(2)
+    one, late = np.zeros(SIZE), np.zeros(SIZE)
+    one[500:1500] = rng.normal(size=1000)
+    late[600:1600] = one[500:1500]
+    found = lead(NAMES, [(one, late)] * 3, STEP)
+    assert found.by_s == pytest.approx(1.0, abs=0.003)
+    assert 0.9 < found.correlation <= 1.0
+
+
 def test_the_second_leads_where_the_first_is_the_copy():
     found = lead(NAMES, [(late, one) for one, late in shifted(20)], STEP)
     assert found.signal == "tip_angle_deg"
