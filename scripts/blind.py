@@ -6,22 +6,26 @@ from pathlib import Path
 import pandas as pd
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import track
 from rich.table import Column, Table
 
-from models.errors import InvalidValue, NeedleError
-from sim.files import refuse_existing, write_text, writing
+from models.errors import InvalidValue, NeedleError, UnknownName
+from scripts.output_folder import output_folder
+from scripts.progress_line import counted, progress_line
+from scripts.tables import print_table
+from sim.files import write_text, writing
 from validation.logs.case import ImpossibleDraw
-from validation.logs.make import make_logs
+from validation.logs.make import NAMES, make_logs
 from validation.score import calibration, picture
 from validation.score.answers import read_answers
 from validation.score.detection import detection_limits
 from validation.score.run import diagnose_all
 from validation.score.scores import read_scores, reports_in
 
+MADE, SCORED = Path("out/blind"), Path("out/score")
+
 
 def make(
-    folder: Path,
+    out: Path | None,
     *,
     seed: int,
     count: int,
@@ -37,23 +41,34 @@ def make(
     Raises:
       NeedleError: the folder exists, or an argument is not what `make_logs` takes.
     """
-    if folder.exists():
-        raise InvalidValue("out", folder, "a folder that does not exist yet", "choose another one")
+    for field, given in (("kinds", kinds), ("effects", effects), ("roughness", roughness)):
+        _check_names(f"--{field}", given or (), NAMES[field])
+    if out and out.exists():
+        raise InvalidValue("--out", out, "a folder that does not exist yet", "choose another one")
+    folder = output_folder(out, MADE, lambda to: [to], force=False)
     try:
-        make_logs(
-            folder,
-            seed=seed,
-            count=count,
-            kinds=kinds,
-            effects=effects,
-            roughness=roughness,
-            signature=signature,
-            short=short,
-        )
+        with progress_line(Console(stderr=True)) as show:
+            make_logs(
+                folder,
+                seed=seed,
+                count=count,
+                kinds=kinds,
+                effects=effects,
+                roughness=roughness,
+                signature=signature,
+                short=short,
+                watched=lambda made: counted(made, count, "making logs", show),
+            )
     except (ValueError, ImpossibleDraw) as error:
         raise NeedleError(str(error)) from error
     console.print(f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers")
     return 0
+
+
+def _check_names(field: str, given: Sequence[str], known: Sequence[str]) -> None:
+    for name in given:
+        if name not in known:
+            raise UnknownName(field, name, known)
 
 
 def run_score(
@@ -72,43 +87,46 @@ def run_score(
         ground truth.
     """
     if trials is not None and trials < 1:
-        raise InvalidValue("trials", trials, "at least 1", "leave it out for all trials")
+        raise InvalidValue("--trials", trials, "at least 1", "leave it out for all trials")
     if limit_s is not None and not limit_s > 0:
-        raise InvalidValue("limit", limit_s, "seconds above 0", "leave it out for no limit")
+        raise InvalidValue("--limit", limit_s, "seconds above 0", "leave it out for no limit")
     if not (folder / "logs").is_dir() or not (folder / "answers" / "answers.json").is_file():
         raise InvalidValue(
-            "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
+            "DIR", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
         )
-    paths = [out / name for name in ("scores.csv", "score.png")] if out else []
-    refuse_existing(paths, force=force)
+    paths = _score_paths(output_folder(out, SCORED, _score_paths, force=force))
     read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
-    diagnose_all(
-        folder / "logs",
-        reports_in(folder, trials, limit_s),
-        trials=trials,
-        limit_s=limit_s,
-        watched=lambda tasks: track(tasks, description="logs"),
-    )
+    with progress_line(Console(stderr=True)) as show:
+        diagnose_all(
+            folder / "logs",
+            reports_in(folder, trials, limit_s),
+            trials=trials,
+            limit_s=limit_s,
+            watched=lambda tasks: counted(tasks, len(tasks), "diagnosing logs", show),
+        )
     scores = read_scores(folder, trials, limit_s)
     _print(scores, console)
-    if paths:
-        write_text(paths[0], scores.to_csv(index_label="case", float_format="%.4g"), force=force)
-        with writing(paths[1], force=force) as part:
-            picture.draw(scores, part)
+    write_text(paths[0], scores.to_csv(index_label="case", float_format="%.4g"), force=force)
+    with writing(paths[1], force=force) as part:
+        picture.draw(scores, part)
     for path in paths:
         console.print(f"wrote      {path}", highlight=False)
     return 0
 
 
+def _score_paths(folder: Path) -> list[Path]:
+    return [folder / name for name in ("scores.csv", "score.png")]
+
+
 def _print(scores: pd.DataFrame, console: Console) -> None:
     wrong = calibration.confidently_wrong(scores)
     by_kind = [calibration.summary(scores), calibration.summary(scores.assign(kind="all"))]
-    console.print(_by_kind(pd.concat(by_kind)))
+    print_table(console, _by_kind(pd.concat(by_kind)))
     _list(scores[wrong], "confidently wrong: ", console)
     limits = detection_limits(scores).dropna()
     if len(limits):
-        console.print(_limits(limits))
-    console.print(_calibration(scores))
+        print_table(console, _limits(limits))
+    print_table(console, _calibration(scores))
     _list(scores[~scores["exact"] & ~wrong], "", console)
 
 

@@ -10,8 +10,10 @@ from scripts.control_tables import (
     robustness_tables,
     settling_table,
 )
+from scripts.output_folder import output_folder
+from scripts.progress_line import ByShare, stage_line
 from scripts.steering_tables import steering_tables
-from sim.files import refuse_existing
+from scripts.tables import print_table
 from sim.recording.rerun_log import log_recording
 from studies.control.closed_loop_recording import record_closed_loop
 from studies.control.recordings import stems, step_recordings
@@ -19,26 +21,41 @@ from studies.control.report import FILES, ControlStudy, hankel, write_study
 from studies.control.steering.steered_insertions import STEERED, SteeredInsertion, TurnOrder
 from studies.control.study import run_study
 
+DEFAULT = Path("out/control")
+_STUDY_SHARE, _PICTURES_SHARE = 0.8, 0.84  # of the time, until the study and its pictures are done
 
-def run(folder: Path, *, force: bool, console: Console) -> int:
+
+def run(out: Path | None, *, force: bool, console: Console) -> int:
     """Run everything, print the tables and write the study."""
-    recordings = _recordings(folder)
-    steps = {stem: folder / f"{stem}.rrd" for stem in stems()}
-    written = [*(folder / name for name in FILES), *recordings.values(), *steps.values()]
-    refuse_existing(written, force=force)
-    with console.status("simulating closed loops") as status:
-        study = run_study(lambda stage: status.update(f"simulating closed loops: {stage}"))
+    folder = output_folder(out, DEFAULT, output_paths, force=force)
+    with stage_line() as stage:
+        study = run_study(lambda what, share: stage(what, _STUDY_SHARE * share))
+        paths = _write(study, folder, stage, force=force)
     show(study, console)
+    steps = len(stems())
+    console.print(f"wrote      {steps} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd")
+    for path in [*paths, *_recordings(folder).values()]:
+        console.print(f"wrote      {path}", highlight=False)
+    return 0
+
+
+def output_paths(folder: Path) -> list[Path]:
+    """Every file of the study."""
+    steps = (folder / f"{stem}.rrd" for stem in stems())
+    return [*(folder / name for name in FILES), *_recordings(folder).values(), *steps]
+
+
+def _write(study: ControlStudy, folder: Path, stage: ByShare, *, force: bool) -> list[Path]:
+    stage("drawing", _STUDY_SHARE)
     paths = write_study(study, folder, force=force)
     for order, insertions in study.steering.steered.items():
         for one in insertions:
-            _record(one, order, recordings, force=force)
-    for step in step_recordings(study.tables, study.robustness):
-        log_recording(step.make(), steps[step.stem], results=step.results, force=force)
-    console.print(f"wrote      {len(steps)} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd")
-    for path in [*paths, *recordings.values()]:
-        console.print(f"wrote      {path}", highlight=False)
-    return 0
+            _record(one, order, _recordings(folder), force=force)
+    steps = step_recordings(study.tables, study.robustness)
+    for i, step in enumerate(steps):
+        stage("recording steps", _PICTURES_SHARE + (1.0 - _PICTURES_SHARE) * i / len(steps))
+        log_recording(step.make(), folder / f"{step.stem}.rrd", results=step.results, force=force)
+    return paths
 
 
 def _recordings(folder: Path) -> dict[tuple[TurnOrder, str], Path]:
@@ -70,13 +87,12 @@ def _record(
 
 def show(study: ControlStudy, console: Console) -> None:
     """Print every table."""
-    console.print(settling_table(study.tables))
-    console.print(integral_table(study.tables))
+    print_table(console, settling_table(study.tables), keys=3)
+    print_table(console, integral_table(study.tables), keys=3)
     ratios = ", ".join(f"{x:.2g}" for x in hankel())
     console.print(f"Hankel singular values of torque to tip at 20 cm, over the largest: {ratios}")
-    for table in (
-        *robustness_tables(study.robustness),
-        failures_table(study.robustness),
-        *steering_tables(study.steering),
-    ):
-        console.print(table)
+    for table in robustness_tables(study.robustness):
+        print_table(console, table)
+    print_table(console, failures_table(study.robustness), keys=2)
+    for table, keys in steering_tables(study.steering):
+        print_table(console, table, keys=keys)

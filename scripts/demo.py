@@ -17,25 +17,30 @@ from scripts import diagnose as diagnosing
 from scripts import insert
 from scripts import replay as replaying
 from scripts import validate as validating
+from scripts.exit_codes import ExitCode
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
+from scripts.tables import print_table
 from sim.experiment import perform
-from sim.files import refuse_existing
 from sim.paper_protocols import protocol_named
 from sim.simulation import prepare_processes
-from studies.crosscheck.report import FILES, cross_check, write_report
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 EXAMPLE, DRY = EXAMPLES / "rig-log", EXAMPLES / "rig-log-dry"
+DEFAULT = Path("out/demo")
 _STAGES = 5
 
 
-def run(folder: Path, *, force: bool, console: Console) -> int:
+def run(out: Path | None, *, force: bool, console: Console) -> int:
     """Returns 1 if a bound of the cross-check fails."""
-    protocol, log = protocol_named("insertion"), read_rig_log(EXAMPLE)
-    paths = insert.output_paths(folder, protocol)
-    paths += [folder / "validate" / name for name in FILES]
-    paths += replaying.output_paths(log, folder / "replay")
-    paths += report_paths(read_rig_log(DRY), folder / "gap")
-    refuse_existing(paths, force=force)
+    protocol, log, dry = protocol_named("insertion"), read_rig_log(EXAMPLE), read_rig_log(DRY)
+
+    def outputs(to: Path) -> list[Path]:
+        checked, replayed = validating.output_paths(to / "validate"), to / "replay"
+        written = [*insert.output_paths(to, protocol), *checked]
+        return [*written, *replaying.output_paths(log, replayed), *report_paths(dry, to / "gap")]
+
+    folder = output_folder(out, DEFAULT, outputs, force=force)
     began = time.monotonic()
 
     _announce(console, 1, "compiling the tissue (once per machine, about 20 s)")
@@ -43,27 +48,28 @@ def run(folder: Path, *, force: bool, console: Console) -> int:
     _announce(console, 2, f"insertion: {protocol.description}")
     recording = perform(protocol)
     insert.write(recording, folder, protocol, force=force)
-    console.print(insert.summary(protocol, recording))
+    print_table(console, insert.summary(protocol, recording))
 
     _announce(console, 3, "cross-check against closed-form solutions")
-    findings = cross_check()
-    write_report(findings, folder / "validate", force=force)
-    console.print(validating.poles_table(findings))
-    console.print(validating.checks_table(findings))
+    findings, _ = validating.checked(folder / "validate", force=force)
+    print_table(console, validating.poles_table(findings), keys=3)
+    print_table(console, validating.checks_table(findings))
 
     _announce(console, 4, f"replay of {len(log.trials)} trials of a rig")
-    nominal = replay_nominal(log)
+    with stage_line() as stage:
+        stage("replaying", 0.0)
+        nominal = replay_nominal(log)
     replaying.write(nominal, folder / "replay", force=force)
-    console.print(replaying.table(nominal))
+    print_table(console, replaying.table(nominal))
 
     _announce(console, 5, "what a rig has that its model lacks")
     stopped = diagnosing.run(DRY, folder / "gap", json_only=False, force=force, console=console)
 
-    console.print(_written(paths))
+    print_table(console, _written(outputs(folder)))
     console.print(f"done in {time.monotonic() - began:.0f} s; look at a recording with")
     console.print(f"  needle inspect {folder / (protocol.name + '.rrd')}", highlight=False)
     console.print(f"and open {folder / 'gap' / 'report.html'}", highlight=False)
-    return stopped or (0 if findings.passed else 1)
+    return stopped or (ExitCode.DONE if findings.passed else ExitCode.BOUND_FAILS)
 
 
 def _announce(console: Console, stage: int, what: str) -> None:

@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +22,13 @@ from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from diagnosis.stopping import StoppedEarly, StopSignal
+from scripts.output_folder import output_folder
 from scripts.progress_line import progress_line
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
-from sim.files import refuse_existing
+from scripts.tables import print_table
 from sim.simulation import prepare_processes
 
+DEFAULT = Path("out/diagnose")
 _SHOWN = 0.0005  # what rounds to more than 0.000
 _REPORT_LEAST_S = 3.0  # kept of a limit for the report
 _REPORT_STARTS = 1.5  # times what Python took to start: on a busy machine both are slow
@@ -33,7 +36,7 @@ _REPORT_STARTS = 1.5  # times what Python took to start: on a busy machine both 
 
 def run(
     log_folder: Path,
-    folder: Path | None,
+    out: Path | None,
     *,
     json_only: bool,
     force: bool,
@@ -44,6 +47,7 @@ def run(
     """Diagnose a log; prints a summary, or `report.json`.
 
     Args:
+      out: where the report goes; None: a default folder, or nowhere with `json_only`.
       limit_s: for all of it; None: no limit.
       began_s: `time.monotonic()` from which the limit counts; None: now.
 
@@ -51,11 +55,12 @@ def run(
       0, or 128 and the number of the signal that asked for the best so far.
     """
     used_s = time.monotonic() - began_s if began_s else 0.0
-    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if folder else 0.0
+    writes = out is not None or not json_only
+    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if writes else 0.0
     stop = StopSignal(limit_s, began_s=began_s, reserve_s=reserve_s)
     log = read_rig_log(log_folder)
-    if folder:
-        refuse_existing(output_paths(log, folder), force=force)
+    outputs = partial(output_paths, log)
+    folder = output_folder(out, DEFAULT, outputs, force=force) if writes else None
     shown = Console(stderr=True)
     for warning in log.warnings:
         shown.print(f"warning: {escape(warning)}", highlight=False)
@@ -88,16 +93,17 @@ def _summary(found: Diagnosis, console: Console) -> None:
         console.print(escape(sentence), highlight=False)
     for warning in found.warnings:
         console.print(f"warning: {escape(warning)}", highlight=False)
-    console.print(_breakdown_table(found))
+    print_table(console, _breakdown_table(found))
     for sentence in (largest_parts(found), largest_residual(found)):
         console.print(escape(sentence), highlight=False)
     if found.verdict.effects:
-        console.print(_parameter_table(as_json(found)["parameters"], "What explains it"))
+        print_table(console, _parameter_table(as_json(found)["parameters"], "What explains it"), keys=2)
     elif found.assessment.nearest.effects:
-        console.print(_parameter_table(as_json(found)["nearest"]["parameters"], "What comes nearest"))
-    console.print(_ranking_table(found))
+        parameters = as_json(found)["nearest"]["parameters"]
+        print_table(console, _parameter_table(parameters, "What comes nearest"), keys=2)
+    print_table(console, _ranking_table(found))
     if told.detection_limits and not found.verdict.effects:
-        console.print(_limits_table(found))
+        print_table(console, _limits_table(found))
     if told.next_experiment:
         console.print(f"next: {escape(told.next_experiment)}", highlight=False)
     for sentence in unidentifiable(found.log):

@@ -15,14 +15,17 @@ from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.readers.read import read_lab_files
 from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log
 from diagnosis.log.rig_log import read_rig_log
+from scripts.output_folder import output_folder
+from scripts.tables import print_table
 from sim.files import write_text
 
+DEFAULT = Path("out/import")
 _FIELDS = ("column", "unit", "derive", "sign", "zero", "time_offset_s")
 
 
 def run(
     paths: Sequence[Path],
-    folder: Path,
+    out: Path | None,
     *,
     mapping: Path | None,
     accept_guesses: bool,
@@ -34,15 +37,15 @@ def run(
     for note in (note for file in files for note in file.notes):
         console.print(f"note: {note}", highlight=False, markup=False)
     if mapping is None:
-        return _draft(files, folder, force=force, console=console)
-    return _write(files, folder, mapping, accept_guesses=accept_guesses, force=force, console=console)
+        return _draft(files, out, force=force, console=console)
+    return _write(files, out, mapping, accept_guesses=accept_guesses, force=force, console=console)
 
 
-def _draft(files: Sequence[LabFile], folder: Path, *, force: bool, console: Console) -> int:
-    paths = [folder / "mapping.yaml", folder / "preview.png"]
+def _draft(files: Sequence[LabFile], out: Path | None, *, force: bool, console: Console) -> int:
+    paths = _draft_paths(output_folder(out, DEFAULT, _draft_paths, force=force))
     refuse_to_overwrite(paths, [file.path for file in files], force=force)
     draft = drafted(files)
-    console.print(table(draft))
+    print_table(console, table(draft), keys=2)
     for item in draft.open:
         console.print(f"open: {item}", highlight=False, markup=False)
     for line in loop_lines(draft):
@@ -60,6 +63,10 @@ def _draft(files: Sequence[LabFile], folder: Path, *, force: bool, console: Cons
         soft_wrap=True,
     )
     return 0
+
+
+def _draft_paths(folder: Path) -> list[Path]:
+    return [folder / "mapping.yaml", folder / "preview.png"]
 
 
 def table(draft: Draft) -> Table:
@@ -87,7 +94,7 @@ def table(draft: Draft) -> Table:
 
 def _write(
     files: Sequence[LabFile],
-    folder: Path,
+    out: Path | None,
     path: Path,
     *,
     accept_guesses: bool,
@@ -95,6 +102,7 @@ def _write(
     console: Console,
 ) -> int:
     mapping = read_mapping(path, accept_guesses=accept_guesses)
+    folder = output_folder(out, DEFAULT, lambda to: log_paths(mapping, to), force=force)
     outputs = log_paths(mapping, folder)
     refuse_to_overwrite(outputs, [path, *(file.path for file in files)], force=force)
     trials = imported(mapping, files)

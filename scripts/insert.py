@@ -5,7 +5,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from models.errors import InvalidValue
+from models.errors import InvalidValue, UnknownName
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
+from scripts.tables import print_table
 from sim.experiment import perform
 from sim.files import refuse_existing, write_text
 from sim.model_file import read_model
@@ -16,7 +19,9 @@ from sim.recording.recording import Recording
 from sim.recording.rerun_log import log_recording
 from sim.spec import needle_spec
 from studies.control.closed_loop_run import perform_closed_loop
+from studies.control.tip_controllers import TIP_CONTROLLERS
 
+DEFAULT = Path("out/insert")
 ENDINGS = (".csv", ".parquet", ".png", ".rrd")
 
 _MJCF_NOTE = """<!--
@@ -32,7 +37,7 @@ _MJCF_NOTE = """<!--
 
 def run(
     name: str,
-    folder: Path,
+    out: Path | None,
     *,
     controller: str | None,
     mjcf: Path | None,
@@ -47,24 +52,30 @@ def run(
 
     Raises:
       InvalidValue: `model` together with `mjcf` or `controller`.
+      UnknownName: no such protocol or controller.
     """
     protocol = find(name)
     if model and (mjcf or controller):
         raise InvalidValue("--model", str(model), "neither --mjcf nor --controller beside it")
-    paths = output_paths(folder, protocol)
-    refuse_existing([*paths, *([mjcf] if mjcf else [])], force=force)
+    if controller and controller not in TIP_CONTROLLERS:
+        raise UnknownName("--controller", controller, TIP_CONTROLLERS)
+    folder = output_folder(out, DEFAULT, lambda to: output_paths(to, protocol), force=force)
+    refuse_existing([mjcf] if mjcf else [], force=force)
     if mjcf:
         note = _MJCF_NOTE.format(name=protocol.name)
         write_text(mjcf, note + needle_spec(protocol.setup()).to_xml(), force=force)
         console.print(f"model      {mjcf}", highlight=False)
-    with console.status(f"simulating {protocol.name}"):
+    with stage_line() as stage:
+        stage(f"simulating {protocol.name}", 0.0)
         if controller:
             recording = perform_closed_loop(protocol, controller)
         else:
             recording = perform(protocol, read_model(model, protocol.setup()) if model else None)
-    for path in write(recording, folder, protocol, force=force):
+        stage("drawing and recording", 0.0)
+        paths = write(recording, folder, protocol, force=force)
+    for path in paths:
         console.print(f"wrote      {path}", highlight=False)
-    console.print(summary(protocol, recording))
+    print_table(console, summary(protocol, recording))
     return 0
 
 
@@ -124,5 +135,5 @@ def list_protocols(console: Console) -> int:
     table = Table("name", "experiment", title="Protocols")
     for name, make in PROTOCOLS.items():
         table.add_row(name, make().description)
-    console.print(table)
+    print_table(console, table)
     return 0

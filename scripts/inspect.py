@@ -8,6 +8,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from scripts.tables import print_table
 from sim.recording.rerun_table import Entry, entries
 
 
@@ -15,7 +16,7 @@ def run(path: Path, *, table: bool, console: Console) -> int:
     """Open or list; the viewer listens on the loopback address only."""
     found = entries(path)
     if table:
-        console.print(as_table(path, found))
+        print_table(console, as_table(path, found), keys=2)
         return 0
     environment = os.environ | {"CI": "1"}  # the viewer then collects nothing
     viewer = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
@@ -30,10 +31,11 @@ def as_table(path: Path, found: list[Entry]) -> Table:
     shown = Table(title=str(path))
     for heading in ("entity", "component"):
         shown.add_column(heading, overflow="fold")
-    for heading in ("rows", "from, s", "to, s", "last"):
+    for heading in ("rows", "from, s", "to, s", "last value"):
         shown.add_column(heading, justify="right", no_wrap=True)
+    shown.add_column("unit", no_wrap=True)
     for e in found:
-        times = ["" if t is None else f"{t:.3f}" for t in (e.start_s, e.end_s)]
-        last = "" if e.last is None else f"{e.last:.5g}"
-        shown.add_row(e.entity, e.component, str(e.rows), *times, last)
+        times = ["" if t is None else f"{t:.2f}" for t in (e.start_s, e.end_s)]
+        last = "" if e.last is None else f"{e.last:.4g}"
+        shown.add_row(e.entity, e.component, str(e.rows), *times, last, e.unit)
     return shown

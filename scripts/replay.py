@@ -14,10 +14,14 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
-from sim.files import refuse_existing, writing
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
+from scripts.tables import print_table
+from sim.files import writing
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
 
+DEFAULT = Path("out/replay")
 Pair = tuple[PreparedTrial, Prediction]
 
 _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
@@ -31,21 +35,21 @@ class ReplayedTrial:
     prediction: Prediction
 
 
-def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int:
+def run(log_folder: Path, out: Path | None, *, force: bool, console: Console) -> int:
     """Replay every trial; writes predictions, a picture and a recording of the first."""
     log = read_rig_log(log_folder)
-    paths = output_paths(log, folder)
-    refuse_existing(paths, force=force)
+    folder = output_folder(out, DEFAULT, lambda to: output_paths(log, to), force=force)
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False, markup=False)
-    with console.status(f"replaying {len(log.trials)} trials"):
+    with stage_line() as stage:
+        stage(f"replaying {len(log.trials)} trials", 0.0)
         nominal = replay_nominal(log)
     later = nominal.log.warnings[len(log.warnings) :]
     for warning in (*later, *nominal.problem.log.warnings, *nominal.problem.noise.warnings):
         console.print(f"warning: {warning}", highlight=False, markup=False)
-    console.print(table(nominal))
     write(nominal, folder, force=force)
-    for path in paths:
+    print_table(console, table(nominal))
+    for path in output_paths(log, folder):
         console.print(f"wrote      {path}", highlight=False)
     return 0
 
@@ -109,8 +113,23 @@ def write(nominal: NominalReplay, folder: Path, *, force: bool) -> None:
     first = nominal.problem.log.trials[0]
     shape = shape_of(log.rig, first, nominal.rig)
     results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
-    parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
-    log_recording(record(shape, parameters), rrd, results=results, force=force)
+    parameters = {
+        "protocol": first.name,
+        "description": "the nominal needle on a rig's motion, and what the rig measured",
+    }
+    measured = _measured(log.trials[0])
+    log_recording(record(shape, parameters), rrd, measured=measured, results=results, force=force)
+
+
+def _measured(trial: Trial) -> pd.DataFrame:
+    """What a trial measured, at its own samples, by the names of recordings."""
+    names = {
+        "base_angle_deg": "measured_base_deg",
+        "tip_angle_deg": "measured_tip_deg",
+        "base_torque_n_mm": "measured_torque_n_mm",
+    }
+    there = {name: column for column, name in names.items() if trial.has(column)}
+    return pd.DataFrame({"time_s": trial["time_s"]} | {n: trial[c] for n, c in there.items()})
 
 
 def _draw(replayed: list[ReplayedTrial], path: Path, *, force: bool) -> None:

@@ -11,12 +11,10 @@ from studies.control.steering.steered_insertions import PUBLISHED_MM, STEERED
 from studies.control.steering.steering_study import SteeringStudy
 
 
-def steering_tables(study: SteeringStudy) -> list[Table]:
-    """Every table, in the order of the stages."""
-    return [
-        *(_steered(study), _known_pose(study), _travels(study), _heights(study)),
-        *(_fused(study), _spun(study)),
-    ]
+def steering_tables(study: SteeringStudy) -> list[tuple[Table, int]]:
+    """Every table, in the order of the stages, and how many of its columns name a row."""
+    named_by_one = (_steered(study), _known_pose(study), _travels(study), _heights(study))
+    return [*((table, 1) for table in named_by_one), (_fused(study), 2), (_spun(study), 3)]
 
 
 def _steered(study: SteeringStudy) -> Table:

@@ -1,4 +1,4 @@
-"""`needle validate`: print the cross-check, and write it where asked."""
+"""`needle validate`: run the cross-check, print it and write it."""
 
 import math
 from itertools import groupby
@@ -7,38 +7,53 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from sim.files import refuse_existing
+from scripts.exit_codes import ExitCode
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
+from scripts.tables import print_table
 from studies.crosscheck.findings import Findings
 from studies.crosscheck.poles import SOURCES
 from studies.crosscheck.report import FILES, cross_check, write_report
 
+DEFAULT = Path("out/validate")
+_CHECKS_SHARE = 0.8  # of the time; the rest is for pictures and recordings
 _AGREES = 0.02  # figures within 2 % of each other need no explanation
 
 
-def run(folder: Path | None, *, force: bool, console: Console) -> int:
+def run(out: Path | None, *, force: bool, console: Console) -> int:
     """Returns 1 if a bound fails."""
-    if folder:
-        refuse_existing([folder / name for name in FILES], force=force)
-    with console.status("checking MuJoCo's needle against closed-form solutions and published figures"):
-        findings = cross_check()
+    folder = output_folder(out, DEFAULT, output_paths, force=force)
+    findings, paths = checked(folder, force=force)
     show(findings, console)
-    if folder:
-        for path in write_report(findings, folder, force=force):
-            console.print(f"wrote      {path}", highlight=False)
-    return 0 if findings.passed else 1
+    for path in paths:
+        console.print(f"wrote      {path}", highlight=False)
+    return ExitCode.DONE if findings.passed else ExitCode.BOUND_FAILS
+
+
+def output_paths(folder: Path) -> list[Path]:
+    """What `checked` will write."""
+    return [folder / name for name in FILES]
+
+
+def checked(folder: Path, *, force: bool) -> tuple[Findings, list[Path]]:
+    """Run every check and write the report, with progress on the screen."""
+    with stage_line() as stage:
+        findings = cross_check(lambda what, share: stage(what, _CHECKS_SHARE * share))
+        stage("drawing and recording", _CHECKS_SHARE)
+        return findings, write_report(findings, folder, force=force)
 
 
 def show(findings: Findings, console: Console) -> None:
     """Print poles, bounds and published figures."""
-    console.print(poles_table(findings))
-    console.print(checks_table(findings))
+    print_table(console, poles_table(findings), keys=3)
+    print_table(console, checks_table(findings))
     published = Table(
         "figure", "published", "ours", "ratio", "unit", "source", title="Published figures"
     )
     for c in findings.comparisons:
         numbers = (f"{c.published:.4g}", _number(c.ours, ".4g"), _number(c.ratio, ".3f"))
         published.add_row(c.item, *numbers, c.unit, c.source)
-    console.print(published)
+    print_table(console, published)
     console.print("Reasons for differences, where they are known:")
     differing = [c for c in findings.comparisons if not abs(c.ratio - 1) <= _AGREES]
     for note, items in groupby(differing, key=lambda c: c.note):

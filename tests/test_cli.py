@@ -110,12 +110,13 @@ def test_the_poles_fit_in_80_columns_in_a_section_per_source():
     ]
 
 
-def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):
+def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys, tmp_path):
     from scripts import validate
     from studies.crosscheck.findings import Check, Findings
 
     failing = Findings(checks=[Check(name="x", value=2, unit="-", high=1)])
-    monkeypatch.setattr(validate, "cross_check", lambda: failing)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(validate, "checked", lambda folder, *, force: (failing, []))
     assert main(["validate"]) == 1
     assert "fails" in capsys.readouterr().out
 

@@ -8,13 +8,12 @@ gives the same bytes, and a log depends on nothing but the seed and its number.
 
 import argparse
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.progress import track
 
 from validation.logs.case import ValidationCase, draw_case
 from validation.logs.ground_truth import Answer, ground_truth
@@ -25,6 +24,14 @@ from validation.logs.sensors import FINE_TIME, FORMATS, as_csv, measure, rig_yam
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 from validation.rig.simulation import compile_kernels
 from validation.rig.unmodelled import UNMODELLED
+
+NAMES: Mapping[str, tuple[str, ...]] = {
+    "kinds": ("all", *ALL_KINDS),
+    "effects": (*MODELLED, *WRONG_CONSTANTS, *UNMODELLED),
+    "roughness": tuple(ROUGHNESSES),
+}
+"""What `kinds`, `effects` and `roughness` may name."""
+Made = Iterable[tuple[str, Answer]]
 
 
 def make_logs(
@@ -39,6 +46,7 @@ def make_logs(
     roughness: Sequence[str] | None = None,
     alternatives: bool = False,
     workers: int = 2,
+    watched: Callable[[Made], Made] = iter,
 ) -> None:
     """Write logs and ground truth into a new folder.
 
@@ -51,6 +59,7 @@ def make_logs(
       alternatives: add to all answers which wrong effects would nearly explain the gap (slow);
         answers of unmodelled effects always have it.
       workers: processes.
+      watched: iterates over the logs as they are made, and may show progress.
 
     Raises:
       FileExistsError: the folder exists.
@@ -58,26 +67,26 @@ def make_logs(
         not in order.
     """
     kinds = ALL_KINDS if kinds and "all" in kinds else kinds or KINDS
-    _check(kinds, ALL_KINDS, "kinds")
-    _check(effects or (), (*MODELLED, *WRONG_CONSTANTS, *UNMODELLED), "effects")
-    _check(roughness or (), tuple(ROUGHNESSES), "roughness")
+    for field, given in (("kinds", kinds), ("effects", effects), ("roughness", roughness)):
+        _check(given or (), field)
     if count < 1:
-        raise ValueError(f"count: expected at least 1 log, got {count}")
+        raise ValueError(f"count: expected at least 1 log, found {count}")
     if not 0 < signature[0] < signature[1]:
-        raise ValueError(f"signature: expected 0 < LOW < HIGH, got {signature}")
+        found = " ".join(f"{value:g}" for value in signature)
+        raise ValueError(f"signature: expected 0 < LOW < HIGH, found {found}")
     (folder / "logs").mkdir(parents=True, exist_ok=False)
     how = {"short": short, "signature": signature, "alternatives": alternatives}
     jobs = [(folder, seed, i, tuple(kinds), (effects, roughness), how) for i in range(count)]
-    answers = dict(track(_made(jobs, workers), description="logs", total=count))
+    answers = dict(watched(_made(jobs, workers)))
     (folder / "answers").mkdir()
     text = json.dumps(answers, indent=1, sort_keys=False)
     (folder / "answers" / "answers.json").write_text(text + "\n")
 
 
-def _check(given: Sequence[str], known: Sequence[str], field: str) -> None:
+def _check(given: Sequence[str], field: str) -> None:
     for name in given:
-        if name not in known:
-            raise ValueError(f"{field}: expected some of {', '.join(known)}, got {name!r}")
+        if name not in NAMES[field]:
+            raise ValueError(f"{field}: expected some of {', '.join(NAMES[field])}, found {name!r}")
 
 
 def _made(jobs: list[tuple[Any, ...]], workers: int) -> Iterator[tuple[str, Answer]]:
@@ -125,7 +134,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--count", type=int, required=True)
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--kinds", nargs="+", choices=("all", *ALL_KINDS))
+    parser.add_argument("--kinds", nargs="+", choices=NAMES["kinds"])
     parser.add_argument("--effects", nargs="+")
     parser.add_argument("--roughness", nargs="+", choices=ROUGHNESSES)
     parser.add_argument("--signature", nargs=2, type=float, default=(1.0, 20.0), metavar=("LOW", "HIGH"))

@@ -29,7 +29,7 @@ def small(small_steering):
 
 
 def test_every_file_is_written_and_says_the_same(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "_SHOWN", ("base_only",))  # the picture simulates its own turns
+    monkeypatch.setattr(report, "_STYLES", {"base_only": {}})  # the picture simulates its own turns
     paths = write_study(small, tmp_path)
     assert [path.name for path in paths] == list(FILES)
     content = json.loads(paths[0].read_text(), parse_constant=lambda c: pytest.fail(c))
