@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from models.errors import InvalidValue, NeedleError, UnknownName
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import counted, progress_line
 from scripts.tables import print_table
 from sim.files import write_text, writing
@@ -21,6 +21,8 @@ from validation.score.detection import detection_limits
 from validation.score.run import diagnose_all
 from validation.score.scores import read_scores, reports_in
 
+KNOWN_NAMES = NAMES
+"""What --kinds, --effects and --roughness may name."""
 MADE, SCORED = Path("out/blind"), Path("out/score")
 
 
@@ -42,7 +44,7 @@ def make(
       NeedleError: the folder exists, or an argument is not what `make_logs` takes.
     """
     for field, given in (("kinds", kinds), ("effects", effects), ("roughness", roughness)):
-        _check_names(f"--{field}", given or (), NAMES[field])
+        _check_names(f"--{field}", given or (), KNOWN_NAMES[field])
     if out and out.exists():
         raise InvalidValue("--out", out, "a folder that does not exist yet", "choose another one")
     folder = output_folder(out, MADE, lambda to: [to], force=False)
@@ -61,7 +63,7 @@ def make(
             )
     except (ValueError, ImpossibleDraw) as error:
         raise NeedleError(str(error)) from error
-    console.print(f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers")
+    say_written(console, [f"{folder / 'logs'} ({count} logs)", folder / "answers"])
     return 0
 
 
@@ -109,8 +111,7 @@ def run_score(
     write_text(paths[0], scores.to_csv(index_label="case", float_format="%.4g"), force=force)
     with writing(paths[1], force=force) as part:
         picture.draw(scores, part)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
+    say_written(console, paths)
     return 0
 
 

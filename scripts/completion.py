@@ -7,14 +7,14 @@ from pathlib import Path
 from rich.console import Console
 
 from scripts.arguments import parser
-from scripts.blind import NAMES as BLIND_NAMES
+from scripts.blind import KNOWN_NAMES
 from sim.paper_protocols import PROTOCOLS
 from studies.control.tip_controllers import TIP_CONTROLLERS
 
 _NAMES: Mapping[str, Iterable[str]] = {
     "protocol": PROTOCOLS,
     "controller": TIP_CONTROLLERS,
-    **BLIND_NAMES,
+    **KNOWN_NAMES,
 }
 _FOLDERS = ("DIR", "LOG")
 

@@ -10,7 +10,7 @@ from scripts.control_tables import (
     robustness_tables,
     settling_table,
 )
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import ByShare, stage_line
 from scripts.steering_tables import steering_tables
 from scripts.tables import print_table
@@ -33,9 +33,8 @@ def run(out: Path | None, *, force: bool, console: Console) -> int:
         paths = _write(study, folder, stage, force=force)
     show(study, console)
     steps = len(stems())
-    console.print(f"wrote      {steps} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd")
-    for path in [*paths, *_recordings(folder).values()]:
-        console.print(f"wrote      {path}", highlight=False)
+    recorded = f"{steps} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd"
+    say_written(console, [recorded, *paths, *_recordings(folder).values()])
     return 0
 
 

@@ -22,7 +22,7 @@ from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from diagnosis.stopping import StoppedEarly, StopSignal
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import progress_line
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
 from scripts.tables import print_table
@@ -79,8 +79,7 @@ def run(
             console.print_json(json.dumps(as_json(found)))
         else:
             _summary(found, console)
-            for path in paths:
-                console.print(f"wrote      {path}", highlight=False)
+            say_written(console, paths)
     return EXIT_CODES[stop.requested]
 
 

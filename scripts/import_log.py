@@ -15,7 +15,7 @@ from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.readers.read import read_lab_files
 from diagnosis.lab_files.write_log import imported, log_paths, refuse_to_overwrite, write_log
 from diagnosis.log.rig_log import read_rig_log
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.tables import print_table
 from sim.files import write_text
 
@@ -52,8 +52,7 @@ def _draft(files: Sequence[LabFile], out: Path | None, *, force: bool, console: 
         console.print(f"loops: {line}", highlight=False, markup=False)
     write_text(paths[0], mapping_text(draft), force=force)
     write_preview(draft, paths[1], force=force)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
+    say_written(console, paths)
     names = " ".join(str(file.path) for file in files)
     console.print(
         f"next: look at preview.png, edit mapping.yaml, then\n  needle import {names} "
@@ -109,8 +108,7 @@ def _write(
     write_log(mapping, trials, folder, force=force)
     for note in (note for trial in trials for note in trial.notes):
         console.print(note, highlight=False, markup=False)
-    for output in outputs:
-        console.print(f"wrote      {output}", highlight=False)
+    say_written(console, outputs)
     log = read_rig_log(folder)
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False, markup=False)

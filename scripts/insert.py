@@ -6,7 +6,7 @@ from rich.console import Console
 from rich.table import Table
 
 from models.errors import InvalidValue, UnknownName
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import stage_line
 from scripts.tables import print_table
 from sim.experiment import perform
@@ -73,8 +73,7 @@ def run(
             recording = perform(protocol, read_model(model, protocol.setup()) if model else None)
         stage("drawing and recording", 0.0)
         paths = write(recording, folder, protocol, force=force)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
+    say_written(console, paths)
     print_table(console, summary(protocol, recording))
     return 0
 
@@ -115,7 +114,7 @@ def results(recording: Recording) -> list[str]:
         f"largest lag of the tip: {lag.max():.1f} deg, at {at:.2f} s",
         f"lag at the end: {lag[-1]:.2f} deg",
         f"largest base torque: {abs(recording['base_torque_n_mm']).max():.3f} N mm",
-        f"steps that did not converge: {failed}" if failed else "every step converged",
+        f"steps that did not converge: {failed or 'none'}",
     ]
     unknown = recording.parameters["tissue"]["unknown"]
     return lines + [f"not stated by the source: {what}" for what in unknown]

@@ -16,7 +16,7 @@ def run(path: Path, *, table: bool, console: Console) -> int:
     """Open or list; the viewer listens on the loopback address only."""
     found = entries(path)
     if table:
-        print_table(console, as_table(path, found), keys=2)
+        print_table(console, as_table(path, found))
         return 0
     environment = os.environ | {"CI": "1"}  # the viewer then collects nothing
     viewer = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
@@ -29,13 +29,13 @@ def run(path: Path, *, table: bool, console: Console) -> int:
 def as_table(path: Path, found: list[Entry]) -> Table:
     """One row a component."""
     shown = Table(title=str(path))
-    for heading in ("entity", "component"):
-        shown.add_column(heading, overflow="fold")
+    shown.add_column("entity")
     for heading in ("rows", "from, s", "to, s", "last value"):
         shown.add_column(heading, justify="right", no_wrap=True)
     shown.add_column("unit", no_wrap=True)
+    shown.add_column("component")
     for e in found:
         times = ["" if t is None else f"{t:.2f}" for t in (e.start_s, e.end_s)]
         last = "" if e.last is None else f"{e.last:.4g}"
-        shown.add_row(e.entity, e.component, str(e.rows), *times, last, e.unit)
+        shown.add_row(e.entity, str(e.rows), *times, last, e.unit, e.component)
     return shown

@@ -1,8 +1,10 @@
 """Where results go: the folder that was asked for, or a default one in which nothing is overwritten."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import count
 from pathlib import Path
+
+from rich.console import Console
 
 from sim.files import refuse_existing
 
@@ -23,6 +25,12 @@ def output_folder(given: Path | None, default: Path, outputs: Outputs, *, force:
     folder = given or (default if force else _first_free(default, outputs))
     refuse_existing(outputs(folder), force=force)
     return folder
+
+
+def say_written(console: Console, written: Iterable[Path | str]) -> None:
+    """Name what was written, a line each, which is not broken: it can be copied."""
+    for path in written:
+        console.print(f"wrote      {path}", highlight=False, markup=False, soft_wrap=True)
 
 
 def _first_free(default: Path, outputs: Outputs) -> Path:

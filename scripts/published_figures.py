@@ -6,7 +6,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import stage_line
 from scripts.tables import print_table
 from studies.published.material_study import MaterialStudy
@@ -48,8 +48,7 @@ def run(out: Path | None, *, json_only: bool, force: bool, console: Console) -> 
         console.print_json(json.dumps(as_json(study), allow_nan=False))
         return 0
     _show(study, console)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
+    say_written(console, paths)
     return 0
 
 

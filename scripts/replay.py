@@ -14,7 +14,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import stage_line
 from scripts.tables import print_table
 from sim.files import writing
@@ -49,8 +49,7 @@ def run(log_folder: Path, out: Path | None, *, force: bool, console: Console) ->
         console.print(f"warning: {warning}", highlight=False, markup=False)
     write(nominal, folder, force=force)
     print_table(console, table(nominal))
-    for path in output_paths(log, folder):
-        console.print(f"wrote      {path}", highlight=False)
+    say_written(console, output_paths(log, folder))
     return 0
 
 

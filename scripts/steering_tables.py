@@ -71,8 +71,16 @@ def _fused(study: SteeringStudy) -> Table:
 
 
 def _spun(study: SteeringStudy) -> Table:
-    title = "Duty-cycled spinning: curvature over that of a held tip, and its direction"
-    table = Table("controller", "from, cm", "duty", "law", "curvature", "direction, deg", title=title)
+    title = "Duty-cycled spinning: curvature / curvature of a tip that is held, and its direction"
+    table = Table(
+        "controller",
+        "start, cm",
+        "duty cycle",
+        "1 - duty cycle",
+        "curvature",
+        "direction, deg",
+        title=title,
+    )
     for one in study.spun:
         direction = "" if math.isnan(one.direction_deg) else f"{one.direction_deg:.0f}"
         row = (one.case, f"{one.start_mm / 10:g}", f"{one.duty:g}", f"{1 - one.duty:.2f}")

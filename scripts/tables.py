@@ -51,18 +51,19 @@ def _column_parts(console: Console, table: Table, keys: int) -> list[list[Column
 
 
 def _fits(console: Console, table: Table, columns: Sequence[Column]) -> bool:
-    return sum(_widths(console, table, columns)) + _rules(table, columns) <= console.width
+    """Whether no cell has to be broken inside a word."""
+    least = [_span(console, column, heading=table.show_header).minimum for column in columns]
+    return sum(least) + _rules(table, columns) <= console.width
 
 
 def _widths(console: Console, table: Table, columns: Sequence[Column]) -> list[int]:
     """Of the cells: the widest column shrinks until all fit, or until its longest word is reached."""
     spans = [_span(console, column, heading=table.show_header) for column in columns]
     widths, least = [span.maximum for span in spans], [span.minimum for span in spans]
-    room = console.width - _rules(table, columns)
+    room = max(console.width - _rules(table, columns), len(columns))
     while sum(widths) > room:
-        able = [i for i, width in enumerate(widths) if width > least[i]]
-        if not able:
-            break
+        # Where nothing is left to break between words, the widest names are folded, not the numbers.
+        able = [i for i, width in enumerate(widths) if width > least[i]] or range(len(widths))
         widths[max(able, key=lambda i: widths[i])] -= 1
     return widths
 

@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from scripts.exit_codes import ExitCode
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 from scripts.progress_line import stage_line
 from scripts.tables import print_table
 from studies.crosscheck.findings import Findings
@@ -25,8 +25,7 @@ def run(out: Path | None, *, force: bool, console: Console) -> int:
     folder = output_folder(out, DEFAULT, output_paths, force=force)
     findings, paths = checked(folder, force=force)
     show(findings, console)
-    for path in paths:
-        console.print(f"wrote      {path}", highlight=False)
+    say_written(console, paths)
     return ExitCode.DONE if findings.passed else ExitCode.BOUND_FAILS
 
 

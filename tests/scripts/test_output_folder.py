@@ -1,9 +1,13 @@
 """Where results go: never over earlier ones, and decided before anything is computed."""
 
+import io
+from pathlib import Path
+
 import pytest
+from rich.console import Console
 
 from models.errors import OutputExists
-from scripts.output_folder import output_folder
+from scripts.output_folder import output_folder, say_written
 
 
 def outputs(folder):
@@ -45,3 +49,10 @@ def test_with_force_results_are_replaced_where_they_are(default):
     with_results(default)
     assert output_folder(None, default, outputs, force=True) == default
     assert output_folder(default, default, outputs, force=True) == default
+
+
+def test_a_path_that_was_written_is_one_line_however_long_and_whatever_is_in_it():
+    console = Console(file=io.StringIO(), width=20)
+    path = Path("out") / "[red]a folder with blanks" / ("x" * 30)
+    say_written(console, [path])
+    assert console.file.getvalue() == f"wrote      {path}\n"

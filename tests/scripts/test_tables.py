@@ -60,3 +60,12 @@ def test_a_word_longer_than_half_the_screen_is_broken_and_complete():
     assert max(map(len, text.splitlines())) <= 30
     cells = "".join(line.split("│")[1].strip() for line in text.splitlines() if line.count("│") == 3)
     assert cells == "/a_name_of_an_entity_without_any_blank_in_it"
+
+
+def test_beside_names_that_are_too_long_numbers_stay_whole():
+    made = Table("entity", "component", "unit")
+    made.add_row("/an_entity_without_any_blank", "A3D:component_without_blanks", "mm/s")
+    text = printed(45, made, keys=2)
+    assert max(map(len, text.splitlines())) <= 45
+    assert "mm/s" in text
+    assert "unit" in text

@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from validation.score.calibration import (
     GAP_GOAL,
@@ -68,7 +69,7 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
     axis.plot(table["predicted"], table["observed"], "o-", color="tab:red", label="measured")
     for _, row in table.iterrows():
         axis.annotate(
-            f"{row['logs']:.0f} logs",
+            f"{row['logs']:.0f} log{'' if row['logs'] == 1 else 's'}",
             (row["predicted"], row["observed"]),
             xytext=(-6, -12),
             textcoords="offset points",
@@ -127,6 +128,7 @@ def _gap_left(axis: Axes, scores: pd.DataFrame) -> None:
         ylabel="logs",
         title=f"Gap left: {100 * gap_left(scores):.1f} % of the exact\ndiagnoses within {GAP_GOAL} σ",
     )
+    axis.yaxis.set_major_locator(MaxNLocator(integer=True))
     axis.legend(fontsize=9)
 
 
