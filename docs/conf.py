@@ -13,7 +13,7 @@ sys.path[:0] = [str(HERE.parent), str(HERE)]
 from commands import commands_page  # noqa: E402 - beside this file
 
 from models.record import Record  # noqa: E402
-from scripts.main import parser  # noqa: E402
+from scripts.arguments import parser  # noqa: E402
 
 project = "needle-torsion"
 copyright = "2026 The needle-torsion authors"

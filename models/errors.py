@@ -3,6 +3,8 @@
 from pathlib import PurePath
 from typing import Any
 
+from models.suggestion import did_you_mean
+
 _MOST_SHOWN = 500  # characters of a value in a message
 
 
@@ -31,10 +33,14 @@ class InvalidValue(NeedleError, ValueError):
 
 
 class UnknownName(InvalidValue):
-    """A name that is not among the known ones."""
+    """A name that is not among the known ones: says which was probably meant, then all of them."""
 
     def __init__(self, field: str, found: Any, known: Any) -> None:
-        super().__init__(field, found, "one of " + ", ".join(sorted(map(str, known))))
+        names = ", ".join(sorted(map(str, known)))
+        if meant := did_you_mean(found, known):
+            super().__init__(field, found, "a known name", f"{meant} Known: {names}")
+        else:
+            super().__init__(field, found, f"one of {names}")
 
 
 class OutputExists(NeedleError):
@@ -54,7 +60,9 @@ class EnvironmentMismatch(NeedleError):
 
 
 def _shown(value: Any) -> str:
-    """A value as a person wrote it: paths as plain text, everything else as Python shows it, cut."""
+    """A value as a person wrote it, paths as plain text; all else as Python shows it; cut."""
+    if value is None:
+        return "nothing"
     shown = str(value) if isinstance(value, PurePath) else repr(value)
     return shown if len(shown) <= _MOST_SHOWN else f"{shown[:_MOST_SHOWN]} ..."
 

@@ -1,11 +1,11 @@
 """Frozen, keyword-only configuration records whose errors name the field at fault."""
 
-from difflib import get_close_matches
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from models.errors import InvalidValue
+from models.suggestion import did_you_mean
 
 
 class Record(BaseModel):
@@ -43,11 +43,10 @@ def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
     field = ".".join(str(p) for p in (record.__name__, *first["loc"]))
     if first["type"] == "extra_forbidden":
         known = sorted(record.model_fields)
-        close = get_close_matches(str(first["loc"][-1]), known, n=1)
-        fix = f"did you mean {close[0]!r}?" if close else "remove it"
+        fix = did_you_mean(first["loc"][-1], known) or "remove it"
         return InvalidValue(field, first["input"], "one of the fields " + ", ".join(known), fix)
     if first["type"] == "missing":
-        return InvalidValue(field, "nothing", "a value", "this field has no default")
+        return InvalidValue(field, None, "a value", "this field has no default")
     message = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
     return InvalidValue(field, first["input"], message, _more(error))
 

@@ -7,24 +7,29 @@ from pathlib import Path
 import pandas as pd
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import Progress
 from rich.table import Column, Table
 
-from models.errors import InvalidValue, NeedleError
+from models.errors import InvalidValue, NeedleError, UnknownName
 from models.names import is_file, is_folder
+from scripts.output_folder import first_free, output_folder
+from scripts.progress_line import by_count, counted, progress_line
 from scripts.results import tell
+from scripts.tables import print_table
+from scripts.terminal import terminal
 from sim.files import Destination, ResultSet, publishing, write_text
 from validation.logs.case import ImpossibleDraw
-from validation.logs.make import make_logs
+from validation.logs.make import NAMES, make_logs
 from validation.score import calibration, picture
-from validation.score.answers import read_answers
 from validation.score.detection import detection_limits
-from validation.score.run import diagnose_all
-from validation.score.scores import read_scores, reports_in
+from validation.score.run import score_logs
+
+KNOWN_NAMES = NAMES
+"""What --kinds, --effects and --roughness may name."""
+MADE, SCORED = Path("out/blind"), Path("out/score")
 
 
 def make(
-    folder: Path,
+    out: Path | None,
     *,
     seed: int,
     count: int,
@@ -40,10 +45,16 @@ def make(
     Raises:
       NeedleError: the folder exists, or an argument is not what `make_logs` takes.
     """
-    if folder.exists():
-        raise InvalidValue("out", folder, "a folder that does not exist yet", "choose another one")
+    for field, given in (("kinds", kinds), ("effects", effects), ("roughness", roughness)):
+        _check_names(f"--{field}", given or (), KNOWN_NAMES[field])
+    if out and out.exists():
+        raise InvalidValue("--out", out, "a folder that does not exist yet", "choose another one")
+    folder = out or first_free(MADE, lambda to: [to])
     try:
-        with publishing(Destination(folder=folder.parent), [folder]) as written:
+        with (
+            progress_line(terminal(stderr=True)) as show,
+            publishing(Destination(folder=folder.parent), [folder]) as written,
+        ):
             make_logs(
                 written.at(folder),
                 seed=seed,
@@ -53,12 +64,19 @@ def make(
                 roughness=roughness,
                 signature=signature,
                 short=short,
+                watched=lambda made: counted(made, count, "making logs", show),
             )
     except (ValueError, ImpossibleDraw) as error:
         raise NeedleError(str(error)) from error
-    said = f"wrote      {folder}/logs ({count} logs)\nwrote      {folder}/answers"
-    console.print(said, highlight=False, markup=False)
+    shown: list[Path | str] = [f"{folder / 'logs'} ({count} logs)", folder / "answers"]
+    return tell(written, console, shown=shown)
     return 0
+
+
+def _check_names(field: str, given: Sequence[str], known: Sequence[str]) -> None:
+    for name in given:
+        if name not in known:
+            raise UnknownName(field, name, known)
 
 
 def run_score(
@@ -77,55 +95,44 @@ def run_score(
         ground truth.
     """
     if trials is not None and trials < 1:
-        raise InvalidValue("trials", trials, "at least 1", "leave it out for all trials")
+        raise InvalidValue("--trials", trials, "at least 1", "leave it out for all trials")
     if limit_s is not None and not limit_s > 0:
-        raise InvalidValue("limit", limit_s, "seconds above 0", "leave it out for no limit")
+        raise InvalidValue("--limit", limit_s, "seconds above 0", "leave it out for no limit")
     if not is_folder(folder / "logs") or not is_file(folder / "answers" / "answers.json"):
         raise InvalidValue(
-            "folder", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
+            "DIR", folder, "a folder with logs/ and answers/answers.json", "see needle blind make"
         )
     inputs = tuple(path for room in ("logs", "answers") for path in (folder / room).rglob("*"))
-    destination = Destination(folder=out, inputs=inputs, force=force) if out else None
-    if destination:
-        destination.check(_paths(destination.folder))
-    read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
-    with Progress(transient=True) as bar:
-        task = bar.add_task("logs", total=None)
-        diagnose_all(
-            folder / "logs",
-            reports_in(folder, trials, limit_s),
-            trials=trials,
-            limit_s=limit_s,
-            progress=lambda _, done, logs: bar.update(task, completed=done, total=logs),
-        )
-    scores = read_scores(folder, trials, limit_s)
-    written = _write(scores, destination) if destination else None
+    destination = output_folder(out, SCORED, _score_paths, inputs=inputs, force=force)
+    with progress_line(terminal(stderr=True)) as show:
+        scores = score_logs(folder, trials=trials, limit_s=limit_s, progress=by_count(show))
+    written = _write(scores, destination)
     _print(scores, console)
-    return tell(written, console) if written else 0
-
-
-def _paths(folder: Path) -> list[Path]:
-    return [folder / "scores.csv", folder / "score.png"]
+    return tell(written, console)
 
 
 def _write(scores: pd.DataFrame, destination: Destination) -> ResultSet:
-    table, shown = _paths(destination.folder)
-    with publishing(destination, [table, shown]) as written:
+    table, shown = paths = _score_paths(destination.folder)
+    with publishing(destination, paths) as written:
         text = scores.to_csv(index_label="case", float_format="%.4g")
         write_text(written.at(table), text)
         written.optional(shown, partial(picture.draw, scores))
     return written
 
 
+def _score_paths(folder: Path) -> list[Path]:
+    return [folder / name for name in ("scores.csv", "score.png")]
+
+
 def _print(scores: pd.DataFrame, console: Console) -> None:
     wrong = calibration.confidently_wrong(scores)
     by_kind = [calibration.summary(scores), calibration.summary(scores.assign(kind="all"))]
-    console.print(_by_kind(pd.concat(by_kind)))
+    print_table(console, _by_kind(pd.concat(by_kind)))
     _list(scores[wrong], "confidently wrong: ", console)
     limits = detection_limits(scores).dropna()
     if len(limits):
-        console.print(_limits(limits))
-    console.print(_calibration(scores))
+        print_table(console, _limits(limits))
+    print_table(console, _calibration(scores))
     _list(scores[~scores["exact"] & ~wrong], "", console)
 
 

@@ -11,10 +11,12 @@ from scripts.control_tables import (
     robustness_tables,
     settling_table,
 )
+from scripts.output_folder import output_folder
+from scripts.progress_line import ByShare, stage_line
 from scripts.results import tell
 from scripts.steering_tables import steering_tables
-from scripts.streams import waiting
-from sim.files import Destination, publishing
+from scripts.tables import print_table
+from sim.files import Destination, ResultSet, publishing
 from sim.recording.rerun_log import log_recording
 from studies.control.closed_loop_recording import record_closed_loop
 from studies.control.recordings import StepRecording, stems, step_recordings
@@ -22,26 +24,53 @@ from studies.control.report import FILES, ControlStudy, hankel, write_study
 from studies.control.steering.steered_insertions import STEERED, SteeredInsertion, TurnOrder
 from studies.control.study import run_study
 
+DEFAULT = Path("out/control")
+_STUDY_SHARE, _PICTURES_SHARE = 0.8, 0.84  # of the time, until the study and its pictures are done
 
-def run(folder: Path, *, force: bool, console: Console) -> int:
+
+def run(out: Path | None, *, force: bool, console: Console) -> int:
     """Run everything, print the tables and write the study."""
-    recordings = _recordings(folder)
-    steps = {stem: folder / f"{stem}.rrd" for stem in stems()}
-    paths = [*(folder / name for name in FILES), *recordings.values(), *steps.values()]
-    destination = Destination(folder=folder, force=force)
-    destination.check(paths)
-    with waiting("simulating closed loops") as status:
-        study = run_study(lambda stage: status.update(f"simulating closed loops: {stage}"))
-    with publishing(destination, paths) as written:
+    destination = output_folder(out, DEFAULT, output_paths, force=force)
+    with stage_line() as stage:
+        study = run_study(lambda what, share: stage(what, _STUDY_SHARE * share))
+        written = _write(study, destination, stage)
+    show(study, console)
+    return tell(written, console, shown=_told(written, destination.folder))
+
+
+def output_paths(folder: Path) -> list[Path]:
+    """Every file of the study."""
+    files = (folder / name for name in FILES)
+    return [*files, *_recordings(folder).values(), *_steps(folder).values()]
+
+
+def _steps(folder: Path) -> dict[str, Path]:
+    return {stem: folder / f"{stem}.rrd" for stem in stems()}
+
+
+def _told(written: ResultSet, folder: Path) -> list[Path | str]:
+    """The many recordings of steps in one line, the others one by one."""
+    steps = {*_steps(folder).values()}
+    others = [path for path in written.made if path not in steps]
+    count = len(written.made) - len(others)
+    return [f"{count} recordings of steps, {folder}/turn_*.rrd and robust_*.rrd", *others]
+
+
+def _write(study: ControlStudy, destination: Destination, stage: ByShare) -> ResultSet:
+    folder = destination.folder
+    recordings, files = _recordings(folder), _steps(folder)
+    with publishing(destination, output_paths(folder)) as written:
+        stage("drawing", _STUDY_SHARE)
         write_study(study, written, folder)
         for order, insertions in study.steering.steered.items():
             for one in insertions:
                 if one.controlled is not None:  # a baseline has no recording
                     written.optional(recordings[order, one.name], partial(_record, one, order))
-        for step in step_recordings(study.tables, study.robustness):
-            written.optional(steps[step.stem], partial(_record_step, step))
-    show(study, console)
-    return tell(written, console)
+        steps = step_recordings(study.tables, study.robustness)
+        for i, step in enumerate(steps):
+            stage("recording steps", _PICTURES_SHARE + (1.0 - _PICTURES_SHARE) * i / len(steps))
+            written.optional(files[step.stem], partial(_record_step, step))
+    return written
 
 
 def _recordings(folder: Path) -> dict[tuple[TurnOrder, str], Path]:
@@ -70,13 +99,12 @@ def _record(one: SteeredInsertion, order: TurnOrder, path: Path) -> None:
 
 def show(study: ControlStudy, console: Console) -> None:
     """Print every table."""
-    console.print(settling_table(study.tables))
-    console.print(integral_table(study.tables))
+    print_table(console, settling_table(study.tables), keys=3)
+    print_table(console, integral_table(study.tables), keys=3)
     ratios = ", ".join(f"{x:.2g}" for x in hankel())
     console.print(f"Hankel singular values of torque to tip at 20 cm, over the largest: {ratios}")
-    for table in (
-        *robustness_tables(study.robustness),
-        failures_table(study.robustness),
-        *steering_tables(study.steering),
-    ):
-        console.print(table)
+    for table in robustness_tables(study.robustness):
+        print_table(console, table)
+    print_table(console, failures_table(study.robustness), keys=2)
+    for table, keys in steering_tables(study.steering):
+        print_table(console, table, keys=keys)

@@ -18,7 +18,7 @@ _GROUPS = {
 
 def settling_table(responses: list[StepResponse]) -> Table:
     """Table IV: settling to 3 deg."""
-    table = _table("Table IV: a step of 90 deg, settling to 3 deg, s")
+    table = _table("Table IV: a step of 90 deg, time to settle within 3 deg, s")
     for o in responses:
         table.add_row(
             *_where(o),
@@ -33,7 +33,7 @@ def settling_table(responses: list[StepResponse]) -> Table:
 
 def integral_table(responses: list[StepResponse]) -> Table:
     """Table V: the integral of tip error over 2 s; and the largest shear stress."""
-    table = _table("Table V: integral of the tip error over 2 s, deg s")
+    table = _table("Table V: a step of 90 deg, integral of the tip error over 2 s, deg s")
     table.add_column("MPa", justify="right")
     for o in responses:
         table.add_row(
@@ -46,7 +46,7 @@ def integral_table(responses: list[StepResponse]) -> Table:
             end_section=o is responses[-1] or _next_differs(responses, o),
         )
     table.caption = (
-        "Same limits: the base alone at the motor's limit. Base only: the paper's, in 0.3 s.\n"
+        "Same limits: the base alone, as fast as the motor can. Base only: in 0.3 s, as in the paper.\n"
         "MPa: largest shear stress in the shaft."
     )
     return table
@@ -59,7 +59,7 @@ def robustness_tables(responses: list[StepResponse]) -> list[Table]:
     tables = []
     for title, controllers in _GROUPS.items():
         table = Table(
-            title=f"Robustness, {title}: settling, s", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0)
+            title=f"Robustness, {title}: time to settle, s", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0)
         )
         table.add_column("rig", width=21)
         for name in controllers:
@@ -68,7 +68,7 @@ def robustness_tables(responses: list[StepResponse]) -> list[Table]:
             cells = {name: found.get((rig, name)) for name in controllers}
             if any(o for name, o in cells.items() if name != SAME_LIMITS):
                 table.add_row(rig, *(_cell(o) if o else "" for o in cells.values()))
-        table.caption = "^ overshoot beyond 3 deg; never: and the error that is left, deg"
+        table.caption = "^: overshoot, deg, if beyond 3. never: does not settle; remaining error, deg"
         tables.append(table)
     return tables
 
@@ -87,8 +87,8 @@ def failures_table(responses: Iterable[StepResponse]) -> Table:
 
 def _table(title: str) -> Table:
     table = Table(title=title, box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
-    table.add_column("cm", justify="right")
-    table.add_column("free", justify="right")
+    table.add_column("deep\ncm", justify="right")
+    table.add_column("free\nmm", justify="right")
     table.add_column("controller", no_wrap=True)
     for heading in ("ours", "paper", "ratio", "better than same limits", "better than base only"):
         table.add_column(heading, justify="right", max_width=11)

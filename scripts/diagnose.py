@@ -4,6 +4,7 @@ import json
 import time
 from collections.abc import Iterator, Mapping
 from datetime import date
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,20 +24,25 @@ from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from diagnosis.stopping import StoppedEarly, StopSignal
+from scripts.exit_codes import ExitCode
+from scripts.output_folder import output_folder
 from scripts.progress_line import progress_line
 from scripts.results import tell
 from scripts.stop_signals import EXIT_CODES, stops_on_signals
+from scripts.streams import complain
+from scripts.tables import print_table
 from scripts.terminal import terminal
-from sim.files import Destination, finish_interrupted
+from sim.files import finish_interrupted
 from sim.simulation import prepare_processes
 
+DEFAULT = Path("out/diagnose")
 _REPORT_LEAST_S = 4.0  # kept of a limit for the report
 _REPORT_STARTS = 1.5  # times what Python took to start: on a busy machine both are slow
 
 
 def run(
     log_folder: Path,
-    folder: Path | None,
+    out: Path | None,
     *,
     json_only: bool,
     force: bool,
@@ -47,6 +53,7 @@ def run(
     """Diagnose a log; prints a summary, or `report.json`.
 
     Args:
+      out: where the report goes; None: a default folder, or nowhere with `json_only`.
       limit_s: for all of it; None: no limit.
       began_s: `time.monotonic()` from which the limit counts; None: now.
 
@@ -54,33 +61,31 @@ def run(
       0, or 128 and the number of the signal that asked for the best so far.
     """
     used_s = time.monotonic() - began_s if began_s else 0.0
-    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if folder else 0.0
+    writes = out is not None or not json_only
+    reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if writes else 0.0
     stop = StopSignal(limit_s, began_s=began_s, reserve_s=reserve_s)
     finish_interrupted(log_folder)
     log = read_rig_log(log_folder)
-    inputs = files_of(log, log_folder)
-    destination = Destination(folder=folder, inputs=inputs, force=force) if folder else None
-    if destination:
-        destination.check(output_paths(log, destination.folder))
-    shown = terminal(stderr=True)
+    outputs, inputs = partial(output_paths, log), files_of(log, log_folder)
+    destination = output_folder(out, DEFAULT, outputs, inputs=inputs, force=force) if writes else None
     for warning in log.warnings:
-        shown.print(f"warning: {warning}", highlight=False)
+        complain(f"warning: {warning}")
     prepare_processes()  # compiles for half a minute the first time, before there is anything to tell
     with stops_on_signals(stop):
         try:
-            with progress_line(shown, stop) as show:
+            with progress_line(terminal(stderr=True), stop) as show:
                 found = diagnose(log, stop=stop, progress=show, diagnosed_on=date.today())
         except StoppedEarly as early:
             if not stop.requested:
                 raise
-            shown.print(f"needle diagnose: {early}")
+            complain(f"needle diagnose: {early}")
             return EXIT_CODES[stop.requested]
         written = write_report(found, destination) if destination else None
         if json_only:
             console.print_json(json.dumps(as_json(found)))
         else:
             _summary(found, console)
-        code = tell(written, Console(quiet=True) if json_only else console) if written else 0
+        code = tell(written, console, shown=() if json_only else None) if written else ExitCode.DONE
     return EXIT_CODES[stop.requested] or code
 
 
@@ -94,16 +99,17 @@ def _summary(found: Diagnosis, console: Console) -> None:
         console.print(sentence, highlight=False)
     for warning in found.warnings:
         console.print(f"warning: {warning}", highlight=False)
-    console.print(_breakdown_table(found))
+    print_table(console, _breakdown_table(found))
     for sentence in (largest_parts(found), largest_residual(found)):
         console.print(sentence, highlight=False)
     if found.verdict.effects:
-        console.print(_parameter_table(as_json(found)["parameters"], "What explains it"))
+        print_table(console, _parameter_table(as_json(found)["parameters"], "What explains it"), keys=2)
     elif found.assessment.nearest.effects:
-        console.print(_parameter_table(as_json(found)["nearest"]["parameters"], "What comes nearest"))
-    console.print(_ranking_table(found))
+        parameters = as_json(found)["nearest"]["parameters"]
+        print_table(console, _parameter_table(parameters, "What comes nearest"), keys=2)
+    print_table(console, _ranking_table(found))
     if told.detection_limits and not found.verdict.effects:
-        console.print(_limits_table(found))
+        print_table(console, _limits_table(found))
     for sentence in unidentifiable(found.log):
         console.print(f"open: {sentence}", highlight=False)
 

@@ -15,15 +15,18 @@ from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.readers.read import read_lab_files
 from diagnosis.lab_files.write_log import imported, log_paths, write_log
 from diagnosis.log.rig_log import read_rig_log
+from scripts.output_folder import output_folder
 from scripts.results import tell
-from sim.files import Destination, publishing, write_text
+from scripts.tables import print_table
+from sim.files import publishing, write_text
 
+DEFAULT = Path("out/import")
 _FIELDS = ("column", "unit", "derive", "sign", "zero", "time_offset_s")
 
 
 def run(
     paths: Sequence[Path],
-    folder: Path,
+    out: Path | None,
     *,
     mapping: Path | None,
     accept_guesses: bool,
@@ -33,35 +36,38 @@ def run(
     """Draft a mapping, or apply one."""
     files = read_lab_files(paths)
     for note in (note for file in files for note in file.notes):
-        console.print(f"note: {note}", highlight=False, markup=False)
+        console.print(f"note: {note}", highlight=False)
     if mapping is None:
-        return _draft(files, folder, force=force, console=console)
-    return _write(files, folder, mapping, accept_guesses=accept_guesses, force=force, console=console)
+        return _draft(files, out, force=force, console=console)
+    return _write(files, out, mapping, accept_guesses=accept_guesses, force=force, console=console)
 
 
-def _draft(files: Sequence[LabFile], folder: Path, *, force: bool, console: Console) -> int:
-    paths = [folder / "mapping.yaml", folder / "preview.png"]
-    destination = Destination(folder=folder, inputs=tuple(file.path for file in files), force=force)
-    destination.check(paths)
+def _draft(files: Sequence[LabFile], out: Path | None, *, force: bool, console: Console) -> int:
+    inputs = tuple(file.path for file in files)
+    destination = output_folder(out, DEFAULT, _draft_paths, inputs=inputs, force=force)
+    paths = _draft_paths(destination.folder)
     draft = drafted(files)
     with publishing(destination, paths) as written:
         write_text(written.at(paths[0]), mapping_text(draft))
         written.optional(paths[1], partial(write_preview, draft))
-    console.print(table(draft))
+    print_table(console, table(draft), keys=2)
     for item in draft.open:
-        console.print(f"open: {item}", highlight=False, markup=False)
+        console.print(f"open: {item}", highlight=False)
     for line in loop_lines(draft):
-        console.print(f"loops: {line}", highlight=False, markup=False)
+        console.print(f"loops: {line}", highlight=False)
     code = tell(written, console)
     names = " ".join(str(file.path) for file in files)
     console.print(
         f"next: look at preview.png, edit mapping.yaml, then\n  needle import {names} "
         f"--map {paths[0]} --out LOG",
         highlight=False,
-        markup=False,
         soft_wrap=True,
     )
     return code
+
+
+def _draft_paths(folder: Path) -> list[Path]:
+    return [folder / "mapping.yaml", folder / "preview.png"]
 
 
 def table(draft: Draft) -> Table:
@@ -89,7 +95,7 @@ def table(draft: Draft) -> Table:
 
 def _write(
     files: Sequence[LabFile],
-    folder: Path,
+    out: Path | None,
     path: Path,
     *,
     accept_guesses: bool,
@@ -97,17 +103,16 @@ def _write(
     console: Console,
 ) -> int:
     mapping = read_mapping(path, accept_guesses=accept_guesses)
-    inputs = (path, *(file.path for file in files))
-    destination = Destination(folder=folder, inputs=inputs, force=force)
-    destination.check(log_paths(mapping, folder))
+    outputs, inputs = partial(log_paths, mapping), (path, *(file.path for file in files))
+    destination = output_folder(out, DEFAULT, outputs, inputs=inputs, force=force)
     trials = imported(mapping, files)
     written = write_log(mapping, trials, destination)
     for note in (note for trial in trials for note in trial.notes):
-        console.print(note, highlight=False, markup=False)
+        console.print(note, highlight=False)
     code = tell(written, console)
-    log = read_rig_log(folder)
+    log = read_rig_log(destination.folder)
     for warning in log.warnings:
-        console.print(f"warning: {warning}", highlight=False, markup=False)
+        console.print(f"warning: {warning}", highlight=False)
     said = "no warnings" if not log.warnings else f"{len(log.warnings)} warnings"
     console.print(f"read back: {len(log.trials)} trials, {said}", highlight=False)
     return code

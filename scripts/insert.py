@@ -7,10 +7,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from models.errors import InvalidValue
+from models.errors import InvalidValue, UnknownName
 from models.user_text import in_xml_comment
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
 from scripts.results import tell
-from scripts.streams import waiting
+from scripts.tables import print_table
 from sim.experiment import perform
 from sim.files import Destination, ResultSet, publishing, write_text
 from sim.model_file import read_model
@@ -21,7 +23,9 @@ from sim.recording.recording import Recording
 from sim.recording.rerun_log import log_recording
 from sim.spec import needle_spec
 from studies.control.closed_loop_run import perform_closed_loop
+from studies.control.tip_controllers import TIP_CONTROLLERS
 
+DEFAULT = Path("out/insert")
 ENDINGS = (".csv", ".parquet", ".png", ".rrd")
 
 _MJCF_NOTE = """<!--
@@ -37,7 +41,7 @@ _MJCF_NOTE = """<!--
 
 def run(
     name: str,
-    folder: Path,
+    out: Path | None,
     *,
     controller: str | None,
     mjcf: Path | None,
@@ -52,30 +56,45 @@ def run(
 
     Raises:
       InvalidValue: `model` together with `mjcf` or `controller`.
+      UnknownName: no such protocol or controller.
     """
     protocol = find(name)
     if model and (mjcf or controller):
         raise InvalidValue("--model", str(model), "neither --mjcf nor --controller beside it")
+    if controller and controller not in TIP_CONTROLLERS:
+        raise UnknownName("--controller", controller, TIP_CONTROLLERS)
+
+    def beside(folder: Path) -> list[Path]:
+        """A model inside the folder is one of its results; outside of it a result of its own."""
+        return [mjcf] if mjcf and mjcf.is_relative_to(folder) else []
+
     inputs = (*([Path(name)] if _is_file(name) else []), *([model] if model else []))
-    destination = Destination(folder=folder, inputs=inputs, force=force)
-    # A model outside of the folder is a result of its own.
-    beside = mjcf if mjcf and mjcf.is_relative_to(folder) else None
-    aside = replace(destination, folder=mjcf.parent) if mjcf and not beside else None
-    destination.check([*output_paths(folder, protocol), *([beside] if beside else [])])
+    destination = output_folder(
+        out,
+        DEFAULT,
+        lambda to: [*output_paths(to, protocol), *beside(to)],
+        inputs=inputs,
+        force=force,
+    )
+    inside = beside(destination.folder)
+    aside = replace(destination, folder=mjcf.parent) if mjcf and not inside else None
     if mjcf and aside:
         aside.check([mjcf])
-    with waiting(f"simulating {protocol.name}"):
+    with stage_line() as stage:
+        stage(f"simulating {protocol.name}", 0.0)
         if controller:
             recording = perform_closed_loop(protocol, controller)
         else:
             recording = perform(protocol, read_model(model, protocol.setup()) if model else None)
-    if mjcf and aside:
-        with publishing(aside, [mjcf]) as apart:
-            _write_model(protocol, apart.at(mjcf))
-        console.print(f"model      {mjcf}", highlight=False, markup=False)
-    written = write(recording, destination, protocol, mjcf=beside)
+        if mjcf and aside:
+            with publishing(aside, [mjcf]) as apart:
+                _write_model(protocol, apart.at(mjcf))
+        stage("drawing and recording", 0.0)
+        written = write(recording, destination, protocol, mjcf=mjcf if inside else None)
+    if aside:
+        console.print(f"model      {mjcf}", highlight=False, soft_wrap=True)
     code = tell(written, console)
-    console.print(summary(protocol, recording))
+    print_table(console, summary(protocol, recording))
     return code
 
 
@@ -129,7 +148,7 @@ def results(recording: Recording) -> list[str]:
         f"largest lag of the tip: {lag.max():.1f} deg, at {at:.2f} s",
         f"lag at the end: {lag[-1]:.2f} deg",
         f"largest base torque: {abs(recording['base_torque_n_mm']).max():.3f} N mm",
-        f"steps that did not converge: {failed}" if failed else "every step converged",
+        f"steps that did not converge: {failed or 'none'}",
     ]
     unknown = recording.parameters["tissue"]["unknown"]
     return lines + [f"not stated by the source: {what}" for what in unknown]
@@ -149,5 +168,5 @@ def list_protocols(console: Console) -> int:
     table = Table("name", "experiment", title="Protocols")
     for name, make in PROTOCOLS.items():
         table.add_row(name, make().description)
-    console.print(table)
+    print_table(console, table)
     return 0

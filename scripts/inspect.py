@@ -8,6 +8,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from scripts.tables import print_table
 from sim.files import finish_interrupted
 from sim.recording.rerun_table import Entry, entries
 
@@ -17,7 +18,7 @@ def run(path: Path, *, table: bool, console: Console) -> int:
     finish_interrupted(path.parent)
     found = entries(path)
     if table:
-        console.print(as_table(path, found))
+        print_table(console, as_table(path, found))
         return 0
     environment = os.environ | {"CI": "1"}  # the viewer then collects nothing
     viewer = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
@@ -30,12 +31,13 @@ def run(path: Path, *, table: bool, console: Console) -> int:
 def as_table(path: Path, found: list[Entry]) -> Table:
     """One row a component."""
     shown = Table(title=str(path))
-    for heading in ("entity", "component"):
-        shown.add_column(heading, overflow="fold")
-    for heading in ("rows", "from, s", "to, s", "last"):
+    shown.add_column("entity")
+    for heading in ("rows", "from, s", "to, s", "last value"):
         shown.add_column(heading, justify="right", no_wrap=True)
+    shown.add_column("unit", no_wrap=True)
+    shown.add_column("component")
     for e in found:
-        times = ["" if t is None else f"{t:.3f}" for t in (e.start_s, e.end_s)]
-        last = "" if e.last is None else f"{e.last:.5g}"
-        shown.add_row(e.entity, e.component, str(e.rows), *times, last)
+        times = ["" if t is None else f"{t:.2f}" for t in (e.start_s, e.end_s)]
+        last = "" if e.last is None else f"{e.last:.4g}"
+        shown.add_row(e.entity, str(e.rows), *times, last, e.unit, e.component)
     return shown

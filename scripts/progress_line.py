@@ -1,21 +1,29 @@
 """Progress on the screen: one line that changes on a terminal, plain lines in a file or a pipe."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
+from typing import TypeVar
 
 from rich.console import Console
 from rich.progress import Progress as Bar
 from rich.progress import SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from diagnosis.progress import Progress
-from diagnosis.stopping import StopSignal
+from diagnosis.stopping import NEVER, StopSignal
+from diagnosis.workers import Heard
+from scripts.terminal import terminal
+
+T = TypeVar("T")
+Shown = Callable[[Progress], None]
+ByShare = Callable[[str, float], None]
 
 _LINE_EVERY_S = 5.0
-Shown = Callable[[Progress], None]
+_LEAST_SHARE = 0.03  # before which the pace says nothing
 
 
 @contextmanager
-def progress_line(console: Console, stop: StopSignal) -> Iterator[Shown]:
+def progress_line(console: Console, stop: StopSignal = NEVER) -> Iterator[Shown]:
     """What shows progress while the block runs."""
     if not console.is_terminal or console.is_dumb_terminal:
         yield _lines(console, stop)
@@ -24,6 +32,48 @@ def progress_line(console: Console, stop: StopSignal) -> Iterator[Shown]:
     with Bar(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=None)
         yield lambda news: bar.update(task, description=in_one_line(news, stop))
+
+
+@contextmanager
+def stage_line() -> Iterator[ByShare]:
+    """What shows, beside the results, a stage in words and the share of the whole that is done."""
+    with progress_line(terminal(stderr=True)) as show:
+        yield by_share(show)
+
+
+def by_share(show: Shown) -> ByShare:
+    """Progress from stages and shares: the pace so far gives the time that is left."""
+    began_s = time.monotonic()
+
+    def heard(stage: str, share: float) -> None:
+        show(_progress(stage, share, time.monotonic() - began_s))
+
+    return heard
+
+
+def by_count(show: Shown) -> Heard:
+    """Progress from a stage and its tasks, done and all."""
+    began_s = time.monotonic()
+
+    def heard(stage: str, done: int, tasks: int) -> None:
+        elapsed_s = time.monotonic() - began_s
+        show(_progress(stage, done / max(tasks, 1), elapsed_s, done=done, tasks=tasks))
+
+    return heard
+
+
+def counted(items: Iterable[T], total: int, stage: str, show: Shown) -> Iterator[T]:
+    """Items as they come, each of which is a task of one stage."""
+    heard = by_count(show)
+    heard(stage, 0, total)
+    for done, item in enumerate(items, start=1):
+        yield item
+        heard(stage, done, total)
+
+
+def _progress(stage: str, share: float, elapsed_s: float, *, done: int = 0, tasks: int = 1) -> Progress:
+    left_s = elapsed_s * (1.0 - share) / share if share >= _LEAST_SHARE else None
+    return Progress(stage=stage, done=done, tasks=tasks, elapsed_s=elapsed_s, left_s=left_s)
 
 
 def _lines(console: Console, stop: StopSignal) -> Shown:
@@ -36,7 +86,8 @@ def _lines(console: Console, stop: StopSignal) -> Shown:
             return
         last[:] = [news]
         line = f"{news.elapsed_s:5.0f} s  {in_one_line(news, stop)}"
-        console.print(line, highlight=False, markup=False, soft_wrap=True)
+        with suppress(OSError):  # results do not depend on who hears of them
+            console.print(line, highlight=False, markup=False, soft_wrap=True)
 
     return shown
 

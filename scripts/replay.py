@@ -16,12 +16,15 @@ from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
 from models.user_text import in_figure
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
 from scripts.results import tell
-from scripts.streams import waiting
+from scripts.tables import print_table
 from sim.files import Destination, ResultSet, finish_interrupted, publishing, write_text
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
 
+DEFAULT = Path("out/replay")
 Pair = tuple[PreparedTrial, Prediction]
 
 _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
@@ -35,21 +38,22 @@ class ReplayedTrial:
     prediction: Prediction
 
 
-def run(log_folder: Path, folder: Path, *, force: bool, console: Console) -> int:
+def run(log_folder: Path, out: Path | None, *, force: bool, console: Console) -> int:
     """Replay every trial; writes predictions, a picture and a recording of the first."""
     finish_interrupted(log_folder)
     log = read_rig_log(log_folder)
-    destination = Destination(folder=folder, inputs=files_of(log, log_folder), force=force)
-    destination.check(output_paths(log, folder))
+    outputs, inputs = partial(output_paths, log), files_of(log, log_folder)
+    destination = output_folder(out, DEFAULT, outputs, inputs=inputs, force=force)
     for warning in log.warnings:
-        console.print(f"warning: {warning}", highlight=False, markup=False)
-    with waiting(f"replaying {len(log.trials)} trials"):
+        console.print(f"warning: {warning}", highlight=False)
+    with stage_line() as stage:
+        stage(f"replaying {len(log.trials)} trials", 0.0)
         nominal = replay_nominal(log)
     later = nominal.log.warnings[len(log.warnings) :]
     for warning in (*later, *nominal.problem.log.warnings, *nominal.problem.noise.warnings):
-        console.print(f"warning: {warning}", highlight=False, markup=False)
+        console.print(f"warning: {warning}", highlight=False)
     written = write(nominal, destination)
-    console.print(table(nominal))
+    print_table(console, table(nominal))
     return tell(written, console)
 
 
@@ -123,8 +127,23 @@ def _record(nominal: NominalReplay, path: Path) -> None:
     log, first = nominal.log, nominal.problem.log.trials[0]
     shape = shape_of(log.rig, first, nominal.rig)
     results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
-    parameters = {"protocol": first.name, "description": "the nominal needle on a rig's motion"}
-    log_recording(record(shape, parameters), path, results=results)
+    parameters = {
+        "protocol": first.name,
+        "description": "the nominal needle on a rig's motion, and what the rig measured",
+    }
+    measured = _measured(log.trials[0])
+    log_recording(record(shape, parameters), path, measured=measured, results=results)
+
+
+def _measured(trial: Trial) -> pd.DataFrame:
+    """What a trial measured, at its own samples, by the names of recordings."""
+    names = {
+        "base_angle_deg": "measured_base_deg",
+        "tip_angle_deg": "measured_tip_deg",
+        "base_torque_n_mm": "measured_torque_n_mm",
+    }
+    there = {name: column for column, name in names.items() if trial.has(column)}
+    return pd.DataFrame({"time_s": trial["time_s"]} | {n: trial[c] for n, c in there.items()})
 
 
 def _draw(replayed: list[ReplayedTrial], path: Path) -> None:

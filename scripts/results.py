@@ -1,18 +1,23 @@
 """What a command says of the results that it wrote, and the exit code that goes with it."""
 
+from collections.abc import Iterable
+from pathlib import Path
+
 from rich.console import Console
 
+from scripts.exit_codes import ExitCode
 from scripts.streams import complain
 from sim.files import ResultSet
 
-WITHOUT_ALL = 3
-"""Exit code: the numbers are written, a picture, page or recording is not."""
 
+def tell(results: ResultSet, console: Console, *, shown: Iterable[Path | str] | None = None) -> ExitCode:
+    """Name every file that is there, each in a line that can be copied; on standard error what is not.
 
-def tell(results: ResultSet, console: Console) -> int:
-    """Name every file that is there; on standard error what is not, and why."""
-    for path in results.made:
-        console.print(f"wrote      {path}", highlight=False, markup=False)
+    Args:
+      shown: named in place of the files that are there; None: those.
+    """
+    for path in results.made if shown is None else shown:
+        console.print(f"wrote      {path}", highlight=False, markup=False, soft_wrap=True)
     for path, why in results.left_out.items():
         complain(f"warning: {path} could not be made ({why}); the other results stand without it")
-    return WITHOUT_ALL if results.left_out else 0
+    return ExitCode.WITHOUT_ALL if results.left_out else ExitCode.DONE

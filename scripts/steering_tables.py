@@ -11,12 +11,10 @@ from studies.control.steering.steered_insertions import PUBLISHED_MM, STEERED
 from studies.control.steering.steering_study import SteeringStudy
 
 
-def steering_tables(study: SteeringStudy) -> list[Table]:
-    """Every table, in the order of the stages."""
-    return [
-        *(_steered(study), _known_pose(study), _travels(study), _heights(study)),
-        *(_fused(study), _spun(study)),
-    ]
+def steering_tables(study: SteeringStudy) -> list[tuple[Table, int]]:
+    """Every table, in the order of the stages, and how many of its columns name a row."""
+    named_by_one = (_steered(study), _known_pose(study), _travels(study), _heights(study))
+    return [*((table, 1) for table in named_by_one), (_fused(study), 2), (_spun(study), 3)]
 
 
 def _steered(study: SteeringStudy) -> Table:
@@ -73,8 +71,16 @@ def _fused(study: SteeringStudy) -> Table:
 
 
 def _spun(study: SteeringStudy) -> Table:
-    title = "Duty-cycled spinning: curvature over that of a held tip, and its direction"
-    table = Table("controller", "from, cm", "duty", "law", "curvature", "direction, deg", title=title)
+    title = "Duty-cycled spinning: curvature / curvature of a tip that is held, and its direction"
+    table = Table(
+        "controller",
+        "start, cm",
+        "duty cycle",
+        "1 - duty cycle",
+        "curvature",
+        "direction, deg",
+        title=title,
+    )
     for one in study.spun:
         direction = "" if math.isnan(one.direction_deg) else f"{one.direction_deg:.0f}"
         row = (one.case, f"{one.start_mm / 10:g}", f"{one.duty:g}", f"{1 - one.duty:.2f}")

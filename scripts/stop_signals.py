@@ -7,10 +7,14 @@ from contextlib import contextmanager
 from types import FrameType
 
 from diagnosis.stopping import StopReason, StopSignal
+from scripts.exit_codes import ExitCode
 
 _REASONS = {signal.SIGINT: StopReason.INTERRUPTED, signal.SIGTERM: StopReason.TERMINATED}
-EXIT_CODES = {StopReason.NOBODY: 0} | {r: 128 + s for s, r in _REASONS.items()}
-"""As shells say it: 128 and the number of the signal."""
+EXIT_CODES = {
+    StopReason.NOBODY: ExitCode.DONE,
+    StopReason.INTERRUPTED: ExitCode.INTERRUPTED,
+    StopReason.TERMINATED: ExitCode.TERMINATED,
+}
 
 
 @contextmanager

@@ -5,17 +5,9 @@ import sys
 from contextlib import suppress
 from io import TextIOWrapper
 
-from rich.status import Status
 from rich.text import Text
 
 from scripts.terminal import terminal
-
-
-def waiting(text: str) -> Status:
-    """What a command is at, for who watches: on standard error, for results may go to the other."""
-    console = terminal(stderr=True)
-    console.quiet = not console.is_terminal
-    return console.status(Text(text))
 
 
 def show_what_can_be_shown() -> None:

@@ -1,4 +1,4 @@
-"""`needle validate`: print the cross-check, and write it where asked."""
+"""`needle validate`: run the cross-check, print it and write it."""
 
 import math
 from itertools import groupby
@@ -8,40 +8,48 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from scripts.exit_codes import ExitCode
+from scripts.output_folder import output_folder
+from scripts.progress_line import stage_line
 from scripts.results import tell
-from scripts.streams import waiting
-from sim.files import Destination
+from scripts.tables import print_table
+from sim.files import Destination, ResultSet
 from studies.crosscheck.findings import Findings
 from studies.crosscheck.poles import SOURCES
 from studies.crosscheck.report import cross_check, output_paths, write_report
 
+DEFAULT = Path("out/validate")
+_CHECKS_SHARE = 0.8  # of the time; the rest is for pictures and recordings
 _AGREES = 0.02  # figures within 2 % of each other need no explanation
 
 
-def run(folder: Path | None, *, force: bool, console: Console) -> int:
+def run(out: Path | None, *, force: bool, console: Console) -> int:
     """Returns 1 if a bound fails."""
-    destination = Destination(folder=folder, force=force) if folder else None
-    if destination:
-        destination.check(output_paths(destination.folder))
-    with waiting("checking MuJoCo's needle against closed-form solutions and published figures"):
-        findings = cross_check()
-    written = write_report(findings, destination) if destination else None
+    findings, written = checked(output_folder(out, DEFAULT, output_paths, force=force))
     show(findings, console)
-    code = tell(written, console) if written else 0
-    return code if findings.passed else 1
+    code = tell(written, console)
+    return code if findings.passed else ExitCode.BOUND_FAILS
+
+
+def checked(destination: Destination) -> tuple[Findings, ResultSet]:
+    """Run every check and write the report, with progress on the screen."""
+    with stage_line() as stage:
+        findings = cross_check(lambda what, share: stage(what, _CHECKS_SHARE * share))
+        stage("drawing and recording", _CHECKS_SHARE)
+        return findings, write_report(findings, destination)
 
 
 def show(findings: Findings, console: Console) -> None:
     """Print poles, bounds and published figures."""
-    console.print(poles_table(findings))
-    console.print(checks_table(findings))
+    print_table(console, poles_table(findings), keys=3)
+    print_table(console, checks_table(findings))
     published = Table(
         "figure", "published", "ours", "ratio", "unit", "source", title="Published figures"
     )
     for c in findings.comparisons:
         numbers = (f"{c.published:.4g}", _number(c.ours, ".4g"), _number(c.ratio, ".3f"))
         published.add_row(c.item, *numbers, c.unit, c.source)
-    console.print(published)
+    print_table(console, published)
     console.print("Reasons for differences, where they are known:")
     differing = [c for c in findings.comparisons if not abs(c.ratio - 1) <= _AGREES]
     for note, items in groupby(differing, key=lambda c: c.note):

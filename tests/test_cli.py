@@ -9,6 +9,7 @@ import pytest
 from rich.console import Console
 
 from scripts.main import main
+from sim.files import ResultSet
 
 EXAMPLE = Path(__file__).parent.parent / "examples"
 
@@ -110,12 +111,14 @@ def test_the_poles_fit_in_80_columns_in_a_section_per_source():
     ]
 
 
-def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys):
+def test_validate_exits_1_when_a_bound_fails(monkeypatch, capsys, tmp_path):
     from scripts import validate
     from studies.crosscheck.findings import Check, Findings
 
     failing = Findings(checks=[Check(name="x", value=2, unit="-", high=1)])
-    monkeypatch.setattr(validate, "cross_check", lambda: failing)
+    monkeypatch.chdir(tmp_path)
+    nothing = ResultSet(tmp_path, [], tmp_path)
+    monkeypatch.setattr(validate, "checked", lambda destination: (failing, nothing))
     assert main(["validate"]) == 1
     assert "fails" in capsys.readouterr().out
 

@@ -11,9 +11,11 @@ from analytic_log import write_log
 from lab_files import mapping_of, write_csv
 from rich.console import Console
 
+from scripts.exit_codes import ExitCode
 from scripts.main import main
-from scripts.results import WITHOUT_ALL, tell
-from sim.files import Destination, publishing
+from scripts.results import tell
+from scripts.terminal import Terminal
+from sim.files import Destination, ResultSet, publishing
 
 EXAMPLE = Path(__file__).parent.parent / "examples"
 
@@ -113,15 +115,23 @@ def test_results_replace_no_folder_and_no_file_on_the_way(tmp_path, monkeypatch,
 
 
 def test_a_picture_that_fails_is_told_with_its_own_exit_code(tmp_path, capsys):
-    paths = [tmp_path / "a[/].csv", tmp_path / "b.png"]
+    paths = [tmp_path / "a [/] with blanks.csv", tmp_path / "b.png"]
     with publishing(Destination(folder=tmp_path), paths) as results:
         results.at(paths[0]).write_text("whole")
         results.optional(paths[1], lambda part: {}["title"])
-    console = Console(width=400, file=io.StringIO())
-    assert tell(results, console) == WITHOUT_ALL == 3
+    console = Terminal(width=20, file=io.StringIO(), markup=False)
+    assert tell(results, console) == ExitCode.WITHOUT_ALL == 3
     assert console.file.getvalue() == f"wrote      {paths[0]}\n"
     said = " ".join(capsys.readouterr().err.split())
     assert "b.png could not be made (KeyError: 'title')" in said
+
+
+def test_many_results_are_told_in_other_words(tmp_path):
+    paths = [tmp_path / f"{i}.csv" for i in range(3)]
+    console = Terminal(width=20, file=io.StringIO(), markup=False)
+    code = tell(ResultSet(tmp_path, paths, tmp_path), console, shown=["three tables", paths[0]])
+    assert code == ExitCode.DONE
+    assert console.file.getvalue() == f"wrote      three tables\nwrote      {paths[0]}\n"
 
 
 def test_all_results_are_told_with_exit_code_0(tmp_path, capsys):

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from scripts import streams
 from scripts.main import main
+from scripts.progress_line import stage_line
 from scripts.terminal import terminal
 
 
@@ -72,9 +73,15 @@ def test_other_consoles_end_the_process_where_this_one_raises():
     assert "on_broken_pipe" in vars(Console)  # what is overridden is still asked
 
 
-def test_what_a_command_is_at_is_not_written_where_nobody_watches(output, capsys):
+def test_progress_goes_to_standard_error_and_loses_no_result(output, monkeypatch, capsys):
     with closed_pipe() as nobody:
         output(nobody)
-        with streams.waiting("simulating"):
-            pass
-    assert capsys.readouterr().err == ""
+        with stage_line() as stage:
+            stage("simulating", 0.0)
+    assert capsys.readouterr().err == "    0 s  simulating\n"
+    nobody = closed_pipe()
+    monkeypatch.setattr(sys, "stderr", nobody)
+    with stage_line() as stage:
+        stage("simulating", 0.0)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), nobody.fileno())
+    nobody.close()

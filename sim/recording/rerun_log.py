@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import rerun as rr
 import rerun.blueprint as rrb
 from matplotlib import colormaps
@@ -20,8 +21,10 @@ from models.modes import InsertedNeedle
 from models.needle import Needle
 from models.tissue import Tissue
 from models.user_text import in_markdown
+from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.recording.recording import Recording, unit_of
 from sim.recording.rerun_file import recorded
+from sim.recording.shaft_places import node_places_mm
 
 Array = NDArray[np.float64]
 
@@ -30,6 +33,7 @@ TIMELINE = "time"
 _FRAMES_PER_S = 20  # of the 3-D needle; the plots show every sample
 _MODES = 4
 _PATH_FRAMES = 400
+_ALONG = ", along the shaft: mm from the entry"
 # The twist is shown by arrows across the shaft, longer than the shaft is thick.
 _ARROW_MM, _ARROW_RADIUS_MM, _SHAFT_RADIUS_MM = 9.0, 0.5, 0.6
 _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
@@ -76,11 +80,17 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
 
 
 def log_recording(
-    recording: Recording, path: Path, *, results: Sequence[str] = (), force: bool = False
+    recording: Recording,
+    path: Path,
+    *,
+    measured: pd.DataFrame | None = None,
+    results: Sequence[str] = (),
+    force: bool = False,
 ) -> None:
     """Write a recording as `.rrd`, already arranged.
 
     Args:
+      measured: signals of a rig to be shown beside those of the recording, with their own `time_s`.
       results: lines of text that the recording shows under its title.
 
     Raises:
@@ -88,12 +98,9 @@ def log_recording(
     """
     with recorded(application(recording), blueprint(recording), path, force=force) as stream:
         _log_text(stream, recording, results)
-        for plot, signals in _PLOTS.items():
-            for name, (label, colour) in signals.items():
-                if name in recording.table:
-                    log_series(
-                        stream, f"{plot}/{name}", label, recording["time_s"], recording[name], colour
-                    )
+        _log_plots(stream, recording.table)
+        if measured is not None:
+            _log_plots(stream, measured)
         _log_modes(stream, recording)
         _log_path(stream, recording)
         _log_shaft(stream, recording)
@@ -127,9 +134,9 @@ def blueprint(recording: Recording) -> Any:
     left: list[Any] = [rrb.Spatial3DView(origin="/world", name="Needle")]
     there = _optional_views(recording)
     if there["shaft"]:
-        left.append(rrb.BarChartView(origin="/profile/shaft", name="Lag behind the base, deg"))
+        left.append(rrb.BarChartView(origin="/profile/shaft", name=f"Lag behind the base, deg{_ALONG}"))
     if there["tissue"]:
-        left.append(rrb.BarChartView(origin="/profile/tissue", name="Twist of the tissue, deg"))
+        left.append(rrb.BarChartView(origin="/profile/tissue", name=f"Twist of the tissue, deg{_ALONG}"))
     if there["control"]:
         plots.append(rrb.TimeSeriesView(origin="/limits", name="Limits reached"))
         plots.append(rrb.TimeSeriesView(origin="/estimate", name="Modes of the estimator, deg"))
@@ -172,6 +179,15 @@ def log_series(
     """One line of a plot."""
     stream.log(path, rr.SeriesLines(colors=[colour], names=[label]), static=True)
     stream.send_columns(path, indexes=[time_column(time_s)], columns=rr.Scalars.columns(scalars=values))
+
+
+def _log_plots(stream: rr.RecordingStream, table: pd.DataFrame) -> None:
+    time_s = np.asarray(table["time_s"], float)
+    for plot, signals in _PLOTS.items():
+        for name, (label, colour) in signals.items():
+            if name in table:
+                values = np.asarray(table[name], float)
+                log_series(stream, f"{plot}/{name}", label, time_s, values, colour)
 
 
 def _log_text(stream: rr.RecordingStream, recording: Recording, results: Sequence[str]) -> None:
@@ -280,7 +296,7 @@ def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
         np.uint8
     )
     stamps = time_column(time[frames])
-    places = np.array([_node_places_mm(recording, i) for i in frames])
+    places = node_places_mm(recording)[frames]
     turn = angles[frames] * units.DEG
     across = _ARROW_MM * np.stack([np.zeros_like(turn), np.cos(turn), np.sin(turn)], axis=-1)
     axis = np.stack([places, np.zeros_like(places), np.zeros_like(places)], axis=-1)
@@ -300,31 +316,35 @@ def _log_shaft(stream: rr.RecordingStream, recording: Recording) -> None:
         indexes=[stamps],
         columns=rr.LineStrips3D.columns(strips=list(axis), radii=np.full(frames.size, _SHAFT_RADIUS_MM)),
     )
-    _log_profiles(
-        stream, time[frames], {"shaft": lag[frames], "tissue": recording.group("tissue")[frames]}
-    )
+    _log_profiles(stream, "shaft", time[frames], places, lag[frames])
+    twist = recording.group("tissue")
+    if twist.size:
+        _log_profiles(stream, "tissue", time[frames], _site_places_mm(places), twist[frames])
     _log_tissue_box(stream, recording, frames, stamps)
 
 
-def _log_profiles(stream: rr.RecordingStream, time_s: Array, profiles: dict[str, Array]) -> None:
-    """Bars along the shaft; the viewer takes one frame of bars at a time."""
-    for i, stamp in enumerate(np.round(time_s * 1e9).astype("timedelta64[ns]")):
+def _log_profiles(
+    stream: rr.RecordingStream, name: str, time_s: Array, places_mm: Array, values: Array
+) -> None:
+    """Bars at their places along the shaft; the viewer takes one frame of bars at a time.
+
+    Args:
+      places_mm, values: (frames, bars).
+    """
+    stamps = np.round(time_s * 1e9).astype("timedelta64[ns]")
+    widths_mm = np.gradient(places_mm, axis=1)
+    each = zip(stamps, places_mm, widths_mm, values.astype(np.float32), strict=True)
+    for stamp, at_mm, width_mm, heights in each:
         stream.set_time(TIMELINE, duration=stamp)
-        for name, values in profiles.items():
-            if values.size:
-                stream.log(f"profile/{name}", rr.BarChart(values[i].astype(np.float32)))
+        stream.log(f"profile/{name}", rr.BarChart(heights, abscissa=at_mm, widths=width_mm))
     stream.reset_time()
 
 
-def _node_places_mm(recording: Recording, i: int) -> Array:
-    """Places of the nodes along x, mm: the entry is at 0."""
-    nodes: Array = np.array(recording.parameters["nodes_mm"])
-    free, stretching = float(recording["free_mm"][i]), int(recording.parameters["stretching"])
-    if not stretching:
-        return nodes - free
-    moved: Array = nodes - nodes[stretching]
-    moved[: stretching + 1] *= free / nodes[stretching]
-    return moved
+def _site_places_mm(nodes_mm: Array) -> Array:
+    """Places of the two contact sites of every element, (frames, 2 elements)."""
+    first, length = nodes_mm[:, :-1], np.diff(nodes_mm, axis=1)
+    sites = np.stack([first + XI_LEFT * length, first + XI_RIGHT * length], axis=-1)
+    return sites.reshape(len(nodes_mm), -1)
 
 
 def _log_tissue_box(stream: rr.RecordingStream, recording: Recording, frames: Any, stamps: Any) -> None:

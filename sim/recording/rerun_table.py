@@ -1,5 +1,6 @@
 """The content of a rerun file as a table, for machines without a screen."""
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
@@ -7,9 +8,15 @@ from pathlib import Path
 import pyarrow as pa
 from rerun.chunk import RrdReader
 
-from models.errors import NeedleError
+from models.errors import InvalidValue, NeedleError
 from models.names import is_file
+from sim.recording.recording import unit_of
 from sim.recording.rerun_log import TIMELINE
+
+_SIGNAL = "Scalars:scalars"
+_STYLES = ("SeriesLines:", "SeriesPoints:")
+_NOTES = "/__"
+_UNITS_OF = {"modes": "deg", "estimate": "deg"}
 
 
 class NotARecording(NeedleError):
@@ -22,8 +29,9 @@ class Entry:
 
     Attributes:
       rows: values over time, or 1 for a static one.
-      start_s, end_s: first and last time; None for a static component.
-      last: the last value, where it is a number.
+      start_s, end_s: first and last time on the recording's own clock; None for a static component.
+      last: the last value of a signal.
+      unit: of a signal, as its name says; empty where it does not.
     """
 
     entity: str
@@ -32,10 +40,13 @@ class Entry:
     start_s: float | None
     end_s: float | None
     last: float | None
+    unit: str = ""
 
 
 def entries(path: Path) -> list[Entry]:
-    """Every component in the file, in the order of entities.
+    """Every component in the file that holds data, in the order of entities.
+
+    Left out: colours and names of lines, and what rerun notes of the file itself.
 
     Raises:
       NotARecording: the file is missing or not a rerun recording.
@@ -48,7 +59,12 @@ def entries(path: Path) -> list[Entry]:
         raise NotARecording(
             f"{path}: expected a rerun recording, found another format ({error})"
         ) from error
-    found = [entry for entity, batch in batches for entry in _entries(entity, batch)]
+    found = [
+        entry
+        for entity, batch in batches
+        if not entity.startswith(_NOTES)
+        for entry in _entries(entity, batch)
+    ]
     if not found:
         raise NotARecording(f"{path}: expected a rerun recording with data, found an empty one")
     ordered = sorted(found, key=lambda e: (e.entity, e.component, e.start_s or 0.0))
@@ -63,7 +79,7 @@ def _joined(chunks: list[Entry]) -> Entry:
 
 def _entries(entity: str, batch: pa.RecordBatch) -> list[Entry]:
     times = _times_s(batch)
-    names = [n for n in batch.schema.names if ":" in n]
+    names = [n for n in batch.schema.names if ":" in n and not n.startswith(_STYLES)]
     return [
         Entry(
             entity=entity,
@@ -71,17 +87,38 @@ def _entries(entity: str, batch: pa.RecordBatch) -> list[Entry]:
             rows=batch.num_rows,
             start_s=times[0] if times else None,
             end_s=times[-1] if times else None,
-            last=_last_number(batch.column(name)),
+            last=_last_number(batch.column(name)) if name == _SIGNAL else None,
+            unit=_unit(entity) if name == _SIGNAL else "",
         )
         for name in names
     ]
 
 
 def _times_s(batch: pa.RecordBatch) -> list[float]:
-    if TIMELINE not in batch.schema.names:
+    clock = _clock(batch.schema)
+    if clock is None:
         return []
-    nanoseconds = batch.column(TIMELINE).cast(pa.int64()).to_pylist()
+    nanoseconds = batch.column(clock).cast(pa.int64()).to_pylist()
     return [t * 1e-9 for t in nanoseconds if t is not None]
+
+
+def _clock(schema: pa.Schema) -> str | None:
+    """The timeline of a recording: ours, or another that counts from its beginning."""
+    durations = [f.name for f in schema if pa.types.is_duration(f.type)]
+    return TIMELINE if TIMELINE in schema.names else next(iter(durations), None)
+
+
+def _unit(entity: str) -> str:
+    """The unit of a signal, from the nearest name that ends in one."""
+    parts = entity.strip("/").split("/")
+    if "residual" in parts:
+        return "σ"
+    for name in reversed(parts):
+        if name in _UNITS_OF:
+            return _UNITS_OF[name]
+        with suppress(InvalidValue):
+            return unit_of(name)
+    return ""
 
 
 def _last_number(column: pa.Array) -> float | None:

@@ -36,7 +36,15 @@ _IN_A_NOTEBOOK = (
     *("depth_cm", "free_mm", "controller", "settle_s", "published_settle_s"),
     *("integral_deg_s", "published_integral_deg_s", "overshoot_deg", "failed"),
 )
-_SHOWN = ("base_only", "base_only_at_limit", "feedforward", "feedback", "lqr", "least_time")
+_STYLES: dict[str, dict[str, Any]] = {
+    "base_only": {"color": "0.5", "ls": "--"},
+    "base_only_at_limit": {"color": "0.5", "ls": ":"},
+    "feedforward": {"color": "tab:green", "lw": 5, "alpha": 0.45},  # feedback lies on it
+    "feedback": {"color": "k", "ls": "--", "lw": 1},
+    "lqr": {"color": "tab:purple", "ls": "-."},
+    "least_time": {"color": "tab:red"},
+}
+"""The controllers of `turns.png`, told apart in grey, too."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,16 +145,16 @@ def _draw_turns(study: ControlStudy) -> Figure:
     """Like Fig. 10: base and tip of each controller."""
     figure, axes = plt.subplots(2, 3, figsize=(14, 8), layout="constrained", sharey="row")
     for column, depth in enumerate(tables.DEPTHS_CM):
-        for name in _SHOWN:
+        for name, style in _STYLES.items():
             tissue = tissue_named("viscous-plastisol")
             run = turn(name, depth_cm=depth, free_mm=50.0, tissue=tissue).run
             shown = run.time_s < (2.0 if depth < 20 else 4.0)
-            axes[0, column].plot(run.time_s[shown], run.inputs.drive[shown], lw=1, label=name)
-            axes[1, column].plot(run.time_s[shown], run.tip_deg[shown], lw=1.2, label=name)
+            axes[0, column].plot(run.time_s[shown], run.inputs.drive[shown], label=name, **style)
+            axes[1, column].plot(run.time_s[shown], run.tip_deg[shown], **style)
         axes[0, column].set(title=f"{depth:g} cm deep, 50 mm free")
         axes[1, column].axhspan(87, 93, color="0.9", zorder=0)
         axes[1, column].set(xlabel="time, s")
     axes[0, 0].set(ylabel="base, deg")
     axes[1, 0].set(ylabel="tip, deg (grey: within 3 deg)")
-    axes[1, 2].legend(fontsize=8)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=6)
     return figure

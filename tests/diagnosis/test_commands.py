@@ -1,5 +1,6 @@
 """`needle replay` and `needle diagnose`, as a person runs them."""
 
+import json
 import re
 
 import numpy as np
@@ -16,6 +17,7 @@ from scripts import diagnose as command
 from scripts import replay as replaying
 from scripts.main import main
 from sim.files import ResultSet
+from sim.recording.rerun_table import entries
 
 
 @pytest.fixture
@@ -77,7 +79,54 @@ def test_replay_writes_predictions_picture_and_recording(replayed, capsys, wide)
     assert (replayed / "replay.png").stat().st_size > 1000
     assert (replayed / "predictions" / "trial_01.csv").read_text().startswith("time_s,")
     assert main(["inspect", "--table", str(replayed / "replay.rrd")]) == 0
-    assert "tip_angle" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    for signal in ("angles/tip_angle_deg", "angles/measured_tip_deg", "torque/measured_torque_n_mm"):
+        assert signal in said
+
+
+def test_the_recording_of_a_replay_has_what_was_measured_at_its_own_samples(replayed, dry):
+    found = {e.entity: e for e in entries(replayed / "replay.rrd")}
+    first = dry.log.trials[0]
+    for entity, column in (
+        ("/angles/measured_tip_deg", "tip_angle_deg"),
+        ("/torque/measured_torque_n_mm", "base_torque_n_mm"),
+    ):
+        assert found[entity].rows == len(first.table)
+        assert found[entity].last == pytest.approx(first[column][-1])
+
+
+def test_diagnose_without_out_writes_a_report_to_a_folder_of_its_own(
+    dry, tmp_path, monkeypatch, capsys, wide
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
+    monkeypatch.setattr(write, "page", lambda *_: "a page")
+    for folder in ("out/diagnose", "out/diagnose-2"):
+        assert main(["diagnose", str(dry.folder)]) == 0
+        assert f"wrote      {folder}/report.html" in capsys.readouterr().out
+        assert (tmp_path / folder / "report.html").is_file()
+    assert main(["diagnose", str(dry.folder), "--force"]) == 0
+    assert not (tmp_path / "out" / "diagnose-3").exists()
+
+
+def test_json_alone_goes_to_the_screen_and_to_no_file(dry, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
+    assert main(["diagnose", str(dry.folder), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["effects"] == ["coulomb_friction"]
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("width", [80, 60])
+def test_the_summary_fits_the_screen(dry, tmp_path, monkeypatch, capsys, width):
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
+    monkeypatch.setattr(write, "page", lambda *_: "a page")
+    assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().out
+    assert "…" not in said
+    told = [line for line in said.splitlines() if not line.startswith("wrote")]  # paths stay whole
+    assert max(map(len, told)) <= width
 
 
 def test_replay_and_diagnose_predict_the_same_of_the_nominal_rig(replayed, dry):

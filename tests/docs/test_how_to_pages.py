@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import yaml
 
-from scripts.main import main, parser
+from scripts.arguments import parser
+from scripts.main import main
 from sim.recording.recording import read
 from studies.control.tip_controllers import TIP_CONTROLLERS
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.main import parser
+from scripts.arguments import parser
 
 ROOT = Path(__file__).parents[2]
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from scripts.main import main, parser
+from scripts.arguments import parser
+from scripts.main import main
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "tutorial.md").read_text()

@@ -10,13 +10,12 @@ import argparse
 import json
 import math
 import signal
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from multiprocessing import Pool
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.progress import track
 
 from validation.logs.case import ValidationCase, draw_case
 from validation.logs.ground_truth import Answer, ground_truth
@@ -31,6 +30,13 @@ from validation.rig.unmodelled import UNMODELLED
 MOST_LOGS = 100_000
 """A day of computing, and 40 GB."""
 MOST_SEED = 2**63
+NAMES: Mapping[str, tuple[str, ...]] = {
+    "kinds": ("all", *ALL_KINDS),
+    "effects": (*MODELLED, *WRONG_CONSTANTS, *UNMODELLED),
+    "roughness": tuple(ROUGHNESSES),
+}
+"""What `kinds`, `effects` and `roughness` may name."""
+Made = Iterable[tuple[str, Answer]]
 
 
 def make_logs(
@@ -45,6 +51,7 @@ def make_logs(
     roughness: Sequence[str] | None = None,
     alternatives: bool = False,
     workers: int = 2,
+    watched: Callable[[Made], Made] = iter,
 ) -> None:
     """Write logs and ground truth into a new folder.
 
@@ -57,6 +64,7 @@ def make_logs(
       alternatives: add to all answers which wrong effects would nearly explain the gap (slow);
         answers of unmodelled effects always have it.
       workers: processes.
+      watched: iterates over the logs as they are made, and may show progress.
 
     Raises:
       FileExistsError: the folder exists.
@@ -64,30 +72,30 @@ def make_logs(
         signatures are not in order.
     """
     kinds = ALL_KINDS if kinds and "all" in kinds else kinds or KINDS
-    _check(kinds, ALL_KINDS, "kinds")
-    _check(effects or (), (*MODELLED, *WRONG_CONSTANTS, *UNMODELLED), "effects")
-    _check(roughness or (), tuple(ROUGHNESSES), "roughness")
+    for field, given in (("kinds", kinds), ("effects", effects), ("roughness", roughness)):
+        _check(given or (), field)
     if count < 1:
-        raise ValueError(f"count: expected at least 1 log, got {count}")
+        raise ValueError(f"count: expected at least 1 log, found {count}")
     if count > MOST_LOGS:
-        raise ValueError(f"count: expected at most {MOST_LOGS} logs, got {count}")
+        raise ValueError(f"count: expected at most {MOST_LOGS} logs, found {count}")
     if not 0 <= seed < MOST_SEED:
-        raise ValueError(f"seed: expected 0 to {MOST_SEED - 1}, got {seed}")
+        raise ValueError(f"seed: expected 0 to {MOST_SEED - 1}, found {seed}")
     if not 0 < signature[0] < signature[1] < math.inf:
-        raise ValueError(f"signature: expected 0 < LOW < HIGH, got {signature}")
+        found = " ".join(f"{value:g}" for value in signature)
+        raise ValueError(f"signature: expected 0 < LOW < HIGH, found {found}")
     (folder / "logs").mkdir(parents=True, exist_ok=False)
     how = {"short": short, "signature": signature, "alternatives": alternatives}
     jobs = [(folder, seed, i, tuple(kinds), (effects, roughness), how) for i in range(count)]
-    answers = dict(track(_made(jobs, workers), description="logs", total=count))
+    answers = dict(watched(_made(jobs, workers)))
     (folder / "answers").mkdir()
     text = json.dumps(answers, indent=1, sort_keys=False)
     (folder / "answers" / "answers.json").write_text(text + "\n")
 
 
-def _check(given: Sequence[str], known: Sequence[str], field: str) -> None:
+def _check(given: Sequence[str], field: str) -> None:
     for name in given:
-        if name not in known:
-            raise ValueError(f"{field}: expected some of {', '.join(known)}, got {name!r}")
+        if name not in NAMES[field]:
+            raise ValueError(f"{field}: expected some of {', '.join(NAMES[field])}, found {name!r}")
 
 
 def _made(jobs: list[tuple[Any, ...]], workers: int) -> Iterator[tuple[str, Answer]]:
@@ -136,7 +144,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--count", type=int, required=True)
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--kinds", nargs="+", choices=("all", *ALL_KINDS))
+    parser.add_argument("--kinds", nargs="+", choices=NAMES["kinds"])
     parser.add_argument("--effects", nargs="+")
     parser.add_argument("--roughness", nargs="+", choices=ROUGHNESSES)
     parser.add_argument("--signature", nargs=2, type=float, default=(1.0, 20.0), metavar=("LOW", "HIGH"))

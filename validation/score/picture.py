@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from validation.score.calibration import (
     GAP_GOAL,
@@ -23,8 +24,8 @@ from validation.score.calibration import (
 )
 from validation.score.detection import detection_limits, of_one_effect
 
-DARK = 0.45
-"""Cells darker than this, 0 (black) to 1 (white), have white numbers."""
+PALEST = 1.8
+"""Ends of the scale of a colour map over its largest count: so that black is read on every cell."""
 
 
 def draw(scores: pd.DataFrame, path: Path) -> None:
@@ -50,12 +51,11 @@ def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
     table = pd.crosstab(one["truth"], said.rename("said"))
     names = [*table.index, *(c for c in table.columns if c not in table.index)]
     counts = table.reindex(columns=names, fill_value=0).to_numpy()
-    image = axis.imshow(np.log1p(counts), cmap="Blues", aspect="auto")
+    shades = np.log1p(counts)
+    axis.imshow(shades, cmap="Blues", vmin=0.0, vmax=PALEST * shades.max(), aspect="auto")
     for (i, j), count in np.ndenumerate(counts):
         if count:
-            cell = image.cmap(image.norm(np.log1p(count)))
-            colour = "white" if np.mean(cell[:3]) < DARK else "black"
-            axis.text(j, i, str(count), ha="center", va="center", fontsize=9, color=colour)
+            axis.text(j, i, str(count), ha="center", va="center", fontsize=9)
     axis.set_yticks(range(len(table.index)), list(table.index), fontsize=9)
     axis.set_xticks(range(len(names)), names, fontsize=9, rotation=60, ha="right")
     axis.set(
@@ -65,11 +65,11 @@ def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
 
 def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
     table = reliability(scores)
-    axis.plot([0, 1], [0, 1], color="0.7", label="perfectly calibrated")
+    axis.plot([0, 1], [0, 1], color="0.6", ls="--", label="perfectly calibrated")
     axis.plot(table["predicted"], table["observed"], "o-", color="tab:red", label="measured")
     for _, row in table.iterrows():
         axis.annotate(
-            f"{row['logs']:.0f} logs",
+            f"{row['logs']:.0f} log{'' if row['logs'] == 1 else 's'}",
             (row["predicted"], row["observed"]),
             xytext=(-6, -12),
             textcoords="offset points",
@@ -119,13 +119,16 @@ def _detection(axis: Axes, scores: pd.DataFrame) -> None:
 
 def _gap_left(axis: Axes, scores: pd.DataFrame) -> None:
     right = scores[(scores["expected"] == "explained") & scores["exact"]]
-    axis.hist(np.clip(right["gap_after"], 0.9, 1.15), bins=26, range=(0.9, 1.15), color="tab:blue")
-    axis.axvline(GAP_GOAL, color="k", lw=1, label=f"{GAP_GOAL} σ")
+    axis.hist(
+        np.clip(right["gap_after"], 0.9, 1.15), bins=26, range=(0.9, 1.15), color="tab:blue", alpha=0.6
+    )
+    axis.axvline(GAP_GOAL, color="k", lw=2, ls="--", label=f"{GAP_GOAL} σ")
     axis.set(
         xlabel="rms residual / σ after the diagnosis, held-out data",
         ylabel="logs",
         title=f"Gap left: {100 * gap_left(scores):.1f} % of the exact\ndiagnoses within {GAP_GOAL} σ",
     )
+    axis.yaxis.set_major_locator(MaxNLocator(integer=True))
     axis.legend(fontsize=9)
 
 

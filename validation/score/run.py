@@ -22,12 +22,18 @@ from validation.score.scores import read_scores, reports_in
 
 
 def score_logs(
-    folder: Path, *, workers: int = 2, trials: int | None = None, limit_s: float | None = None
+    folder: Path,
+    *,
+    workers: int = 2,
+    trials: int | None = None,
+    limit_s: float | None = None,
+    progress: Heard = unheard,
 ) -> pd.DataFrame:
     """Diagnose the logs of a folder that have no report yet, then compare with the ground truth.
 
     Args:
       folder: with `logs/` and `answers/`, as `make_logs` writes them.
+      trials, limit_s, progress: as of `diagnose_all`.
 
     Returns:
       One row per log, as `read_scores`.
@@ -35,9 +41,15 @@ def score_logs(
     Raises:
       InvalidValue: the ground truth is unusable; that is seen before anything is diagnosed.
     """
-    read_answers(folder)
-    reports = reports_in(folder, trials, limit_s)
-    diagnose_all(folder / "logs", reports, workers=workers, trials=trials, limit_s=limit_s)
+    read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
+    diagnose_all(
+        folder / "logs",
+        reports_in(folder, trials, limit_s),
+        workers=workers,
+        trials=trials,
+        limit_s=limit_s,
+        progress=progress,
+    )
     return read_scores(folder, trials, limit_s)
 
 
@@ -65,7 +77,7 @@ def diagnose_all(
     Destination(folder=reports.parent, inputs=tuple(logs.rglob("*"))).check([*missing.values()])
     tasks = [Task(effects=(), arguments=(*pair, trials, limit_s)) for pair in missing.items()]
     with process_pool(workers, progress) as pool:
-        pool.each("logs", _one, tasks)
+        pool.each("diagnosing logs", _one, tasks)
 
 
 def _one(case: Path, path: Path, trials: int | None, limit_s: float | None) -> None:

@@ -1,6 +1,8 @@
 """steered.png and planar.png."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
@@ -12,6 +14,15 @@ from studies.control.steering.steered_insertions import PUBLISHED_MM, SteeredIns
 from studies.control.steering.steering_study import SteeringStudy
 
 _COLOURS = dict(zip(PLANAR_CASES, ("black", "tab:red", "tab:blue", "tab:green"), strict=True))
+_LINES = dict(zip(PLANAR_CASES, ("-", "--", ":", "-."), strict=True))
+_STYLES: dict[str, dict[str, Any]] = {
+    "baseline_right": {"color": "0.6", "lw": 3},
+    "baseline_left": {"color": "k", "ls": ":"},
+    "base_only": {"color": "tab:blue", "ls": "-."},
+    "feedforward": {"color": "tab:green", "lw": 5, "alpha": 0.45},  # least_time lies on it
+    "least_time": {"color": "tab:red", "ls": "--"},
+}
+"""Told apart in grey, too."""
 _SHOWN_MM = 5.0
 
 
@@ -19,7 +30,7 @@ def draw_steered(study: SteeringStudy) -> Figure:
     """Like Figs. 11 and 12: paths from above, and height over the plane for both orders of turns."""
     figure, axes = plt.subplots(1, 3, figsize=(17, 5), layout="constrained")
     for one in study.steered[TurnOrder.TO_AND_FRO]:
-        axes[0].plot(one.path_mm[:, 0], one.path_mm[:, 1], label=one.name)
+        axes[0].plot(one.path_mm[:, 0], one.path_mm[:, 1], **_STYLES[one.name])
     axes[0].set(xlabel="x, mm", ylabel="y, mm", title="From above", aspect="equal")
     _draw_heights(axes[1], study.steered[TurnOrder.TO_AND_FRO], "Half turns to and fro, as in Fig. 12")
     for name, height in PUBLISHED_MM.items():
@@ -33,7 +44,7 @@ def draw_steered(study: SteeringStudy) -> Figure:
 def _draw_heights(axis: Axes, insertions: list[SteeredInsertion], title: str) -> None:
     for one in insertions:
         x, _, z = one.path_mm.T
-        axis.plot(x, z, label=f"{one.name}: {one.out_of_plane_mm:.2f} mm")
+        axis.plot(x, z, label=f"{one.name}: {one.out_of_plane_mm:.2f} mm", **_STYLES[one.name])
     axis.set(xlabel="x, mm", ylabel="height over the plane, mm", title=title)
     axis.legend(fontsize=8)
 
@@ -45,7 +56,7 @@ def draw_planes(study: SteeringStudy) -> Figure:
         2, count, figsize=(4.6 * count, 7.5), layout="constrained", squeeze=False, sharey=True
     )
     for axis, (speed, approaches) in zip(axes[0], study.known_pose.items(), strict=True):
-        _draw_approaches(axis, approaches)
+        _draw_approaches(axis, approaches, _LINES)
         axis.set_title(f"pose known, {speed:g} mm/s")
     for axis, (speed, cases) in zip(axes[1], study.imaged.items(), strict=True):
         for approaches in cases.values():
@@ -53,12 +64,20 @@ def draw_planes(study: SteeringStudy) -> Figure:
         axis.set(title=f"images of the height, {speed:g} mm/s", xlabel="travelled, mm")
     for row in axes:
         row[0].set(ylabel="height over the plane, mm", ylim=(-_SHOWN_MM, _SHOWN_MM))
-    handles = [Line2D([], [], color=_COLOURS[name]) for name in _COLOURS]
+    handles = [Line2D([], [], color=colour, ls=_LINES[name]) for name, colour in _COLOURS.items()]
     figure.legend(handles, list(_COLOURS), loc="outside lower center", ncols=len(_COLOURS))
     return figure
 
 
-def _draw_approaches(axis: Axes, approaches: Iterable[PlaneApproach]) -> None:
+def _draw_approaches(
+    axis: Axes, approaches: Iterable[PlaneApproach], lines: Mapping[str, str] = MappingProxyType({})
+) -> None:
     axis.axhspan(-WITHIN_MM, WITHIN_MM, color="0.9", zorder=0)
     for one in approaches:
-        axis.plot(one.travelled_mm, one.height_mm, color=_COLOURS[one.name], lw=0.9, alpha=0.8)
+        axis.plot(
+            one.travelled_mm,
+            one.height_mm,
+            color=_COLOURS[one.name],
+            ls=lines.get(one.name, "-"),
+            lw=1.2,
+        )

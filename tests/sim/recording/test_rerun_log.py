@@ -11,6 +11,7 @@ from sim.experiment import perform
 from sim.paper_protocols import protocol_named
 from sim.recording.recording import Recording
 from sim.recording.rerun_log import application, log_recording, modal_amplitudes_deg
+from sim.recording.shaft_places import node_places_mm
 
 
 def test_the_rerun_file_holds_the_signals_to_the_last_bit(recording, tmp_path):
@@ -29,6 +30,21 @@ def test_the_rerun_file_holds_the_signals_to_the_last_bit(recording, tmp_path):
     assert np.array_equal(scalars["/torque/base_torque_n_mm"], recording["base_torque_n_mm"])
     assert "checked" in text
     assert "nitinol-0.59" in text
+
+
+def test_bars_are_at_their_places_along_the_shaft(recording, tmp_path):
+    path = tmp_path / "run.rrd"
+    log_recording(recording, path)
+    last = {}
+    for chunk in RrdReader(str(path)).stream():
+        batch, entity = chunk.to_record_batch(), str(chunk.entity_path)
+        if "BarChart:abscissa" in batch.schema.names:
+            buffer = batch.column("BarChart:abscissa")[-1].as_py()[0]["buffer"]
+            last[entity] = np.asarray(buffer)
+    places = node_places_mm(recording)[-1]
+    np.testing.assert_allclose(last["/profile/shaft"], places, atol=1e-4)
+    sites = last["/profile/tissue"].reshape(-1, 2)
+    assert ((places[:-1] < sites[:, 0]) & (sites[:, 1] < places[1:])).all()
 
 
 def test_the_file_is_arranged_by_a_blueprint(recording, tmp_path):

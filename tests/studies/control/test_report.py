@@ -29,7 +29,8 @@ def small(small_steering):
 
 
 def test_every_file_is_written_and_says_the_same(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "_SHOWN", ("base_only",))  # the picture simulates its own turns
+    # The picture simulates its own turns.
+    monkeypatch.setattr(report, "_STYLES", {"base_only": {}})
     paths = [tmp_path / name for name in FILES]
     with publishing(Destination(folder=tmp_path), paths) as results:
         write_study(small, results, tmp_path)

@@ -14,14 +14,23 @@ def test_parts_come_back_in_order_with_a_pool_and_without():
     expected = {"one": [1, 2, 4, 8, 16], "two": [3]}
     announced = []
     with ThreadPoolExecutor(2) as pool:
-        assert study.collected(stages, pool, announced.append) == expected
-    assert study.collected(stages, None, announced.append) == expected
-    assert announced == ["one", "two"] * 2
+        assert study.collected(stages, pool, lambda stage, _: announced.append(stage)) == expected
+    assert study.collected(stages, None, lambda stage, _: announced.append(stage)) == expected
+    assert announced == [*["one"] * 5, "two"] * 2
+
+
+def test_the_share_that_is_told_rises_from_0_through_all_stages():
+    stages = {name: [int, int] for name in study.stage_parts()}
+    shares = []
+    study.collected(stages, None, lambda _, share: shares.append(share))
+    assert shares[0] == 0.0
+    assert shares == sorted(set(shares))
+    assert shares[-1] < 1.0
 
 
 def test_what_a_part_raises_reaches_the_caller():
     with pytest.raises(ZeroDivisionError):
-        study.collected({"one": [partial(divmod, 1, 0)]}, None, str)
+        study.collected({"one": [partial(divmod, 1, 0)]}, None, lambda *_: None)
 
 
 def test_every_rig_is_a_part_and_all_stages_become_the_study(monkeypatch):

@@ -43,12 +43,14 @@ def test_the_command_prints_the_json_that_it_writes_and_overwrites_nothing(
         published_figures.run(folder, json_only=True, force=False, console=Console())
 
 
-def test_the_command_prints_a_summary_for_people(study, monkeypatch, capsys):
+def test_the_command_prints_a_summary_for_people(study, monkeypatch, capsys, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(files, "page", lambda study: "")
     monkeypatch.setattr(published_figures, "run_published_study", lambda progress: study)
     assert published_figures.run(None, json_only=False, force=False, console=Console(width=200)) == 0
     printed = capsys.readouterr().out
     assert printed.index(
         "Explained: base_servo and shear_thinning explains the 8 figures"
     ) < printed.index("Stated model and published figures")
-    assert "wrote" not in printed
+    assert "wrote      out/paper/paper.html" in printed
     assert printed.index("Fits to the tables that come nearest") < printed.index("Steered insertions")

@@ -23,7 +23,8 @@ def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
     assert (tmp_path / "score" / "score.png").read_bytes()[:4] == b"\x89PNG"
 
 
-def test_fewer_trials_are_scored_beside_the_reports_on_whole_logs(folder):
+def test_fewer_trials_are_scored_beside_the_reports_on_whole_logs(folder, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     answers = json.loads((folder / "answers" / "answers.json").read_text())
     case = next(case for case, answer in answers.items() if answer["kind"] == "none")  # the cheapest
     single = folder.parent / "single"
@@ -35,6 +36,7 @@ def test_fewer_trials_are_scored_beside_the_reports_on_whole_logs(folder):
     whole = json.loads((folder / "reports" / f"{case}.json").read_text())
     assert report["gap"]["before"] != whole["gap"]["before"]
     assert not (single / "reports").exists()
+    assert (tmp_path / "out" / "score" / "scores.csv").is_file()
 
 
 def test_one_log_is_made_with_its_ground_truth_in_another_folder(tmp_path, capsys):
@@ -59,10 +61,13 @@ def test_one_log_is_made_with_its_ground_truth_in_another_folder(tmp_path, capsy
 @pytest.mark.parametrize(
     ("arguments", "parts"),
     [
-        (["--count", "-3"], ["count: expected at least 1 log, got -3"]),
-        (["--effects", "magnetism"], ["effects: expected some of", "magnetism"]),
-        (["--kinds", "double"], ["kinds: expected some of none", "double"]),
-        (["--signature", "2", "1"], ["signature: expected 0 < LOW < HIGH", "(2.0, 1.0)"]),
+        (["--count", "-3"], ["count: expected at least 1 log, found -3"]),
+        (["--effects", "magnetism"], ["--effects: expected one of", "magnetism"]),
+        (["--kinds", "double"], ["--kinds: expected one of all", "double"]),
+        (["--kinds", "paar"], ["--kinds: expected a known name", "did you mean 'pair'?"]),
+        (["--effects", "coulomb-frction"], ["did you mean 'coulomb_friction'?"]),
+        (["--roughness", "outlier"], ["did you mean 'outliers'?"]),
+        (["--signature", "2", "1"], ["signature: expected 0 < LOW < HIGH", "found 2 1"]),
     ],
 )
 def test_make_names_the_argument_that_it_refuses(tmp_path, capsys, arguments, parts):

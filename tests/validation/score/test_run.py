@@ -3,6 +3,7 @@
 import json
 from types import SimpleNamespace
 
+import pandas as pd
 import pytest
 from rich.console import Console
 
@@ -30,18 +31,20 @@ def test_a_log_that_cannot_be_read_has_a_report_that_says_why(unusable):
 def test_the_answers_are_read_after_the_reports_are_written(unusable, monkeypatch):
     """The score checks them first, for a diagnosis takes long, but no answer reaches it."""
     order = []
-    monkeypatch.setattr(blind, "diagnose_all", lambda logs, reports, **how: order.append((logs, how)))
-    monkeypatch.setattr(blind, "read_answers", lambda folder: order.append("checked"))
-    monkeypatch.setattr(blind, "read_scores", lambda *given: order.append(("scored", *given)) or scores)
+    monkeypatch.setattr(run, "diagnose_all", lambda logs, reports, **how: order.append((logs, how)))
+    monkeypatch.setattr(run, "read_answers", lambda folder: order.append("checked"))
+    monkeypatch.setattr(run, "read_scores", lambda *given: order.append(("scored", *given)) or scores)
     monkeypatch.setattr(blind, "_print", lambda *given: None)
     (unusable / "answers").mkdir()
     (unusable / "answers" / "answers.json").write_text("{}")
-    scores = object()
-    blind.run_score(unusable, None, trials=2, limit_s=9.0, force=False, console=Console())
+    scores = pd.DataFrame()
+    out = unusable / "score"
+    monkeypatch.setattr(blind.picture, "draw", lambda scores, path: path.write_text("a picture"))
+    blind.run_score(unusable, out, trials=2, limit_s=9.0, force=False, console=Console())
     assert [order[0], order[2]] == ["checked", ("scored", unusable, 2, 9.0)]
     logs, how = order[1]
     assert logs == unusable / "logs"
-    assert how.keys() == {"trials", "limit_s", "progress"}
+    assert (how["trials"], how["limit_s"]) == (2, 9.0)
 
 
 @pytest.mark.parametrize("limit_s", [None, 12.0])
@@ -67,7 +70,7 @@ def test_a_report_that_exists_is_kept_and_tasks_can_be_watched(unusable):
         unusable / "logs", unusable / "reports", workers=1, progress=lambda *told: seen.append(told)
     )
     assert kept.read_text() == "kept"
-    assert seen == [("logs", 0, 0)]
+    assert seen == [("diagnosing logs", 0, 0)]
 
 
 def test_no_report_is_written_through_a_link(unusable, tmp_path):

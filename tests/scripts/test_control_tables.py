@@ -12,6 +12,7 @@ from scripts.control_tables import (
     robustness_tables,
     settling_table,
 )
+from scripts.tables import print_table
 from studies.control.comparison import StepResponse
 from studies.control.robustness import ROBUST_CONTROLLERS, misjudged_delays, plants
 from studies.control.tables import CONTROLLERS
@@ -34,9 +35,9 @@ def response(controller, plant, settle_s, overshoot_deg=0.0):
     )
 
 
-def printed(table):
-    console = Console(width=80, file=io.StringIO(), color_system=None)
-    console.print(table)
+def printed(table, width=80, keys=1):
+    console = Console(width=width, file=io.StringIO(), color_system=None)
+    print_table(console, table, keys=keys)
     return console.file.getvalue()
 
 
@@ -74,3 +75,21 @@ def test_what_failed_is_listed_and_baselines_are_not():
     assert "…" not in text
     assert "overshoots by 22 deg" in text
     assert "base_only_at_limit" not in text
+
+
+@pytest.mark.parametrize("width", [80, 60])
+@pytest.mark.parametrize(
+    ("table", "keys"),
+    [
+        (settling_table(TABLES), 3),
+        (integral_table(TABLES), 3),
+        *((table, 1) for table in robustness_tables(ROBUST)),
+        (failures_table(ROBUST), 2),
+    ],
+)
+def test_no_heading_and_no_number_is_cut_on_a_narrow_screen(table, keys, width):
+    text = printed(table, width, keys)
+    assert "…" not in text
+    assert max(map(len, text.splitlines())) <= width
+    words = {word for column in table.columns for word in str(column.header).split()}
+    assert words <= set(text.split())

@@ -7,7 +7,8 @@ from rich.console import Console
 
 from diagnosis.progress import Progress
 from diagnosis.stopping import StopReason, StopSignal
-from scripts.progress_line import in_one_line, progress_line
+from scripts import progress_line as module
+from scripts.progress_line import by_share, counted, in_one_line, progress_line
 
 
 def news(stage="fitting pairs", elapsed_s=1.0, done=3, tasks=20, left_s=15.4):
@@ -66,3 +67,37 @@ def test_on_a_terminal_the_line_is_gone_at_the_end():
 def test_a_terminal_that_cannot_move_its_cursor_gets_lines():
     said = shown(news(), force_terminal=True, _environ={"TERM": "dumb"})
     assert said == "    1 s  fitting pairs, 3 of 20; about 15 s left\n"
+
+
+@pytest.fixture
+def at(monkeypatch):
+    """A clock that stands at the times that it is given, one after the other."""
+
+    def stands(*times_s):
+        left = list(times_s)
+        monkeypatch.setattr(module.time, "monotonic", lambda: left.pop(0))
+
+    return stands
+
+
+def test_shares_of_the_whole_give_the_time_that_is_left(at):
+    told = []
+    at(100.0, 100.0, 130.0)
+    heard = by_share(told.append)
+    heard("simulating", 0.0)
+    heard("drawing", 0.75)
+    assert [(one.stage, one.elapsed_s, one.left_s) for one in told] == [
+        ("simulating", 0.0, None),
+        ("drawing", 30.0, pytest.approx(10.0)),
+    ]
+
+
+def test_counted_items_are_tasks_of_one_stage(at):
+    told = []
+    at(0.0, 0.0, 2.0, 4.0)
+    assert list(counted("ab", 2, "making logs", told.append)) == ["a", "b"]
+    assert [(one.done, one.tasks, one.left_s) for one in told] == [
+        (0, 2, None),
+        (1, 2, 2.0),
+        (2, 2, 0.0),
+    ]

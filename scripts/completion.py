@@ -1,0 +1,49 @@
+"""`needle completion`: a script that completes arguments, options and names in bash or zsh."""
+
+import argparse
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from rich.console import Console
+
+from scripts.arguments import parser
+from scripts.blind import KNOWN_NAMES
+from sim.paper_protocols import PROTOCOLS
+from studies.control.tip_controllers import TIP_CONTROLLERS
+
+_NAMES: Mapping[str, Iterable[str]] = {
+    "protocol": PROTOCOLS,
+    "controller": TIP_CONTROLLERS,
+    **KNOWN_NAMES,
+}
+_FOLDERS = ("DIR", "LOG")
+
+
+def run(shell: str, console: Console) -> int:
+    """Print the script."""
+    console.print(script(shell), highlight=False, markup=False, soft_wrap=True)
+    return 0
+
+
+def script(shell: str) -> str:
+    """The script of a shell, `bash` or `zsh`."""
+    import shtab  # needed here alone
+
+    top = parser()
+    for action in _actions(top):
+        if action.type is Path:
+            complete = shtab.DIRECTORY if action.metavar in _FOLDERS else shtab.FILE
+            vars(action)["complete"] = complete
+        elif action.dest in _NAMES:
+            action.choices = list(_NAMES[action.dest])
+    made: str = shtab.complete(top, shell)
+    return made
+
+
+def _actions(of: argparse.ArgumentParser) -> Iterator[argparse.Action]:
+    """Every argument, those of subcommands among them."""
+    for action in of._actions:
+        yield action
+        if isinstance(action.choices, Mapping):
+            for subcommand in action.choices.values():
+                yield from _actions(subcommand)

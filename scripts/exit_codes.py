@@ -1,0 +1,28 @@
+"""What the exit codes of `needle` mean."""
+
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """A code, and what it means in words."""
+
+    words: str
+
+    def __new__(cls, code: int, words: str) -> "ExitCode":
+        """An integer that knows its meaning."""
+        member = int.__new__(cls, code)
+        member._value_ = code
+        member.words = words
+        return member
+
+    DONE = 0, "done"
+    BOUND_FAILS = 1, "a bound of validate or demo fails"
+    REFUSED = 2, "wrong arguments or input, or a result exists; or files or output cannot be written"
+    WITHOUT_ALL = 3, "done, but for a picture, page or recording that could not be made"
+    INTERRUPTED = 130, "stopped by Ctrl-C; diagnose tells the best so far"
+    TERMINATED = 143, "stopped by SIGTERM; diagnose tells the best so far"
+
+
+def in_words() -> str:
+    """All of them, a line each."""
+    return "\n".join(f"  {code.value:>3}  {code.words}" for code in ExitCode)

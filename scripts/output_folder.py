@@ -1,0 +1,45 @@
+"""Where results go: the folder that was asked for, or a default one in which nothing is overwritten."""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import count
+from pathlib import Path
+
+from sim.files import Destination, finish_interrupted
+
+Outputs = Callable[[Path], list[Path]]
+"""The files that will be written, given the folder."""
+
+
+def output_folder(
+    given: Path | None, default: Path, outputs: Outputs, *, force: bool, inputs: Sequence[Path] = ()
+) -> Destination:
+    """The folder to write to, chosen and checked before anything is computed.
+
+    Args:
+      given: by the user; None: the default, or the first numbered one without earlier results
+        (`out/control`, `out/control-2`, ...); with `force` the default itself.
+      inputs: files that the run reads.
+
+    Raises:
+      OutputExists: a result exists in the folder that was asked for, and `force` is not given.
+      UnsafeOutput, UnwritableOutput: a result may not or cannot be written there.
+    """
+    folder = given or (default if force else first_free(default, outputs))
+    destination = Destination(folder=folder, inputs=tuple(inputs), force=force)
+    destination.check(outputs(folder))
+    return destination
+
+
+def first_free(default: Path, outputs: Outputs) -> Path:
+    """The default, or the first numbered one that has no results."""
+    return next(folder for folder in _numbered(default) if not _has_results(folder, outputs))
+
+
+def _has_results(folder: Path, outputs: Outputs) -> bool:
+    finish_interrupted(folder)
+    return any(path.exists() for path in outputs(folder))
+
+
+def _numbered(default: Path) -> Iterator[Path]:
+    yield default
+    yield from (default.with_name(f"{default.name}-{i}") for i in count(2))

@@ -1,0 +1,72 @@
+"""Where results go: never over earlier ones, and decided before anything is computed."""
+
+import pytest
+
+from models.errors import OutputExists, UnsafeOutput
+from scripts import output_folder as module
+from sim.files import Destination
+
+
+def outputs(folder):
+    return [folder / "a.json", folder / "b.png"]
+
+
+@pytest.fixture
+def default(tmp_path):
+    return tmp_path / "out" / "control"
+
+
+def output_folder(*given, force):
+    return module.output_folder(*given, force=force).folder
+
+
+def with_results(*folders):
+    for folder in folders:
+        folder.mkdir(parents=True)
+        (folder / "b.png").write_text("mine")
+
+
+def test_the_default_is_the_first_numbered_folder_without_results(default):
+    assert output_folder(None, default, outputs, force=False) == default
+    with_results(default)
+    assert output_folder(None, default, outputs, force=False) == default.with_name("control-2")
+    with_results(default.with_name("control-2"))
+    assert output_folder(None, default, outputs, force=False) == default.with_name("control-3")
+
+
+def test_other_files_in_the_default_folder_are_no_results(default):
+    default.mkdir(parents=True)
+    (default / "notes.txt").write_text("mine")
+    assert output_folder(None, default, outputs, force=False) == default
+
+
+def test_a_folder_that_was_asked_for_is_refused_rather_than_numbered(default):
+    with_results(default)
+    with pytest.raises(OutputExists, match="--force"):
+        output_folder(default, default, outputs, force=False)
+
+
+def test_with_force_results_are_replaced_where_they_are(default):
+    with_results(default)
+    assert output_folder(None, default, outputs, force=True) == default
+    assert output_folder(default, default, outputs, force=True) == default
+
+
+def test_a_default_folder_that_a_dead_run_had_decided_has_results(default, monkeypatch):
+    """They get their names before the folder is looked at."""
+    monkeypatch.setattr(
+        module, "finish_interrupted", lambda folder: folder.exists() or with_results(folder)
+    )
+    (default.with_name("control-2")).mkdir(parents=True)
+    assert output_folder(None, default, outputs, force=False) == default.with_name("control-2")
+
+
+def test_no_input_is_written_over_and_the_choice_says_so_before_any_work(default):
+    with_results(default)
+    how = {"inputs": [default / "b.png"], "force": True}
+    with pytest.raises(UnsafeOutput, match="which this run reads"):
+        module.output_folder(None, default, outputs, **how)
+    found = module.output_folder(None, default.with_name("other"), outputs, **how)
+    assert found == Destination(
+        folder=default.with_name("other"), inputs=(default / "b.png",), force=True
+    )
