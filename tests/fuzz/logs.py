@@ -95,6 +95,7 @@ def changed_tables(draw, table):
     match kind:
         case "cell":
             last = row + draw(st.sampled_from([0, 0, 3, 60, rows]))
+            table[column] = table[column].astype(object)
             table.loc[row:last, column] = draw(cells)
         case "scale":
             table[column] = number * draw(st.sampled_from(FACTORS))
