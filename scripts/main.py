@@ -77,6 +77,8 @@ def parser() -> argparse.ArgumentParser:
 
     _add_blind(commands.add_parser("blind", help="validate the diagnosis on rigs that it has not met"))
 
+    _add_campaign(commands.add_parser("campaign", help="many runs from one file: sweeps, Monte-Carlo"))
+
     inspect = commands.add_parser("inspect", help="open a recording, or list its content")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
     inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
@@ -94,6 +96,16 @@ def _add_import(importer: argparse.ArgumentParser) -> None:
         "--accept-guesses", action="store_true", help="take the guesses of the mapping for confirmed"
     )
     _add_output(importer, default=Path("out/import"))
+
+
+def _add_campaign(campaign: argparse.ArgumentParser) -> None:
+    campaign.add_argument("file", type=Path, metavar="FILE.yaml", help="see docs/campaigns.md")
+    campaign.add_argument("--samples", type=int, metavar="N", help="draws, in place of the file's")
+    campaign.add_argument("--resume", action="store_true", help="compute only what is missing")
+    where = campaign.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=int, metavar="N", help="processes (default: one per core)")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="run on a dask.distributed cluster")
+    _add_output(campaign, default=None)
 
 
 def _add_blind(blind: argparse.ArgumentParser) -> None:
@@ -247,6 +259,19 @@ def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:
                 args.out,
                 mapping=args.map,
                 accept_guesses=args.accept_guesses,
+                force=args.force,
+                console=console,
+            )
+        case "campaign":
+            from scripts import campaign
+
+            return campaign.run(
+                args.file,
+                args.out,
+                samples=args.samples,
+                resume=args.resume,
+                workers=args.workers,
+                scheduler=args.scheduler,
                 force=args.force,
                 console=console,
             )
