@@ -142,6 +142,7 @@ def _diagnosis_results(campaign: Campaign, case: Case) -> dict[str, Any]:
     log = read_rig_log(Path(case.log or ""))
     report = as_json(diagnose(log, workers=1, limit_s=campaign.limit_s))
     return {
+        "log": case.log,
         "verdict": report["verdict"],
         "effects": " + ".join(report["effects"]),
         "gap_before": report["gap"]["before"],

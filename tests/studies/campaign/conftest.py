@@ -1,40 +1,8 @@
-"""Campaigns of short insertions, and another process that runs one."""
-
-import os
-import subprocess
-import sys
-from pathlib import Path
+"""Campaign files in a folder of the test."""
 
 import pytest
 import yaml
-
-ROOT = Path(__file__).parents[3]
-
-
-def content(**changes):
-    """A campaign file of six insertions of 0.3 s: two depths, three draws each."""
-    base = {
-        "name": "short",
-        "tissue": "soft-plastisol",
-        "free_mm": 50.0,
-        "inserted_mm": 100.0,
-        "through": True,
-        "discretisation": {"elements": 8},
-        "segments": [{"duration_s": 0.2, "turn_deg": 60}, {"duration_s": 0.1}],
-    }
-    campaign = {
-        "name": "few",
-        "kind": "insertion",
-        "base": base,
-        "vary": {
-            "inserted_mm": {"grid": [80.0, 120.0]},
-            "segments.0.turn_deg": {"normal": [60.0, 5.0]},
-        },
-        "samples": 3,
-        "seed": 7,
-        "cases_per_piece": 2,
-    }
-    return campaign | changes
+from campaigns import content
 
 
 @pytest.fixture
@@ -47,13 +15,3 @@ def campaign_file(tmp_path):
         return path
 
     return write
-
-
-def environment():
-    return os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{ROOT / 'tests'}"}
-
-
-def start_command(*arguments):
-    """`needle campaign` in a process of its own, which leads a group."""
-    command = [sys.executable, "-m", "scripts.main", "campaign", *map(str, arguments)]
-    return subprocess.Popen(command, cwd=ROOT, env=environment(), stderr=subprocess.DEVNULL)

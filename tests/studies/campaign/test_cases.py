@@ -22,7 +22,7 @@ def test_grids_are_crossed_and_samples_go_round(campaign_file):
 
 def test_a_case_is_the_same_whatever_the_number_of_samples_and_the_order(campaign):
     more = campaign.but(samples=10)
-    assert case_count(campaign), case_count(more) == (6, 20)
+    assert (case_count(campaign), case_count(more)) == (6, 20)
     backwards = cases_of(more, range(5, -1, -1))
     assert cases_of(campaign, range(6)) == backwards[::-1]
 
