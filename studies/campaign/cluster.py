@@ -91,7 +91,7 @@ def _until_lost(client: Any, campaign: Campaign, pieces: Sequence[range]) -> Ite
         client.submit(rows_on_worker, campaign, piece, fingerprint, pure=False): piece
         for piece in pieces
     }
-    for call in as_completed(list(calls)):
+    for call in as_completed(list(calls), loop=client.loop):
         piece = calls.pop(call)
         try:
             rows = call.result()
