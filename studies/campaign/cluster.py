@@ -46,6 +46,8 @@ def on_cluster(
         missing, losses = list(wanted), 0
         while missing:
             client = _connected(address, patience_s)
+            if not client.scheduler_info()["workers"]:
+                tell(f"the scheduler {address} has no workers yet; waiting for them")
             try:
                 for piece, rows in _until_lost(client, campaign, missing):
                     missing.remove(piece)
