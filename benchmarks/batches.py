@@ -25,8 +25,8 @@ from studies.campaign.variation import Variation
 
 SPEED_UP_BOUND = 1.8  # on two cores
 OVERHEAD_BOUND = 5.0  # percent
-_INSERTIONS = 100
-_TURNS = 5
+_INSERTIONS = 48
+_TURNS = 3
 
 
 def campaign() -> Campaign:
