@@ -6,7 +6,17 @@ About eight minutes; PyElastica and `mujoco.sysid` are skipped where they are no
 import time
 from pathlib import Path
 
-from benchmarks import callback, control_loop, diagnosis, fit, pyelastica, report, sysid, work_precision
+from benchmarks import (
+    batches,
+    callback,
+    control_loop,
+    diagnosis,
+    fit,
+    pyelastica,
+    report,
+    sysid,
+    work_precision,
+)
 
 
 def main() -> None:
@@ -17,6 +27,7 @@ def main() -> None:
     folder, start = Path(options.out), time.perf_counter()
     goals = [
         *callback.run(folder),
+        *batches.run(folder),
         *work_precision.run(folder),
         *control_loop.run(folder),
         *pyelastica.run(folder, options.elastica_python),

@@ -70,6 +70,7 @@ def parser() -> Parser:
     _add_output(replay, "replay")
     _add_diagnose(command("diagnose", "say what a rig has that its model lacks"))
     _add_blind(command("blind", "validate the diagnosis on rigs that it has not met"))
+    _add_campaign(command("campaign", "many runs from one file: sweeps, Monte-Carlo"))
     inspect = command("inspect", "open a recording, or list its content")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
     inspect.add_argument("--table", action="store_true", help="print a table; needs no screen")
@@ -180,6 +181,22 @@ def _add_blind(blind: Parser) -> None:
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
     )
     _add_output(score, "score")
+
+
+def _add_campaign(campaign: Parser) -> None:
+    campaign.add_argument("file", type=Path, metavar="FILE.yaml", help="see docs/campaigns.md")
+    campaign.add_argument("--samples", type=int, metavar="N", help="draws, in place of the file's")
+    campaign.add_argument("--resume", action="store_true", help="compute only what is missing")
+    where = campaign.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=int, metavar="N", help="processes (default: one per core)")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="run on a dask.distributed cluster")
+    campaign.add_argument(
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="where results go (default: out/ and the campaign's name)",
+    )
+    campaign.add_argument("--force", action="store_true", help="replace results that exist")
 
 
 def _add_output(command: Parser, name: str, more: str = "") -> None:

@@ -125,6 +125,19 @@ def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:
                 force=args.force,
                 console=console,
             )
+        case "campaign":
+            from scripts import campaign
+
+            return campaign.run(
+                args.file,
+                args.out,
+                samples=args.samples,
+                resume=args.resume,
+                workers=args.workers,
+                scheduler=args.scheduler,
+                force=args.force,
+                console=console,
+            )
         case "replay":
             from scripts import replay
 

@@ -65,8 +65,7 @@ class ClosedLoopRun:
     @property
     def shaft_deg(self) -> Array:
         """Angle of the drive shaft, deg, (N,)."""
-        driven_by_angle = self.run.setup.drive.kind is DriveKind.ANGLE
-        return self.run.inputs.drive if driven_by_angle else self.run.base_deg
+        return self.run.shaft_deg
 
 
 def run_closed_loop(

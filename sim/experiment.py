@@ -28,7 +28,7 @@ def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recordin
     run = simulate([protocol.setup()], protocol.schedule(), models=models, keep_shape=True)[0]
     parameters: dict[str, Any] = {"protocol": protocol.name, "description": protocol.description}
     if protocol.accuracy_deg is not None and model is None:
-        parameters["tip_error_deg"] = _checked_error_deg(protocol, run)
+        parameters["tip_error_deg"] = checked_error_deg(protocol, run)
     return record(run, parameters)
 
 
@@ -40,7 +40,12 @@ def step_error_deg(protocol: Protocol, run: Run) -> float:
     return float(_SECOND_ORDER * np.abs(run.tip_deg[:size] - halved.tip_deg[: 2 * size : 2]).max())
 
 
-def _checked_error_deg(protocol: Protocol, run: Run) -> float:
+def checked_error_deg(protocol: Protocol, run: Run) -> float:
+    """The error of the tip that the step causes, deg, where it is within what the protocol allows.
+
+    Raises:
+      InvalidValue: it is more; names a step that is small enough.
+    """
     error, step = step_error_deg(protocol, run), protocol.discretisation.step_s
     allowed = protocol.accuracy_deg or np.inf
     if error > allowed:

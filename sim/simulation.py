@@ -63,6 +63,12 @@ class Run:
         return self.outputs[:, memory_map.O_BASE_ANGLE] / units.DEG
 
     @property
+    def shaft_deg(self) -> Array:
+        """Angle of the drive shaft, deg, (N,): of the needle's base, where the drive gives torque."""
+        driven_by_angle = self.setup.drive.kind is DriveKind.ANGLE
+        return self.inputs.drive if driven_by_angle else self.base_deg
+
+    @property
     def base_torque_n_mm(self) -> Array:
         """Torque that the drive puts in, N mm, (N,)."""
         return self.outputs[:, memory_map.O_BASE_TORQUE] / units.N_MM

@@ -33,6 +33,7 @@ MAY_IMPORT_INSIDE = {
     "sim.loop": {"sim.loop"},
     "sim.needles": {"sim", "sim.kernel", "sim.needles"},
     "sim.recording": {"sim", "sim.files", "sim.kernel", "sim.recording"},
+    "studies.campaign": {"studies.campaign", "studies.control"},
     "studies.crosscheck": {"studies.crosscheck"},
     "controllers.steering": {"controllers", "controllers.steering"},
     "studies.control": {"studies.control", "studies.control.steering", "studies.crosscheck"},

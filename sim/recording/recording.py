@@ -17,7 +17,6 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from models import units
-from models.drive import DriveKind
 from models.errors import InvalidValue, NeedleError
 from sim.files import writing
 from sim.kernel import memory_map
@@ -144,10 +143,9 @@ def read(path: Path) -> Recording:
 def record(run: Run, parameters: dict[str, Any] | None = None) -> Recording:
     """The signals of a run; `parameters` are added to those of its set-up."""
     inputs, outputs = run.inputs, run.outputs
-    angle_driven = run.setup.drive.kind is DriveKind.ANGLE
     columns: dict[str, Array] = {
         "time_s": inputs.time_s,
-        "base_angle_deg": inputs.drive if angle_driven else run.base_deg,
+        "base_angle_deg": run.shaft_deg,
         "base_torque_n_mm": run.base_torque_n_mm,
         "tip_angle_deg": run.tip_deg,
         "inserted_mm": inputs.inserted_mm,

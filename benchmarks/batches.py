@@ -1,0 +1,98 @@
+"""Many insertions at once: what a second thread gains, and what a campaign costs beside its insertions.
+
+`sim.batch.simulate_each` runs insertions that differ in tissue, turn and depth on one thread and on two,
+in turns, in wall time: the ratio is the speed-up. It needs two cores that have nothing else to do; the
+load of the machine is printed. What a campaign adds (drawing values, rows, files) is measured on one
+process, as CPU time beside that of the same insertions.
+"""
+
+import os
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from benchmarks import report
+from sim.batch import simulate_each
+from sim.paper_protocols import protocol_named
+from sim.simulation import prepare_processes
+from studies.campaign.campaign import Campaign, Kind
+from studies.campaign.cases import case_count, cases_of
+from studies.campaign.engines import on_this_machine
+from studies.campaign.results import ResultFolder
+from studies.campaign.run import run_campaign
+from studies.campaign.variation import Variation
+
+SPEED_UP_BOUND = 1.8  # on two cores
+OVERHEAD_BOUND = 5.0  # percent
+_INSERTIONS = 48
+_TURNS = 3
+
+
+def campaign() -> Campaign:
+    """Insertions of 9.3 s that differ in tissue, turn and depth."""
+    return Campaign(
+        name="benchmark",
+        kind=Kind.INSERTION,
+        base=protocol_named("fig5-10cm"),
+        vary={
+            "tissue.layers.0.interface.viscous_n_mm_s_per_mm": Variation(uniform=(0.01, 0.03)),
+            "segments.1.turn_deg": Variation(normal=(90.0, 3.0)),
+            "inserted_mm": Variation(uniform=(80.0, 120.0)),
+        },
+        samples=_INSERTIONS,
+        cases_per_piece=_INSERTIONS,
+    )
+
+
+def _least_wall_times_s(tasks: dict[str, Callable[[], object]]) -> dict[str, float]:
+    """Least wall time of each task; they take turns."""
+    least = dict.fromkeys(tasks, float("inf"))
+    for _ in range(_TURNS):
+        for name, task in tasks.items():
+            start = time.perf_counter()
+            task()
+            least[name] = min(least[name], time.perf_counter() - start)
+    return least
+
+
+def run(folder: Path) -> list[report.Goal]:
+    """Measure, print, write."""
+    prepare_processes()
+    whole = campaign()
+    protocols = [case.protocol for case in cases_of(whole, range(case_count(whole))) if case.protocol]
+    wall = _least_wall_times_s(
+        {
+            "1 thread": lambda: simulate_each(protocols, threads=1),
+            "2 threads": lambda: simulate_each(protocols, threads=2),
+        }
+    )
+    with tempfile.TemporaryDirectory() as kept:
+
+        def run_whole() -> None:
+            results = ResultFolder(folder=Path(kept), campaign=whole)
+            run_campaign(results, on_this_machine(1), force=True, progress=lambda _: None)
+
+        tasks = {"insertions": lambda: simulate_each(protocols, threads=1), "campaign": run_whole}
+        cpu = report.least_times_s(tasks, turns=_TURNS, enough_s=30.0)
+    rows = [
+        {"what": name, "clock": clock, "ms an insertion": 1e3 * seconds / len(protocols)}
+        for clock, times in (("wall", wall), ("CPU", cpu))
+        for name, seconds in times.items()
+    ]
+    load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
+    title = f"{len(protocols)} insertions of 9.3 s; {os.cpu_count()} cores, load {load:.1f}"
+    report.show(title, rows, folder, "batches")
+    overhead = 100 * (cpu["campaign"] / cpu["insertions"] - 1)
+    gain = wall["1 thread"] / wall["2 threads"]
+    return [
+        report.Goal(name="insertions, 2 threads", measured=gain, bound=SPEED_UP_BOUND, at_least=True),
+        report.Goal(
+            name="campaign over its insertions", measured=overhead, bound=OVERHEAD_BOUND, unit="%"
+        ),
+    ]
+
+
+if __name__ == "__main__":
+    folder_ = report.out_folder(report.parser(__doc__))
+    report.show_goals(run(folder_), folder_)

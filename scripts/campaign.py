@@ -1,0 +1,76 @@
+"""`needle campaign`: sweeps and Monte-Carlo runs from one file."""
+
+import os
+from pathlib import Path
+
+import pandas as pd
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from diagnosis.stopping import NEVER
+from scripts.progress_line import progress_line
+from scripts.tables import print_table
+from scripts.terminal import terminal
+from studies.campaign.campaign import read_campaign
+from studies.campaign.cluster import on_cluster
+from studies.campaign.columns import FAILED
+from studies.campaign.engines import Engine, on_this_machine
+from studies.campaign.results import ResultFolder
+from studies.campaign.run import run_campaign
+from studies.campaign.summary import summarise, summary_table
+
+_SHOWN = ["cases", "mean", "sd", "p2.5", "median", "p97.5"]
+_ERRORS_SHOWN = 3
+
+
+def run(
+    path: Path,
+    out: Path | None,
+    *,
+    samples: int | None,
+    resume: bool,
+    workers: int | None,
+    scheduler: str | None,
+    force: bool,
+    console: Console,
+) -> int:
+    """Run what is missing of a campaign, then sum it up.
+
+    Raises:
+      NeedleError: the campaign is not possible, or the folder is another one's.
+    """
+    campaign = read_campaign(path, samples=samples)
+    results = ResultFolder(folder=out or Path("out") / campaign.name, campaign=campaign)
+    shown = terminal(stderr=True)
+    with progress_line(shown, NEVER) as show:
+        done = run_campaign(
+            results, _engine(workers, scheduler, shown), resume=resume, force=force, progress=show
+        )
+    console.print(f"{done.computed} cases in {done.seconds_s:.1f} s, {done.failed} failed")
+    _show(results, console)
+    for written in (results.folder / "campaign.yaml", results.dataset, *summarise(results)):
+        console.print(f"wrote      {written}", highlight=False)
+    return 0
+
+
+def _engine(workers: int | None, scheduler: str | None, shown: Console) -> Engine:
+    if scheduler is None:
+        return on_this_machine(workers or os.cpu_count() or 1)
+    return on_cluster(scheduler, tell=lambda news: shown.print(news, highlight=False, markup=False))
+
+
+def _show(results: ResultFolder, console: Console) -> None:
+    rows = results.read()
+    table = Table("result", *_SHOWN, title=Text(results.campaign.name))
+    for name, row in summary_table(results, rows).iterrows():
+        table.add_row(str(name), *(f"{row[column]:.4g}" for column in _SHOWN))
+    print_table(console, table)
+    _show_failed(rows[rows["status"] == FAILED], console)
+
+
+def _show_failed(failed: pd.DataFrame, console: Console) -> None:
+    for _, row in failed.head(_ERRORS_SHOWN).iterrows():
+        console.print(f"failed: case {row['case']}: {row['error']}", highlight=False, markup=False)
+    if len(failed) > _ERRORS_SHOWN:
+        console.print(f"and {len(failed) - _ERRORS_SHOWN} more: column error of the results")

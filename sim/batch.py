@@ -1,0 +1,82 @@
+"""Many insertions in one call: other tissues, needles and motions side by side, one thread per core.
+
+Protocols of one model size and one number of steps share MuJoCo's batches. A thread that steps a batch
+holds no lock of Python, so that others make their models meanwhile. Results do not depend on who runs
+beside whom.
+"""
+
+import os
+from collections import defaultdict
+from collections.abc import Hashable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import mujoco
+
+from models.errors import NeedleError
+from sim.protocol import Protocol
+from sim.schedule import Schedule
+from sim.simulation import Run, SimulationFailed, prepare_processes, simulate
+from sim.spec import Setup
+
+_SIDE_BY_SIDE = 16  # needles of one batch: few enough to share out evenly, many enough to pay
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Insertion:
+    """A protocol as its model and inputs, and its place in the call."""
+
+    place: int
+    setup: Setup
+    inputs: Schedule
+
+    @property
+    def size(self) -> Hashable:
+        """What insertions of one batch share."""
+        discretisation, kind = self.setup.discretisation, self.setup.drive.kind
+        nodes, rows = self.setup.nodes_mm.size, len(self.setup.law)
+        return discretisation, kind, nodes, rows, self.inputs.at_steps(discretisation.step_s).time_s.size
+
+
+def simulate_each(
+    protocols: Sequence[Protocol], *, threads: int | None = None
+) -> list[Run | NeedleError]:
+    """Simulate protocols that may differ in everything, each as if it were alone.
+
+    Args:
+      threads: None: one for each core. Results do not depend on it, to the last bit.
+
+    Returns:
+      In the order of the protocols, a run, or why there is none: `SimulationFailed`, or `InvalidValue`
+      for a protocol that makes no model.
+    """
+    prepare_processes()
+    found: list[Run | NeedleError] = [SimulationFailed("not simulated")] * len(protocols)
+    groups: dict[Hashable, list[_Insertion]] = defaultdict(list)
+    for place, protocol in enumerate(protocols):
+        try:
+            one = _Insertion(place=place, setup=protocol.setup(), inputs=protocol.schedule())
+            groups[one.size].append(one)
+        except NeedleError as refused:
+            found[place] = refused
+    batches = [
+        group[i : i + _SIDE_BY_SIDE]
+        for group in groups.values()
+        for i in range(0, len(group), _SIDE_BY_SIDE)
+    ]
+    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+        for batch, results in zip(batches, pool.map(_simulated, batches), strict=True):
+            for one, result in zip(batch, results, strict=True):
+                found[one.place] = result
+    return found
+
+
+def _simulated(batch: Sequence[_Insertion]) -> list[Run | NeedleError]:
+    """Runs of a batch; where one fails, halves are tried until it is alone with its error."""
+    try:
+        return list(simulate([one.setup for one in batch], [one.inputs for one in batch]))
+    except (NeedleError, mujoco.FatalError) as failed:
+        if len(batch) == 1:
+            return [failed if isinstance(failed, NeedleError) else SimulationFailed(str(failed))]
+    half = len(batch) // 2
+    return _simulated(batch[:half]) + _simulated(batch[half:])

@@ -1,0 +1,105 @@
+"""Results of a campaign on disk: a Parquet data set, written whole piece by piece.
+
+A folder has `campaign.yaml`, what is run, and `results/`, one file per piece. A piece is there as a
+whole or not at all, so that a campaign that was ended in any way goes on with those that are missing.
+"""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+import yaml
+
+from models.errors import InvalidValue, OutputExists
+from sim.files import write_text, writing
+from studies.campaign.campaign import Campaign
+from studies.campaign.cases import pieces
+from studies.campaign.columns import Row, schema
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResultFolder:
+    """The folder of one campaign."""
+
+    folder: Path
+    campaign: Campaign
+
+    @property
+    def dataset(self) -> Path:
+        """Folder of the Parquet data set."""
+        return self.folder / "results"
+
+    def begin(self, *, resume: bool = False, force: bool = False) -> None:
+        """Make the folder this campaign's.
+
+        Args:
+          resume: go on with results that are there; force: remove them.
+
+        Raises:
+          OutputExists: there are results, and neither is asked for.
+          InvalidValue: they are of another campaign, or of more samples.
+        """
+        described = self.folder / "campaign.yaml"
+        if described.exists() and resume:
+            self._refuse_another(described)
+        elif (described.exists() or self.dataset.exists()) and not force:
+            raise OutputExists(
+                f"{self.folder} has results of a campaign; --resume goes on with it, --force replaces"
+                " it, or give another folder"
+            )
+        elif force:
+            for path in self._files:
+                path.unlink()
+        write_text(described, self.campaign.as_yaml(), force=True)
+
+    def _refuse_another(self, described: Path) -> None:
+        text = described.read_text(encoding="utf-8")
+        if text.partition("\n")[0].split(" ")[-1] != self.campaign.fingerprint:
+            raise InvalidValue(
+                str(described),
+                "another campaign",
+                f"the campaign {self.campaign.name!r} as it is now, on the same MuJoCo",
+                "give another folder for results, or --force to replace these",
+            )
+        samples = yaml.safe_load(text)["samples"]
+        if samples > self.campaign.samples:
+            raise InvalidValue(
+                "samples", self.campaign.samples, f"at least the {samples} of {described}"
+            )
+
+    @property
+    def _files(self) -> list[Path]:
+        return sorted(self.dataset.glob("piece-*.parquet"))
+
+    def missing(self) -> list[range]:
+        """Pieces that are not there, or not as they were written."""
+        return [piece for piece in pieces(self.campaign) if not self._is_there(piece)]
+
+    def _path(self, piece: range) -> Path:
+        return self.dataset / f"piece-{piece.start:09d}.parquet"
+
+    def _is_there(self, piece: range) -> bool:
+        try:
+            table = pq.read_table(self._path(piece), page_checksum_verification=True)
+        except (OSError, pa.ArrowException):
+            return False
+        whole = table.schema.equals(schema(self.campaign), check_metadata=True)
+        return bool(whole and table["case"].to_pylist() == list(piece))
+
+    def write(self, piece: range, rows: Sequence[Row]) -> None:
+        """Write a piece: on disk before it has its name."""
+        table = pa.Table.from_pylist(list(rows), schema=schema(self.campaign))
+        with writing(self._path(piece), force=True) as part, part.open("wb") as file:
+            pq.write_table(table, file, write_page_checksum=True)
+            file.flush()
+            os.fsync(file.fileno())
+
+    def read(self) -> pd.DataFrame:
+        """Rows of all pieces, by case."""
+        tables = [pq.read_table(path, partitioning=None) for path in self._files]
+        rows: pd.DataFrame = pa.concat_tables(tables).to_pandas()
+        return rows.sort_values("case", ignore_index=True)

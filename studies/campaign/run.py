@@ -1,0 +1,61 @@
+"""A campaign from its first missing piece to its last."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from diagnosis.progress import Progress
+from models.errors import InvalidValue
+from studies.campaign.cases import check_values
+from studies.campaign.columns import FAILED
+from studies.campaign.engines import Engine
+from studies.campaign.results import ResultFolder
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finished:
+    """Cases that were computed now, and how many of them failed."""
+
+    computed: int
+    failed: int
+    seconds_s: float
+
+
+def run_campaign(
+    results: ResultFolder,
+    engine: Engine,
+    *,
+    resume: bool = False,
+    force: bool = False,
+    progress: Callable[[Progress], None],
+) -> Finished:
+    """Compute and write the pieces that are missing.
+
+    Args:
+      resume, force: see `ResultFolder.begin`.
+      progress: is told after every piece.
+
+    Raises:
+      NeedleError: the campaign cannot run, or the folder is not its own; nothing is lost.
+    """
+    check_values(results.campaign)
+    results.begin(resume=resume, force=force)
+    missing = results.missing()
+    cases, done, failed = sum(map(len, missing)), 0, 0
+    began_s = time.monotonic()
+
+    def tell() -> None:
+        elapsed_s = time.monotonic() - began_s
+        left_s = elapsed_s * (cases - done) / done if done else None
+        stage = f"cases of kind {results.campaign.kind.value} ({failed} failed)"
+        progress(Progress(stage=stage, done=done, tasks=cases, elapsed_s=elapsed_s, left_s=left_s))
+
+    tell()
+    for piece, rows in engine(results.campaign, missing):
+        results.write(piece, rows)
+        done += len(rows)
+        failed += sum(row["status"] == FAILED for row in rows)
+        tell()
+    if left := results.missing():
+        raise InvalidValue(str(results.dataset), len(left), "no piece to be missing", "use --resume")
+    return Finished(computed=done, failed=failed, seconds_s=time.monotonic() - began_s)
