@@ -5,8 +5,9 @@ from collections.abc import Iterator
 
 
 def commands_page(parser: argparse.ArgumentParser) -> str:
-    """A section per command: what it does, how it is called, its arguments."""
-    return "\n".join(_section(name, about, one) for name, about, one in _commands(parser))
+    """A section per command, after that of the program itself: what it does, its arguments."""
+    whole = ("needle", (parser.description or "").rstrip("."), parser)
+    return "\n".join(_section(name, about, one) for name, about, one in (whole, *_commands(parser)))
 
 
 def _commands(
@@ -22,7 +23,8 @@ def _commands(
 
 
 def _section(name: str, about: str, parser: argparse.ArgumentParser) -> str:
-    arguments = [a for a in parser._actions if not isinstance(a, argparse._HelpAction)]
+    left_out = (argparse._HelpAction, argparse._SubParsersAction)
+    arguments = [a for a in parser._actions if not isinstance(a, left_out)]
     rows = [f"| {_written(a)} | {_cell(a.help or '')} |" for a in arguments]
     table = ["| argument | meaning |", "|---|---|", *rows] if rows else []
     return "\n".join([f"## {name}", "", f"{about[:1].upper()}{about[1:]}.", "", *table, ""])
