@@ -61,7 +61,7 @@ def run(
     protocol = find(name)
     if model and (mjcf or controller):
         raise InvalidValue("--model", str(model), "neither --mjcf nor --controller beside it")
-    if controller and controller not in TIP_CONTROLLERS:
+    if controller is not None and controller not in TIP_CONTROLLERS:
         raise UnknownName("--controller", controller, TIP_CONTROLLERS)
 
     def beside(folder: Path) -> list[Path]:

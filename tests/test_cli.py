@@ -44,6 +44,12 @@ def test_a_changed_model_is_refused_beside_another_choice(tmp_path, capsys, besi
     assert "--model" in capsys.readouterr().err + capsys.readouterr().out
 
 
+def test_a_controller_without_a_name_is_refused(tmp_path, capsys):
+    assert main(["insert", "--protocol", "fig5-5cm", "--controller", "", "--out", str(tmp_path)]) == 2
+    assert "--controller" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_insert_takes_a_file(tmp_path):
     protocol = str(EXAMPLE / "protocol.yaml")
     assert main(["insert", "--protocol", protocol, "--out", str(tmp_path)]) == 0

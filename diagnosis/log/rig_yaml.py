@@ -81,4 +81,5 @@ def _refuse_odd_files(path: Path, files: list[str]) -> None:
         except InvalidValue as error:
             raise UnusableLog(str(error)) from error
         if names[i] in names[:i]:
-            raise UnusableLog(f"{place}: {file!r} is named twice; remove or rename one of the two")
+            again = f"expected each file once, found {file!r} again; remove or rename one of the two"
+            raise UnusableLog(f"{place}: {again}")

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from scipy.io import loadmat
-from scipy.io.matlab import MatReadError
 
 from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable
 from models.errors import InvalidValue
@@ -27,8 +26,9 @@ def read_mat_file(path: Path) -> LabFile:
         raise InvalidValue(
             str(path), "version 7.3 (HDF5)", "a MAT file up to version 7", again
         ) from error
-    except (MatReadError, OSError, ValueError, TypeError) as error:
-        raise InvalidValue(str(path), str(error)[:200], "a readable MAT file") from error
+    except Exception as error:  # the reader raises all kinds on broken bytes
+        reason = f"{type(error).__name__}: {str(error)[:200]}"
+        raise InvalidValue(str(path), reason, "a readable MAT file") from error
     scalars: dict[str, float] = {}
     by_rows: dict[int, dict[str, Array]] = {}
     notes = []

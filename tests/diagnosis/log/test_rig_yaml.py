@@ -37,7 +37,10 @@ FIELDS = [
     (lambda c: c["tissue"].update(damping=c["tissue"].pop("damping_n_mm_s_per_mm")), r"'damping' looks"),
     (lambda c: c["needle"].update(colour="red"), r"needle.colour"),
     (lambda c: c.update(trials=["turns.csv"]), r"trials"),
-    (lambda c: c["trials"].append({"file": "turns.csv"}), r"trials.2.file: 'turns.csv' is named twice"),
+    (
+        lambda c: c["trials"].append({"file": "turns.csv"}),
+        r"trials.2.file: expected each file once, found 'turns.csv' again",
+    ),
     (lambda c: c["trials"].append({"file": "../turns.csv"}), r"trials.2.file.*in the folder"),
     (lambda c: c["trials"].append({"file": "/etc/hosts"}), r"trials.2.file.*in the folder"),
     (lambda c: c["trials"].append({"file": ""}), r"trials.2.file: .*letters"),

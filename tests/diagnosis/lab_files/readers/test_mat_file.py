@@ -41,3 +41,13 @@ def test_what_is_no_mat_file_is_refused_by_its_name(tmp_path):
     path.write_bytes(b"")
     with pytest.raises(InvalidValue, match=r"run\.mat"):
         read_mat_file(path)
+
+
+@pytest.mark.parametrize(
+    "broken", [b"MATLAB 5.0 MAT-file Platformposix", b"M" + bytes(200)], ids=["no version", "no type"]
+)
+def test_what_the_reader_stumbles_over_is_refused_by_its_name(broken, tmp_path):
+    path = tmp_path / "run.mat"
+    path.write_bytes(broken)
+    with pytest.raises(InvalidValue, match=r"run\.mat.*readable MAT file"):
+        read_mat_file(path)

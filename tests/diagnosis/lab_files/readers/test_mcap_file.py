@@ -54,3 +54,10 @@ def test_what_is_no_whole_mcap_is_refused_by_its_name(tmp_path, kept):
     path.write_bytes(data[: int(kept * len(data))])
     with pytest.raises(InvalidValue, match=r"run\.mcap"):
         read_mcap_file(path)
+
+
+def test_a_message_definition_that_is_broken_is_refused_by_its_name(tmp_path):
+    path = write_ros2(tmp_path)
+    path.write_bytes(path.read_bytes().replace(b"MSG: geometry_msgs", b"MSG:  eometry_msgs"))
+    with pytest.raises(InvalidValue, match="complete MCAP file"):
+        read_mcap_file(path)
