@@ -30,7 +30,7 @@ quick: compiled
 
 # Ten thousand inputs that are wrong, and what came of them.
 fuzz: compiled
-	CI=1 PYTHONPATH=.:tests $(BIN)/python -m fuzz.run --inputs 10000
+	CI=1 PYTHONPATH=.:tests $(BIN)/python -m fuzz.run --inputs 11000
 
 coverage: compiled
 	CI=1 $(BIN)/python -m pytest --cov --cov-report=term-missing:skip-covered
