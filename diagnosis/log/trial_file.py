@@ -156,10 +156,15 @@ def _known_columns(table: pd.DataFrame) -> pd.DataFrame:
     return table.iloc[: filled[-1] + 1 if filled.size else 0].copy()
 
 
+def _floats(column: pd.Series) -> pd.Series:
+    """What is a number; NaN for words and truth values. Integers beyond any float are infinite as text."""
+    is_read = pd.api.types.is_float_dtype(column)
+    return pd.to_numeric(column if is_read else column.astype(str), errors="coerce").astype(float)
+
+
 def _numbers(path: Path, column: pd.Series, *, empty_allowed: bool) -> pd.Series:
     """A column as finite, plausible numbers; NaN where an optional one is empty."""
-    numeric = column if column.dtype != bool else column.astype(str)
-    values = pd.to_numeric(numeric, errors="coerce").astype(float)
+    values = _floats(column)
     low, high = READING_RANGE[str(column.name)]
     empty = column.isna() if empty_allowed else np.zeros(len(column), bool)
     wrong = np.flatnonzero(~(values.between(low, high) | empty))

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sections.alternatives import alternatives_section
-from diagnosis.report.sections.evidence import evidence_section
 from diagnosis.report.sections.front import front
 from diagnosis.report.sections.limits import limits_section
 from diagnosis.report.sections.parameters import parameters_section
@@ -23,7 +23,7 @@ from diagnosis.result import Diagnosis
 def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
     """The whole page; `report` is report.json."""
     body = [
-        *evidence_section(found),
+        *agreement_section(found),
         *where_section(found),
         *parameters_section(found, report),
         *alternatives_section(found),

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fuzz import commands, imports, logs, protocols
+from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis.strategies import SearchStrategy
 
 
@@ -32,3 +33,22 @@ FAMILIES = {
     "answers, changed": Family(commands.answers, commands.checked_answers, 10),
     "arguments": Family(commands.arguments, commands.checked_command, 8),
 }
+
+
+def each_input(family, act, *, most, random_seed=None):
+    """Do something with so many inputs of a family; without a seed with the same ones every time."""
+    every = settings(
+        max_examples=most,
+        derandomize=random_seed is None,
+        database=None,
+        deadline=None,
+        phases=[Phase.generate],
+        suppress_health_check=list(HealthCheck),
+    )
+
+    @every
+    @given(family.inputs)
+    def one(value):
+        act(value)
+
+    (one if random_seed is None else seed(random_seed)(one))()

@@ -6,9 +6,8 @@ import warnings
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 
-from fuzz.families import FAMILIES
+from fuzz.families import FAMILIES, each_input
 from fuzz.outcome import Kind
-from hypothesis import HealthCheck, Phase, given, seed, settings
 from rich.console import Console
 from rich.table import Table
 
@@ -20,22 +19,13 @@ def run(name, count, random_seed):
     warnings.simplefilter("ignore")
     found, faults, family = [], [], FAMILIES[name]
 
-    @seed(random_seed)
-    @settings(
-        max_examples=count,
-        database=None,
-        deadline=None,
-        phases=[Phase.generate],
-        suppress_health_check=list(HealthCheck),
-    )
-    @given(family.inputs)
-    def one(value):
+    def check(value):
         result = family.checked(value)
         found.append(result)
         if result.kind is Kind.FAULT:
             faults.append((result.said, value))
 
-    one()
+    each_input(family, check, most=count, random_seed=random_seed)
     return found, faults
 
 

@@ -2,9 +2,8 @@
 
 import pytest
 from fuzz import logs, protocols
-from fuzz.families import FAMILIES
+from fuzz.families import FAMILIES, each_input
 from fuzz.outcome import Kind, outcome
-from hypothesis import HealthCheck, Phase, given, settings
 
 from models.errors import InvalidValue
 
@@ -17,20 +16,11 @@ def test_every_input_ends_as_it_should(name):
     family = FAMILIES[name]
     total = sum(family.weight for family in FAMILIES.values())
 
-    @settings(
-        max_examples=max(3, SLICE * family.weight // total),
-        derandomize=True,
-        database=None,
-        deadline=None,
-        phases=[Phase.generate],
-        suppress_health_check=list(HealthCheck),
-    )
-    @given(family.inputs)
-    def one(value):
+    def check(value):
         result = family.checked(value)
         assert result.kind is not Kind.FAULT, f"{value!r:.2000}\n{result.said}"
 
-    one()
+    each_input(family, check, most=max(3, SLICE * family.weight // total))
 
 
 def test_the_good_inputs_are_read():

@@ -11,7 +11,7 @@ from html_outline import HtmlOutline
 from diagnosis.report import html_report
 from diagnosis.report.answer import answer
 from diagnosis.report.html_report import page
-from diagnosis.report.sections import alternatives, evidence, limits, parameters
+from diagnosis.report.sections import agreement, alternatives, limits, parameters
 
 SECTIONS = [
     "Why to believe it",
@@ -39,7 +39,7 @@ def outline(dry_page):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Pages without their pictures, which take half a second each."""
-    for module in (alternatives, evidence, limits, parameters):
+    for module in (agreement, alternatives, limits, parameters):
         for name in [n for n in vars(module) if n.startswith("draw_")]:
             monkeypatch.setattr(module, name, lambda *_: plt.figure())
     monkeypatch.setattr(html_report, "where_section", lambda _: [])

@@ -25,7 +25,7 @@ _TWIST = (
 )
 
 
-def evidence_section(found: Diagnosis) -> list[str]:
+def agreement_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
     trials = range(len(found.log.trials))
     return [

@@ -5,19 +5,19 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import pytest
 
-from diagnosis.report.sections import evidence
-from diagnosis.report.sections.evidence import evidence_section
+from diagnosis.report.sections import agreement
+from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sentences import reduction
 
 
 @pytest.fixture(autouse=True)
 def _undrawn(monkeypatch):
     for name in ("draw_trial", "draw_loops", "draw_twist"):
-        monkeypatch.setattr(evidence, name, lambda *_: plt.figure())
+        monkeypatch.setattr(agreement, name, lambda *_: plt.figure())
 
 
 def test_every_trial_has_a_picture_of_its_own_then_loops_and_twist(dry):
-    parts = evidence_section(dry.found)
+    parts = agreement_section(dry.found)
     assert f"<p>{reduction(dry.found)}</p>" in parts
     pictures = [part for part in parts if part.startswith("<figure")]
     assert len(pictures) == len(dry.log.trials) + 2
@@ -27,5 +27,5 @@ def test_every_trial_has_a_picture_of_its_own_then_loops_and_twist(dry):
 
 def test_without_time_for_the_twist_it_is_left_out(dry):
     told = replace(dry.found.assessment, twist=None)
-    parts = evidence_section(replace(dry.found, assessment=told))
+    parts = agreement_section(replace(dry.found, assessment=told))
     assert not any("Twist along the shaft" in part for part in parts)
