@@ -157,7 +157,7 @@ def _known_columns(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _floats(column: pd.Series) -> pd.Series:
-    """What is a number; NaN for words and truth values. Integers beyond any float are infinite as text."""
+    """What is a number; NaN for words. Integers beyond any float are infinite as text."""
     is_read = pd.api.types.is_float_dtype(column)
     return pd.to_numeric(column if is_read else column.astype(str), errors="coerce").astype(float)
 
