@@ -1,6 +1,7 @@
 """Why to believe the answer: how much is explained, every trial, loops, twist of the shaft."""
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.loops import describe_loops, draw_loops
 from diagnosis.report.figures.trials import describe_trial, draw_trial
 from diagnosis.report.figures.twist import describe_twist, draw_twist
@@ -33,10 +34,10 @@ def agreement_section(found: Diagnosis) -> list[str]:
         html.paragraph(reduction(found)),
         html.heading("Measured, nominal and explained", level=3),
         html.paragraph(_TRIALS),
-        *(html.picture(draw_trial(found, i), describe_trial(found, i)) for i in trials),
+        *(drawn(draw_trial, describe_trial, found, i) for i in trials),
         html.heading("Loops of torque and lag", level=3),
         html.paragraph(_LOOPS),
-        html.picture(draw_loops(found), describe_loops(found)),
+        drawn(draw_loops, describe_loops, found),
         *_twist(found),
     ]
 
@@ -48,5 +49,5 @@ def _twist(found: Diagnosis) -> list[str]:
     return [
         html.heading("Twist along the shaft", level=3),
         html.paragraph(_TWIST),
-        html.picture(draw_twist(twist), describe_twist(twist)),
+        drawn(draw_twist, describe_twist, twist),
     ]

@@ -5,6 +5,7 @@ import math
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
 from diagnosis.report.sentences import alike, with_one_more
 from diagnosis.report.tables import explanation_table
@@ -25,7 +26,7 @@ def alternatives_section(found: Diagnosis) -> list[str]:
         html.heading("What else it may be"),
         *([html.paragraph(f"{same}.")] if (same := alike(found)) else []),
         html.paragraph(_RANKING),
-        html.picture(draw_ranking(found), describe_ranking(found)),
+        drawn(draw_ranking, describe_ranking, found),
         explanation_table(found),
         *([html.paragraph(more)] if (more := with_one_more(found)) else []),
         html.heading("What these trials cannot tell", level=3),

@@ -1,6 +1,7 @@
 """Where the residual is: by part, along the motion, in its spectrum, and which signal leads."""
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
 from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
 from diagnosis.report.figures.memory import describe_memory, draw_memory
@@ -33,15 +34,15 @@ def where_section(found: Diagnosis) -> list[str]:
     return [
         html.heading("Where the residual is"),
         html.paragraph(_BREAKDOWN),
-        html.picture(draw_breakdown(found), describe_breakdown(found)),
+        drawn(draw_breakdown, describe_breakdown, found),
         html.paragraph(f"{largest_parts(found)}."),
         html.paragraph(f"{largest_residual(found)}."),
         html.heading("Along the motion", level=3),
         html.paragraph(_ALONG),
-        html.picture(draw_along_motion(found), describe_along_motion(found)),
+        drawn(draw_along_motion, describe_along_motion, found),
         html.heading("Spectrum and memory", level=3),
         html.paragraph(_MEMORY),
-        html.picture(draw_memory(found), describe_memory(found)),
+        drawn(draw_memory, describe_memory, found),
         html.heading("Which signal leads", level=3),
         html.paragraph(f"{leading(found)}."),
         html.paragraph(_LEADS),
