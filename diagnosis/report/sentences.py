@@ -125,9 +125,10 @@ def with_one_more(found: Diagnosis) -> str:
     if not first:
         return ""
     here = found.verdict.best.fit.gap
-    named = ", ".join(f"{name} to {gap:.3f} σ" for name, gap in first)
-    change = "changes almost nothing" if here - first[0][1] < ALMOST_NOTHING_SIGMA else "would change"
-    return f"Adding another effect {change}: from {here:.3f} σ on the trials of the fit, {named}."
+    named = ", ".join(f"with {name} {gap:.3f} σ" for name, gap in first)
+    little = here - first[0][1] < ALMOST_NOTHING_SIGMA
+    change = "changes almost nothing" if little else "would lower the residual"
+    return f"Adding another effect {change}: on the trials of the fit it is {here:.3f} σ, {named}."
 
 
 def replay_quality(found: Diagnosis) -> list[str]:
@@ -145,7 +146,7 @@ def replay_quality(found: Diagnosis) -> list[str]:
 def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
-    return f"Largest residual: {value:.2f} σ, {stretch}"
+    return f"Largest residual of the nominal model: {value:.2f} σ, {stretch}"
 
 
 def largest_parts(found: Diagnosis) -> str:
@@ -153,8 +154,20 @@ def largest_parts(found: Diagnosis) -> str:
     told = found.assessment
     return (
         f"Residual of the nominal model: {told.breakdown.largest}; "
-        f"of the best explanation: {told.breakdown_after.largest}"
+        f"of {best_in_words(found)}: {told.breakdown_after.largest}"
     )
+
+
+def label_of(found: Diagnosis, prediction: str) -> str:
+    """A prediction in a legend: what comes nearest to an unknown log explains nothing."""
+    unknown = found.verdict.kind is VerdictKind.UNKNOWN
+    return "nearest" if unknown and prediction == "explained" else prediction
+
+
+def best_in_words(found: Diagnosis) -> str:
+    """What the best that was found is: of an unknown log, no explanation."""
+    unknown = found.verdict.kind is VerdictKind.UNKNOWN
+    return "what comes nearest" if unknown else "the best explanation"
 
 
 def leading(found: Diagnosis) -> str:
