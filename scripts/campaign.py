@@ -16,12 +16,13 @@ from studies.campaign.campaign import read_campaign
 from studies.campaign.cluster import on_cluster
 from studies.campaign.columns import FAILED
 from studies.campaign.engines import Engine, on_this_machine
+from studies.campaign.posterior.bands import QUANTILES
 from studies.campaign.results import ResultFolder
 from studies.campaign.run import run_campaign
-from studies.campaign.summary import summarise, summary_table
+from studies.campaign.summary import summarise, summary_table, tip_error_bands
 
 _SHOWN = ["cases", "mean", "sd", "p2.5", "median", "p97.5"]
-_ERRORS_SHOWN = 3
+_ERRORS_SHOWN, _MOMENTS_SHOWN = 3, 10
 
 
 def run(
@@ -66,7 +67,19 @@ def _show(results: ResultFolder, console: Console) -> None:
     for name, row in summary_table(results, rows).iterrows():
         table.add_row(str(name), *(f"{row[column]:.4g}" for column in _SHOWN))
     print_table(console, table)
+    if results.campaign.posterior:
+        _show_bands(tip_error_bands(results.campaign, rows), console)
     _show_failed(rows[rows["status"] == FAILED], console)
+
+
+def _show_bands(table: pd.DataFrame, console: Console) -> None:
+    moments = table.iloc[:: max(1, len(table) // _MOMENTS_SHOWN)]
+    shown = Table("time, s", "base", "nominal rig", *(name.removesuffix("_deg") for name in QUANTILES))
+    shown.title = "Tip error (base minus tip) of the drawn rigs, deg"
+    for _, row in moments.iterrows():
+        cells = (row["base_angle_deg"], row["nominal_deg"], *(row[name] for name in QUANTILES))
+        shown.add_row(f"{row['time_s']:.2f}", *(f"{value:.2f}" for value in cells))
+    print_table(console, shown)
 
 
 def _show_failed(failed: pd.DataFrame, console: Console) -> None:

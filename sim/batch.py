@@ -6,6 +6,7 @@ beside whom.
 """
 
 import os
+import typing
 from collections import defaultdict
 from collections.abc import Hashable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +15,6 @@ from dataclasses import dataclass
 import mujoco
 
 from models.errors import NeedleError
-from sim.protocol import Protocol
 from sim.schedule import Schedule
 from sim.simulation import Run, SimulationFailed, prepare_processes, simulate
 from sim.spec import Setup
@@ -22,9 +22,21 @@ from sim.spec import Setup
 _SIDE_BY_SIDE = 16  # needles of one batch: few enough to share out evenly, many enough to pay
 
 
+class Insertion(typing.Protocol):
+    """What can be simulated: a protocol, or anything else that knows its set-up and its inputs."""
+
+    def setup(self) -> Setup:
+        """The needle."""
+        ...
+
+    def schedule(self) -> Schedule:
+        """What is done to it."""
+        ...
+
+
 @dataclass(frozen=True, kw_only=True)
-class _Insertion:
-    """A protocol as its model and inputs, and its place in the call."""
+class _Ready:
+    """An insertion as its model and inputs, and its place in the call."""
 
     place: int
     setup: Setup
@@ -39,23 +51,23 @@ class _Insertion:
 
 
 def simulate_each(
-    protocols: Sequence[Protocol], *, threads: int | None = None
+    insertions: Sequence[Insertion], *, threads: int | None = None
 ) -> list[Run | NeedleError]:
-    """Simulate protocols that may differ in everything, each as if it were alone.
+    """Simulate insertions, as protocols are, that may differ in everything, each as if it were alone.
 
     Args:
       threads: None: one for each core. Results do not depend on it, to the last bit.
 
     Returns:
-      In the order of the protocols, a run, or why there is none: `SimulationFailed`, or `InvalidValue`
-      for a protocol that makes no model.
+      In their order, a run, or why there is none: `SimulationFailed`, or `InvalidValue` for one that
+      makes no model.
     """
     prepare_processes()
-    found: list[Run | NeedleError] = [SimulationFailed("not simulated")] * len(protocols)
-    groups: dict[Hashable, list[_Insertion]] = defaultdict(list)
-    for place, protocol in enumerate(protocols):
+    found: list[Run | NeedleError] = [SimulationFailed("not simulated")] * len(insertions)
+    groups: dict[Hashable, list[_Ready]] = defaultdict(list)
+    for place, insertion in enumerate(insertions):
         try:
-            one = _Insertion(place=place, setup=protocol.setup(), inputs=protocol.schedule())
+            one = _Ready(place=place, setup=insertion.setup(), inputs=insertion.schedule())
             groups[one.size].append(one)
         except NeedleError as refused:
             found[place] = refused
@@ -71,7 +83,7 @@ def simulate_each(
     return found
 
 
-def _simulated(batch: Sequence[_Insertion]) -> list[Run | NeedleError]:
+def _simulated(batch: Sequence[_Ready]) -> list[Run | NeedleError]:
     """Runs of a batch; where one fails, halves are tried until it is alone with its error."""
     try:
         return list(simulate([one.setup for one in batch], [one.inputs for one in batch]))
