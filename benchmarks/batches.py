@@ -13,12 +13,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from benchmarks import report
+from diagnosis.engines.local import on_this_machine
 from sim.batch import simulate_each
 from sim.paper_protocols import protocol_named
 from sim.simulation import prepare_processes
 from studies.campaign.campaign import Campaign, Kind
 from studies.campaign.cases import case_count, cases_of
-from studies.campaign.engines import on_this_machine
 from studies.campaign.results import ResultFolder
 from studies.campaign.run import run_campaign
 from studies.campaign.variation import Variation

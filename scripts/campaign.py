@@ -1,6 +1,5 @@
 """`needle campaign`: sweeps and Monte-Carlo runs from one file."""
 
-import os
 from pathlib import Path
 
 import pandas as pd
@@ -9,13 +8,12 @@ from rich.table import Table
 from rich.text import Text
 
 from diagnosis.stopping import NEVER
+from scripts.engine import engine_of
 from scripts.progress_line import progress_line
 from scripts.tables import print_table
 from scripts.terminal import terminal
 from studies.campaign.campaign import read_campaign
-from studies.campaign.cluster import on_cluster
 from studies.campaign.columns import FAILED
-from studies.campaign.engines import Engine, on_this_machine
 from studies.campaign.posterior.bands import QUANTILES
 from studies.campaign.results import ResultFolder
 from studies.campaign.run import run_campaign
@@ -46,19 +44,13 @@ def run(
     shown = terminal(stderr=True)
     with progress_line(shown, NEVER) as show:
         done = run_campaign(
-            results, _engine(workers, scheduler, shown), resume=resume, force=force, progress=show
+            results, engine_of(workers, scheduler, shown), resume=resume, force=force, progress=show
         )
     console.print(f"{done.computed} cases in {done.seconds_s:.1f} s, {done.failed} failed")
     _show(results, console)
     for written in (results.folder / "campaign.yaml", results.dataset, *summarise(results)):
         console.print(f"wrote      {written}", highlight=False)
     return 0
-
-
-def _engine(workers: int | None, scheduler: str | None, shown: Console) -> Engine:
-    if scheduler is None:
-        return on_this_machine(workers or os.cpu_count() or 1)
-    return on_cluster(scheduler, tell=lambda news: shown.print(news, highlight=False, markup=False))
 
 
 def _show(results: ResultFolder, console: Console) -> None:

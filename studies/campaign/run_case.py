@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.linalg import LinAlgError
 from numpy.typing import NDArray
 
+from diagnosis.engines.engine import Job
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
@@ -30,6 +31,22 @@ Attempt = dict[str, Any] | Exception
 """Results by name, or why there are none."""
 
 _EXPECTED = (NeedleError, mujoco.FatalError, ArithmeticError, LinAlgError)
+
+
+def job_of(campaign: Campaign) -> Job:
+    """Rows of pieces, for an engine; the campaign goes along as text."""
+    function = f"{rows_of_text.__module__}.{rows_of_text.__name__}"
+    return Job(function=function, arguments=(campaign.model_dump_json(),), noun="cases")
+
+
+def rows_of_text(text: str, numbers: Sequence[int]) -> list[Row]:
+    """Rows of a campaign that is given as JSON."""
+    return rows_of(_campaign(text), numbers)
+
+
+@lru_cache(maxsize=1)
+def _campaign(text: str) -> Campaign:
+    return Campaign(**json.loads(text))
 
 
 def rows_of(campaign: Campaign, numbers: Sequence[int]) -> list[Row]:

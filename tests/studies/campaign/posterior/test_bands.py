@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from diagnosis.engines.local import on_this_machine
 from sim.simulation import simulate
 from studies.campaign.campaign import Campaign, read_campaign
-from studies.campaign.engines import on_this_machine
 from studies.campaign.posterior.bands import bands
 from studies.campaign.posterior.drawn_rig import drawn_rig, tip_error_deg
 from studies.campaign.results import ResultFolder
