@@ -25,8 +25,8 @@ from studies.campaign.variation import Variation
 
 SPEED_UP_BOUND = 1.8  # on two cores
 OVERHEAD_BOUND = 5.0  # percent
-_INSERTIONS = 48
-_TURNS = 3
+_INSERTIONS = 96
+_TURNS = 5
 
 
 def campaign() -> Campaign:
