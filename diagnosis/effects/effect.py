@@ -81,6 +81,14 @@ class Parameter:
         """The value of a coordinate."""
         return float(np.exp(x)) if self.logarithmic else x * self.scale
 
+    def slope(self, x: float) -> float:
+        """Change of the value with its coordinate."""
+        return self.from_fit(x) if self.logarithmic else self.scale
+
+    def turns(self, value: float) -> float:
+        """Whole periods of an angle, to take off so that it lies in the half periods about 0."""
+        return self.period * round(value / self.period) if self.period else 0.0
+
     def towards_neutral(self, value: float, share: float) -> float:
         """A value moved so far that the effect is a share of what it was."""
         match self.neutral:
