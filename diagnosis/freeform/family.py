@@ -1,12 +1,16 @@
 """A family of free-form laws: a place, what the law depends on, and coordinates that a fit moves in."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from diagnosis.effects.effect import Effect, Parameter, Place
+from numpy.typing import ArrayLike
 
-Points = tuple[Sequence[float], Sequence[float]]
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.smooth_curve import SmoothCurve
+
+Points = tuple[ArrayLike, ArrayLike]
 """A curve by points: x, and y at each."""
+_STRAIGHT, _REST = "straight", "rest"
 FARTHEST = 12.0  # of a coordinate, in its prior's first guess
 
 
@@ -41,28 +45,33 @@ class Family:
         """Where what it stands for most likely lives."""
         return max(self.places, key=lambda place: self.places[place])
 
-    def with_prior(self, sigma: float) -> "Family":
-        """The same, its coordinates with a prior of another strength."""
-        return replace(self, effect=with_prior(self.effect, sigma))
+    def with_prior(self, straight: float, rest: float) -> "Family":
+        """The same, its coordinates with priors of other strengths."""
+        each = {_STRAIGHT: straight, _REST: rest}
+        changed = tuple(
+            replace(p, prior_sigma=each[kind_of(p)]) if kind_of(p) else p for p in self.effect.parameters
+        )
+        return replace(self, effect=replace(self.effect, parameters=changed))
 
 
-def with_prior(effect: Effect, sigma: float) -> Effect:
-    """The effect, its coordinates with a prior of another strength."""
-    changed = tuple(replace(p, prior_sigma=sigma) if is_coordinate(p) else p for p in effect.parameters)
-    return replace(effect, parameters=changed)
-
-
-def coordinates(count: int, scale: float = 1.0) -> tuple[Parameter, ...]:
+def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter, ...]:
     """Of a smooth curve, each with a prior of size `scale` at first."""
     bound = FARTHEST * scale
+    names = [f"{_STRAIGHT} {i}" for i in range(straight)] + [f"{_REST} {i}" for i in range(rest)]
     return tuple(
         Parameter(
-            name=f"c{i}", unit="-", low=-bound, high=bound, start=(0.0,), scale=scale, prior_sigma=1.0
+            name=name, unit="-", low=-bound, high=bound, start=(0.0,), scale=scale, prior_sigma=1.0
         )
-        for i in range(count)
+        for name in names
     )
 
 
-def is_coordinate(parameter: Parameter) -> bool:
-    """Whether a parameter is a coordinate of a curve."""
-    return parameter.prior_sigma < float("inf")
+def coordinates_of(curve: SmoothCurve, scale: float = 1.0) -> tuple[Parameter, ...]:
+    """Of a curve."""
+    return coordinates(curve.straight, curve.size - curve.straight, scale)
+
+
+def kind_of(parameter: Parameter) -> str:
+    """Which part of a curve a parameter is a coordinate of; empty: it is none."""
+    word = parameter.name.split()[0]
+    return word if word in (_STRAIGHT, _REST) else ""

@@ -26,7 +26,6 @@ Array = NDArray[np.float64]
 PATIENCE, FREEDOM = 0.1, 10.0
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
-_WORST = 2.0  # a gap on unseen trials counts as at most so many times that of the fit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,12 +113,7 @@ def _places(fits: Sequence[FreeFit]) -> dict[Place, float]:
 
 def _log_weight(one: FreeFit) -> float:
     freedom = well_determined(one.family, one.fit) + len(one.beside)
-    return -2.0 * math.log(_gap(one)) / PATIENCE - freedom / FREEDOM
-
-
-def _gap(one: FreeFit) -> float:
-    """Held out, but for what extrapolates: a curve says nothing of where its trials did not go."""
-    return min(one.gap_after, _WORST * one.fit.gap)
+    return -2.0 * math.log(one.gap_after) / PATIENCE - freedom / FREEDOM
 
 
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:

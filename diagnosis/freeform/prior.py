@@ -15,17 +15,21 @@ from numpy.typing import NDArray
 
 from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
-from diagnosis.freeform.family import Family, is_coordinate
+from diagnosis.freeform.family import Family, kind_of
 
 Array = NDArray[np.float64]
 
-LEAST, MOST = 0.05, 20.0
+LEAST, MOST = 0.01, 20.0
 
 
-def free_covariance(fit: Fit) -> Array:
-    """Of the vector of a fit, (n, n), with what is left above the noise taken for noise."""
+def free_covariance(fit: Fit, *, without: int | None = None) -> Array:
+    """Of the vector of a fit, (n, n), with what is left above the noise taken for noise.
+
+    Args:
+      without: a trial that is left out.
+    """
     weights = np.diag(fit.parameterization.weights**2)
-    data = information(fit) - weights
+    data = information(fit, without=without) - weights
     return np.asarray(np.linalg.pinv(data / max(1.0, fit.gap**2) + weights))
 
 
@@ -37,15 +41,21 @@ def well_determined(family: Family, fit: Fit) -> float:
     return float(np.sum(1.0 - np.minimum(spread * weights**2, 1.0)))
 
 
-def estimated_strength(family: Family, fit: Fit) -> float:
-    """Standard deviation of the coordinates that the fit speaks for."""
-    curved = np.array([is_coordinate(p) for p in family.effect.parameters])
-    entries = _entries(family, fit)[curved]
+def with_estimated_prior(family: Family, fit: Fit) -> Family:
+    """The family with the strengths that the fit speaks for, of the straight part and of the rest."""
+    kinds = np.array([kind_of(p) for p in family.effect.parameters])
+    entries = _entries(family, fit)
+    spread = np.diag(free_covariance(fit))
+    straight, rest = (_strength(fit, spread, entries[kinds == k]) for k in ("straight", "rest"))
+    return family.with_prior(straight, rest)
+
+
+def _strength(fit: Fit, spread: Array, entries: NDArray[np.int_]) -> float:
+    """Standard deviation of some coordinates."""
     if entries.size == 0:
         return 1.0
-    spread = np.diag(free_covariance(fit))[entries]
     sigma = 1.0 / fit.parameterization.weights[entries]
-    known = max(entries.size - float(np.sum(spread / sigma**2)), 0.1)
+    known = max(entries.size - float(np.sum(spread[entries] / sigma**2)), 0.1)
     return float(np.clip(math.sqrt(float(fit.x[entries] @ fit.x[entries]) / known), LEAST, MOST))
 
 

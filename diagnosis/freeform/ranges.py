@@ -15,6 +15,7 @@ from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_ne
 
 Array = NDArray[np.float64]
 
+LEAST_PAST_S, LONGEST_PAST_S = 0.03, 3.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
 LEAST_RANGE = {
     Variable.TIME: 1.0,
@@ -29,6 +30,7 @@ LEAST_RANGE = {
     Variable.TIP_RATE: 0.05,
     Variable.TORQUE: 0.0,
     Variable.TORQUE_RATE: 0.0,
+    Variable.PAST: 0.0,
 }
 """Below which nothing can depend on a variable visibly."""
 
@@ -40,12 +42,14 @@ class LogRanges:
     Attributes:
       ends: lowest and highest value of each variable that moves enough.
       missing: rms of the nominal residual by sensor that was read, in the unit of its name.
+      nominal: readings of the nominal rig by trial.
       left: residual of the nominal rig by sensor and trial, in the unit of its name, NaN where none.
       library: effects with bounds and starts for a rig of this size.
       damping_n_mm_s_per_mm: nominal.
     """
 
     problem: FitProblem
+    nominal: Sequence[Prediction]
     ends: Mapping[Variable, tuple[float, float]]
     missing: Mapping[str, float]
     left: Mapping[str, tuple[Array, ...]]
@@ -64,7 +68,9 @@ class LogRanges:
 def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
     """Ranges of a log, given readings of the nominal rig by trial."""
     trials = problem.log.trials
-    found = {v: _ends(v, trials, nominal) for v in Variable}
+    moving = (v for v in Variable if v is not Variable.PAST)
+    found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
+    found[Variable.PAST] = (LEAST_PAST_S, LONGEST_PAST_S)
     left = {
         sensor: tuple(
             trial.readings[sensor] - own[sensor]
@@ -76,6 +82,7 @@ def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
     read = {sensor: each for sensor, each in left.items() if each}
     return LogRanges(
         problem=problem,
+        nominal=nominal,
         ends={v: e for v, e in found.items() if e[1] - e[0] > LEAST_RANGE[v]},
         missing={s: float(np.sqrt(np.nanmean(np.concatenate(each) ** 2))) for s, each in read.items()},
         left=read,
@@ -86,13 +93,14 @@ def _ends(
     variable: Variable, trials: Sequence[PreparedTrial], nominal: Sequence[Prediction]
 ) -> tuple[float, float]:
     values = np.concatenate(
-        [_values(variable, trial, own) for trial, own in zip(trials, nominal, strict=True)]
+        [values_of(variable, trial, own) for trial, own in zip(trials, nominal, strict=True)]
     )
     low, high = np.quantile(values, [_ALL_BUT, 1 - _ALL_BUT])
     return float(low), float(high)
 
 
-def _values(variable: Variable, trial: PreparedTrial, nominal: Prediction) -> Array:
+def values_of(variable: Variable, trial: PreparedTrial, nominal: Prediction) -> Array:
+    """A variable at the times of the nominal schedule, or of the trial's samples if of the needle."""
     if variable not in OF_THE_NEEDLE:
         return of_inputs(variable, trial.schedule, float(trial.time_s[0]))
     return of_needle(variable, trial.time_s, nominal.tip_angle_deg, nominal.base_torque_n_mm)

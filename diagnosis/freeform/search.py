@@ -5,10 +5,12 @@ their end there, the strength of their prior estimated, alone and beside the lib
 nearest; the best of these on the log itself, and checked on trials that the fit has not seen.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.criteria import CLOSED_GAP
 from diagnosis.fitting.cross_validation import held_out_residuals
@@ -16,12 +18,14 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import Family
-from diagnosis.freeform.prior import estimated_strength, well_determined
+from diagnosis.freeform.prior import free_covariance, well_determined, with_estimated_prior
 from diagnosis.freeform.ranges import ranges_of
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.replay import replay
 from diagnosis.selection.screening import screen
 from diagnosis.workers import Failure, Task, Workers
 from sim.simulation import SimulationFailed
+
+Array = NDArray[np.float64]
 
 SCREENING, FITTING, BESIDE, FINALS = (
     "screening free-form laws",
@@ -40,14 +44,14 @@ class FreeFit:
     Attributes:
       beside: effects of the library that are in the fit as well.
       held_out: residuals / sigma by trial that the fit has not seen; None where there are none.
-      gap_after: their root mean square; that on the trials of the fit where there are none.
+      gap_after: on these (`predictive_gap`); on the trials of the fit where there are none.
       final: whether it was fitted to the log itself, not the decimated one.
     """
 
     family: Family
     fit: Fit
     beside: tuple[str, ...] = ()
-    held_out: tuple[np.ndarray, ...] | None = None
+    held_out: tuple[Array, ...] | None = None
     gap_after: float = np.inf
     final: bool = False
 
@@ -95,8 +99,10 @@ def with_family(problem: FitProblem, family: Family) -> FitProblem:
     return replace(problem, library={**problem.library, family.name: family.effect})
 
 
-def _each(stage: str, function, calls, workers: Workers) -> list[FreeFit]:
-    tasks = [Task(effects=(), arguments=tuple(call)) for call in calls]
+def _each(
+    stage: str, function: Callable[..., FreeFit], calls: Sequence[tuple[Any, ...]], workers: Workers
+) -> list[FreeFit]:
+    tasks = [Task(effects=(), arguments=call) for call in calls]
     return [f for f in workers.each(stage, function, tasks) if not isinstance(f, Failure)]
 
 
@@ -114,7 +120,7 @@ def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> 
     if beside:
         start = screen(problem, first.fit, beside[0])[0].start
     fit = fit_effects(problem, names, start, most_iterations=ITERATIONS)
-    family = family.with_prior(estimated_strength(family, fit))
+    family = with_estimated_prior(family, fit)
     fit = fit_effects(with_family(coarse, family), names, fit.x, most_iterations=ITERATIONS // 2)
     return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
 
@@ -129,8 +135,21 @@ def _on_the_log(problem: FitProblem, contender: FreeFit) -> FreeFit:
         held_out = held_out_residuals(own, fit)
     except SimulationFailed:
         return replace(contender, fit=fit, gap_after=np.inf, final=True)
-    gap = float(np.sqrt(np.mean(np.concatenate(held_out) ** 2)))
+    gap = max(predictive_gap(fit, held_out), fit.gap)
     return replace(contender, fit=fit, held_out=held_out, gap_after=gap, final=True)
+
+
+def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
+    """Root mean square of residuals of held-out trials over their predictive standard deviation.
+
+    That is the noise and what the other trials leave open of the curve: where none of them has been,
+    its law says nothing, and nothing is held against it. Of a law that they determine it is the gap.
+    """
+    squares = []
+    for i, (left, slopes) in enumerate(zip(held_out, fit.jacobian, strict=True)):
+        spread = free_covariance(fit, without=i)
+        squares.append(left**2 / (1.0 + np.sum((slopes @ spread) * slopes, axis=1)))
+    return float(np.sqrt(np.mean(np.concatenate(squares))))
 
 
 def _distinct(ranked: Sequence[FreeFit]) -> list[FreeFit]:

@@ -9,6 +9,10 @@ on what its name says:
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
 
+A curve over the past says how much a reading shows of what was so long ago in place of what is,
+
+    reading += sum over places of value (what was, then - what is).
+
 What depends on the rate, angle or place of each piece of the shaft by itself is a law of the tissue.
 """
 
@@ -69,6 +73,12 @@ class Curve:
         within = np.clip(x, self.places[0], self.places[-1])
         return np.asarray(PchipInterpolator(self.places, self.values)(within))
 
+    def of_past(self, time_s: Array, values: Array) -> Array:
+        """What a sensor shows of the past beside what is, (N,)."""
+        each = zip(self.places, self.values, strict=True)
+        shown = [share * (np.interp(time_s - ago, time_s, values) - values) for ago, share in each]
+        return np.asarray(np.sum(shown, axis=0))
+
 
 @dataclass(frozen=True, kw_only=True)
 class FreeLaw:
@@ -118,7 +128,8 @@ class FreeLaw:
         if self.rate_curve:
             changes |= {"rate_curve": self.rate_curve, "rate_range_rad_s": self.rate_range_rad_s}
         shaped = tuple(layer.but(interface=layer.interface.but(**changes)) for layer in layers)
-        return tissue.but(layers=shaped, throughout=self.throughout, at_tip=self.at_tip)
+        whole: Tissue = tissue.but(layers=shaped, throughout=self.throughout, at_tip=self.at_tip)
+        return whole
 
     def _along_depth(self, law: Interface) -> tuple[Layer, ...]:
         share = 1.0 / len(self.damping_along_depth)
@@ -142,16 +153,15 @@ class FreeLaw:
         self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array
     ) -> tuple[Array, Array]:
         """What tip and torque read beside themselves, (N,) each."""
-        tip, torque = np.zeros(tip_deg.size), np.zeros(torque_n_mm.size)
+        read = {True: np.zeros(tip_deg.size), False: np.zeros(torque_n_mm.size)}
         for curve in self.curves:
-            if curve.acts_on not in _SENSORS:
-                continue
-            if curve.variable in OF_THE_NEEDLE:
-                x = of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm)
-            else:
-                x = of_inputs(curve.variable, inputs, start_s)
-            if curve.acts_on is ActsOn.TIP_READING:
-                tip = tip + curve.at(x)
-            else:
-                torque = torque + curve.at(x)
-        return tip, torque
+            if curve.acts_on in _SENSORS:
+                of_tip = curve.acts_on is ActsOn.TIP_READING
+                if curve.variable is Variable.PAST:
+                    more = curve.of_past(inputs.time_s, tip_deg if of_tip else torque_n_mm)
+                elif curve.variable in OF_THE_NEEDLE:
+                    more = curve.at(of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm))
+                else:
+                    more = curve.at(of_inputs(curve.variable, inputs, start_s))
+                read[of_tip] = read[of_tip] + more
+        return read[True], read[False]

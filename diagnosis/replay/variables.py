@@ -11,7 +11,8 @@ rest        time since it last turned, s, as log(1 + time)
 tip_angle   deg
 tip_rate    rad/s
 torque      that the needle takes at the chuck, N mm
-torque_rate N mm / s
+    torque_rate N mm / s
+    past        how long ago, s, of a reading that shows what was
 """
 
 from collections.abc import Callable
@@ -45,6 +46,7 @@ class Variable(StrEnum):
     TIP_RATE = "tip_rate"
     TORQUE = "torque"
     TORQUE_RATE = "torque_rate"
+    PAST = "past"
 
 
 UNITS = {
@@ -60,6 +62,7 @@ UNITS = {
     Variable.TIP_RATE: "rad/s",
     Variable.TORQUE: "N mm",
     Variable.TORQUE_RATE: "N mm / s",
+    Variable.PAST: "s",
 }
 OF_THE_NEEDLE = (Variable.TIP_ANGLE, Variable.TIP_RATE, Variable.TORQUE, Variable.TORQUE_RATE)
 """Variables that are known only once the needle was simulated."""

@@ -4,6 +4,7 @@ The time is first looked for in what the nominal rig leaves: where its mean befo
 differ most, in units of what both halves leave (a two-sample test), over all times of all trials.
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -77,7 +78,7 @@ def _largest_change(time_s: Array, left: Array) -> tuple[float, float]:
 def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float) -> Family:
     low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
     when = Parameter(name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0)
-    step = replace(coordinates(1, scale=size)[0], name="step", prior_sigma=float("inf"))
+    step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
     return Family(
         effect=Effect(
             name=f"{title}, once",

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
@@ -60,7 +60,7 @@ def _damping_over(variable: Variable, ranges: LogRanges) -> Family:
             name=f"damping over {variable}",
             title=f"damping that changes with {variable}",
             place=Place.INTERFACE,
-            parameters=coordinates(curve.size),
+            parameters=coordinates_of(curve),
             apply=partial(_apply_damping, variable, curve),
         ),
         places=_PLACES,
@@ -90,7 +90,7 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
             name=f"dry friction over {variable}",
             title=f"dry friction that changes with {variable}",
             place=Place.INTERFACE,
-            parameters=(_level(ranges), *_from_neutral(coordinates(curve.size), _level(ranges))),
+            parameters=(_level(ranges), *_from_neutral(coordinates_of(curve), _level(ranges))),
             apply=partial(_apply_friction, variable, curve),
             differences=(1e-2, 1e-3),
         ),
@@ -130,7 +130,7 @@ def _rate(ranges: LogRanges) -> Family:
             name="friction over rate",
             title="friction that changes with the rate of turning",
             place=Place.INTERFACE,
-            parameters=(_level(ranges), *_from_neutral(coordinates(curve.size), _level(ranges))),
+            parameters=(_level(ranges), *_from_neutral(coordinates_of(curve), _level(ranges))),
             apply=partial(_apply_rate, curve, rates),
             differences=(1e-2, 1e-3),
         ),
@@ -202,7 +202,7 @@ def _position(ranges: LogRanges) -> Family:
             name="damping over position",
             title="damping that changes along the inserted shaft",
             place=Place.INTERFACE,
-            parameters=coordinates(curve.size),
+            parameters=coordinates_of(curve),
             apply=partial(_apply_position, curve),
         ),
         places={Place.INTERFACE: 0.6, Place.TISSUE: 0.4},

@@ -88,7 +88,7 @@ def _angle(ranges: LogRanges, *, tip: bool) -> Family:
             name=f"{where} over tip_angle",
             title=f"{where} that depends on its angle",
             place=Place.NEEDLE,
-            parameters=coordinates(2 * len(WAVES), scale=size),
+            parameters=coordinates(2 * len(WAVES), 0, size),
             apply=partial(_apply_angle, tip),
         ),
         places={Place.NEEDLE: 1.0},
@@ -107,7 +107,7 @@ def _over_a_turn(*c: float) -> Points:
     return _SHOWN_DEG, np.sum(waves, axis=0)
 
 
-def _apply_angle(tip: bool, rig: RigParameters, *c: float) -> RigParameters:  # noqa: FBT001
+def _apply_angle(tip: bool, rig: RigParameters, *c: float) -> RigParameters:
     laws = tuple(_wave(n, a, b) for n, a, b in zip(WAVES, c[::2], c[1::2], strict=True))
     free = FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws)
     return replace(rig, free=free)

@@ -12,15 +12,31 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 
+import numpy as np
+
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve, smooth_curve, two_values
+from diagnosis.freeform.ripple import waves_in_a_turn
+from diagnosis.freeform.smooth_curve import (
+    SmoothCurve,
+    periodic_curve,
+    separate_values,
+    smooth_curve,
+    two_values,
+)
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 
 TURN_DEG = 360.0
+RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
+PAST_PLACES, RIPPLE_PLACES = 6, 5
+_SAYS = {
+    Variable.TIP_RATE: "rate",
+    Variable.TORQUE_RATE: "history",
+    Variable.PAST: "history",
+}
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
 
 
@@ -30,8 +46,8 @@ class Added:
 
     Attributes:
       sensor: whose residual shows it most.
-      says: variable of the vocabulary; empty: as the variable.
-      period_deg: after which it repeats; 0: it does not.
+      says: variable of the vocabulary.
+      period_deg: after which it repeats; 0: it does not; RIPPLE: as often in a turn as shows most.
     """
 
     acts_on: ActsOn
@@ -39,42 +55,52 @@ class Added:
     sensor: str
     places: Mapping[Place, float]
     title: str
-    says: str = ""
+    says: str
     period_deg: float = 0.0
 
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
-_SHAFT = {"acts_on": ActsOn.DRIVE_ANGLE, "sensor": TIP, "places": DRIVE, "title": "angle of the drive"}
-_BEARING = {
-    "acts_on": ActsOn.DRIVE_TORQUE,
-    "sensor": TORQUE,
-    "places": DRIVE,
-    "title": "torque of the drive that the needle does not feel",
-}
-_TIP = {"acts_on": ActsOn.TIP_READING, "sensor": TIP, "title": "error of the tip sensor"}
-_TORQUE = {"acts_on": ActsOn.TORQUE_READING, "sensor": TORQUE, "title": "error of the torque sensor"}
+
+
+def _added(
+    acts_on: ActsOn,
+    sensor: str,
+    title: str,
+    places: Mapping[Place, float],
+    *variables: Variable,
+    period_deg: float = 0.0,
+) -> tuple[Added, ...]:
+    return tuple(
+        Added(
+            acts_on=acts_on,
+            variable=variable,
+            sensor=sensor,
+            places=places,
+            title=title,
+            says=_SAYS.get(variable, variable),
+            period_deg=period_deg,
+        )
+        for variable in variables
+    )
+
+
+_SHAFT = (ActsOn.DRIVE_ANGLE, TIP, "error of the drive's angle")
+_BEARING = (ActsOn.DRIVE_TORQUE, TORQUE, "torque of the drive that the needle does not feel")
+_TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
+_TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
+_V = Variable
 ADDED = (
-    Added(**_SHAFT, variable=Variable.TIME),
-    Added(**_SHAFT, variable=Variable.BASE_ANGLE),
-    Added(**_SHAFT, variable=Variable.BASE_ANGLE, period_deg=TURN_DEG),
-    Added(**_SHAFT, variable=Variable.DIRECTION),
-    Added(**_BEARING, variable=Variable.BASE_ANGLE),
-    Added(**_BEARING, variable=Variable.BASE_ANGLE, period_deg=TURN_DEG),
-    Added(**_BEARING, variable=Variable.RATE),
-    Added(**_BEARING, variable=Variable.DIRECTION),
-    Added(**_TIP, places=SENSOR, variable=Variable.TIME),
-    Added(**_TIP, places=SENSOR, variable=Variable.TIP_ANGLE),
-    Added(**_TIP, places=SENSOR, variable=Variable.TIP_ANGLE, period_deg=TURN_DEG),
-    Added(**_TIP, places=SENSOR, variable=Variable.AXIAL_SPEED),
-    Added(**_TIP, places=SENSOR, variable=Variable.DEPTH),
-    Added(**_TIP, places=SENSOR, variable=Variable.TIP_RATE, says="rate"),
-    Added(**_TIP, places={Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, variable=Variable.DIRECTION),
-    Added(**_TIP, places={Place.NEEDLE: 0.6, Place.SENSOR: 0.4}, variable=Variable.TORQUE),
-    Added(**_TORQUE, places=SENSOR, variable=Variable.TIME),
-    Added(**_TORQUE, places=SENSOR, variable=Variable.TORQUE),
-    Added(**_TORQUE, places=SENSOR, variable=Variable.AXIAL_SPEED),
-    Added(**_TORQUE, places=SENSOR, variable=Variable.DEPTH),
-    Added(**_TORQUE, places=SENSOR, variable=Variable.TORQUE_RATE, says="history"),
+    *_added(*_SHAFT, DRIVE, _V.TIME, _V.BASE_ANGLE, _V.DIRECTION),
+    *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.DIRECTION),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
+    *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, _V.DIRECTION),
+    *_added(*_TIP, {Place.NEEDLE: 0.6, Place.SENSOR: 0.4}, _V.TORQUE),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
+    *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
+    *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
 )
 
 
@@ -86,16 +112,23 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
     """The curve that is added, over the range of the log."""
+    if added.period_deg == RIPPLE:
+        return periodic_curve(
+            TURN_DEG / waves_in_a_turn(ranges, added.sensor, added.variable), RIPPLE_PLACES
+        )
     if added.period_deg:
         return periodic_curve(added.period_deg)
     if added.variable is Variable.DIRECTION:
         return two_values()
+    if added.variable is Variable.PAST:
+        return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     return smooth_curve(*ranges.ends[added.variable])
 
 
 def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     """The family of one addition."""
-    period = f", every {added.period_deg:g} deg" if added.period_deg else ""
+    period = f", every {curve.period:.3g} deg" if curve.period else ""
+    scale = 1.0 if added.variable is Variable.PAST else ranges.missing[added.sensor]
     name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}"
 
     return Family(
@@ -103,19 +136,25 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
             name=name,
             title=name,
             place=max(added.places, key=lambda place: added.places[place]),
-            parameters=coordinates(curve.size, scale=ranges.missing[added.sensor]),
+            parameters=coordinates_of(curve, scale),
             apply=partial(_apply, added, curve),
         ),
         places=added.places,
-        says=added.says or added.variable,
+        says=added.says,
         title=added.title,
-        curve=partial(_added, curve),
+        curve=partial(_points, curve),
         x_unit=UNITS[added.variable],
-        unit="N mm" if added.sensor == TORQUE else "deg",
+        unit=_unit(added),
     )
 
 
-def _added(curve: SmoothCurve, *c: float) -> Points:
+def _unit(added: Added) -> str:
+    if added.variable is Variable.PAST:
+        return "-"
+    return "N mm" if added.sensor == TORQUE else "deg"
+
+
+def _points(curve: SmoothCurve, *c: float) -> Points:
     return curve.places, curve.values(c)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.interface import FADING, tissue_curve
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -34,7 +34,7 @@ def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
             place=Place.TISSUE,
             parameters=(
                 *elastic.parameters,
-                *(replace(p, start=neutral) for p in coordinates(curve.size)),
+                *(replace(p, start=neutral) for p in coordinates_of(curve)),
             ),
             apply=partial(_apply, variable, curve),
         ),
