@@ -13,6 +13,7 @@ from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sections.alternatives import alternatives_section
 from diagnosis.report.sections.front import front
 from diagnosis.report.sections.limits import limits_section
+from diagnosis.report.sections.missing import missing_section
 from diagnosis.report.sections.parameters import parameters_section
 from diagnosis.report.sections.rig import rig_section
 from diagnosis.report.sections.search import search_section
@@ -24,6 +25,7 @@ from diagnosis.result import Diagnosis
 def page(found: Diagnosis, report: Mapping[str, Any]) -> Page:
     """The whole page; `report` is report.json."""
     body = [
+        *section(missing_section, found),
         *section(agreement_section, found),
         *section(where_section, found),
         *section(parameters_section, found, report),

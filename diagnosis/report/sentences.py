@@ -43,9 +43,10 @@ def _verdict(found: Diagnosis) -> str:
             sets = "; or ".join(titles(names) for names in found.verdict.confusable)
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
+            nearest_gap = f"{found.assessment.nearest.gap_after:.2f} σ (σ = sensor noise)"
             return (
                 "Unknown: no effect of the library, nor any pair that was tried, explains the gap: "
-                f"residual {before}, at best {after}"
+                f"residual {before}, at best {nearest_gap}"
             )
 
 
@@ -64,11 +65,11 @@ def nearest(found: Diagnosis) -> str:
     verb = "explain" if len(near.effects) > 1 else "explains"
     bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
     tried = "that was tried so far " if found.stopped and found.stopped.search else ""
+    left = "" if by_free_law(found) else f": what is left is {found.assessment.breakdown_after.largest}"
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise: what is left is "
-        f"{found.assessment.breakdown_after.largest}{bound}"
+        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise{left}{bound}"
     )
 
 
@@ -160,14 +161,21 @@ def largest_parts(found: Diagnosis) -> str:
 
 def label_of(found: Diagnosis, prediction: str) -> str:
     """A prediction in a legend: what comes nearest to an unknown log explains nothing."""
-    unknown = found.verdict.kind is VerdictKind.UNKNOWN
-    return "nearest" if unknown and prediction == "explained" else prediction
+    if found.verdict.kind is not VerdictKind.UNKNOWN or prediction != "explained":
+        return prediction
+    return "free-form law" if by_free_law(found) else "nearest"
+
+
+def by_free_law(found: Diagnosis) -> bool:
+    """Whether what is called explained in the report is with a free-form law."""
+    return found.missing is not None and found.missing.law is not None
 
 
 def best_in_words(found: Diagnosis) -> str:
     """What the best that was found is: of an unknown log, no explanation."""
-    unknown = found.verdict.kind is VerdictKind.UNKNOWN
-    return "what comes nearest" if unknown else "the best explanation"
+    if found.verdict.kind is not VerdictKind.UNKNOWN:
+        return "the best explanation"
+    return "the free-form law" if by_free_law(found) else "what comes nearest"
 
 
 def leading(found: Diagnosis) -> str:

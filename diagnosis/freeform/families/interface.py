@@ -25,6 +25,7 @@ DAMPING_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH, Variable.HI
 FRICTION_OVER = (*DAMPING_OVER, Variable.REST, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SAYS = {Variable.REST: "history"}
+SLOW_RAD_S = 0.03
 PARTS = 6  # of the inserted length
 _PLACES = {Place.INTERFACE: 1.0}
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
@@ -177,7 +178,7 @@ def _direction(ranges: LogRanges) -> Family:
         ),
         places=_PLACES,
         says="direction",
-        title="friction along the shaft at 1 rad/s",
+        title=f"friction along the shaft, turned slowly at {SLOW_RAD_S:g} rad/s,",
         curve=partial(_both_ways, beta),
         x_unit="-",
         unit="N mm / mm",
@@ -185,7 +186,8 @@ def _direction(ranges: LogRanges) -> Family:
 
 
 def _both_ways(beta: float, level: float, dry: float, viscous: float) -> Points:
-    return (-1.0, 1.0), [level * (1 + s * dry) + beta * (1 + s * viscous) for s in (-1, 1)]
+    slow = beta * SLOW_RAD_S
+    return (-1.0, 1.0), [level * (1 + s * dry) + slow * (1 + s * viscous) for s in (-1, 1)]
 
 
 def _apply_direction(rig: RigParameters, level: float, dry: float, viscous: float) -> RigParameters:
