@@ -2,6 +2,7 @@
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.missing import Law, Missing
+from diagnosis.freeform.shapes import likeness_of
 
 PLACES = {
     Place.INTERFACE: "along the shaft, between it and the tissue",
@@ -48,7 +49,16 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
         f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of it{beside} brings "
         f"{gap_before:.2f} σ to {first.gap_after:.2f} σ on trials that its fit has not seen"
     )
-    return f"{told}{_beside(missing)}."
+    return f"{told}{_beside(missing)}.{_likeness(law)}"
+
+
+def _likeness(law: Law) -> str:
+    """What the law looks like; empty: nothing that has a name."""
+    like = likeness_of(law)
+    if like is None:
+        return ""
+    library = f", a law that {' and '.join(like.library)} of the library has" if like.library else ""
+    return f" The law looks like a {like.shape}{library}: {like.says}."
 
 
 def course_of(law: Law) -> str:
