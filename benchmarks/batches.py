@@ -13,20 +13,20 @@ from collections.abc import Callable
 from pathlib import Path
 
 from benchmarks import report
+from diagnosis.engines.local import on_this_machine
 from sim.batch import simulate_each
 from sim.paper_protocols import protocol_named
 from sim.simulation import prepare_processes
 from studies.campaign.campaign import Campaign, Kind
 from studies.campaign.cases import case_count, cases_of
-from studies.campaign.engines import on_this_machine
 from studies.campaign.results import ResultFolder
 from studies.campaign.run import run_campaign
 from studies.campaign.variation import Variation
 
 SPEED_UP_BOUND = 1.8  # on two cores
 OVERHEAD_BOUND = 5.0  # percent
-_INSERTIONS = 48
-_TURNS = 3
+_INSERTIONS = 96
+_TURNS = 5
 
 
 def campaign() -> Campaign:

@@ -180,6 +180,7 @@ def _add_blind(blind: Parser) -> None:
     score.add_argument(
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
     )
+    _add_engine(score)
     _add_output(score, "score")
 
 
@@ -187,9 +188,7 @@ def _add_campaign(campaign: Parser) -> None:
     campaign.add_argument("file", type=Path, metavar="FILE.yaml", help="see docs/campaigns.md")
     campaign.add_argument("--samples", type=int, metavar="N", help="draws, in place of the file's")
     campaign.add_argument("--resume", action="store_true", help="compute only what is missing")
-    where = campaign.add_mutually_exclusive_group()
-    where.add_argument("--workers", type=int, metavar="N", help="processes (default: one per core)")
-    where.add_argument("--scheduler", metavar="ADDRESS", help="run on a dask.distributed cluster")
+    _add_engine(campaign)
     campaign.add_argument(
         "--out",
         type=Path,
@@ -197,6 +196,12 @@ def _add_campaign(campaign: Parser) -> None:
         help="where results go (default: out/ and the campaign's name)",
     )
     campaign.add_argument("--force", action="store_true", help="replace results that exist")
+
+
+def _add_engine(command: Parser) -> None:
+    where = command.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=int, metavar="N", help="processes (default: one per core)")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="run on a dask.distributed cluster")
 
 
 def _add_output(command: Parser, name: str, more: str = "") -> None:

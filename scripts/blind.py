@@ -11,6 +11,7 @@ from rich.table import Column, Table
 
 from models.errors import InvalidValue, NeedleError, UnknownName
 from models.names import is_file, is_folder
+from scripts.engine import engine_of
 from scripts.output_folder import first_free, output_folder
 from scripts.progress_line import by_count, counted, progress_line
 from scripts.results import tell
@@ -85,6 +86,8 @@ def run_score(
     *,
     trials: int | None,
     limit_s: float | None,
+    workers: int | None = None,
+    scheduler: str | None = None,
     force: bool,
     console: Console,
 ) -> int:
@@ -93,6 +96,7 @@ def run_score(
     Raises:
       InvalidValue: `trials` or the limit is out of range, or the folder has no logs or no usable
         ground truth.
+      EngineFailed: nobody is left who could diagnose; the reports so far are kept.
     """
     if trials is not None and trials < 1:
         raise InvalidValue("--trials", trials, "at least 1", "leave it out for all trials")
@@ -104,8 +108,11 @@ def run_score(
         )
     inputs = tuple(path for room in ("logs", "answers") for path in (folder / room).rglob("*"))
     destination = output_folder(out, SCORED, _score_paths, inputs=inputs, force=force)
-    with progress_line(terminal(stderr=True)) as show:
-        scores = score_logs(folder, trials=trials, limit_s=limit_s, progress=by_count(show))
+    shown = terminal(stderr=True)
+    engine = engine_of(workers, scheduler, shown)
+    with progress_line(shown) as show:
+        told = by_count(show)
+        scores = score_logs(folder, engine=engine, trials=trials, limit_s=limit_s, progress=told)
     written = _write(scores, destination)
     _print(scores, console)
     return tell(written, console)

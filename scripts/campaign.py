@@ -1,6 +1,5 @@
 """`needle campaign`: sweeps and Monte-Carlo runs from one file."""
 
-import os
 from pathlib import Path
 
 import pandas as pd
@@ -9,19 +8,19 @@ from rich.table import Table
 from rich.text import Text
 
 from diagnosis.stopping import NEVER
+from scripts.engine import engine_of
 from scripts.progress_line import progress_line
 from scripts.tables import print_table
 from scripts.terminal import terminal
 from studies.campaign.campaign import read_campaign
-from studies.campaign.cluster import on_cluster
 from studies.campaign.columns import FAILED
-from studies.campaign.engines import Engine, on_this_machine
+from studies.campaign.posterior.bands import QUANTILES
 from studies.campaign.results import ResultFolder
 from studies.campaign.run import run_campaign
-from studies.campaign.summary import summarise, summary_table
+from studies.campaign.summary import summarise, summary_table, tip_error_bands
 
 _SHOWN = ["cases", "mean", "sd", "p2.5", "median", "p97.5"]
-_ERRORS_SHOWN = 3
+_ERRORS_SHOWN, _MOMENTS_SHOWN = 3, 10
 
 
 def run(
@@ -45,7 +44,7 @@ def run(
     shown = terminal(stderr=True)
     with progress_line(shown, NEVER) as show:
         done = run_campaign(
-            results, _engine(workers, scheduler, shown), resume=resume, force=force, progress=show
+            results, engine_of(workers, scheduler, shown), resume=resume, force=force, progress=show
         )
     console.print(f"{done.computed} cases in {done.seconds_s:.1f} s, {done.failed} failed")
     _show(results, console)
@@ -54,19 +53,25 @@ def run(
     return 0
 
 
-def _engine(workers: int | None, scheduler: str | None, shown: Console) -> Engine:
-    if scheduler is None:
-        return on_this_machine(workers or os.cpu_count() or 1)
-    return on_cluster(scheduler, tell=lambda news: shown.print(news, highlight=False, markup=False))
-
-
 def _show(results: ResultFolder, console: Console) -> None:
     rows = results.read()
     table = Table("result", *_SHOWN, title=Text(results.campaign.name))
     for name, row in summary_table(results, rows).iterrows():
         table.add_row(str(name), *(f"{row[column]:.4g}" for column in _SHOWN))
     print_table(console, table)
+    if results.campaign.posterior:
+        _show_bands(tip_error_bands(results.campaign, rows), console)
     _show_failed(rows[rows["status"] == FAILED], console)
+
+
+def _show_bands(table: pd.DataFrame, console: Console) -> None:
+    moments = table.iloc[:: max(1, len(table) // _MOMENTS_SHOWN)]
+    shown = Table("time, s", "base", "nominal rig", *(name.removesuffix("_deg") for name in QUANTILES))
+    shown.title = "Tip error (base minus tip) of the drawn rigs, deg"
+    for _, row in moments.iterrows():
+        cells = (row["base_angle_deg"], row["nominal_deg"], *(row[name] for name in QUANTILES))
+        shown.add_row(f"{row['time_s']:.2f}", *(f"{value:.2f}" for value in cells))
+    print_table(console, shown)
 
 
 def _show_failed(failed: pd.DataFrame, console: Console) -> None:

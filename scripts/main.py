@@ -114,6 +114,8 @@ def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:
                 args.out,
                 trials=args.trials,
                 limit_s=args.limit,
+                workers=args.workers,
+                scheduler=args.scheduler,
                 force=args.force,
                 console=console,
             )

@@ -34,6 +34,29 @@ def content(**changes):
     return campaign | changes
 
 
+def posterior(**changes):
+    """What a report knows of a rig with dry friction: its level, and a stiffness."""
+    rig = {
+        "format": "rig-log/1",
+        "needle": {"diameter_mm": 0.59, "shear_modulus_gpa": 27.2, "density_g_cm3": 6.45},
+        "tissue": {"damping_n_mm_s_per_mm": 0.0172},
+        "sensors": {
+            "tip_angle_noise_deg": 0.3,
+            "base_torque_noise_n_mm": 0.02,
+            "base_angle_noise_deg": 0.02,
+        },
+        "trials": [{"file": "trial_01.csv"}],
+    }
+    known = {
+        "rig": rig,
+        "parameters": ["coulomb_friction.level", "stiffness_error.scale"],
+        "values": [0.0015, 1.0],
+        "bounds": [[1e-6, 0.05], [0.3, 3.0]],
+        "matrix": [[2.25e-8, 0.0], [0.0, 1e-4]],
+    }
+    return known | changes
+
+
 def environment():
     return os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{ROOT / 'tests'}"}
 

@@ -13,6 +13,7 @@ ROOMS = (
     "stopping",
     "progress",
     "workers",
+    "engines",
     "log",
     "lab_files",
     "prepare",

@@ -61,6 +61,16 @@ def test_misuse_is_told_and_nothing_is_written(tmp_path, capsys, changes, more, 
     assert not (tmp_path / "out").exists()
 
 
+def test_rigs_of_a_report_have_bands_of_their_tip_error(tmp_path, capsys):
+    example = ROOT / "examples" / "tip-error.yaml"
+    assert needle_campaign(example, tmp_path / "out", "--samples", "3") == 0
+    shown = capsys.readouterr().out
+    assert "Tip error" in shown
+    table = pd.read_csv(tmp_path / "out" / "bands.csv")
+    assert table["p50_deg"].iloc[-1] > 2.0  # dry friction holds the tip back for good
+    assert abs(table["nominal_deg"].iloc[-1]) < 0.01
+
+
 def test_the_example_is_a_campaign(tmp_path):
     example = ROOT / "examples" / "campaign.yaml"
     assert needle_campaign(example, tmp_path / "out", "--samples", "1") == 0

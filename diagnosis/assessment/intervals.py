@@ -80,8 +80,7 @@ def intervals(fit: Fit, spread: Array) -> dict[str, dict[str, Interval]]:
 
 def _interval(parameter: Parameter, value: float, one: float, other: float) -> Interval:
     """An angle is told in the half periods about 0."""
-    period = parameter.period
-    turns = period * round(value / period) if period else 0.0
+    turns = parameter.turns(value)
     low, high = min(one, other) - turns, max(one, other) - turns
     return Interval(value=value - turns, low=low, high=high, unit=parameter.unit)
 

@@ -50,6 +50,18 @@ class JointUncertainty:
         """In the units of the parameters, (n,)."""
         return np.array([p.from_fit(float(v)) for p, v in zip(self.parameters, self.x, strict=True)])
 
+    @property
+    def told(self) -> Array:
+        """Values as a report tells them: angles in the half periods about 0, (n,)."""
+        each = zip(self.parameters, self.values, strict=True)
+        return np.array([value - p.turns(float(value)) for p, value in each])
+
+    @property
+    def covariance_of_values(self) -> Array:
+        """Covariance in the units of the parameters, (n, n): slopes' product times that of the fit."""
+        slopes = np.array([p.slope(float(v)) for p, v in zip(self.parameters, self.x, strict=True)])
+        return np.asarray(slopes[:, None] * self.covariance * slopes)
+
     def correlation(self, i: int, j: int) -> float:
         """Of two parameters, -1 to 1; 0 where one of them is certain."""
         product = float(self.covariance[i, i] * self.covariance[j, j])

@@ -35,6 +35,7 @@ class Parameter:
       period: of an angle, after which it repeats; 0: none.
       reported: whether it is of the vocabulary; else it is open in a fit and not told.
       neutral: value at which the effect is not there; None: a shape, at which it always is.
+      prior_sigma: of a normal prior on its coordinate about 0; infinite: none.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Parameter:
     period: float = 0.0
     reported: bool = True
     neutral: float | None = 0.0
+    prior_sigma: float = math.inf
 
     def scaled(self, *, torque: float, rate: float) -> "Parameter":
         """The same for a rig whose torques and rates are so many times larger."""
@@ -78,6 +80,14 @@ class Parameter:
     def from_fit(self, x: float) -> float:
         """The value of a coordinate."""
         return float(np.exp(x)) if self.logarithmic else x * self.scale
+
+    def slope(self, x: float) -> float:
+        """Change of the value with its coordinate."""
+        return self.from_fit(x) if self.logarithmic else self.scale
+
+    def turns(self, value: float) -> float:
+        """Whole periods of an angle, to take off so that it lies in the half periods about 0."""
+        return self.period * round(value / self.period) if self.period else 0.0
 
     def towards_neutral(self, value: float, share: float) -> float:
         """A value moved so far that the effect is a share of what it was."""

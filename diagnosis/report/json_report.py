@@ -8,6 +8,7 @@ from pydantic_core import to_jsonable_python
 
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.joint_uncertainty import JointUncertainty
 from diagnosis.assessment.nearest import Nearest
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
@@ -32,6 +33,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "confusable": [list(names) for names in verdict.confusable],
         "ranking": [{"effect": n, "probability": p} for n, p in verdict.ranking],
         "parameters": _parameters(told.parameters),
+        "covariance": _covariance(told.joint),
         "gap": {**asdict(told.gap), "noise": 1.0},
         "nearest": _nearest(told.nearest),
         "sensors": {
@@ -46,6 +48,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "hidden": told.detection_limits,
         "cannot_tell": list(unidentifiable(diagnosis.log)),
         "replay_error": told.numerical_error,
+        "rig": diagnosis.log.rig.model_dump(mode="json"),
         "noise": dict(diagnosis.noise.sigma),
         "noise_colour": {s: asdict(colour) for s, colour in diagnosis.noise.colour.items()},
         "search": [_entry(entry) for entry in diagnosis.record],
@@ -63,6 +66,16 @@ def _parameters(by_effect: Mapping[str, Mapping[str, Interval]]) -> dict[str, An
     return {
         effect: {name: asdict(interval) for name, interval in own.items()}
         for effect, own in by_effect.items()
+    }
+
+
+def _covariance(joint: JointUncertainty) -> dict[str, Any]:
+    """How the parameters of the nearest explanation are uncertain together, in their units."""
+    return {
+        "parameters": list(joint.names),
+        "values": joint.told.tolist(),
+        "bounds": [[p.low, p.high] for p in joint.parameters],
+        "matrix": joint.covariance_of_values.tolist(),
     }
 
 

@@ -9,11 +9,13 @@ import mujoco
 import yaml
 from pydantic import Field, field_validator, model_validator
 
+from models.drive import DriveKind
 from models.errors import InvalidValue
 from models.needle import Positive
 from models.record import Record
 from sim.paper_protocols import protocol_named
 from sim.protocol import Protocol, read_protocol
+from studies.campaign.posterior.rig_posterior import RigPosterior, read_posterior
 from studies.campaign.variation import Variation
 from studies.control.tip_controllers import TIP_CONTROLLERS
 
@@ -26,6 +28,14 @@ class Kind(StrEnum):
     INSERTION = "insertion"
     CONTROL = "control"
     DIAGNOSIS = "diagnosis"
+    POSTERIOR = "posterior"
+    """An insertion of a rig that is drawn from what a diagnosis knows of it."""
+
+
+_VARIES_ITSELF = {
+    Kind.DIAGNOSIS: "cases are its logs",
+    Kind.POSTERIOR: "cases are rigs that are drawn, all in one motion",
+}
 
 
 class Campaign(Record):
@@ -37,6 +47,8 @@ class Campaign(Record):
     """The protocol that cases change: a name, or its fields. None for a diagnosis."""
     controller: str | None = None
     """Of the tip, for kind control."""
+    posterior: RigPosterior | None = None
+    """What rigs are drawn from, for kind posterior."""
     logs: tuple[str, ...] = ()
     """Folders of logs, for kind diagnosis."""
     limit_s: Positive | None = None
@@ -60,12 +72,16 @@ class Campaign(Record):
             ("base", not diagnosed),
             ("controller", self.kind is Kind.CONTROL),
             ("logs", diagnosed),
+            ("posterior", self.kind is Kind.POSTERIOR),
         ):
             if bool(getattr(self, name)) != wanted:
                 expected = "a value" if wanted else "nothing"
                 raise InvalidValue(name, getattr(self, name), f"{expected} for kind {self.kind.value}")
-        if diagnosed and self.vary:
-            raise InvalidValue("vary", list(self.vary), "nothing for kind diagnosis: cases are its logs")
+        if self.vary and self.kind in _VARIES_ITSELF:
+            why = f"nothing for kind {self.kind.value}: {_VARIES_ITSELF[self.kind]}"
+            raise InvalidValue("vary", list(self.vary), why)
+        if self.posterior and self.base and self.base.drive.kind is DriveKind.TORQUE:
+            raise InvalidValue("base.drive.kind", "torque", "angle: a posterior's rigs turn their base")
         if self.controller and self.controller not in TIP_CONTROLLERS:
             raise InvalidValue("controller", self.controller, "one of " + ", ".join(TIP_CONTROLLERS))
         if self.limit_s and not diagnosed:
@@ -74,11 +90,16 @@ class Campaign(Record):
 
     def _draws_as_often_as_it_says(self) -> "Campaign":
         drawn = [path for path, variation in self.vary.items() if variation.steps is None]
-        if self.samples > 1 and not drawn:
+        if self.samples > 1 and not drawn and not self.posterior:
             raise InvalidValue(
                 "samples", self.samples, "1, because nothing is drawn: cases would repeat"
             )
         return self
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """What cases differ in: paths into the protocol, or parameters of a posterior."""
+        return self.posterior.parameters if self.posterior else tuple(self.vary)
 
     @property
     def fingerprint(self) -> str:
@@ -111,6 +132,8 @@ def read_campaign(path: Path, *, samples: int | None = None) -> Campaign:
     base = content.get("base")
     if isinstance(base, str) and base.endswith((".yaml", ".yml")):
         content["base"] = read_protocol(path.parent / base)
+    if isinstance(content.get("posterior"), str):
+        content["posterior"] = read_posterior(path.parent / content["posterior"])
     if "logs" in content:
         content["logs"] = _folders(content["logs"], path.parent)
     return Campaign(**content | ({} if samples is None else {"samples": samples}))

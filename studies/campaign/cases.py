@@ -23,7 +23,7 @@ class Case:
 
     Attributes:
       varied: values by dotted path.
-      protocol: None where the values make none, or for a diagnosis.
+      protocol: None where the values make none, or for a diagnosis; of a posterior, the motion.
       refused: why there is no protocol.
       log: folder of the log, for a diagnosis.
     """
@@ -58,6 +58,8 @@ def cases_of(campaign: Campaign, numbers: Sequence[int]) -> list[Case]:
 
 def _case(campaign: Campaign, base: dict[str, Any], number: int) -> Case:
     varied = varied_values(campaign, number)
+    if campaign.posterior:
+        return Case(number=number, varied=varied, protocol=campaign.base)
     try:
         return Case(number=number, varied=varied, protocol=_protocol(base, varied))
     except NeedleError as refused:
@@ -65,10 +67,12 @@ def _case(campaign: Campaign, base: dict[str, Any], number: int) -> Case:
 
 
 def varied_values(campaign: Campaign, number: int) -> dict[str, Any]:
-    """What a case has of everything that varies, by path."""
+    """What a case has of everything that varies, by path or parameter."""
+    rng = np.random.default_rng(np.random.SeedSequence([campaign.seed, number]))
+    if campaign.posterior:
+        return campaign.posterior.drawn(rng)
     shape = _grid_shape(campaign)
     point = iter(np.unravel_index(number % math.prod(shape), shape)) if shape else iter(())
-    rng = np.random.default_rng(np.random.SeedSequence([campaign.seed, number]))
     return {
         path: variation.drawn(rng) if variation.steps is None else variation.steps[int(next(point))]
         for path, variation in campaign.vary.items()

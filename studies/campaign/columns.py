@@ -20,6 +20,8 @@ _INSERTION = {
     "unconverged_count": pa.int64(),
 }
 _CONTROL = {"end_tip_error_deg": pa.float64(), "largest_estimate_error_deg": pa.float64()}
+# Parquet names what is in a list "element": a type that comes back as it was written.
+_POSTERIOR = {"tip_error_deg": pa.list_(pa.field("element", pa.float64()))}
 _DIAGNOSIS = {
     "log": pa.string(),
     "verdict": pa.string(),
@@ -32,6 +34,7 @@ RESULTS: dict[Kind, dict[str, pa.DataType]] = {
     Kind.INSERTION: _INSERTION,
     Kind.CONTROL: _INSERTION | _CONTROL,
     Kind.DIAGNOSIS: _DIAGNOSIS,
+    Kind.POSTERIOR: _INSERTION | _POSTERIOR,
 }
 """By kind: results and their types; units are in the names, gaps are in sigma."""
 
@@ -40,6 +43,7 @@ def schema(campaign: Campaign) -> pa.Schema:
     """Names and types of all columns; the fingerprint says of which campaign."""
     columns = {"case": pa.int64(), "status": pa.string(), "error": pa.string()}
     columns |= {path: _type_of(variation) for path, variation in campaign.vary.items()}
+    columns |= dict.fromkeys(campaign.posterior.parameters if campaign.posterior else (), pa.float64())
     columns |= RESULTS[campaign.kind]
     return pa.schema(list(columns.items()), metadata={"campaign": campaign.fingerprint})
 

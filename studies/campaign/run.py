@@ -4,12 +4,13 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from diagnosis.engines.engine import Engine
 from diagnosis.progress import Progress
 from models.errors import InvalidValue
 from studies.campaign.cases import check_values
 from studies.campaign.columns import FAILED
-from studies.campaign.engines import Engine
 from studies.campaign.results import ResultFolder
+from studies.campaign.run_case import job_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +52,7 @@ def run_campaign(
         progress(Progress(stage=stage, done=done, tasks=cases, elapsed_s=elapsed_s, left_s=left_s))
 
     tell()
-    for piece, rows in engine(results.campaign, missing):
+    for piece, rows in engine(job_of(results.campaign), missing):
         results.write(piece, rows)
         done += len(rows)
         failed += sum(row["status"] == FAILED for row in rows)

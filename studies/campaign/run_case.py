@@ -1,8 +1,8 @@
 """From cases to rows of results."""
 
 import json
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.linalg import LinAlgError
 from numpy.typing import NDArray
 
+from diagnosis.engines.engine import Job
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
@@ -22,6 +23,7 @@ from sim.simulation import Run, prepare_processes
 from studies.campaign.campaign import Campaign, Kind
 from studies.campaign.cases import Case, cases_of
 from studies.campaign.columns import DONE, FAILED, Row
+from studies.campaign.posterior.drawn_rig import DrawnRig, drawn_rig, tip_error_deg
 from studies.control.closed_loop_run import perform_closed_loop
 
 Array = NDArray[np.float64]
@@ -29,6 +31,22 @@ Attempt = dict[str, Any] | Exception
 """Results by name, or why there are none."""
 
 _EXPECTED = (NeedleError, mujoco.FatalError, ArithmeticError, LinAlgError)
+
+
+def job_of(campaign: Campaign) -> Job:
+    """Rows of pieces, for an engine; the campaign goes along as text."""
+    function = f"{rows_of_text.__module__}.{rows_of_text.__name__}"
+    return Job(function=function, arguments=(campaign.model_dump_json(),), noun="cases")
+
+
+def rows_of_text(text: str, numbers: Sequence[int]) -> list[Row]:
+    """Rows of a campaign that is given as JSON."""
+    return rows_of(_campaign(text), numbers)
+
+
+@lru_cache(maxsize=1)
+def _campaign(text: str) -> Campaign:
+    return Campaign(**json.loads(text))
 
 
 def rows_of(campaign: Campaign, numbers: Sequence[int]) -> list[Row]:
@@ -42,6 +60,7 @@ def rows_of(campaign: Campaign, numbers: Sequence[int]) -> list[Row]:
         Kind.INSERTION: _insertions,
         Kind.CONTROL: _controlled,
         Kind.DIAGNOSIS: _diagnosed,
+        Kind.POSTERIOR: _drawn_rigs,
     }[campaign.kind](campaign, cases)
     return [_row(case, attempt) for case, attempt in zip(cases, attempts, strict=True)]
 
@@ -69,17 +88,44 @@ def _attempt(case: Case, run: Callable[[], dict[str, Any]]) -> Attempt:
 
 
 def _insertions(campaign: Campaign, cases: Sequence[Case]) -> list[Attempt]:
-    possible = [(case.number, case.protocol) for case in cases if case.protocol]
-    runs = simulate_each([protocol for _, protocol in possible], threads=1)
-    found = dict(zip([number for number, _ in possible], runs, strict=True))
+    return _simulated(cases, {case.number: case.protocol for case in cases if case.protocol})
+
+
+def _drawn_rigs(campaign: Campaign, cases: Sequence[Case]) -> list[Attempt]:
+    posterior, motion = campaign.posterior, campaign.base
+    if posterior is None or motion is None:
+        return []
+    return _simulated(cases, {c.number: drawn_rig(posterior, motion, c.varied) for c in cases})
+
+
+def _simulated(
+    cases: Sequence[Case], insertions: Mapping[int, Protocol] | Mapping[int, DrawnRig]
+) -> list[Attempt]:
+    """Results of the insertions of cases, by their numbers."""
+    runs = simulate_each(list(insertions.values()), threads=1)
+    found = dict(zip(insertions, runs, strict=True))
 
     def results(case: Case) -> dict[str, Any]:
-        run = found[case.number]
+        run, insertion = found[case.number], insertions[case.number]
         if isinstance(run, NeedleError):
             raise run
-        return insertion_results(run, case.protocol)
+        if isinstance(insertion, DrawnRig):
+            return drawn_rig_results(run, insertion)
+        return insertion_results(run, insertion)
 
     return [_attempt(case, partial(results, case)) for case in cases]
+
+
+def drawn_rig_results(run: Run, drawn: DrawnRig) -> dict[str, Any]:
+    """What a run of a drawn rig is summed up to: the base is where its encoder shows it to be."""
+    summed_up = _summed_up(
+        time_s=run.time_s,
+        base_deg=drawn.wanted_deg(run.time_s),
+        tip_deg=run.tip_deg,
+        torque_n_mm=run.base_torque_n_mm,
+        unconverged=run.unconverged,
+    )
+    return summed_up | {"tip_error_deg": tip_error_deg(drawn, run).tolist()}
 
 
 def insertion_results(run: Run, protocol: Protocol | None = None) -> dict[str, Any]:

@@ -8,8 +8,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from scipy.stats import spearmanr
 
+from models.errors import InvalidValue
 from sim.files import write_text, writing
+from studies.campaign.campaign import Campaign
 from studies.campaign.columns import DONE, RESULTS
+from studies.campaign.posterior import bands
 from studies.campaign.results import ResultFolder
 
 _QUANTILES = {"p2.5": 0.025, "p25": 0.25, "median": 0.5, "p75": 0.75, "p97.5": 0.975}
@@ -19,13 +22,32 @@ _WIDTH, _HEIGHT = 3.2, 2.6  # of a picture's panel, inches
 
 
 def summarise(results: ResultFolder) -> list[Path]:
-    """Write `summary.csv` and `summary.png`; returns their paths."""
+    """Write `summary.csv` and `summary.png`, of a posterior `bands.csv` and `bands.png`, too; returns
+    their paths."""
     table = results.read()
     csv, png = results.folder / "summary.csv", results.folder / "summary.png"
     write_text(csv, summary_table(results, table).to_csv(float_format="%.6g"), force=True)
     with writing(png, force=True) as part:
         draw(results, table, part)
+    return [csv, png, *(_write_bands(results, table) if results.campaign.posterior else ())]
+
+
+def _write_bands(results: ResultFolder, table: pd.DataFrame) -> list[Path]:
+    csv, png = results.folder / "bands.csv", results.folder / "bands.png"
+    found = tip_error_bands(results.campaign, table)
+    write_text(csv, found.to_csv(index=False, float_format="%.6g"), force=True)
+    rigs = int((table["status"] == DONE).sum())
+    with writing(png, force=True) as part:
+        bands.draw(found, f"{results.campaign.name}: tip error of {rigs} rigs", part)
     return [csv, png]
+
+
+def tip_error_bands(campaign: Campaign, table: pd.DataFrame) -> pd.DataFrame:
+    """Of a campaign over a posterior: see `bands.bands`."""
+    if campaign.posterior is None or campaign.base is None:
+        raise InvalidValue("kind", campaign.kind.value, "posterior")
+    errors = table["tip_error_deg"][table["status"] == DONE]
+    return bands.bands(campaign.posterior, campaign.base, np.array(errors.tolist(), float))
 
 
 def summary_table(results: ResultFolder, table: pd.DataFrame) -> pd.DataFrame:
@@ -65,13 +87,13 @@ def _numeric(results: ResultFolder) -> list[str]:
 
 def numeric_varied(results: ResultFolder, table: pd.DataFrame) -> list[str]:
     """Paths that vary and are numbers."""
-    return [path for path in results.campaign.vary if pd.api.types.is_float_dtype(table[path])]
+    return [path for path in results.campaign.varied if pd.api.types.is_float_dtype(table[path])]
 
 
 def draw(results: ResultFolder, table: pd.DataFrame, path: Path) -> None:
     """Each result that differs over each varied value; where none varies, its distribution."""
     done = table[table["status"] == DONE]
-    across = list(results.campaign.vary) or [""]
+    across = list(results.campaign.varied) or [""]
     down = [name for name in _numeric(results) if done[name].nunique() > 1] or _numeric(results)[:1]
     size = (max(2, len(across)) * _WIDTH, len(down) * _HEIGHT)
     figure, axes = plt.subplots(

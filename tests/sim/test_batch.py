@@ -85,7 +85,7 @@ def test_protocols_of_one_size_share_batches(monkeypatch):
 
     monkeypatch.setattr(batch, "simulate", counted)
     simulate_each([SHORT.but(inserted_mm=60.0 + i) for i in range(20)], threads=1)
-    assert sizes == [16, 4]
+    assert sizes == [8, 8, 4]
 
 
 def test_a_mistake_in_the_program_is_raised():

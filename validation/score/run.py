@@ -1,6 +1,7 @@
-"""Diagnoses every log of a folder, two at a time, without reading the ground truth.
+"""Diagnoses every log of a folder, without reading the ground truth.
 
-Reports that exist are kept: a run that was stopped continues where it was.
+An engine does it, on this machine or on a cluster; a report is written whole as soon as it is there, and
+those that exist are kept: a run that was ended in any way continues where it was.
 """
 
 import json
@@ -10,21 +11,27 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+from numpy.linalg import LinAlgError
 
+from diagnosis.engines.engine import Engine, Job
+from diagnosis.engines.local import on_this_machine
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.json_report import as_json
-from diagnosis.workers import Heard, Task, process_pool, unheard
+from diagnosis.workers import Heard, unheard
 from models.errors import NeedleError
 from sim.files import Destination, write_text
 from validation.score.answers import read_answers
 from validation.score.scores import read_scores, reports_in
+
+_STAGE = "diagnosing logs"
 
 
 def score_logs(
     folder: Path,
     *,
     workers: int = 2,
+    engine: Engine | None = None,
     trials: int | None = None,
     limit_s: float | None = None,
     progress: Heard = unheard,
@@ -33,19 +40,21 @@ def score_logs(
 
     Args:
       folder: with `logs/` and `answers/`, as `make_logs` writes them.
-      trials, limit_s, progress: as of `diagnose_all`.
+      workers, engine, trials, limit_s, progress: as of `diagnose_all`.
 
     Returns:
       One row per log, as `read_scores`.
 
     Raises:
       InvalidValue: the ground truth is unusable; that is seen before anything is diagnosed.
+      EngineFailed: nobody is left who could diagnose; reports that were written stay.
     """
     read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
     diagnose_all(
         folder / "logs",
         reports_in(folder, trials, limit_s),
         workers=workers,
+        engine=engine,
         trials=trials,
         limit_s=limit_s,
         progress=progress,
@@ -58,6 +67,7 @@ def diagnose_all(
     reports: Path,
     *,
     workers: int = 2,
+    engine: Engine | None = None,
     trials: int | None = None,
     limit_s: float | None = None,
     progress: Heard = unheard,
@@ -65,28 +75,34 @@ def diagnose_all(
     """Write `reports/<case>.json` for every folder in `logs`.
 
     Args:
+      workers: processes of this machine.
+      engine: in place of them; workers of a cluster find the logs at the paths that they have here.
       trials: number of trials to use of every log, the first ones; None: all.
       limit_s: time for each diagnosis; None: no limit.
       progress: is told how many logs are done.
 
     Raises:
       UnsafeOutput, UnwritableOutput: a report may not or cannot be written; those before it stay.
+      EngineFailed: nobody is left who could diagnose; reports that were written stay.
     """
-    paths = {case: reports / f"{case.name}.json" for case in sorted(logs.iterdir())}
+    paths = {str(case.resolve()): reports / f"{case.name}.json" for case in sorted(logs.iterdir())}
     missing = {case: path for case, path in paths.items() if not path.exists()}
     Destination(folder=reports.parent, inputs=tuple(logs.rglob("*"))).check([*missing.values()])
-    tasks = [Task(effects=(), arguments=(*pair, trials, limit_s)) for pair in missing.items()]
-    with process_pool(workers, progress) as pool:
-        pool.each("diagnosing logs", _one, tasks)
+    job = Job(function=f"{__name__}.{report_of.__name__}", arguments=(trials, limit_s), noun="log")
+    diagnosed = (engine or on_this_machine(workers))(job, list(missing))
+    progress(_STAGE, 0, len(missing))
+    for done, (case, report) in enumerate(diagnosed, start=1):
+        write_text(missing[str(case)], json.dumps(report, indent=1), force=True)
+        progress(_STAGE, done, len(missing))
 
 
-def _one(case: Path, path: Path, trials: int | None, limit_s: float | None) -> None:
+def report_of(trials: int | None, limit_s: float | None, case: str) -> dict[str, Any]:
+    """The report of a log, as `report.json` with the `seconds` it took; one that failed says `why`."""
     limit: dict[str, Any] = {} if limit_s is None else {"limit_s": limit_s}
     start = time.perf_counter()
     try:
-        log = read_rig_log(case)
+        log = read_rig_log(Path(case))
         report = as_json(diagnose(replace(log, trials=log.trials[:trials]), workers=1, **limit))
-    except NeedleError as error:
+    except (NeedleError, ArithmeticError, LinAlgError) as error:
         report = {"verdict": "refused", "effects": [], "why": str(error)}
-    report["seconds"] = time.perf_counter() - start
-    write_text(path, json.dumps(report, indent=1), force=True)
+    return report | {"seconds": time.perf_counter() - start}

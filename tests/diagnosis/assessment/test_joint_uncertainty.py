@@ -50,3 +50,22 @@ def test_a_constant_that_is_named_is_there_once_and_first():
     fit = fit_of(("tip_drag",), nuisance=SCATTER)
     found = joint_uncertainty(fit, np.eye(3), ("damping_error", "tip_drag"))
     assert found.names == ("damping_error.scale", "tip_drag.damping", "stiffness_error.scale")
+
+
+def test_the_covariance_of_values_is_that_of_what_draws_become():
+    """Of a logarithm times the value; of others times the scale. For small spreads, draws agree."""
+    spread = 1e-4 * np.array([[4.0, 1.5], [1.5, 1.0]])
+    found = joint(spread, ("coulomb_friction", "tip_angle_bias"), x=[np.log(0.002), 3.0])
+    scale = found.parameters[1].scale
+    draws = np.random.default_rng(3).multivariate_normal([np.log(0.002), 3.0], spread, size=20000).T
+    values = np.array([np.exp(draws[0]), scale * draws[1]])
+    wanted = found.covariance_of_values
+    assert wanted[0, 0] == pytest.approx(4e-4 * 0.002**2)
+    # Four standard deviations of a covariance of 20000 draws, at most sqrt(2 / 20000) of it each.
+    assert np.cov(values) == pytest.approx(wanted, rel=0.05)
+
+
+def test_an_angle_is_told_in_the_half_periods_about_0():
+    found = joint(np.eye(2), ("needle_curvature",), x=[np.log(0.001), 20.0])  # 200 deg
+    assert found.values[1] == pytest.approx(200.0)
+    assert found.told == pytest.approx([0.001, -160.0])

@@ -10,6 +10,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.report.json_report import FORMAT, as_json
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision
+from studies.campaign.posterior.rig_posterior import RigPosterior
 
 KEYS = {
     "format",
@@ -19,6 +20,7 @@ KEYS = {
     "confusable",
     "ranking",
     "parameters",
+    "covariance",
     "gap",
     "nearest",
     "where",
@@ -29,6 +31,7 @@ KEYS = {
     "hidden",
     "cannot_tell",
     "replay_error",
+    "rig",
     "noise",
     "noise_colour",
     "search",
@@ -56,6 +59,25 @@ def test_what_explains_the_log_is_told_with_its_value_unit_and_place(dry):
     assert level["low"] < level["value"] < level["high"]
     assert level["unit"] == "N mm / mm"
     assert report["where"]["place"] == "interface"
+
+
+def test_the_covariance_is_that_of_the_intervals(dry):
+    """Of a level that is known to 1 %: half the interval is 1.96 sd."""
+    known, level = dry.report["covariance"], dry.report["parameters"]["coulomb_friction"]["level"]
+    assert known["parameters"] == [
+        "coulomb_friction.level",
+        "stiffness_error.scale",
+        "damping_error.scale",
+    ]
+    assert known["values"][0] == level["value"]
+    half = 1.96 * known["matrix"][0][0] ** 0.5
+    assert half == pytest.approx((level["high"] - level["low"]) / 2, rel=0.01)
+    assert all(
+        low < value < high for value, (low, high) in zip(known["values"], known["bounds"], strict=True)
+    )
+    assert (
+        RigPosterior(rig=dry.report["rig"], **known).fitted["coulomb_friction.level"] == level["value"]
+    )
 
 
 PARTS = {"signal", "phase", "band_hz", "depth_mm", "time_s"}

@@ -2,7 +2,7 @@
 
 import pytest
 import yaml
-from campaigns import content
+from campaigns import content, posterior
 
 
 @pytest.fixture
@@ -13,5 +13,16 @@ def campaign_file(tmp_path):
         path = tmp_path / "campaign.yaml"
         path.write_text(yaml.safe_dump(content(**changes)))
         return path
+
+    return write
+
+
+@pytest.fixture
+def posterior_file(campaign_file):
+    """Writes a campaign over a posterior, of four rigs, and returns its path."""
+
+    def write(**changes):
+        many = {"kind": "posterior", "posterior": posterior(), "vary": {}, "samples": 4}
+        return campaign_file(**many | changes)
 
     return write

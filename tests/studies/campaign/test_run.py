@@ -5,11 +5,12 @@ import time
 import pytest
 from campaigns import start_command
 
+from diagnosis.engines.local import on_this_machine
 from models.errors import InvalidValue
 from studies.campaign.campaign import read_campaign
-from studies.campaign.engines import on_this_machine
 from studies.campaign.results import ResultFolder
 from studies.campaign.run import run_campaign
+from studies.campaign.run_case import job_of
 
 
 @pytest.fixture
@@ -32,8 +33,8 @@ def test_a_campaign_tells_how_far_it_is_and_what_failed(campaign_file, tmp_path)
 
 
 def test_resuming_computes_what_is_missing_alone(results):
-    def one_piece(campaign, missing):
-        yield from on_this_machine(1)(campaign, missing[:1])
+    def one_piece(job, missing):
+        yield from on_this_machine(1)(job, missing[:1])
 
     with pytest.raises(InvalidValue, match="missing"):
         run_campaign(results, one_piece, progress=lambda news: None)
@@ -69,6 +70,6 @@ def test_a_command_that_is_killed_on_the_way_goes_on_where_it_was(campaign_file,
     assert killed.missing() == []
     assert kept <= set(killed.dataset.iterdir())
     for piece in missing[:1]:
-        (wanted,) = (rows for at, rows in on_this_machine(1)(killed.campaign, [piece]) if at == piece)
+        ((_, wanted),) = on_this_machine(1)(job_of(killed.campaign), [piece])
         found = killed.read().iloc[list(piece)].to_dict("records")
         assert [row["largest_lag_deg"] for row in found] == [row["largest_lag_deg"] for row in wanted]

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
+from diagnosis.engines.engine import EngineFailed
 from models.errors import InvalidValue, UnsafeOutput
 from scripts import blind
 from validation.score import run
@@ -55,10 +56,39 @@ def test_the_limit_of_a_log_reaches_its_diagnosis(tmp_path, monkeypatch, limit_s
     monkeypatch.setattr(run, "replace", lambda log, trials: trials)
     monkeypatch.setattr(run, "diagnose", lambda trials, **how: given.update(how, trials=trials))
     monkeypatch.setattr(run, "as_json", lambda found: {"verdict": "none"})
-    run._one(tmp_path / "case_001", tmp_path / "case_001.json", 2, limit_s)
+    report = run.report_of(2, limit_s, str(tmp_path / "case_001"))
     assert given.pop("trials") == [1, 2]
     assert given == {"workers": 1, **({"limit_s": limit_s} if limit_s else {})}
-    assert json.loads((tmp_path / "case_001.json").read_text())["verdict"] == "none"
+    assert report["verdict"] == "none"
+
+
+def test_any_engine_may_diagnose_and_reports_are_written_as_they_come(unusable):
+    """One that ends early leaves those that it gave; they are kept by the next."""
+    (unusable / "logs" / "case_002").mkdir()
+
+    def first_alone(job, cases):
+        yield cases[0], job(cases[0])
+        raise EngineFailed("nobody is left")
+
+    with pytest.raises(EngineFailed):
+        diagnose_all(unusable / "logs", unusable / "reports", engine=first_alone)
+    written = unusable / "reports" / "case_001.json"
+    before = written.read_text()
+    assert json.loads(before)["verdict"] == "refused"
+    seen = []
+    diagnose_all(
+        unusable / "logs", unusable / "reports", workers=1, progress=lambda *told: seen.append(told)
+    )
+    assert seen[-1] == ("diagnosing logs", 1, 1)
+    assert written.read_text() == before
+    assert (unusable / "reports" / "case_002.json").exists()
+
+
+def test_a_log_whose_arithmetic_fails_is_recorded_and_does_not_stop_the_rest(unusable, monkeypatch):
+    monkeypatch.setattr(run, "read_rig_log", lambda case: 1 / len(()))
+    diagnose_all(unusable / "logs", unusable / "reports", workers=1)
+    report = json.loads((unusable / "reports" / "case_001.json").read_text())
+    assert (report["verdict"], report["why"]) == ("refused", "division by zero")
 
 
 def test_a_report_that_exists_is_kept_and_tasks_can_be_watched(unusable):

@@ -1,0 +1,1 @@
+"""Who computes many tasks: processes of this machine, or a cluster."""

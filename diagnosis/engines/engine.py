@@ -1,0 +1,94 @@
+"""What engines have in common: a job, its tasks, and when they give up.
+
+A job names its function, so that only who runs it loads what it needs: the scheduler of a cluster hands
+jobs on and loads nothing but this module.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any, Protocol, TypeVar
+
+from models.errors import EnvironmentMismatch, NeedleError
+
+Plain = str | int | float | bool | None
+Task = TypeVar("Task", range, str)
+"""Numbers of cases, or the name of one thing."""
+
+MOST_LOSSES = 3  # of workers in a row, without a result in between: it is no accident
+_DECIDE = ("needle-torsion", "mujoco")  # distributions on whose versions results depend
+
+
+class EngineFailed(NeedleError):
+    """Nobody is left who could compute."""
+
+
+def _versions() -> tuple[str, ...]:
+    """Of what results depend on, as installed here."""
+    return tuple(f"{name} {_version(name)}" for name in _DECIDE)
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "from its source"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """What is done with each task, the same wherever it is done.
+
+    Attributes:
+      function: as `package.module.name`; is called with the arguments and the task.
+      noun: what a task is of, in messages.
+      versions: where the job was made.
+    """
+
+    function: str
+    arguments: tuple[Plain, ...] = ()
+    noun: str = "task"
+    versions: tuple[str, ...] = field(default_factory=_versions)
+
+    def __call__(self, task: Task) -> Any:
+        """The result of a task.
+
+        Raises:
+          EnvironmentMismatch: this process may compute something else.
+        """
+        if self.versions != _versions():
+            raise EnvironmentMismatch(
+                f"expected {', '.join(self.versions)} as where the job was made, found "
+                f"{', '.join(_versions())}: install the same versions on the worker as here"
+            )
+        module, _, name = self.function.rpartition(".")
+        return getattr(import_module(module), name)(*self.arguments, task)
+
+    def about(self, task: Task) -> str:
+        """A task as people say it."""
+        named = f"{task.start} to {task.stop - 1}" if isinstance(task, range) else task
+        return f"{self.noun} {named}"
+
+
+class Engine(Protocol):
+    """Whoever computes."""
+
+    def __call__(self, job: Job, tasks: Sequence[Task]) -> Iterator[tuple[Task, Any]]:
+        """Each task with its result, as soon as it is there, in any order."""
+        ...
+
+
+def refuse_more_losses(job: Job, losses: int, missing: Sequence[Task]) -> None:
+    """Raise where workers die of what they compute.
+
+    Raises:
+      EngineFailed: names a task that is missing.
+    """
+    if losses >= MOST_LOSSES:
+        raise EngineFailed(
+            f"workers ended {losses} times without completing anything; {job.about(missing[0])} is among"
+            " what is missing: look for a lack of memory there, take smaller pieces (cases_per_piece of"
+            " a campaign) or fewer workers; what is complete is kept, and the command goes on from there"
+            " (a campaign with --resume)"
+        )

@@ -1,0 +1,20 @@
+"""The engine that a command line asks for."""
+
+import os
+
+from rich.console import Console
+
+from diagnosis.engines.cluster import on_cluster
+from diagnosis.engines.engine import Engine
+from diagnosis.engines.local import on_this_machine
+
+
+def engine_of(workers: int | None, scheduler: str | None, shown: Console) -> Engine:
+    """A cluster, if there is an address of its scheduler; else processes, by default one per core.
+
+    Args:
+      shown: is told what happens to the connection.
+    """
+    if scheduler is None:
+        return on_this_machine(workers or os.cpu_count() or 1)
+    return on_cluster(scheduler, tell=lambda news: shown.print(news, highlight=False, markup=False))

@@ -1,0 +1,1 @@
+"""What a diagnosis leaves open of a rig: rigs that are drawn from it, and bands of their tip error."""
