@@ -48,7 +48,7 @@ def _tip_rate(ranges: LogRanges) -> Family:
                 ),
             ),
             apply=_apply_tip_rate,
-            differences=(1e-2, 1e-3),
+            differences=(1e-2,),
         ),
         places={Place.NEEDLE: 1.0},
         says="rate",
