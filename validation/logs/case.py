@@ -29,23 +29,37 @@ from validation.logs.strengths import (
     WRONG_CONSTANT_FAMILIES,
     without,
 )
+from validation.logs.unmodelled_strengths import UNMODELLED_FAMILIES
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
-NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk"}
+NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk", "axially_relieved_friction"}
 NEEDS_LOAD = {"load_dependent_friction"}
 NEAREST = {
     "tip_sensor_lag": ("tip_sensor_delay",),
     "damping_gradient": ("layered_tissue", "base_compliance"),
     "friction_ageing": ("stiction", "coulomb_friction"),
     "one_way_friction": ("stiction", "coulomb_friction"),
+    "friction_of_depth": ("coulomb_friction", "entry_friction"),
+    "axially_relieved_friction": ("coulomb_friction", "speed_dependent_friction"),
+    "saturating_damping": ("shear_thinning", "coulomb_friction"),
+    "damping_decay": ("damping_error", "shear_thinning"),
+    "softening_tissue": ("tissue_viscoelasticity",),
+    "stiffening_depth": ("tissue_viscoelasticity",),
+    "hardening_tissue": ("tissue_viscoelasticity",),
+    "soft_play": ("chuck_backlash", "base_compliance"),
+    "permanent_set": ("chuck_backlash", "stiffness_error"),
+    "tip_friction": ("coulomb_friction", "tip_drag"),
+    "tip_in_fibres": ("needle_curvature",),
+    "tip_sensor_play": ("tip_sensor_delay",),
+    "one_sided_torque_gain": ("torque_scale", "torque_bias"),
     "stiction": ("coulomb_friction",),
     "drive_friction": ("sheath_friction", "entry_friction"),
     "inserted_offset": ("damping_error", "stiffness_error"),
 }
 """Modelled effects that look most like these."""
-NEWER = {*WRONG_CONSTANT_FAMILIES, *UNLISTED_FAMILIES}
+NEWER = {*WRONG_CONSTANT_FAMILIES, *UNLISTED_FAMILIES, *UNMODELLED_FAMILIES}
 """Logs of what came later have all effects for alternatives; those of before keep their bytes."""
 LEAST_UNMODELLED, MOST_UNMODELLED = 2.0, 8.0
 """The range of signatures of unmodelled effects begins and ends no lower."""

@@ -1,16 +1,21 @@
-"""Ranges of the strengths of effects, and how their other parameters are drawn.
+"""Ranges of the strengths of effects, and how their other parameters are drawn."""
 
-The family of an effect is a range of its strength and, per draw, a map from strength to parameters;
-everything but the strength (signs, shapes, phases) is drawn beforehand. The signature grows with it.
-"""
-
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.random import Generator
 
 from validation.logs.profiles import log_uniform
+from validation.logs.strength_family import (
+    ByStrength,
+    StrengthFamily,
+    factor,
+    inverse,
+    only,
+    signed,
+    with_others,
+)
+from validation.logs.unmodelled_strengths import UNMODELLED_FAMILIES
 from validation.rig.rig import IndependentRig
 
 TWO_SIDED = {
@@ -26,53 +31,6 @@ TWO_SIDED = {
     "inserted_offset",
 }
 """Strengths below 0 mean the other sign."""
-
-ByStrength = Callable[[float], dict[str, float]]
-
-
-@dataclass(frozen=True, kw_only=True)
-class StrengthFamily:
-    """Smallest and largest strength, and the draw of all other parameters."""
-
-    low: float
-    high: float
-    draw: Callable[[Generator], ByStrength]
-
-
-def _only(name: str) -> Callable[[Generator], ByStrength]:
-    return lambda rng: lambda strength: {name: strength}
-
-
-def _inverse(name: str) -> Callable[[Generator], ByStrength]:
-    return lambda rng: lambda strength: {name: 1 / strength}
-
-
-def _signed(name: str) -> Callable[[Generator], ByStrength]:
-    def draw(rng: Generator) -> ByStrength:
-        sign = rng.choice([-1.0, 1.0])
-        return lambda strength: {name: sign * strength}
-
-    return draw
-
-
-def _factor(name: str) -> Callable[[Generator], ByStrength]:
-    """Strength is the size of the logarithm."""
-
-    def draw(rng: Generator) -> ByStrength:
-        sign = rng.choice([-1.0, 1.0])
-        return lambda strength: {name: float(np.exp(sign * strength))}
-
-    return draw
-
-
-def _with(name: str, **others: tuple[float, float]) -> Callable[[Generator], ByStrength]:
-    """Others are uniform in their ranges."""
-
-    def draw(rng: Generator) -> ByStrength:
-        drawn = {other: rng.uniform(*ends) for other, ends in others.items()}
-        return lambda strength: {name: strength, **drawn}
-
-    return draw
 
 
 def _free_length(rng: Generator) -> ByStrength:
@@ -103,72 +61,43 @@ def _layers(rng: Generator) -> ByStrength:
     return lambda strength: {"ratio": float(np.exp(sign * strength)), "boundary": boundary}
 
 
-def _periodic(name: str, cycles: str, few: int, many: int) -> Callable[[Generator], ByStrength]:
-    """Whole cycles per turn, at any phase."""
-
-    def draw(rng: Generator) -> ByStrength:
-        drawn = {cycles: float(rng.integers(few, many + 1)), "phase": rng.uniform(-180, 180)}
-        return lambda strength: {name: strength, **drawn}
-
-    return draw
-
-
 FAMILIES: dict[str, StrengthFamily] = {
-    "coulomb_friction": StrengthFamily(low=5e-5, high=2e-2, draw=_only("level")),
+    "coulomb_friction": StrengthFamily(low=5e-5, high=2e-2, draw=only("level")),
     "stiction": StrengthFamily(low=5e-5, high=1e-2, draw=_stiction),
-    "speed_dependent_friction": StrengthFamily(low=1e-4, high=6e-2, draw=_only("level")),
+    "speed_dependent_friction": StrengthFamily(low=1e-4, high=6e-2, draw=only("level")),
     "shear_thinning": StrengthFamily(
         low=0.01, high=0.7, draw=lambda rng: lambda strength: {"exponent": 1 - strength}
     ),
     "tissue_viscoelasticity": StrengthFamily(low=2, high=300, draw=_yielding),
     "layered_tissue": StrengthFamily(low=0.05, high=2.5, draw=_layers),
-    "entry_friction": StrengthFamily(low=5e-3, high=1.5, draw=_only("level")),
-    "sheath_friction": StrengthFamily(low=5e-5, high=1.5e-2, draw=_only("level")),
-    "load_dependent_friction": StrengthFamily(low=0.02, high=1.0, draw=_only("coefficient")),
-    "chuck_backlash": StrengthFamily(low=0.3, high=40, draw=_only("gap")),
-    "base_compliance": StrengthFamily(low=2e-3, high=2, draw=_inverse("stiffness")),
-    "tip_drag": StrengthFamily(low=3e-3, high=2.0, draw=_only("damping")),
-    "needle_curvature": StrengthFamily(low=3e-5, high=2e-2, draw=_with("torque", phase=(-180, 180))),
-    "stiffness_error": StrengthFamily(low=0.01, high=0.6, draw=_factor("scale")),
-    "damping_error": StrengthFamily(low=0.01, high=0.9, draw=_factor("scale")),
-    "tip_angle_bias": StrengthFamily(low=0.05, high=15, draw=_signed("bias")),
-    "tip_angle_scale": StrengthFamily(low=5e-4, high=0.25, draw=_factor("scale")),
-    "tip_sensor_delay": StrengthFamily(low=2e-3, high=0.4, draw=_only("delay")),
-    "torque_bias": StrengthFamily(low=2e-3, high=0.4, draw=_signed("bias")),
-}
-
-UNMODELLED_FAMILIES: dict[str, StrengthFamily] = {
-    "hardening_shaft": StrengthFamily(low=30, high=3e5, draw=_only("coefficient")),
-    "lubrication": StrengthFamily(low=0.05, high=0.85, draw=_with("share", angle=(200, 1500))),
-    "one_way_friction": StrengthFamily(low=1e-4, high=2e-2, draw=_with("level", asymmetry=(0.4, 0.9))),
-    "damping_gradient": StrengthFamily(low=0.1, high=0.95, draw=_signed("gradient")),
-    "slipping_chuck": StrengthFamily(low=0.1, high=20, draw=_inverse("torque")),
-    "friction_ageing": StrengthFamily(
-        low=1e-4,
-        high=1e-2,
-        draw=_with("growth", level=(1e-4, 1e-3), time=(0.2, 1.0), angle=(0.5, 5.0)),
+    "entry_friction": StrengthFamily(low=5e-3, high=1.5, draw=only("level")),
+    "sheath_friction": StrengthFamily(low=5e-5, high=1.5e-2, draw=only("level")),
+    "load_dependent_friction": StrengthFamily(low=0.02, high=1.0, draw=only("coefficient")),
+    "chuck_backlash": StrengthFamily(low=0.3, high=40, draw=only("gap")),
+    "base_compliance": StrengthFamily(low=2e-3, high=2, draw=inverse("stiffness")),
+    "tip_drag": StrengthFamily(low=3e-3, high=2.0, draw=only("damping")),
+    "needle_curvature": StrengthFamily(
+        low=3e-5, high=2e-2, draw=with_others("torque", phase=(-180, 180))
     ),
-    "tip_sensor_lag": StrengthFamily(low=5e-3, high=2.0, draw=_only("time_constant")),
-    "torque_drift": StrengthFamily(low=1e-4, high=0.05, draw=_signed("rate")),
-    "torque_ripple": StrengthFamily(low=5e-3, high=0.5, draw=_periodic("amplitude", "teeth", 3, 12)),
-    "tip_sensor_cubic": StrengthFamily(low=0.01, high=30, draw=_signed("cubic")),
-    "tip_sensor_periodic": StrengthFamily(low=0.1, high=15, draw=_periodic("amplitude", "cycles", 2, 4)),
-    "eccentric_encoder": StrengthFamily(low=0.05, high=30, draw=_with("amplitude", phase=(-180, 180))),
-    "axial_crosstalk": StrengthFamily(low=2e-3, high=0.3, draw=_signed("gain")),
+    "stiffness_error": StrengthFamily(low=0.01, high=0.6, draw=factor("scale")),
+    "damping_error": StrengthFamily(low=0.01, high=0.9, draw=factor("scale")),
+    "tip_angle_bias": StrengthFamily(low=0.05, high=15, draw=signed("bias")),
+    "tip_angle_scale": StrengthFamily(low=5e-4, high=0.25, draw=factor("scale")),
+    "tip_sensor_delay": StrengthFamily(low=2e-3, high=0.4, draw=only("delay")),
+    "torque_bias": StrengthFamily(low=2e-3, high=0.4, draw=signed("bias")),
 }
-
 
 WRONG_CONSTANT_FAMILIES: dict[str, StrengthFamily] = {
-    "torque_scale": StrengthFamily(low=5e-4, high=0.4, draw=_factor("scale")),
-    "torque_sensor_delay": StrengthFamily(low=1e-3, high=0.4, draw=_only("delay")),
-    "base_angle_scale": StrengthFamily(low=2e-4, high=0.25, draw=_factor("scale")),
-    "drive_friction": StrengthFamily(low=2e-3, high=2.0, draw=_only("level")),
-    "inserted_offset": StrengthFamily(low=0.1, high=20, draw=_signed("offset")),
+    "torque_scale": StrengthFamily(low=5e-4, high=0.4, draw=factor("scale")),
+    "torque_sensor_delay": StrengthFamily(low=1e-3, high=0.4, draw=only("delay")),
+    "base_angle_scale": StrengthFamily(low=2e-4, high=0.25, draw=factor("scale")),
+    "drive_friction": StrengthFamily(low=2e-3, high=2.0, draw=only("level")),
+    "inserted_offset": StrengthFamily(low=0.1, high=20, draw=signed("offset")),
 }
 
 UNLISTED_FAMILIES: dict[str, StrengthFamily] = {
     "free_length_error": StrengthFamily(low=1, high=25, draw=_free_length),
-    "diameter_error": StrengthFamily(low=0.02, high=0.08, draw=_signed("share")),
+    "diameter_error": StrengthFamily(low=0.02, high=0.08, draw=signed("share")),
 }
 
 ALL_FAMILIES = FAMILIES | UNMODELLED_FAMILIES | WRONG_CONSTANT_FAMILIES | UNLISTED_FAMILIES
