@@ -20,6 +20,8 @@ def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
     assert lines[0].startswith(
         "case,kind,truth,said,verdict,expected,exact,confidently_wrong,confused,open,signature"
     )
+    summary = json.loads((tmp_path / "score" / "score.json").read_text())
+    assert (summary["logs"], summary["missing"]["elsewhere"]) == (LOGS, [0, LOGS])
     assert (tmp_path / "score" / "score.png").read_bytes()[:4] == b"\x89PNG"
 
 
