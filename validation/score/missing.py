@@ -24,21 +24,22 @@ def missing_scores(answer: Mapping[str, Any], report: Mapping[str, Any]) -> dict
       missing_said: whether the report does; missing_place, missing_variable: what it says first, and
       whether that is right; missing_gap: what its first law leaves, over sigma; missing_closed.
     """
-    told, said = answer.get("missing"), report.get("missing") or {}
+    told = answer.get("missing", {"place": [], "variables": []})
+    said = report.get("missing") or {}
     places, variables = said.get("place") or {}, said.get("depends_on") or []
     place = max(places, key=lambda name: places[name], default="")
     variable = variables[0]["variable"] if variables else ""
     gap = variables[0].get("gap_after") if variables else None
     return {
         "outside": answer.get("outside", ""),
-        "missing_told": bool(told),
+        "missing_told": "missing" in answer,
         "missing_said": bool(said),
         "missing_place": place,
-        "missing_place_right": bool(told) and place in told["place"],
+        "missing_place_right": place in told["place"],
         "missing_variable": variable,
-        "missing_variable_right": bool(told) and variable in told["variables"],
+        "missing_variable_right": variable in told["variables"],
         "missing_gap": float("nan") if gap is None else float(gap),
-        "missing_closed": bool(told) and gap is not None and gap <= CLOSED,
+        "missing_closed": "missing" in answer and gap is not None and gap <= CLOSED,
     }
 
 
