@@ -17,6 +17,7 @@ from validation.logs.alternatives import Alternatives, find_alternatives
 from validation.logs.comparison import RigComparison
 from validation.logs.equivalents import as_effects
 from validation.logs.motions import LogPlan, draw_motions, draw_plan
+from validation.logs.nearest import NEAREST
 from validation.logs.rig_draw import draw_rig
 from validation.logs.roughness.recording import ROUGHNESSES
 from validation.logs.roughness.roughness import Roughness
@@ -36,29 +37,6 @@ from validation.rig.unmodelled.effect import IdealSignals
 
 NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk", "axially_relieved_friction"}
 NEEDS_LOAD = {"load_dependent_friction"}
-NEAREST = {
-    "tip_sensor_lag": ("tip_sensor_delay",),
-    "damping_gradient": ("layered_tissue", "base_compliance"),
-    "friction_ageing": ("stiction", "coulomb_friction"),
-    "one_way_friction": ("stiction", "coulomb_friction"),
-    "friction_of_depth": ("coulomb_friction", "entry_friction"),
-    "axially_relieved_friction": ("coulomb_friction", "speed_dependent_friction"),
-    "saturating_damping": ("shear_thinning", "coulomb_friction"),
-    "damping_decay": ("damping_error", "shear_thinning"),
-    "softening_tissue": ("tissue_viscoelasticity",),
-    "stiffening_depth": ("tissue_viscoelasticity",),
-    "hardening_tissue": ("tissue_viscoelasticity",),
-    "soft_play": ("chuck_backlash", "base_compliance"),
-    "permanent_set": ("chuck_backlash", "stiffness_error"),
-    "tip_friction": ("coulomb_friction", "tip_drag"),
-    "tip_in_fibres": ("needle_curvature",),
-    "tip_sensor_play": ("tip_sensor_delay",),
-    "one_sided_torque_gain": ("torque_scale", "torque_bias"),
-    "stiction": ("coulomb_friction",),
-    "drive_friction": ("sheath_friction", "entry_friction"),
-    "inserted_offset": ("damping_error", "stiffness_error"),
-}
-"""Modelled effects that look most like these."""
 NEWER = {*WRONG_CONSTANT_FAMILIES, *UNLISTED_FAMILIES, *UNMODELLED_FAMILIES}
 """Logs of what came later have all effects for alternatives; those of before keep their bytes."""
 LEAST_UNMODELLED, MOST_UNMODELLED = 2.0, 8.0
