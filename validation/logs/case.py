@@ -24,13 +24,13 @@ from validation.logs.roughness.roughness import Roughness
 from validation.logs.roughness.wrong import FAULTS
 from validation.logs.schedule import PLAIN_KINDS
 from validation.logs.sensors import LogSensors, draw_sensors, plain
-from validation.logs.strengths import (
+from validation.logs.strengths.families import (
     FAMILIES,
     UNLISTED_FAMILIES,
     WRONG_CONSTANT_FAMILIES,
     without,
 )
-from validation.logs.unmodelled_strengths import UNMODELLED_FAMILIES
+from validation.logs.strengths.unmodelled import UNMODELLED_FAMILIES
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
 from validation.rig.unmodelled.effect import IdealSignals

@@ -13,12 +13,12 @@ import math
 
 from numba import njit
 
-from validation.rig.law_parameters import LawParameters
-from validation.rig.laws import damping_share, dry_share, interface, preslide
+from validation.rig.laws.interface import damping_share, dry_share, interface, preslide
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.shaft import chuck_torque, link_torque
+from validation.rig.laws.tissue import tissue_compliance
 from validation.rig.mesh import CellChain
-from validation.rig.shaft import chuck_torque, link_torque
 from validation.rig.state import ENTRY, TIP, NewtonWorkspace, RigState, StepInput
-from validation.rig.tissue import tissue_compliance
 
 
 @njit(cache=True)

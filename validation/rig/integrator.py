@@ -9,11 +9,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.shaft import chuck_torque
 from validation.rig.memory import commit, interpolate_to_nodes, tissue_point_count
 from validation.rig.mesh import CellChain, MeshSize, assemble, empty_chain
 from validation.rig.newton import solve
-from validation.rig.shaft import chuck_torque
 from validation.rig.state import NewtonWorkspace, RigState, StepInput, initial_state, workspace
 
 Array = NDArray[np.float64]

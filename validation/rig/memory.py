@@ -10,12 +10,12 @@ from numba import njit
 from numpy.typing import NDArray
 
 from validation.rig.balance import entry_turn
-from validation.rig.law_parameters import LawParameters
-from validation.rig.laws import preslide, preslide_shared
+from validation.rig.laws.interface import preslide, preslide_shared
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.shaft import chuck_torque, set_growth
+from validation.rig.laws.tissue import hardening_twist, tissue_compliance
 from validation.rig.mesh import CellChain, MeshSize
-from validation.rig.shaft import chuck_torque, set_growth
 from validation.rig.state import CHUCK, ENTRY, TIP, NewtonWorkspace, RigState, StepInput
-from validation.rig.tissue import hardening_twist, tissue_compliance
 
 Array = NDArray[np.float64]
 

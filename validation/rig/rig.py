@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.modelled import (
     LAW_FIELDS,
     SENSOR_FIELDS,

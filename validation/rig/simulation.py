@@ -8,8 +8,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from validation.rig.integrator import integrate
-from validation.rig.law_parameters import LawParameters
-from validation.rig.laws import preslide
+from validation.rig.laws.interface import preslide
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.mesh import MeshSize
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig

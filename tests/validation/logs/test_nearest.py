@@ -1,7 +1,7 @@
 """What looks alike has names that the rig knows."""
 
 from validation.logs.nearest import NEAREST
-from validation.logs.strengths import ALL_FAMILIES
+from validation.logs.strengths.families import ALL_FAMILIES
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 
 

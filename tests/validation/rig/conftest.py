@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.mesh import MeshSize, assemble, empty_chain
 from validation.rig.state import StepInput, initial_state, workspace
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.motion import TrialMotion
 from validation.rig.unmodelled.effect import Array, IdealSignals, Parameters, UnmodelledEffect, once
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.motion import TrialMotion
 
 Array = NDArray[np.float64]

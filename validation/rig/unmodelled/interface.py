@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.unmodelled.effect import Parameters, UnmodelledEffect
 
 

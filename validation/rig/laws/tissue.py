@@ -11,7 +11,7 @@ import math
 
 from numba import njit
 
-from validation.rig.law_parameters import REFERENCE_DEPTH_MM, LawParameters
+from validation.rig.laws.parameters import REFERENCE_DEPTH_MM, LawParameters
 
 
 @njit(cache=True)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.rig.shaft import chuck_torque, link_torque, set_growth, soft_spring
+from validation.rig.laws.shaft import chuck_torque, link_torque, set_growth, soft_spring
 
 
 def test_the_chuck_is_a_spring_with_play_that_slips_at_its_grip(step):

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from numpy.random import Generator
 
 from validation.logs.profiles import log_uniform
-from validation.logs.strength_family import (
+from validation.logs.strengths.family import (
     ByStrength,
     StrengthFamily,
     inverse,

@@ -12,7 +12,7 @@ import math
 
 from numba import njit
 
-from validation.rig.law_parameters import REFERENCE_DEPTH_MM, LawParameters
+from validation.rig.laws.parameters import REFERENCE_DEPTH_MM, LawParameters
 
 SMALLEST_RATE = 1e-6
 """The power law is linear below this slip rate, rad/s."""

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from validation.rig.law_parameters import LawParameters
-from validation.rig.laws import (
+from validation.rig.laws.interface import (
     damping_share,
     dry,
     dry_share,
@@ -15,6 +14,7 @@ from validation.rig.laws import (
     saturating,
     viscous,
 )
+from validation.rig.laws.parameters import LawParameters
 
 LAW = LawParameters(323.6, 0.018, 0.295)
 LAWS = {

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from validation.logs.strength_family import factor, inverse, only, periodic, signed, with_others
+from validation.logs.strengths.family import factor, inverse, only, periodic, signed, with_others
 
 
 def drawn(draw, strength=4.0, count=40):

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.random import Generator
 
 from validation.logs.profiles import log_uniform
-from validation.logs.strength_family import (
+from validation.logs.strengths.family import (
     ByStrength,
     StrengthFamily,
     factor,
@@ -15,7 +15,7 @@ from validation.logs.strength_family import (
     signed,
     with_others,
 )
-from validation.logs.unmodelled_strengths import UNMODELLED_FAMILIES
+from validation.logs.strengths.unmodelled import UNMODELLED_FAMILIES
 from validation.rig.rig import IndependentRig
 
 TWO_SIDED = {

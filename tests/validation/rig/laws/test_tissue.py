@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from validation.rig.law_parameters import LawParameters
-from validation.rig.tissue import hardening_twist, tissue_compliance
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.tissue import hardening_twist, tissue_compliance
 
 LAW = LawParameters(323.6, 0.018, 0.295, compliance=20.0)
 

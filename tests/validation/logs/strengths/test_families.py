@@ -5,7 +5,7 @@ import pytest
 
 from validation.logs.comparison import RigComparison
 from validation.logs.motions import LogPlan, draw_motions
-from validation.logs.strengths import (
+from validation.logs.strengths.families import (
     ALL_FAMILIES,
     FAMILIES,
     TWO_SIDED,

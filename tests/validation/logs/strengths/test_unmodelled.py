@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from validation.logs.motions import LEAST_TRIALS
-from validation.logs.unmodelled_strengths import UNMODELLED_FAMILIES
+from validation.logs.strengths.unmodelled import UNMODELLED_FAMILIES
 
 EVENTS = ("chuck_jump", "tip_sensor_jump")
 

@@ -9,7 +9,7 @@ import math
 
 from numba import njit
 
-from validation.rig.law_parameters import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.mesh import CellChain
 from validation.rig.state import CHUCK, RigState
 
