@@ -1,5 +1,6 @@
 """`needle blind`: how often is the diagnosis right on rigs that it has never met?"""
 
+import json
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -22,6 +23,8 @@ from validation.logs.case import ImpossibleDraw
 from validation.logs.make import NAMES, make_logs
 from validation.score import calibration, picture
 from validation.score.detection import detection_limits
+from validation.score.json_summary import as_json
+from validation.score.missing import CLOSED, ELSEWHERE_GOAL, missing_summary
 from validation.score.run import score_logs
 
 KNOWN_NAMES = NAMES
@@ -119,16 +122,17 @@ def run_score(
 
 
 def _write(scores: pd.DataFrame, destination: Destination) -> ResultSet:
-    table, shown = paths = _score_paths(destination.folder)
+    table, summary, shown = paths = _score_paths(destination.folder)
     with publishing(destination, paths) as written:
         text = scores.to_csv(index_label="case", float_format="%.4g")
         write_text(written.at(table), text)
+        write_text(written.at(summary), json.dumps(as_json(scores), indent=1, allow_nan=False) + "\n")
         written.optional(shown, partial(picture.draw, scores))
     return written
 
 
 def _score_paths(folder: Path) -> list[Path]:
-    return [folder / name for name in ("scores.csv", "score.png")]
+    return [folder / name for name in ("scores.csv", "score.json", "score.png")]
 
 
 def _print(scores: pd.DataFrame, console: Console) -> None:
@@ -140,6 +144,8 @@ def _print(scores: pd.DataFrame, console: Console) -> None:
     if len(limits):
         print_table(console, _limits(limits))
     print_table(console, _calibration(scores))
+    if scores["missing_told"].any() or scores["missing_said"].any():
+        print_table(console, _missing(scores))
     _list(scores[~scores["exact"] & ~wrong], "not exact: ", console)
 
 
@@ -188,4 +194,20 @@ def _calibration(scores: pd.DataFrame) -> Table:
     if unseen:
         row = f"undetected effects that are below the reported detection limit (of {unseen})"
         table.add_row(row, f"{100 * below:.0f} %")
+    return table
+
+
+def _missing(scores: pd.DataFrame) -> Table:
+    counted = missing_summary(scores)
+    rows = {
+        "said": "reports that say what is missing, of logs outside of the library",
+        "place_right": "of these: likeliest place right",
+        "variable_right": "of these: first variable right",
+        "closed": f"of these: its law leaves at most {CLOSED} σ on trials that it has not seen",
+        "elsewhere": f"reports that say so of other logs (goal: {100 * ELSEWHERE_GOAL:.0f} % or less)",
+    }
+    table = Table("what is missing", "reports", "share", title="Outside of the library")
+    for name, row in rows.items():
+        some, of = counted[name]
+        table.add_row(row, f"{some} of {of}", f"{100 * some / of:.1f} %" if of else "–")
     return table
