@@ -463,6 +463,13 @@ WORTH_A_RUN = 0.9
 """Times its interval to which a further run has to bring a parameter to be proposed for that alone: a
 tenth is the least that anybody sees."""
 
+# Laws that no library holds (freeform/)
+
+CLOSED_GAP = 1.1
+FREE_LAW_GAIN = 0.95
+"""Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
+explanation that it has to come below to be told. Choices: no verdict rests on them."""
+
 # Stopping early (pipeline.py)
 
 REPLAYS_AFTER_STOP = 8.0

@@ -1,6 +1,8 @@
 """From a log to a diagnosis, stage by stage:
 
 RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -> Assessment -> Diagnosis
+
+and, where nothing explains the log, Missing beside the Assessment.
 """
 
 import time
@@ -15,6 +17,7 @@ from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.unknown import with_what_is_missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
 from diagnosis.progress import (
@@ -96,12 +99,23 @@ def diagnose(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
         heard(ASSESSING, 1, 1)
+        missing, assessment = with_what_is_missing(
+            log,
+            last.problem,
+            last.coarse,
+            nominal.predictions,
+            last.verdict,
+            assessment,
+            [name for single in found.singles for name in single.names],
+            pool,
+        )
     return Diagnosis(
         log=log,
         noise=last.problem.noise,
         nominal=at_samples(last.problem, nominal.predictions),
         verdict=last.verdict,
         assessment=assessment,
+        missing=missing,
         record=last.record,
         stopped=_early_stop(stop, cut),
         diagnosed_on=diagnosed_on,

@@ -77,6 +77,10 @@ _STAGES = {
     CHECKING: _Usual(words="checking on held-out trials", share_percent=1.0),
     ASSESSING: _Usual(words="assessing the best explanation", share_percent=2.0),
     "adding another effect": _Usual(words="adding another effect", share_percent=5.0),
+    "screening free-form laws": _Usual(words="screening free-form laws"),
+    "free-form laws": _Usual(words="fitting free-form laws"),
+    "free-form laws beside an effect": _Usual(words="fitting free-form laws beside an effect"),
+    "finalists, free-form laws": _Usual(words="fitting the best free-form laws to the whole log"),
     "detection limits": _Usual(words="looking for detection limits", share_percent=10.0),
 }
 """In their order. Shares are means of four logs, three with one effect and one with two; nothing depends

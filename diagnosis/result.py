@@ -6,6 +6,7 @@ from datetime import date
 import pandas as pd
 
 from diagnosis.assessment.assess import Assessment
+from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
@@ -22,6 +23,7 @@ class Diagnosis:
     Attributes:
       nominal: readings that the nominal rig predicts, at the samples of the log, by trial.
       record: of the search, stage by stage.
+      missing: of an unknown log, what is not in the library; None: not looked for.
       stopped: what a stop left out; None: it went to its end.
       diagnosed_on: the day of the diagnosis, as whoever asked for it says; None: not said.
     """
@@ -32,6 +34,7 @@ class Diagnosis:
     verdict: Verdict
     assessment: Assessment
     record: tuple[RecordEntry, ...]
+    missing: Missing | None = None
     stopped: EarlyStop | None = None
     diagnosed_on: date | None = None
 

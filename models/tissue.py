@@ -8,6 +8,11 @@ Friction acts at the interface between shaft and tissue, against their slip s:
 
 and the tissue at the shaft may itself turn, by phi, against a Kelvin-Voigt element
 stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
+
+A law may be shaped beyond these: its viscous torque times a curve of |s|; all of it stronger one way
+than the other, and times a factor that varies in time. A torque may depend on the angle of the shaft,
+
+    orientation sin(cycles theta - phase).
 """
 
 import numpy as np
@@ -19,6 +24,9 @@ from models.needle import NonNegative, Positive
 from models.record import Record
 
 Array = NDArray[np.float64]
+
+RATE_POINTS = 7
+"""Of a curve over the rate."""
 
 
 class Interface(Record):
@@ -37,6 +45,27 @@ class Interface(Record):
     stiffness_n_mm_per_rad_per_mm: Positive | None = None
     """None: tissue that does not yield."""
     time_constant_s: NonNegative = 0.0
+    orientation_n_mm_per_mm: NonNegative = 0.0
+    orientation_phase_deg: float = 0.0
+    orientation_cycles: Positive = 1.0
+    """In one turn of the shaft."""
+    asymmetry: float = Field(default=0.0, gt=-1, lt=1)
+    """The torque is 1 + asymmetry times for positive rates, 1 - asymmetry times for negative ones."""
+    varies: bool = False
+    """Whether the torque is times the `tissue_factor` of the schedule."""
+    rate_curve: tuple[Positive, ...] = ()
+    """Factors of the viscous torque at `RATE_POINTS` rates, evenly spaced in their logarithm."""
+    rate_range_rad_s: tuple[Positive, Positive] = (0.01, 10.0)
+    """Lowest and highest rate of the curve, which is level beyond them."""
+
+    @model_validator(mode="after")
+    def _curve_is_complete(self) -> "Interface":
+        if len(self.rate_curve) not in (0, RATE_POINTS):
+            raise InvalidValue("rate_curve", len(self.rate_curve), f"{RATE_POINTS} factors, or none")
+        low, high = self.rate_range_rad_s
+        if low >= high:
+            raise InvalidValue("rate_range_rad_s", (low, high), "a lower rate, then a higher one")
+        return self
 
     @model_validator(mode="after")
     def _static_is_a_peak(self) -> "Interface":
@@ -80,6 +109,10 @@ class Tissue(Record):
     layers: tuple[Layer, ...] = Field(min_length=1)
     entry_friction_n_mm: NonNegative = 0.0
     """Dry torque in one place, where the shaft enters."""
+    throughout: tuple[Interface, ...] = ()
+    """Further laws over the whole inserted length."""
+    at_tip: tuple[Interface, ...] = ()
+    """Laws in one place, at the tip: their torques are N mm in place of N mm per mm."""
     unknown: tuple[str, ...] = ()
     """What the source does not state of this tissue, and what is assumed instead."""
 

@@ -12,7 +12,7 @@ from scripts.control_tables import (
     settling_table,
 )
 from scripts.output_folder import output_folder
-from scripts.progress_line import ByShare, stage_line
+from scripts.progress_line import ByShare, stage_line, within
 from scripts.results import tell
 from scripts.steering_tables import steering_tables
 from scripts.tables import print_table
@@ -32,7 +32,7 @@ def run(out: Path | None, *, force: bool, console: Console) -> int:
     """Run everything, print the tables and write the study."""
     destination = output_folder(out, DEFAULT, output_paths, force=force)
     with stage_line() as stage:
-        study = run_study(lambda what, share: stage(what, _STUDY_SHARE * share))
+        study = run_study(within(stage, 0.0, _STUDY_SHARE))
         written = _write(study, destination, stage)
     show(study, console)
     return tell(written, console, shown=_told(written, destination.folder))
@@ -61,6 +61,7 @@ def _write(study: ControlStudy, destination: Destination, stage: ByShare) -> Res
     recordings, files = _recordings(folder), _steps(folder)
     with publishing(destination, output_paths(folder)) as written:
         stage("drawing", _STUDY_SHARE)
+        recording = within(stage, _PICTURES_SHARE)
         write_study(study, written, folder)
         for order, insertions in study.steering.steered.items():
             for one in insertions:
@@ -68,7 +69,7 @@ def _write(study: ControlStudy, destination: Destination, stage: ByShare) -> Res
                     written.optional(recordings[order, one.name], partial(_record, one, order))
         steps = step_recordings(study.tables, study.robustness)
         for i, step in enumerate(steps):
-            stage("recording steps", _PICTURES_SHARE + (1.0 - _PICTURES_SHARE) * i / len(steps))
+            recording("recording steps", i / len(steps))
             written.optional(files[step.stem], partial(_record_step, step))
     return written
 

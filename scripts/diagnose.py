@@ -18,7 +18,7 @@ from diagnosis.pipeline import diagnose
 from diagnosis.report.answer import answer
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sensors import imperfections
-from diagnosis.report.sentences import explanations, largest_parts, largest_residual
+from diagnosis.report.sentences import explanations, label_of, largest_parts, largest_residual
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
@@ -115,7 +115,7 @@ def _summary(found: Diagnosis, console: Console) -> None:
 
 
 def _breakdown_table(found: Diagnosis) -> Table:
-    table = Table("where", "nominal", "explained", title="Residual / σ")
+    table = Table("where", "nominal", label_of(found, "explained"), title="Residual / σ")
     before, after = found.assessment.breakdown, found.assessment.breakdown_after
     for (name, gap), (_, left) in zip(_by_part(before), _by_part(after), strict=True):
         table.add_row(name, f"{gap:.2f}", f"{left:.2f}")

@@ -10,7 +10,7 @@ from rich.table import Table
 from models.errors import InvalidValue, UnknownName
 from models.user_text import in_xml_comment
 from scripts.output_folder import output_folder
-from scripts.progress_line import stage_line
+from scripts.progress_line import ByShare, stage_line, unheard, within
 from scripts.results import tell
 from scripts.tables import print_table
 from sim.experiment import perform
@@ -27,6 +27,8 @@ from studies.control.tip_controllers import TIP_CONTROLLERS
 
 DEFAULT = Path("out/insert")
 ENDINGS = (".csv", ".parquet", ".png", ".rrd")
+_SIMULATED, _CONTROLLED = 0.1, 0.4  # of the time: what is left is for writing
+_TABLES, _PICTURE = 0.15, 0.6  # of the time of writing, until they are done
 
 _MJCF_NOTE = """<!--
   needle-torsion: {name}. SI units; the shaft lies along x.
@@ -81,16 +83,19 @@ def run(
     if mjcf and aside:
         aside.check([mjcf])
     with stage_line() as stage:
-        stage(f"simulating {protocol.name}", 0.0)
+        simulated = _CONTROLLED if controller else _SIMULATED
+        heard = partial(within(stage, 0.0, simulated), f"simulating {protocol.name}")
+        heard(0.0)
         if controller:
-            recording = perform_closed_loop(protocol, controller)
+            recording = perform_closed_loop(protocol, controller, heard)
         else:
             recording = perform(protocol, read_model(model, protocol.setup()) if model else None)
         if mjcf and aside:
             with publishing(aside, [mjcf]) as apart:
                 _write_model(protocol, apart.at(mjcf))
-        stage("drawing and recording", 0.0)
-        written = write(recording, destination, protocol, mjcf=mjcf if inside else None)
+        model_inside = mjcf if inside else None
+        rest = within(stage, simulated)
+        written = write(recording, destination, protocol, mjcf=model_inside, stage=rest)
     if aside:
         console.print(f"model      {mjcf}", highlight=False, soft_wrap=True)
     code = tell(written, console)
@@ -118,17 +123,25 @@ def output_paths(folder: Path, protocol: Protocol) -> list[Path]:
 
 
 def write(
-    recording: Recording, destination: Destination, protocol: Protocol, *, mjcf: Path | None = None
+    recording: Recording,
+    destination: Destination,
+    protocol: Protocol,
+    *,
+    mjcf: Path | None = None,
+    stage: ByShare = unheard,
 ) -> ResultSet:
     """Write CSV and Parquet, and the model if asked for; then picture and rerun recording."""
     paths = output_paths(destination.folder, protocol)
     with publishing(destination, [*paths, *([mjcf] if mjcf else [])]) as written:
         csv, parquet, picture, rrd = paths
+        stage("writing tables", 0.0)
         recording.write(written.at(csv))
         recording.write(written.at(parquet))
         if mjcf:
             _write_model(protocol, written.at(mjcf))
+        stage("drawing", _TABLES)
         written.optional(picture, partial(draw, recording))
+        stage("making the recording for the viewer", _PICTURE)
         written.optional(rrd, partial(log_recording, recording, results=results(recording)))
     return written
 

@@ -11,6 +11,7 @@ from rich.text import Text
 from models.errors import InvalidValue, NeedleError
 from scripts.arguments import parsed
 from scripts.exit_codes import ExitCode
+from scripts.output_folder import release_folders
 from scripts.streams import complain, flush_output, give_up_output, show_what_can_be_shown
 from scripts.terminal import terminal
 
@@ -36,6 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         complain(f"needle {args.command}: interrupted; no incomplete file is left")
         return ExitCode.INTERRUPTED
+    finally:
+        release_folders()
 
 
 def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:

@@ -1,13 +1,17 @@
 """Where results go: the folder that was asked for, or a default one in which nothing is overwritten."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from itertools import count
 from pathlib import Path
 
-from sim.files import Destination, finish_interrupted
+from sim.files import Destination, claiming, finish_interrupted
 
 Outputs = Callable[[Path], list[Path]]
 """The files that will be written, given the folder."""
+
+_CLAIMS = ExitStack()
+"""Of the default folders that this process has chosen: no other run chooses them meanwhile."""
 
 
 def output_folder(
@@ -31,8 +35,27 @@ def output_folder(
 
 
 def first_free(default: Path, outputs: Outputs) -> Path:
-    """The default, or the first numbered one that has no results."""
-    return next(folder for folder in _numbered(default) if not _has_results(folder, outputs))
+    """The default, or the first numbered one that has no results and is no other run's.
+
+    It is this run's until `release_folders`.
+
+    Raises:
+      UnwritableOutput: nothing can be written there.
+    """
+    return next(folder for folder in _numbered(default) if _is_free(folder, outputs))
+
+
+def release_folders() -> None:
+    """Let other runs choose what this process has chosen; to be called when it is done."""
+    _CLAIMS.close()
+
+
+def _is_free(folder: Path, outputs: Outputs) -> bool:
+    with ExitStack() as claim:
+        if claim.enter_context(claiming(folder)) and not _has_results(folder, outputs):
+            _CLAIMS.enter_context(claim.pop_all())
+            return True
+    return False
 
 
 def _has_results(folder: Path, outputs: Outputs) -> bool:

@@ -51,6 +51,15 @@ def by_share(show: Shown) -> ByShare:
     return heard
 
 
+def within(heard: ByShare, begins: float, ends: float = 1.0) -> ByShare:
+    """Who hears shares of a part of the whole, where that part takes from one share to another."""
+    return lambda stage, share: heard(stage, begins + (ends - begins) * share)
+
+
+def unheard(stage: str, share: float) -> None:
+    """Stages and shares that nobody listens to."""
+
+
 def by_count(show: Shown) -> Heard:
     """Progress from a stage and its tasks, done and all."""
     began_s = time.monotonic()

@@ -17,14 +17,17 @@ from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, shape_of
 from models.user_text import in_figure
 from scripts.output_folder import output_folder
-from scripts.progress_line import stage_line
+from scripts.progress_line import ByShare, stage_line, unheard, within
 from scripts.results import tell
+from scripts.streams import complain
 from scripts.tables import print_table
 from sim.files import Destination, ResultSet, finish_interrupted, publishing, write_text
 from sim.recording.recording import record
 from sim.recording.rerun_log import log_recording
 
 DEFAULT = Path("out/replay")
+_REPLAYED = 0.2  # of the time: what is left is for writing
+_TABLES, _PICTURE = 0.05, 0.6  # of the time of writing, until they are done
 Pair = tuple[PreparedTrial, Prediction]
 
 _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
@@ -45,14 +48,14 @@ def run(log_folder: Path, out: Path | None, *, force: bool, console: Console) ->
     outputs, inputs = partial(output_paths, log), files_of(log, log_folder)
     destination = output_folder(out, DEFAULT, outputs, inputs=inputs, force=force)
     for warning in log.warnings:
-        console.print(f"warning: {warning}", highlight=False)
+        complain(f"warning: {warning}")
     with stage_line() as stage:
-        stage(f"replaying {len(log.trials)} trials", 0.0)
+        stage("replaying the nominal rig", 0.0)
         nominal = replay_nominal(log)
-    later = nominal.log.warnings[len(log.warnings) :]
-    for warning in (*later, *nominal.problem.log.warnings, *nominal.problem.noise.warnings):
+        written = write(nominal, destination, within(stage, _REPLAYED))
+    found = nominal.problem
+    for warning in (*nominal.log.warnings, *found.log.warnings, *found.noise.warnings):
         console.print(f"warning: {warning}", highlight=False)
-    written = write(nominal, destination)
     print_table(console, table(nominal))
     return tell(written, console)
 
@@ -97,7 +100,7 @@ def _chosen(each: list[Pair], trial: int | None) -> list[Pair]:
     return each if trial is None else [each[trial]]
 
 
-def write(nominal: NominalReplay, destination: Destination) -> ResultSet:
+def write(nominal: NominalReplay, destination: Destination, stage: ByShare = unheard) -> ResultSet:
     """Predictions as CSV; then residuals as a picture, the first trial as a recording."""
     log = nominal.log
     paths = output_paths(log, destination.folder)
@@ -108,10 +111,13 @@ def write(nominal: NominalReplay, destination: Destination) -> ResultSet:
     ]
     with publishing(destination, paths) as written:
         picture, rrd, *predictions = paths
+        stage("writing predictions", 0.0)
         for one, path in zip(replayed, predictions, strict=True):
             table = _predicted(one).to_csv(index=False, float_format="%.6g")
             write_text(written.at(path), table)
+        stage("drawing", _TABLES)
         written.optional(picture, partial(_draw, replayed))
+        stage("making the recording for the viewer", _PICTURE)
         written.optional(rrd, partial(_record, nominal))
     return written
 

@@ -10,7 +10,7 @@ from rich.text import Text
 
 from scripts.exit_codes import ExitCode
 from scripts.output_folder import output_folder
-from scripts.progress_line import stage_line
+from scripts.progress_line import stage_line, within
 from scripts.results import tell
 from scripts.tables import print_table
 from sim.files import Destination, ResultSet
@@ -34,7 +34,7 @@ def run(out: Path | None, *, force: bool, console: Console) -> int:
 def checked(destination: Destination) -> tuple[Findings, ResultSet]:
     """Run every check and write the report, with progress on the screen."""
     with stage_line() as stage:
-        findings = cross_check(lambda what, share: stage(what, _CHECKS_SHARE * share))
+        findings = cross_check(within(stage, 0.0, _CHECKS_SHARE))
         stage("drawing and recording", _CHECKS_SHARE)
         return findings, write_report(findings, destination)
 

@@ -31,6 +31,8 @@ __all__ = ["ClosedLoopRun", "FeedbackController", "Measurement", "MeasurementNoi
 
 Array = NDArray[np.float64]
 
+_PROGRESS_EVERY = 1000  # steps: a tenth of a second
+
 
 class FeedbackController(Protocol):
     """Anything that turns the base: from a measurement and a reference to a base angle, deg."""
@@ -77,6 +79,7 @@ def run_closed_loop(
     hardware: LoopHardware | None = None,
     log: Callable[[], dict[str, float]] | None = None,
     keep_shape: bool = False,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> ClosedLoopRun:
     """Run a needle whose base a controller turns.
 
@@ -86,9 +89,12 @@ def run_closed_loop(
       hardware: of drive and sensors; None: ideal.
       log: called after each command; the signals that it returns are kept.
       keep_shape: keep the angles of all nodes.
+      progress: called now and then with the share that is done.
     """
     loop, logged = _Loop(setup, inputs, noise or MeasurementNoise(), hardware or LoopHardware()), []
     for i in range(loop.samples):
+        if i % _PROGRESS_EVERY == 0:
+            progress(i / loop.samples)
         if i:
             loop.step(i)
         base_deg = controller(loop.measurement(i), float(loop.scheduled.drive[i]))

@@ -12,16 +12,26 @@ from sim.kernel import memory_map
 Array = NDArray[np.float64]
 
 _PER_MM = units.N_MM / units.MM
+_TORQUES_PER_LENGTH = [
+    memory_map.L_VISCOUS,
+    memory_map.L_KINETIC,
+    memory_map.L_STATIC,
+    memory_map.L_SHARED,
+    memory_map.L_STIFFNESS,
+    memory_map.L_CURVATURE,
+]
 
 
 def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) -> Array:
-    """Rows of `sim.kernel.memory_map`, SI: tissue layers, then sheath, entry and tip.
+    """Rows of `sim.kernel.memory_map`, SI: tissue layers, other laws of the tissue, sheath, entry, tip.
 
     Args:
       rows: pad with rows that do nothing up to this number, so that models of
         different rigs have the same number of rows.
     """
     table = _layers(tissue.layers, needle)
+    table += [_over_inserted_length(law) for law in tissue.throughout]
+    table += [_at_tip(law) for law in tissue.at_tip]
     if drive.sheath_friction_n_mm_per_mm > 0:
         table.append(_sheath(drive.sheath_friction_n_mm_per_mm * _PER_MM))
     if tissue.entry_friction_n_mm > 0:
@@ -35,7 +45,7 @@ def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) ->
 
 def _inactive_row() -> Array:
     row = np.zeros(memory_map.COLUMNS)
-    row[memory_map.L_EXPONENT] = 1.0
+    row[[memory_map.L_EXPONENT, memory_map.L_CYCLES]] = 1.0
     return row
 
 
@@ -44,8 +54,9 @@ def _layers(layers: tuple[Layer, ...], needle: Needle) -> list[Array]:
     rows, depth, share = [], 0.0, 0.0
     for layer in layers:
         row = _interface(layer.interface)
-        row[memory_map.L_CURVATURE] = needle.curvature_n_mm_per_mm * _PER_MM
-        row[memory_map.L_PHASE] = needle.curvature_phase_deg * units.DEG
+        if needle.curvature_n_mm_per_mm > 0:
+            row[memory_map.L_CURVATURE] = needle.curvature_n_mm_per_mm * _PER_MM
+            row[memory_map.L_PHASE] = needle.curvature_phase_deg * units.DEG
         row[[memory_map.L_TOP_CONST, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = (
             depth,
             1.0,
@@ -66,6 +77,20 @@ def _layers(layers: tuple[Layer, ...], needle: Needle) -> list[Array]:
     return rows
 
 
+def _over_inserted_length(law: Interface) -> Array:
+    row = _interface(law)
+    row[[memory_map.L_TOP_FREE, memory_map.L_END_FREE, memory_map.L_END_INSERTED]] = 1.0
+    return row
+
+
+def _at_tip(law: Interface) -> Array:
+    """In one place, where torques are not per mm."""
+    row = _interface(law)
+    row[_TORQUES_PER_LENGTH] *= units.MM
+    row[[memory_map.L_POINT, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = 1.0
+    return row
+
+
 def _interface(law: Interface) -> Array:
     row = _inactive_row()
     row[memory_map.L_VISCOUS] = law.viscous_n_mm_s_per_mm * _PER_MM
@@ -76,6 +101,16 @@ def _interface(law: Interface) -> Array:
     row[memory_map.L_SHARED] = law.shared_n_mm_per_mm * _PER_MM
     row[memory_map.L_STIFFNESS] = (law.stiffness_n_mm_per_rad_per_mm or 0.0) * _PER_MM
     row[memory_map.L_TIME] = law.time_constant_s
+    row[memory_map.L_CURVATURE] = law.orientation_n_mm_per_mm * _PER_MM
+    row[memory_map.L_PHASE] = law.orientation_phase_deg * units.DEG
+    row[memory_map.L_CYCLES] = law.orientation_cycles
+    row[memory_map.L_ASYMMETRY], row[memory_map.L_VARIES] = law.asymmetry, law.varies
+    if law.rate_curve:
+        low, high = np.log(law.rate_range_rad_s)
+        row[memory_map.L_RATE_LOW] = low
+        row[memory_map.L_RATE_STEP] = (high - low) / (memory_map.CURVE_POINTS - 1)
+        row[memory_map.L_CURVE_0 :] = np.log(law.rate_curve)
+    row[memory_map.L_SHAPED] = law.asymmetry != 0.0 or law.varies or bool(law.rate_curve)
     return row
 
 

@@ -14,6 +14,9 @@ from sim.discretisation import Mesh
 
 Array = NDArray[np.float64]
 
+COLUMNS = ("drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm", "tissue_factor")
+"""Inputs beside time."""
+
 # Lengths that differ by less than this are the same length, mm.
 LENGTH_TOLERANCE_MM = 1e-6
 
@@ -29,6 +32,7 @@ class Schedule:
       inserted_mm: in contact with tissue.
       speed_mm_s: axial, positive into the tissue.
       tip_torque_n_mm: known torque at the tip, positive resists positive rotation.
+      tissue_factor: what the torque of tissue that varies is times; 1 without.
 
     Raises:
       InvalidValue: names the column and the first offending row.
@@ -40,14 +44,17 @@ class Schedule:
     inserted_mm: Array
     speed_mm_s: Array
     tip_torque_n_mm: Array = field(default_factory=lambda: np.zeros(0))
+    tissue_factor: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         time = np.asarray(self.time_s, float)
         if self.tip_torque_n_mm.size == 0:
             object.__setattr__(self, "tip_torque_n_mm", np.zeros(time.shape))
+        if self.tissue_factor.size == 0:
+            object.__setattr__(self, "tissue_factor", np.ones(time.shape))
         if time.ndim != 1 or time.size < 2:
             raise InvalidValue("time_s", time.shape, "at least two samples in one dimension")
-        for name in ("time_s", "drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm"):
+        for name in ("time_s", *COLUMNS):
             values = np.asarray(getattr(self, name), float)
             object.__setattr__(self, name, values)
             if values.shape != time.shape:
@@ -85,13 +92,11 @@ class Schedule:
 
     def rows(self, kept: NDArray[np.bool_]) -> "Schedule":
         """The inputs at some of their times, two at least."""
-        names = ("time_s", "drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm")
-        return Schedule(**{name: getattr(self, name)[kept] for name in names})
+        return Schedule(**{name: getattr(self, name)[kept] for name in ("time_s", *COLUMNS)})
 
     def at_steps(self, step_s: float) -> "Schedule":
         """The same inputs at the ends of equal steps, the last at or after the end."""
         steps = max(1, int(np.ceil(self.duration_s / step_s - 1e-9)))
         time = self.time_s[0] + step_s * np.arange(steps + 1)
-        columns = ("drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm")
-        inputs = {name: np.interp(time, self.time_s, getattr(self, name)) for name in columns}
+        inputs = {name: np.interp(time, self.time_s, getattr(self, name)) for name in COLUMNS}
         return Schedule(time_s=time, **inputs)

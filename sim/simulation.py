@@ -139,6 +139,7 @@ def controls(inputs: Schedule, setup: Setup) -> Array:
     ctrl[:, memory_map.U_INSERTED] = inputs.inserted_mm * units.MM
     ctrl[:, memory_map.U_SPEED] = inputs.speed_mm_s * units.MM
     ctrl[:, memory_map.U_TIP] = inputs.tip_torque_n_mm * units.N_MM
+    ctrl[:, memory_map.U_TISSUE] = inputs.tissue_factor - 1.0
     return ctrl
 
 

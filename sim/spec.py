@@ -9,7 +9,8 @@ Inertia, stiffness, servos and time step stand here and nowhere else: the callba
 reads them from the compiled model.
 
 The inputs (`ctrl`) are, in order: drive (rad or N m), carriage (m), inserted
-length (m), axial speed (m/s), torque at the tip (N m, positive resists).
+length (m), axial speed (m/s), torque at the tip (N m, positive resists), relative change of tissue
+that varies.
 """
 
 from dataclasses import dataclass
@@ -294,6 +295,7 @@ def _add_actuators(spec: mujoco.MjSpec, setup: Setup, tip: str) -> None:
         ("inserted", "carriage", joint, [0]),
         ("speed", "carriage", joint, [0]),
         ("tip_torque", tip, site, [0, 0, 0, -1]),
+        ("tissue", "carriage", joint, [0]),
     ):
         actuator = spec.add_actuator(name=name, target=target, trntype=kind)
         actuator.gear[: len(gear)] = gear

@@ -56,6 +56,22 @@ def test_insert_takes_a_file(tmp_path):
     assert (tmp_path / "two-layers.csv").exists()
 
 
+@pytest.mark.parametrize(
+    ("command", "first"),
+    [
+        (["insert", "--protocol", "fig5-5cm"], "simulating fig5-5cm"),
+        (["insert", "--protocol", "fig5-5cm", "--controller", "least_time"], "simulating fig5-5cm"),
+        (["replay", str(EXAMPLE / "rig-log")], "replaying the nominal rig"),
+    ],
+)
+def test_progress_tells_the_time_that_is_left_in_lines(tmp_path, capsys, command, first):
+    assert main([*command, "--out", str(tmp_path)]) == 0
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == f"    0 s  {first}"
+    assert [line.split("; ")[1].split()[0] for line in told[-3:]] == ["about"] * 3
+    assert all(line.endswith(" s left") for line in told[-3:])
+
+
 def test_insert_refuses_to_overwrite_before_it_works(tmp_path, capsys):
     kept = tmp_path / "fig5-5cm.png"
     kept.write_text("mine")

@@ -126,6 +126,18 @@ def test_a_picture_that_fails_is_told_with_its_own_exit_code(tmp_path, capsys):
     assert "b.png could not be made (KeyError: 'title')" in said
 
 
+def test_a_page_that_lacks_a_picture_is_told_with_the_same_exit_code(tmp_path, capsys):
+    page = tmp_path / "report.html"
+    with publishing(Destination(folder=tmp_path), [page]) as results:
+        results.at(page).write_text("whole but for a picture")
+        results.lacks[page] = ("the picture under 'Loops' (ValueError: mathtext)",)
+    console = Console(file=io.StringIO(), width=200)
+    assert tell(results, console) == ExitCode.WITHOUT_ALL
+    assert console.file.getvalue() == f"wrote      {page}\n"
+    said = " ".join(capsys.readouterr().err.split())
+    assert "report.html lacks the picture under 'Loops' (ValueError: mathtext); the rest" in said
+
+
 def test_many_results_are_told_in_other_words(tmp_path):
     paths = [tmp_path / f"{i}.csv" for i in range(3)]
     console = Terminal(width=20, file=io.StringIO(), markup=False)

@@ -115,6 +115,6 @@ def _look_closer(problem: FitProblem, nominal: ResidualBreakdown, left: Residual
     return (
         "no effect of the library explains the residual. "
         f"That of the nominal model is {nominal.largest}; "
-        f"what the best explanation leaves is {left.largest}: "
+        f"what comes nearest leaves one that is {left.largest}: "
         f"repeat that phase alone, {varied}, to see what it depends on"
     )

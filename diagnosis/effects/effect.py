@@ -35,6 +35,7 @@ class Parameter:
       period: of an angle, after which it repeats; 0: none.
       reported: whether it is of the vocabulary; else it is open in a fit and not told.
       neutral: value at which the effect is not there; None: a shape, at which it always is.
+      prior_sigma: of a normal prior on its coordinate about 0; infinite: none.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Parameter:
     period: float = 0.0
     reported: bool = True
     neutral: float | None = 0.0
+    prior_sigma: float = math.inf
 
     def scaled(self, *, torque: float, rate: float) -> "Parameter":
         """The same for a rig whose torques and rates are so many times larger."""

@@ -4,7 +4,6 @@ Positive parameters that span decades are fitted in their logarithm, others in a
 unit of their own, so that a step of 0.001 is small for each and not lost in rounding.
 """
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -86,8 +85,8 @@ class Parameterization:
 
     @property
     def weights(self) -> Array:
-        """Of the prior on every entry: one over the spread of what scatters."""
-        spread = [math.inf] * self.free
+        """Of the prior on every entry: one over the spread of what scatters, or is smooth."""
+        spread = [p.prior_sigma for e in self.effects for p in e.parameters]
         spread += [prior_sigma(effect) for effect in self.nuisance for _ in effect.parameters]
         return np.array([1.0 / own for own in spread])
 

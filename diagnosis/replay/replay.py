@@ -110,7 +110,8 @@ def _run(
     callback_alone: bool = False,
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
-    inputs = [driven(rig, schedule_with_past(rig, trial)) for rig in rigs]
+    start_s = float(trial.time_s[0])
+    inputs = [driven(rig, schedule_with_past(rig, trial), start_s) for rig in rigs]
     setups = [
         rig.setup(nominal, own, elements=elements, step_s=step_s)
         for rig, own in zip(rigs, inputs, strict=True)
@@ -119,7 +120,7 @@ def _run(
 
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
-    tip, torque = sensed(rig, run.time_s, run.inputs.drive, run.tip_deg, run.base_torque_n_mm)
+    tip, torque = sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
     return Prediction(
         tip_angle_deg=np.interp(at_s, run.time_s, tip),
         base_torque_n_mm=np.interp(at_s, run.time_s, torque),

@@ -8,6 +8,7 @@ drive shaft with its encoder, torque sensor, bearing, chuck.
 from dataclasses import dataclass, replace
 
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.replay.free_law import FreeLaw
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
@@ -51,6 +52,7 @@ class RigParameters:
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
       pasts: of trials that began late.
+      free: a law of free form; None: none.
     """
 
     stiffness_scale: float = 1.0
@@ -88,6 +90,7 @@ class RigParameters:
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
     pasts: tuple[Past, ...] = ()
+    free: FreeLaw | None = None
 
     def needle(self, rig: NominalRig, length_mm: float) -> Needle:
         """The needle, of the length that a trial needs."""
@@ -115,7 +118,8 @@ class RigParameters:
                 Layer(interface=self._interface(shallow), fraction=boundary),
                 Layer(interface=self._interface(ratio * shallow)),
             )
-        return Tissue(layers=layers, entry_friction_n_mm=self.entry_friction_n_mm)
+        tissue = Tissue(layers=layers, entry_friction_n_mm=self.entry_friction_n_mm)
+        return self.free.tissue(tissue) if self.free else tissue
 
     def _interface(self, damping: float) -> Interface:
         return Interface(
@@ -153,6 +157,7 @@ class RigParameters:
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,
+            free=self.free.without_sensors() if self.free else None,
         )
 
     def past_of(self, trial: str) -> Past:
@@ -161,7 +166,8 @@ class RigParameters:
 
     def on_trial(self, trial: str) -> "RigParameters":
         """The rig that one trial sees: without the pasts of others."""
-        return replace(self, pasts=tuple(past for past in self.pasts if past.trial == trial))
+        own = tuple(past for past in self.pasts if past.trial == trial)
+        return replace(self, pasts=own, free=self.free.on_trial(trial) if self.free else None)
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle that goes through a schedule, which is what the rig was `driven` by."""
@@ -181,7 +187,7 @@ class RigParameters:
             mesh=schedule.mesh,
             free_mm=float(schedule.free_mm[0]),
             inserted_mm=float(inserted),
-            rows=LAW_ROWS,
+            rows=LAW_ROWS + (self.free.more_rows if self.free else 0),
             slip_share=self.material_share_constant_depth
             if standing
             else self.material_share_growing_depth,

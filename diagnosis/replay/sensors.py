@@ -24,12 +24,17 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 
-def driven(rig: RigParameters, logged: Schedule) -> Schedule:
+def driven(rig: RigParameters, logged: Schedule, start_s: float = 0.0) -> Schedule:
     """What is done to the needle; a tip outside of the tissue has the depth 0.
+
+    Args:
+      start_s: of the trial.
 
     Raises:
       SimulationFailed: the needle never reaches the tissue.
     """
+    if rig.free is not None:
+        logged = rig.free.driven(logged, start_s)
     if rig.base_scale == 1.0 and rig.inserted_offset_mm == 0.0:
         return logged
     inserted_mm = np.maximum(logged.inserted_mm + rig.inserted_offset_mm, 0.0)
@@ -42,21 +47,31 @@ def driven(rig: RigParameters, logged: Schedule) -> Schedule:
 
 
 def sensed(
-    rig: RigParameters, time_s: Array, drive_deg: Array, tip_deg: Array, torque_n_mm: Array
+    rig: RigParameters,
+    inputs: Schedule,
+    tip_deg: Array,
+    torque_n_mm: Array,
+    start_s: float = 0.0,
 ) -> tuple[Array, Array]:
     """What the sensors show of tip and torque, (N,) each.
 
     Args:
-      drive_deg: angle of the drive shaft.
+      inputs: of the needle.
       torque_n_mm: that the needle takes at the chuck.
+      start_s: of the trial.
     """
-    torque = torque_n_mm
+    time_s, torque = inputs.time_s, torque_n_mm
     if rig.drive_friction_n_mm != 0.0:
-        torque = torque + bearing_torque_n_mm(drive_deg, rig.drive_friction_n_mm)
+        torque = torque + bearing_torque_n_mm(inputs.drive, rig.drive_friction_n_mm)
     tip = _late(time_s, tip_deg, rig.tip_clock_ratio, rig.tip_delay_s)
     torque = _low_passed(time_s, torque, rig.torque_low_pass_s)
     torque = _late(time_s, torque, rig.torque_clock_ratio, rig.torque_delay_s)
-    return rig.tip_bias_deg + rig.tip_scale * tip, rig.torque_bias_n_mm + rig.torque_scale * torque
+    tip = rig.tip_bias_deg + rig.tip_scale * tip
+    torque = rig.torque_bias_n_mm + rig.torque_scale * torque
+    if rig.free is None:
+        return tip, torque
+    more = rig.free.sensed(inputs, start_s, tip_deg, torque_n_mm)
+    return tip + more[0], torque + more[1]
 
 
 def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:

@@ -4,6 +4,7 @@ They open the page and the summary on the screen.
 """
 
 from diagnosis.criteria import CERTAIN_PROBABILITY
+from diagnosis.freeform.in_words import what_is_missing
 from diagnosis.report.sentences import explanation_name, explanations, headline, titles
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
@@ -39,6 +40,8 @@ def _beside(found: Diagnosis) -> str:
 
 def _nearest(found: Diagnosis) -> str:
     near = found.assessment.nearest
+    if found.missing is not None:
+        return what_is_missing(found.missing, found.assessment.gap.before).removesuffix(".")
     if not near.effects:
         return "Nothing that was tried improves on the nominal model"
     share = _share(found, f"the nearest that was tried, {titles(near.effects)},")

@@ -8,10 +8,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import Page, page_of, section
 from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sections.alternatives import alternatives_section
 from diagnosis.report.sections.front import front
 from diagnosis.report.sections.limits import limits_section
+from diagnosis.report.sections.missing import missing_section
 from diagnosis.report.sections.parameters import parameters_section
 from diagnosis.report.sections.rig import rig_section
 from diagnosis.report.sections.search import search_section
@@ -20,20 +22,21 @@ from diagnosis.report.sections.where import where_section
 from diagnosis.result import Diagnosis
 
 
-def page(found: Diagnosis, report: Mapping[str, Any]) -> str:
+def page(found: Diagnosis, report: Mapping[str, Any]) -> Page:
     """The whole page; `report` is report.json."""
     body = [
-        *agreement_section(found),
-        *where_section(found),
-        *parameters_section(found, report),
-        *alternatives_section(found),
-        *limits_section(found),
-        *search_section(found),
-        *sensors_section(found),
-        *rig_section(found),
+        *section(missing_section, found),
+        *section(agreement_section, found),
+        *section(where_section, found),
+        *section(parameters_section, found, report),
+        *section(alternatives_section, found),
+        *section(limits_section, found),
+        *section(search_section, found),
+        *section(sensors_section, found),
+        *section(rig_section, found),
     ]
     name = f"{found.log.name}: gap report" if found.log.name else "Gap report"
-    return html.document(name, [*front(found), html.contents(_titles(body)), *body])
+    return page_of(name, [*front(found), html.contents(_titles(body)), *body])
 
 
 def _titles(parts: list[str]) -> list[str]:

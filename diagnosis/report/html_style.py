@@ -24,7 +24,7 @@ nav a{display:inline-block;padding:.15rem 0}
 figure img{display:block;max-width:100%;height:auto;background:#fff}
 table{border-collapse:collapse;font-size:.9rem}
 caption{text-align:left;font-weight:600;padding:.2rem 0;white-space:nowrap}
-td:last-child:nth-child(n+4){min-width:9rem}
+td:last-child:nth-child(n+6){min-width:18rem}
 td,th{border-bottom:1px solid var(--line);padding:.3rem .8rem .3rem 0;text-align:left;vertical-align:top}
 tbody th{font-weight:inherit}
 .warning{background:var(--warn);border-left:.3rem solid var(--warn-line);padding:.5rem 1rem;

@@ -1,5 +1,6 @@
 """`report.json`: gap-report/1, the contract with other programs (docs/gap-report.md)."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from typing import Any
@@ -12,6 +13,8 @@ from diagnosis.assessment.joint_uncertainty import JointUncertainty
 from diagnosis.assessment.nearest import Nearest
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.freeform.shapes import likeness_of
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
@@ -25,6 +28,7 @@ FORMAT = "gap-report/1"
 def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
     """Every key of gap-report/1, plain values."""
     verdict, told = diagnosis.verdict, diagnosis.assessment
+    missing = {"missing": _missing(diagnosis.missing)} if diagnosis.missing else {}
     return {
         "format": FORMAT,
         "verdict": verdict.kind.value,
@@ -36,6 +40,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "covariance": _covariance(told.joint),
         "gap": {**asdict(told.gap), "noise": 1.0},
         "nearest": _nearest(told.nearest),
+        **missing,
         "sensors": {
             "imperfections": _parameters(told.imperfections),
             "torque_drift_sigma": told.torque_drift_sigma,
@@ -88,6 +93,38 @@ def _nearest(nearest: Nearest) -> dict[str, Any]:
         "power_explained_percent": nearest.power_explained_percent,
         "at_bound": list(nearest.at_bound),
     }
+
+
+def _missing(missing: Missing) -> dict[str, Any]:
+    """What is not in the library."""
+    law = missing.law
+    return {
+        "place": {place.value: p for place, p in missing.place.items()},
+        "depends_on": [_dependence(one) for one in missing.depends_on],
+        "law": None if law is None else _lists(asdict(law)),
+        "looks_like": _looks_like(law),
+        "closed": missing.closed,
+    }
+
+
+def _looks_like(law: Law | None) -> dict[str, Any] | None:
+    like = likeness_of(law) if law else None
+    return _lists(asdict(like)) if like else None
+
+
+def _dependence(one: Dependence) -> dict[str, Any]:
+    return {
+        "variable": str(one.variable),
+        "gap_after": one.gap_after if math.isfinite(one.gap_after) else None,
+        "place": one.place.value,
+        "title": one.title,
+    }
+
+
+def _lists(law: dict[str, Any]) -> dict[str, Any]:
+    """Plain values, with lists in place of tuples."""
+    plain: dict[str, Any] = to_jsonable_python(law)
+    return plain
 
 
 def _where(diagnosis: Diagnosis) -> dict[str, Any]:

@@ -43,9 +43,10 @@ def _verdict(found: Diagnosis) -> str:
             sets = "; or ".join(titles(names) for names in found.verdict.confusable)
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
+            nearest_gap = f"{found.assessment.nearest.gap_after:.2f} σ (σ = sensor noise)"
             return (
                 "Unknown: no effect of the library, nor any pair that was tried, explains the gap: "
-                f"residual {before}, at best {after}"
+                f"residual {before}, at best {nearest_gap}"
             )
 
 
@@ -64,11 +65,11 @@ def nearest(found: Diagnosis) -> str:
     verb = "explain" if len(near.effects) > 1 else "explains"
     bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
     tried = "that was tried so far " if found.stopped and found.stopped.search else ""
+    left = "" if by_free_law(found) else f": what is left is {found.assessment.breakdown_after.largest}"
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise: what is left is "
-        f"{found.assessment.breakdown_after.largest}{bound}"
+        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise{left}{bound}"
     )
 
 
@@ -125,9 +126,10 @@ def with_one_more(found: Diagnosis) -> str:
     if not first:
         return ""
     here = found.verdict.best.fit.gap
-    named = ", ".join(f"{name} to {gap:.3f} σ" for name, gap in first)
-    change = "changes almost nothing" if here - first[0][1] < ALMOST_NOTHING_SIGMA else "would change"
-    return f"Adding another effect {change}: from {here:.3f} σ on the trials of the fit, {named}."
+    named = ", ".join(f"with {name} {gap:.3f} σ" for name, gap in first)
+    little = here - first[0][1] < ALMOST_NOTHING_SIGMA
+    change = "changes almost nothing" if little else "would lower the residual"
+    return f"Adding another effect {change}: on the trials of the fit it is {here:.3f} σ, {named}."
 
 
 def replay_quality(found: Diagnosis) -> list[str]:
@@ -145,7 +147,7 @@ def replay_quality(found: Diagnosis) -> list[str]:
 def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
-    return f"Largest residual: {value:.2f} σ, {stretch}"
+    return f"Largest residual of the nominal model: {value:.2f} σ, {stretch}"
 
 
 def largest_parts(found: Diagnosis) -> str:
@@ -153,8 +155,27 @@ def largest_parts(found: Diagnosis) -> str:
     told = found.assessment
     return (
         f"Residual of the nominal model: {told.breakdown.largest}; "
-        f"of the best explanation: {told.breakdown_after.largest}"
+        f"of {best_in_words(found)}: {told.breakdown_after.largest}"
     )
+
+
+def label_of(found: Diagnosis, prediction: str) -> str:
+    """A prediction in a legend: what comes nearest to an unknown log explains nothing."""
+    if found.verdict.kind is not VerdictKind.UNKNOWN or prediction != "explained":
+        return prediction
+    return "free-form law" if by_free_law(found) else "nearest"
+
+
+def by_free_law(found: Diagnosis) -> bool:
+    """Whether what is called explained in the report is with a free-form law."""
+    return found.missing is not None and found.missing.law is not None
+
+
+def best_in_words(found: Diagnosis) -> str:
+    """What the best that was found is: of an unknown log, no explanation."""
+    if found.verdict.kind is not VerdictKind.UNKNOWN:
+        return "the best explanation"
+    return "the free-form law" if by_free_law(found) else "what comes nearest"
 
 
 def leading(found: Diagnosis) -> str:

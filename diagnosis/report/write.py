@@ -8,6 +8,7 @@ import pandas as pd
 
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
+from diagnosis.report.fallible import write_page
 from diagnosis.report.html_report import page
 from diagnosis.report.json_report import as_json
 from diagnosis.report.recording import log_gap
@@ -23,7 +24,8 @@ def output_paths(log: RigLog, folder: Path) -> list[Path]:
 
 
 def write_report(diagnosis: Diagnosis, destination: Destination) -> ResultSet:
-    """Write everything as one, the numbers first: a page or recording that fails is left out.
+    """Write everything as one, the numbers first: a page or recording that fails is left out, and
+    of a page the pictures that fail.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
@@ -35,7 +37,7 @@ def write_report(diagnosis: Diagnosis, destination: Destination) -> ResultSet:
         write_text(results.at(told), json.dumps(report, indent=1, allow_nan=False))
         for path, table in zip(predictions, _predictions(diagnosis), strict=True):
             write_text(results.at(path), table.to_csv(index=False, float_format="%.6g"))
-        results.optional(shown, lambda part: write_text(part, page(diagnosis, report)))
+        write_page(lambda: page(diagnosis, report), results, shown)
         results.optional(recording, lambda part: log_gap(diagnosis, headline(diagnosis), part))
     return results
 

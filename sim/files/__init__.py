@@ -1,5 +1,6 @@
 """Results as files: whole or not at all, one set at a time, and never over what is the user's."""
 
+from sim.files.claim import claiming as claiming
 from sim.files.destination import Destination as Destination
 from sim.files.journal import finish_interrupted as finish_interrupted
 from sim.files.publish import ResultSet as ResultSet

@@ -27,7 +27,7 @@ def holding(folder: Path) -> Iterator[None]:
     handle = os.open(folder, os.O_RDONLY)
     try:
         ends_s = time.monotonic() + _MOST_S
-        while _taken(handle) is False:
+        while taken(handle) is False:
             if time.monotonic() > ends_s:
                 raise UnwritableOutput(f"{folder}: another run writes here and does not end; stop it")
             time.sleep(_LOOK_S)
@@ -41,13 +41,13 @@ def left_alone(folder: Path) -> Iterator[bool]:
     """Whether nobody holds a folder any more, which is then held by this process."""
     handle = os.open(folder, os.O_RDONLY)
     try:
-        yield _taken(handle) is True
+        yield taken(handle) is True
     finally:
         os.close(handle)
 
 
-def _taken(handle: int) -> bool | None:
-    """Whether the lock is ours now; None where there are no locks."""
+def taken(handle: int) -> bool | None:
+    """Whether the lock of an open file is ours now; None where there are no locks."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -20,11 +20,13 @@ class ResultSet:
     Attributes:
       paths: of all results.
       left_out: those that could not be made, with the reason; the others stand without them.
+      lacks: parts that could not be made of results that are there, with the reason.
     """
 
     def __init__(self, folder: Path, paths: Sequence[Path], part: Path) -> None:
         """The results of a folder, now in the folder of a run."""
         self.paths, self.left_out = tuple(paths), dict[Path, str]()
+        self.lacks = dict[Path, tuple[str, ...]]()
         self._folder, self._part = folder, part
 
     @property

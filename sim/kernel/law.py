@@ -12,6 +12,10 @@ and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
 
     f = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt.
 
+A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
+straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
+and all of it varies in time with a factor that is an input.
+
 The two-dimensional presliding vector Z is returned to its disc radially: in
 steady sliding it gives level * omega / sqrt(omega^2 + (v/r)^2), and at v = 0 it
 is a dry element that truly sticks.
@@ -42,6 +46,7 @@ class Stage(NamedTuple):
     axial: float  # axial speed over the radius, rad/s
     yield_angle: float  # presliding angle, rad
     cautious: bool  # take slopes that cannot mislead Newton's method
+    factor: float = 1.0  # of rows that vary in time
 
 
 @embedded
@@ -72,6 +77,11 @@ def slip_law(
         torque = m * s
         secant = m
         tangent = m * (1.0 + (p - 1.0) * s * s / q)
+    shaped = row[memory_map.L_SHAPED] != 0.0
+    if shaped and row[memory_map.L_RATE_STEP] > 0.0:
+        curve, rise = _rate_curve(s, row)
+        tangent = curve * (tangent + rise * secant)
+        torque, secant = torque * curve, secant * curve
     level = row[memory_map.L_KINETIC] + extra
     excess = row[memory_map.L_STATIC] - row[memory_map.L_KINETIC]
     if level > 0.0 or excess > 0.0:
@@ -103,7 +113,28 @@ def slip_law(
             tangent += shared * g * (axial / size) ** 2 / size
             secant += shared * g / size
             turn, axial = turn * limit / size, axial * limit / size
+    if shaped:
+        asymmetry = row[memory_map.L_ASYMMETRY]
+        factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
+        factor *= stage.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
+        torque, tangent, secant = torque * factor, tangent * factor, secant * factor
     return torque, tangent, secant, Memory(dry, turn, axial, old.phi)
+
+
+@embedded
+def _rate_curve(s: float, row: Array) -> tuple[float, float]:
+    """Factor of the viscous torque at a slip rate, and d log factor / d log rate."""
+    size = max(abs(s), row[memory_map.L_PLATEAU])
+    at = (math.log(size) - row[memory_map.L_RATE_LOW]) / row[memory_map.L_RATE_STEP]
+    last = memory_map.CURVE_POINTS - 1
+    if at <= 0.0:
+        return math.exp(row[memory_map.L_CURVE_0]), 0.0
+    if at >= last:
+        return math.exp(row[memory_map.L_CURVE_0 + last]), 0.0
+    i = int(at)
+    below, above = row[memory_map.L_CURVE_0 + i], row[memory_map.L_CURVE_0 + i + 1]
+    log_factor = below + (at - i) * (above - below)
+    return math.exp(log_factor), (above - below) / row[memory_map.L_RATE_STEP]
 
 
 @embedded
@@ -118,6 +149,8 @@ def site_law(
     """
     torque, tangent, secant, new = slip_law(omega, row, extra, old, stage, lag)
     k = row[memory_map.L_STIFFNESS]
+    if row[memory_map.L_VARIES] != 0.0:
+        k *= stage.factor
     if k <= 0.0:
         return torque, secant if stage.cautious else tangent, omega, new
     resistance = k * (row[memory_map.L_TIME] + stage.g)

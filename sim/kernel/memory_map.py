@@ -52,14 +52,29 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     L_TIME,  # its time constant, s
     L_CURVATURE,  # N m / m
     L_PHASE,  # rad
+    L_CYCLES,  # of the curvature's torque in one turn
     L_LOAD,  # dry level over the torque that the shaft carries there
+    L_SHAPED,  # 1: one of the following is not neutral
+    L_VARIES,  # 1: its torque is times the input's factor
+    L_ASYMMETRY,  # its torque is 1 + this for positive, 1 - this for negative rates
+    L_RATE_LOW,  # log of the lowest rate of the curve, rad/s
+    L_RATE_STEP,  # of the log of the rate between places of the curve; 0: no curve
+    L_CURVE_0,  # log factors of the viscous torque at these rates
+    L_CURVE_1,
+    L_CURVE_2,
+    L_CURVE_3,
+    L_CURVE_4,
+    L_CURVE_5,
+    L_CURVE_6,
     COLUMNS,
-) = range(20)
+) = range(33)
+CURVE_POINTS = COLUMNS - L_CURVE_0
 
 # --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------
 
 # --- ctrl -------------------------------------------------------------------------
-U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, INPUTS = range(6)
+# U_TISSUE: relative change of the tissue that varies, 0 for none.
+U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, U_TISSUE, INPUTS = range(7)
 
 # --- state of one contact site: presliding of the dry element, of the shared one
 # (turning, axial), twist of the tissue. Two sites per element and row. -------------

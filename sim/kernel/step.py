@@ -187,6 +187,7 @@ def advance(
         head[memory_map.H_PRESLIDING],
         shaft.servo,
         head[memory_map.H_BACKLASH],
+        1.0 + 0.5 * (past[memory_map.U_TISSUE] + ctrl[memory_map.U_TISSUE]),
     )
     drive_was, drive_is = (
         drive_input(shaft, past[memory_map.U_DRIVE]),

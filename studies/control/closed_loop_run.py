@@ -1,5 +1,7 @@
 """A protocol run in closed loop: its base angle becomes the reference of the tip."""
 
+from collections.abc import Callable
+
 from models.errors import InvalidValue
 from sim.closed_loop import run_closed_loop
 from sim.protocol import Protocol
@@ -11,11 +13,16 @@ from studies.control.tip_controllers import ControllerDesign, tip_controller_nam
 _LOOP_STEP_S = 0.002  # a controller acts at every step
 
 
-def perform_closed_loop(protocol: Protocol, controller: str) -> Recording:
+def perform_closed_loop(
+    protocol: Protocol, controller: str, progress: Callable[[float], None] = lambda share: None
+) -> Recording:
     """Run a protocol in closed loop, by the name of a tip controller.
 
     The estimator assumes viscous tissue, with the first layer's damping (or the paper's,
     where that layer has none).
+
+    Args:
+      progress: called now and then with the share that is done.
 
     Raises:
       InvalidValue: the protocol drives the base by torque.
@@ -30,7 +37,12 @@ def perform_closed_loop(protocol: Protocol, controller: str) -> Recording:
     step = min(_LOOP_STEP_S, protocol.discretisation.step_s)
     fine = protocol.but(discretisation=protocol.discretisation.but(step_s=step))
     controlled = run_closed_loop(
-        fine.setup(), fine.schedule(), tip_controller, log=tip_controller.signals, keep_shape=True
+        fine.setup(),
+        fine.schedule(),
+        tip_controller,
+        log=tip_controller.signals,
+        keep_shape=True,
+        progress=progress,
     )
     about = {
         "protocol": protocol.name,

@@ -2,6 +2,7 @@
 
 import json
 import re
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -12,12 +13,15 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.report import write
 from diagnosis.report.answer import answer
+from diagnosis.report.fallible import Page
 from diagnosis.report.sentences import largest_parts
 from scripts import diagnose as command
 from scripts import replay as replaying
 from scripts.main import main
 from sim.files import ResultSet
 from sim.recording.rerun_table import entries
+
+PAGE = Page(text="a page", lacks=())
 
 
 @pytest.fixture
@@ -45,7 +49,7 @@ def test_diagnose_asks_for_a_log_or_the_paper(capsys):
 
 def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch, capsys, wide):
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
-    monkeypatch.setattr(write, "page", lambda *_: "a page")  # its pictures take a second
+    monkeypatch.setattr(write, "page", lambda *_: PAGE)  # its pictures take a second
     assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().out
     assert all(sentence in " ".join(said.split()) for sentence in answer(dry.found))
@@ -100,7 +104,7 @@ def test_diagnose_without_out_writes_a_report_to_a_folder_of_its_own(
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
-    monkeypatch.setattr(write, "page", lambda *_: "a page")
+    monkeypatch.setattr(write, "page", lambda *_: PAGE)
     for folder in ("out/diagnose", "out/diagnose-2"):
         assert main(["diagnose", str(dry.folder)]) == 0
         assert f"wrote      {folder}/report.html" in capsys.readouterr().out
@@ -121,7 +125,7 @@ def test_json_alone_goes_to_the_screen_and_to_no_file(dry, tmp_path, monkeypatch
 def test_the_summary_fits_the_screen(dry, tmp_path, monkeypatch, capsys, width):
     monkeypatch.setenv("COLUMNS", str(width))
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
-    monkeypatch.setattr(write, "page", lambda *_: "a page")
+    monkeypatch.setattr(write, "page", lambda *_: PAGE)
     assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().out
     assert "…" not in said
@@ -160,7 +164,7 @@ def test_the_table_of_replay_has_a_row_for_each_trial(dry):
 
 @pytest.fixture
 def replay_of(tmp_path, monkeypatch, capsys, wide):
-    """Replays the analytic log with a change of both trials; exit code and what is said."""
+    """Replays the analytic log with a change of both trials; exit code, stdout and stderr."""
     log = write_log(tmp_path / "log")
 
     def replay(change):
@@ -169,23 +173,23 @@ def replay_of(tmp_path, monkeypatch, capsys, wide):
         for name in ("turns.csv", "slides.csv"):
             change_trial(log, lambda t: change(t).iloc[:300], name)
         code = main(["replay", str(log), "--out", str(tmp_path / "out")])
-        return code, "".join(capsys.readouterr())
+        return code, *capsys.readouterr()
 
     return replay
 
 
-def test_replay_names_columns_in_radians_and_newton_metres_once(replay_of):
+def test_replay_names_columns_in_radians_and_newton_metres_before_and_beside_the_result(replay_of):
     rad = {name: np.pi / 180 for name in ("base_angle_deg", "tip_angle_deg")}
     factors = rad | {"base_torque_n_mm": 1e-3}
-    code, said = replay_of(lambda t: t.assign(**{name: f * t[name] for name, f in factors.items()}))
+    code, *both = replay_of(lambda t: t.assign(**{name: f * t[name] for name, f in factors.items()}))
     assert code == 0
-    for column in factors:
+    for said, column in product(both, factors):
         assert len(re.findall(rf"warning: turns\.csv, slides\.csv: {column} scatters by", said)) == 1
         assert f"{column}: the readings scatter" not in said
 
 
 def test_replay_refuses_an_angle_that_wraps(replay_of):
-    code, said = replay_of(lambda t: t.assign(base_angle_deg=(t["base_angle_deg"] + 45) % 180 - 90))
+    code, _, said = replay_of(lambda t: t.assign(base_angle_deg=(t["base_angle_deg"] + 45) % 180 - 90))
     assert code == 2
     assert "base_angle_deg wraps" in said
     assert "numpy.unwrap(values, period=180)" in said

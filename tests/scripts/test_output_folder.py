@@ -1,10 +1,18 @@
 """Where results go: never over earlier ones, and decided before anything is computed."""
 
+from multiprocessing import get_context
+
 import pytest
 
 from models.errors import OutputExists, UnsafeOutput
 from scripts import output_folder as module
 from sim.files import Destination
+
+
+@pytest.fixture(autouse=True)
+def _released():
+    yield
+    module.release_folders()
 
 
 def outputs(folder):
@@ -28,8 +36,10 @@ def with_results(*folders):
 
 def test_the_default_is_the_first_numbered_folder_without_results(default):
     assert output_folder(None, default, outputs, force=False) == default
+    module.release_folders()
     with_results(default)
     assert output_folder(None, default, outputs, force=False) == default.with_name("control-2")
+    module.release_folders()
     with_results(default.with_name("control-2"))
     assert output_folder(None, default, outputs, force=False) == default.with_name("control-3")
 
@@ -70,3 +80,34 @@ def test_no_input_is_written_over_and_the_choice_says_so_before_any_work(default
     assert found == Destination(
         folder=default.with_name("other"), inputs=(default / "b.png",), force=True
     )
+
+
+def test_what_was_chosen_is_nobody_elses_until_the_run_is_done(default):
+    assert output_folder(None, default, outputs, force=False) == default
+    assert output_folder(None, default, outputs, force=False) == default.with_name("control-2")
+    module.release_folders()
+    assert not default.parent.exists()
+    assert output_folder(None, default, outputs, force=False) == default
+
+
+def chosen(default, together, told):
+    """Of a process that works until all have chosen."""
+    together.wait()
+    found = output_folder(None, default, outputs, force=False)
+    together.wait()
+    told.put(found.name)
+    module.release_folders()
+
+
+def test_processes_that_choose_at_once_get_folders_of_their_own(default):
+    default.parent.mkdir()
+    fork = get_context("fork")
+    together, told = fork.Barrier(4, timeout=60), fork.Queue()
+    each = [fork.Process(target=chosen, args=(default, together, told)) for _ in range(4)]
+    for process in each:
+        process.start()
+    found = {told.get(timeout=60) for _ in each}
+    for process in each:
+        process.join()
+    assert found == {"control", "control-2", "control-3", "control-4"}
+    assert list(default.parent.iterdir()) == []

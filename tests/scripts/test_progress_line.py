@@ -8,7 +8,7 @@ from rich.console import Console
 from diagnosis.progress import Progress
 from diagnosis.stopping import StopReason, StopSignal
 from scripts import progress_line as module
-from scripts.progress_line import by_share, counted, in_one_line, progress_line
+from scripts.progress_line import by_share, counted, in_one_line, progress_line, within
 
 
 def news(stage="fitting pairs", elapsed_s=1.0, done=3, tasks=20, left_s=15.4):
@@ -90,6 +90,14 @@ def test_shares_of_the_whole_give_the_time_that_is_left(at):
         ("simulating", 0.0, None),
         ("drawing", 30.0, pytest.approx(10.0)),
     ]
+
+
+def test_shares_of_a_part_are_shares_of_the_whole():
+    told = []
+    part = within(lambda stage, share: told.append((stage, share)), 0.2, 0.6)
+    for share in (0.0, 0.5, 1.0):
+        part("writing", share)
+    assert told == [("writing", pytest.approx(share)) for share in (0.2, 0.4, 0.6)]
 
 
 def test_counted_items_are_tasks_of_one_stage(at):

@@ -81,6 +81,12 @@ def test_without_noise_the_controller_sees_the_recorded_run():
     assert np.array_equal(follower.shown("torque_n_mm"), run.base_torque_n_mm)
 
 
+def test_progress_is_told_every_thousand_steps():
+    told = []
+    run_closed_loop(setup(step_s=0.0004), turn(1.0), Follower(), progress=told.append)
+    assert told == pytest.approx([0.0, 1000 / 2501, 2000 / 2501])
+
+
 def test_noise_has_the_stated_spread_and_is_the_same_for_the_same_seed():
     noise = MeasurementNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=3)
     shown = []

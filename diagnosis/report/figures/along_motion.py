@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import TURNING_DEG_S
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
+from diagnosis.report.sentences import label_of
 from diagnosis.residuals.along_motion import BASE_ANGLE, RATE, SINCE_REVERSAL, Coordinate, part_means
 from diagnosis.residuals.motion import direction
 from diagnosis.residuals.trial_residual import TrialResidual, by_sensor, trial_residuals
@@ -33,7 +34,7 @@ def draw_along_motion(found: Diagnosis) -> Figure:
         for name, own in both.items():
             residuals = own[sensor]
             look: dict[str, Any] = {"color": PREDICTIONS[name], "ls": LINES[name], "ms": 4}
-            _draw_by_angle(row[0], residuals, sensor, name)
+            _draw_by_angle(row[0], residuals, sensor, name, label_of(found, name))
             since, gap = _means(SINCE_REVERSAL, residuals, [r.left[sensor] ** 2 for r in residuals])
             row[1].plot(since, np.sqrt(gap), marker="o", **look)
             rate, mean = _means(RATE, residuals, [r.left[sensor] for r in residuals])
@@ -45,38 +46,42 @@ def draw_along_motion(found: Diagnosis) -> Figure:
 
 def describe_along_motion(found: Diagnosis) -> str:
     """The picture in words: the largest of each part."""
-    told = found.assessment
+    told, best = found.assessment, label_of(found, "explained")
     parts = (
         ("along the stroke, at a base angle of", "deg", "base_angle_deg"),
         ("after a reversal, at", "s", "since_reversal_s"),
         ("against the rate, at", "deg/s", "rate_deg_s"),
     )
     each = [
-        _largest(words, unit, getattr(told.shape, name), getattr(told.shape_after, name))
+        _largest(words, unit, best, getattr(told.shape, name), getattr(told.shape_after, name))
         for words, unit, name in parts
     ]
-    return (
-        f"Residual / σ along the motion, nominal and explained. Largest {'; '.join(filter(None, each))}."
-    )
+    return f"Residual / σ along the motion, nominal and {best}. Largest {'; '.join(filter(None, each))}."
 
 
 def _largest(
-    words: str, unit: str, before: Sequence[tuple[float, float]], after: Sequence[tuple[float, float]]
+    words: str,
+    unit: str,
+    best: str,
+    before: Sequence[tuple[float, float]],
+    after: Sequence[tuple[float, float]],
 ) -> str:
     """Where a coordinate has the largest residual, with that of the explanation at its largest."""
     if not before or not after:
         return ""
     place, value = max(before, key=lambda part: part[1])
-    return f"{words} {place:.3g} {unit}: {value:.2f}, explained at most {max(v for _, v in after):.2f}"
+    return f"{words} {place:.3g} {unit}: {value:.2f}, {best} at most {max(v for _, v in after):.2f}"
 
 
-def _draw_by_angle(axis: Axes, residuals: Sequence[TrialResidual], sensor: str, name: str) -> None:
+def _draw_by_angle(
+    axis: Axes, residuals: Sequence[TrialResidual], sensor: str, name: str, label: str
+) -> None:
     """Mean residual along the stroke, each way by itself."""
     look: dict[str, Any] = {"color": PREDICTIONS[name], "ls": LINES[name], "ms": 5}
     for way, (mark, word) in _WAYS.items():
         own = [np.where(direction(r.trial) == way, r.left[sensor], np.nan) for r in residuals]
         angle, mean = _means(BASE_ANGLE, residuals, own)
-        axis.plot(angle, mean, marker=mark, label=f"{name}, {word}", **look)
+        axis.plot(angle, mean, marker=mark, label=f"{label}, {word}", **look)
 
 
 def _means(

@@ -8,11 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from diagnosis.report.figures.style import HATCHES, PREDICTIONS, WIDE
+from diagnosis.report.sentences import label_of
 from diagnosis.result import Diagnosis
 
 
 def draw_breakdown(found: Diagnosis) -> Figure:
     """Residual / sigma of nominal and explained, by part."""
+    labels = [label_of(found, name) for name in PREDICTIONS]
     figure, axes = plt.subplots(1, 4, figsize=(WIDE, 3), layout="constrained")
     both = (found.assessment.breakdown, found.assessment.breakdown_after)
     signals, phases = list(both[0].signal), list(both[0].phase)
@@ -22,7 +24,7 @@ def draw_breakdown(found: Diagnosis) -> Figure:
     _bars(axes[1], phases, [[w.phase[k] for k in phases] for w in both], "by phase of the motion")
     _bars(axes[2], bands, [[v for *_, v in w.band_hz] for w in both], "by frequency")
     _bars(axes[3], depths, [[v for _, v in w.depth_mm] for w in both], "by depth")
-    axes[0].legend(fontsize=8)
+    axes[0].legend(labels, fontsize=8)
     figure.supxlabel("residual / σ; the line is the noise floor", fontsize=9)
     return figure
 
@@ -30,10 +32,11 @@ def draw_breakdown(found: Diagnosis) -> Figure:
 def describe_breakdown(found: Diagnosis) -> str:
     """The picture in words."""
     before, after = found.assessment.breakdown, found.assessment.breakdown_after
+    best = label_of(found, "explained")
     parts = [(k, v, after.signal[k]) for k, v in before.signal.items()]
     parts += [(k, v, after.phase[k]) for k, v in before.phase.items()]
     told = "; ".join(f"{name} {nominal:.2f} and {left:.2f}" for name, nominal, left in parts)
-    return f"Bars of residual / σ, nominal and explained: {told}. 1 is the noise floor."
+    return f"Bars of residual / σ, nominal and {best}: {told}. 1 is the noise floor."
 
 
 def _bars(axis: Axes, names: Sequence[str], values: Sequence[Sequence[float]], title: str) -> None:

@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
-from diagnosis.report.figures.style import LABELS, LINES, MEASURED, PREDICTIONS, WIDE, rms
+from diagnosis.report.figures.style import (
+    LABELS,
+    LINES,
+    MEASURED,
+    PREDICTIONS,
+    WIDE,
+    block_means,
+    rms,
+)
+from diagnosis.report.sentences import label_of
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis
 from models.user_text import in_figure
@@ -43,7 +52,7 @@ def draw_loops(found: Diagnosis) -> Figure:
             _loop(axis, _columns(trial, trial), across, up).set(color=MEASURED, lw=3, label="measured")
             for name, own in predictions.items():
                 line = _loop(axis, _columns(trial, own), across, up)
-                line.set(color=PREDICTIONS[name], ls=LINES[name], lw=1, label=name)
+                line.set(color=PREDICTIONS[name], ls=LINES[name], lw=1, label=label_of(found, name))
             axis.set_title(in_figure(trial.name), fontsize=9, loc="left")
             axis.set(xlabel=across, ylabel=up)
         for axis in row[len(pictures) :]:
@@ -54,7 +63,7 @@ def draw_loops(found: Diagnosis) -> Figure:
 
 def describe_loops(found: Diagnosis) -> str:
     """The picture in words."""
-    told = []
+    told, best = [], label_of(found, "explained")
     for i in telling_trials(found):
         trial = found.log.trials[i]
         up = _pictures(trial)[0][1]
@@ -63,9 +72,9 @@ def describe_loops(found: Diagnosis) -> str:
         off, left = (rms([read - _columns(trial, own)[up]]) for own in both)
         told.append(
             f"{trial.name}: {up} from {np.nanmin(read):.3g} to {np.nanmax(read):.3g}; the nominal "
-            f"loop is off by {off:.2g}, the explained one by {left:.2g}"
+            f"loop is off by {off:.2g}, the {best} one by {left:.2g}"
         )
-    return f"Loops, measured, nominal and explained. {'. '.join(told)} (root mean square)."
+    return f"Loops, measured, nominal and {best}. {'. '.join(told)} (root mean square)."
 
 
 def telling_trials(found: Diagnosis) -> list[int]:
@@ -104,13 +113,5 @@ def _columns(trial: Trial, readings: Trial | Prediction) -> dict[str, Array]:
 def _loop(axis: Axes, columns: dict[str, Array], across: str, up: str) -> Line2D:
     """One line, of means over a few samples where there are many."""
     fine = np.isfinite(columns[across]) & np.isfinite(columns[up])
-    (line,) = axis.plot(_decimated_means(columns[across][fine]), _decimated_means(columns[up][fine]))
+    (line,) = axis.plot(*(block_means(columns[name][fine], _POINTS) for name in (across, up)))
     return line
-
-
-def _decimated_means(values: Array) -> Array:
-    """Means over equal blocks, so many that a picture can show."""
-    block = -(-values.size // _POINTS) or 1
-    starts = np.arange(0, values.size, block)
-    counts = np.diff(np.append(starts, values.size))
-    return np.add.reduceat(values, starts) / counts if values.size else values

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
+from diagnosis.report.sentences import label_of
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 
@@ -21,7 +22,7 @@ def draw_memory(found: Diagnosis) -> Figure:
         len(sensors), 2, figsize=(WIDE, 2.9 * len(sensors)), layout="constrained", squeeze=False
     )
     for row, sensor in zip(axes, sensors, strict=True):
-        _draw_spectrum(row[0], sensor, shapes)
+        _draw_spectrum(row[0], sensor, shapes, label_of(found, "explained"))
         _draw_autocorrelation(row[1], sensor, shapes)
         for axis in row:
             axis.minorticks_off()  # they take half of the time
@@ -32,25 +33,31 @@ def draw_memory(found: Diagnosis) -> Figure:
 
 def describe_memory(found: Diagnosis) -> str:
     """The picture in words: how far neighbouring samples tell of each other."""
-    told = found.assessment
+    told, best = found.assessment, label_of(found, "explained")
     before, after = told.shape.autocorrelation, told.shape_after.autocorrelation
     each = [
-        f"{LABELS[sensor].split(',')[0]} {before[sensor].lag_one_correlation:.2f}, explained "
+        f"{LABELS[sensor].split(',')[0]} {before[sensor].lag_one_correlation:.2f}, {best} "
         f"{after[sensor].lag_one_correlation:.2f}"
         for sensor in before
         if sensor in after
     ]
     return (
-        "Spectrum and autocorrelation of the residual, nominal and explained, beside white noise. "
+        f"Spectrum and autocorrelation of the residual, nominal and {best}, beside white noise. "
         f"Correlation from one sample to the next: {'; '.join(each) or 'not known'}."
     )
 
 
-def _draw_spectrum(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape]) -> None:
+def _draw_spectrum(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape], best: str) -> None:
     for name, shape in shapes.items():
         if sensor in shape.spectrum:
             hertz, power = np.transpose(shape.spectrum[sensor].power_per_hz)
-            axis.loglog(hertz, power, color=PREDICTIONS[name], ls=LINES[name], label=name)
+            axis.loglog(
+                hertz,
+                power,
+                color=PREDICTIONS[name],
+                ls=LINES[name],
+                label=best if name == "explained" else name,
+            )
             white = shape.spectrum[sensor].white_per_hz
             axis.axhline(
                 white, color="k", lw=1, ls=":", label="white noise" if name == "explained" else None

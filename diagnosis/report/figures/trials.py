@@ -6,13 +6,28 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import Prediction
-from diagnosis.report.figures.style import LABELS, LINES, MEASURED, PREDICTIONS, WIDE, rms
+from diagnosis.report.figures.style import (
+    LABELS,
+    LINES,
+    MEASURED,
+    PREDICTIONS,
+    WHITE_BEHIND,
+    WIDE,
+    block_means,
+    rms,
+)
+from diagnosis.report.sentences import best_in_words, label_of
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis
 from models.user_text import in_figure
+
+Array = NDArray[np.float64]
+
+_MEANS = 100  # of a trial
 
 
 def draw_trial(found: Diagnosis, i: int) -> Figure:
@@ -27,15 +42,24 @@ def draw_trial(found: Diagnosis, i: int) -> Figure:
             above.plot(time, trial[sensor], color=MEASURED, lw=1.6, label="measured")
             below.axhspan(-2, 2, color="0.9", zorder=0)
         for name, colour in PREDICTIONS.items():
-            look = {"color": colour, "ls": LINES[name], "label": name}
+            look = {"color": colour, "ls": LINES[name], "label": label_of(found, name)}
             above.plot(time, predictions[name][sensor], lw=1.2, **look)
             if trial.has(sensor):
-                below.plot(time, left[name].left[sensor], color=colour, lw=0.5)
+                _draw_residual(below, time, left[name].left[sensor], name)
         above.set_title(in_figure(f"{trial.name}: {LABELS[sensor]}"), fontsize=10, loc="left")
         below.set(ylabel="residual / σ", xlabel="time, s")
         below.set_ylim(*_limits_of(below))
     axes[0, 0].legend(fontsize=8)
     return figure
+
+
+def _draw_residual(axis: Axes, time_s: Array, residual: Array, name: str) -> None:
+    """Every sample thinly, and means that differ in their line, too."""
+    axis.plot(time_s, residual, color=PREDICTIONS[name], lw=0.5, alpha=0.5)
+    read = np.isfinite(residual)
+    means = (block_means(own[read], _MEANS) for own in (time_s, residual))
+    (line,) = axis.plot(*means, color=PREDICTIONS[name], ls=LINES[name], lw=1.8)
+    line.set(path_effects=WHITE_BEHIND, gapcolor="white", zorder=3)
 
 
 def describe_trial(found: Diagnosis, i: int) -> str:
@@ -49,8 +73,9 @@ def describe_trial(found: Diagnosis, i: int) -> str:
     )
     seconds = float(found.log.trials[i]["time_s"][-1])
     return (
-        f"{found.log.trials[i].name} over {seconds:.0f} s: measured, nominal and explained, with "
-        f"residuals below. Residual of the nominal model, then of the explanation: {told or 'none'}."
+        f"{found.log.trials[i].name} over {seconds:.0f} s: measured, nominal and "
+        f"{label_of(found, 'explained')}, with residuals below. Residual of the nominal model, then of "
+        f"{best_in_words(found)}: {told or 'none'}."
     )
 
 

@@ -1,5 +1,8 @@
 """How far each place of the shaft has turned, at the moment when the nominal model is off most."""
 
+from itertools import cycle
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,23 +13,30 @@ from diagnosis.report.figures.style import LINES, MEASURED, PREDICTIONS, WIDE
 
 Array = NDArray[np.float64]
 
-_ALONE = (":", "-.", (0, (1, 2)), (0, (6, 2, 1, 2, 1, 2)))
-"""Lines of single effects, where there are several."""
+_ALONE = ((":", ""), ("-.", ""), (":", "s"), ("-.", "^"))
+"""Lines and marks of single effects, where there are several."""
 
 
-def draw_twist(twist: ShaftTwist) -> Figure:
-    """Angle along the shaft, and what each rig adds to the nominal one."""
+def draw_twist(twist: ShaftTwist, best: str = "explained") -> Figure:
+    """Angle along the shaft, and what each rig adds to the nominal one.
+
+    Args:
+      best: what the explanation is called.
+    """
     figure, (angle, added) = plt.subplots(1, 2, figsize=(WIDE, 3.4), layout="constrained")
     alone = [name for name in twist.along if name not in PREDICTIONS]
-    looks = {name: {"color": c, "ls": LINES[name], "lw": 1.6} for name, c in PREDICTIONS.items()}
-    looks |= {
-        name: {"color": "0.35", "ls": _ALONE[i % len(_ALONE)], "lw": 1.3} for i, name in enumerate(alone)
+    looks: dict[str, dict[str, Any]] = {
+        name: {"color": c, "ls": LINES[name], "lw": 1.6} for name, c in PREDICTIONS.items()
     }
+    for name, (line, mark) in zip(alone, cycle(_ALONE), strict=False):
+        looks[name] = {"color": "0.35", "ls": line, "marker": mark, "ms": 4, "markevery": 0.2, "lw": 1.3}
+    called = {name: f"with {name} alone" for name in alone} | {"nominal": "nominal", "explained": best}
     for name, (place, turned) in twist.along.items():
-        label = f"with {name} alone" if name in alone else name
-        angle.plot(place, turned, label=label, **looks[name])
+        angle.plot(place, turned, label=called[name], **looks[name])
         if name != "nominal":
-            added.plot(place, turned - at_places(twist, "nominal", place), label=label, **looks[name])
+            added.plot(
+                place, turned - at_places(twist, "nominal", place), label=called[name], **looks[name]
+            )
     if twist.measured_tip_deg is not None:
         end = twist.free_mm + twist.inserted_mm
         angle.plot([end], [twist.measured_tip_deg], "o", color=MEASURED, mec="k", label="tip, measured")
@@ -42,10 +52,11 @@ def draw_twist(twist: ShaftTwist) -> Figure:
     return figure
 
 
-def describe_twist(twist: ShaftTwist) -> str:
+def describe_twist(twist: ShaftTwist, best: str = "explained") -> str:
     """The picture in words."""
+    called = {"explained": best}
     told = "; ".join(
-        f"{name}: {turned[0]:.1f} deg at the chuck, {turned[-1]:.1f} deg at the tip"
+        f"{called.get(name, name)}: {turned[0]:.1f} deg at the chuck, {turned[-1]:.1f} deg at the tip"
         for name, (_, turned) in twist.along.items()
     )
     tip = twist.measured_tip_deg

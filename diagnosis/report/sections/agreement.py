@@ -1,16 +1,18 @@
 """Why to believe the answer: how much is explained, every trial, loops, twist of the shaft."""
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.loops import describe_loops, draw_loops
 from diagnosis.report.figures.trials import describe_trial, draw_trial
 from diagnosis.report.figures.twist import describe_twist, draw_twist
-from diagnosis.report.sentences import reduction
+from diagnosis.report.sentences import best_in_words, label_of, reduction
 from diagnosis.result import Diagnosis
+from diagnosis.selection.verdict import VerdictKind
 
 _TRIALS = (
-    "Grey: measured. Dashed blue: the nominal model. Solid red: the best explanation. Below each "
-    "signal: measured minus predicted, in σ (one standard deviation of the sensor's noise); in the "
-    "grey band lie 95 % of the samples if nothing but noise is left."
+    "Grey: measured. Dashed blue: the nominal model. Solid red: {best}. Below each signal: measured "
+    "minus predicted, in σ (one standard deviation of the sensor's noise), each sample as a thin line "
+    "and means as a thick one; in the grey band lie 95 % of the samples if nothing but noise is left."
 )
 _LOOPS = (
     "Trials whose loops differ most from those of the nominal model. A loop of torque against base "
@@ -28,15 +30,16 @@ _TWIST = (
 def agreement_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
     trials = range(len(found.log.trials))
+    unknown = found.verdict.kind is VerdictKind.UNKNOWN
     return [
-        html.heading("Why to believe it"),
+        html.heading("How near the nearest comes" if unknown else "Why to believe it"),
         html.paragraph(reduction(found)),
-        html.heading("Measured, nominal and explained", level=3),
-        html.paragraph(_TRIALS),
-        *(html.picture(draw_trial(found, i), describe_trial(found, i)) for i in trials),
+        html.heading(f"Measured, nominal and {label_of(found, 'explained')}", level=3),
+        html.paragraph(_TRIALS.format(best=best_in_words(found))),
+        *(drawn(draw_trial, describe_trial, found, i) for i in trials),
         html.heading("Loops of torque and lag", level=3),
         html.paragraph(_LOOPS),
-        html.picture(draw_loops(found), describe_loops(found)),
+        drawn(draw_loops, describe_loops, found),
         *_twist(found),
     ]
 
@@ -48,5 +51,5 @@ def _twist(found: Diagnosis) -> list[str]:
     return [
         html.heading("Twist along the shaft", level=3),
         html.paragraph(_TWIST),
-        html.picture(draw_twist(twist), describe_twist(twist)),
+        drawn(draw_twist, describe_twist, twist, label_of(found, "explained")),
     ]

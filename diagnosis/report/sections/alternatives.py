@@ -5,10 +5,12 @@ import math
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
 from diagnosis.report.sentences import alike, with_one_more
 from diagnosis.report.tables import explanation_table
 from diagnosis.result import Diagnosis
+from diagnosis.selection.verdict import VerdictKind
 
 _RANKING = (
     "Probability of each explanation, given the library, the noise and these trials; effects that "
@@ -19,18 +21,32 @@ _RANKING = (
 )
 
 
+_NONE_PROBABLE = (
+    "Nothing that was tried, single effects or sets of them, reaches the noise of the sensors; so "
+    "no explanation has a probability."
+)
+
+
 def alternatives_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
     return [
         html.heading("What else it may be"),
         *([html.paragraph(f"{same}.")] if (same := alike(found)) else []),
-        html.paragraph(_RANKING),
-        html.picture(draw_ranking(found), describe_ranking(found)),
-        explanation_table(found),
+        *_probabilities(found),
         *([html.paragraph(more)] if (more := with_one_more(found)) else []),
         html.heading("What these trials cannot tell", level=3),
         html.bullets(
             list(unidentifiable(found.log))
             or ["Every effect of the library would show in these trials."]
         ),
+    ]
+
+
+def _probabilities(found: Diagnosis) -> list[str]:
+    if found.verdict.kind is VerdictKind.UNKNOWN:
+        return [html.paragraph(_NONE_PROBABLE)]
+    return [
+        html.paragraph(_RANKING),
+        drawn(draw_ranking, describe_ranking, found),
+        explanation_table(found),
     ]

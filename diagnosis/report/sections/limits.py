@@ -1,6 +1,7 @@
 """Detection limits: what may be there and go unseen."""
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.detection_limits import describe_limits, draw_limits
 from diagnosis.report.tables import limits_table
 from diagnosis.result import Diagnosis
@@ -20,6 +21,6 @@ def limits_section(found: Diagnosis) -> list[str]:
     return [
         html.heading("Detection limits"),
         html.paragraph(_LIMITS),
-        html.picture(draw_limits(found), describe_limits(found)),
+        drawn(draw_limits, describe_limits, found),
         limits_table(limits),
     ]

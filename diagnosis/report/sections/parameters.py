@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
 from diagnosis.report.sentences import nearest
 from diagnosis.report.tables import parameter_table
@@ -42,5 +43,5 @@ def _values(found: Diagnosis, parameters: Mapping[str, Any]) -> list[str]:
         *parts,
         html.heading("Joint uncertainty", level=3),
         html.paragraph(_INTERVALS),
-        html.picture(draw_joint(joint), describe_joint(joint)),
+        drawn(draw_joint, describe_joint, joint),
     ]

@@ -1,15 +1,16 @@
 """Where the residual is: by part, along the motion, in its spectrum, and which signal leads."""
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
 from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
 from diagnosis.report.figures.memory import describe_memory, draw_memory
-from diagnosis.report.sentences import largest_parts, largest_residual, leading
+from diagnosis.report.sentences import best_in_words, largest_parts, largest_residual, leading
 from diagnosis.result import Diagnosis
 
 _BREAKDOWN = (
     "Root mean square of measured minus predicted, in units of each sensor's noise (σ), of the nominal "
-    "model and of the best explanation."
+    "model and of {best}."
 )
 _ALONG = (
     "A mean residual that steps with the sign of the rate is dry friction, one that grows with the rate "
@@ -32,16 +33,16 @@ def where_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
     return [
         html.heading("Where the residual is"),
-        html.paragraph(_BREAKDOWN),
-        html.picture(draw_breakdown(found), describe_breakdown(found)),
+        html.paragraph(_BREAKDOWN.format(best=best_in_words(found))),
+        drawn(draw_breakdown, describe_breakdown, found),
         html.paragraph(f"{largest_parts(found)}."),
         html.paragraph(f"{largest_residual(found)}."),
         html.heading("Along the motion", level=3),
         html.paragraph(_ALONG),
-        html.picture(draw_along_motion(found), describe_along_motion(found)),
+        drawn(draw_along_motion, describe_along_motion, found),
         html.heading("Spectrum and memory", level=3),
         html.paragraph(_MEMORY),
-        html.picture(draw_memory(found), describe_memory(found)),
+        drawn(draw_memory, describe_memory, found),
         html.heading("Which signal leads", level=3),
         html.paragraph(f"{leading(found)}."),
         html.paragraph(_LEADS),

@@ -33,6 +33,7 @@ def is_linear(row: Array) -> bool:
         and row[memory_map.L_CURVATURE] == 0.0
         and row[memory_map.L_LOAD] == 0.0
         and row[memory_map.L_POINT] == 0.0
+        and row[memory_map.L_SHAPED] == 0.0
     )
 
 
@@ -137,10 +138,12 @@ def add_row(
     x, theta, omega, lag, spring = w.x, w.theta, w.omega, w.lag, w.spring
     lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs
     loads, before, after = w.loads[r], w.start[r], w.end[r]
-    stage = Stage(frame.g, frame.axial, frame.yield_angle, cautious)
+    stage = Stage(frame.g, frame.axial, frame.yield_angle, cautious, frame.factor)
     g, n = frame.g, omega.size - 1
     is_point, place, fraction = row[memory_map.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
     load, curvature, phase = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_PHASE]
+    cycles = row[memory_map.L_CYCLES]
+    factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
     recoverable, stored = 0.0, 0.0
     for site in range(1 if is_point else 2 * n):
         e, k = (place, 0) if is_point else (site // 2, site % 2)
@@ -170,13 +173,13 @@ def add_row(
         after[slot, k, memory_map.Z_TURN] = new.turn
         after[slot, k, memory_map.Z_AXIAL] = new.axial
         after[slot, k, memory_map.PHI] = new.phi
-        stiffness = weight * row[memory_map.L_STIFFNESS]
+        stiffness = factor * weight * row[memory_map.L_STIFFNESS]
         recoverable += stiffness * new.phi * (rate + advected - slip)
         stored += 0.5 * stiffness * new.phi * new.phi
         if curvature != 0.0:
-            angle = left * theta[e] + right * theta[e + 1] + g * rate - phase
+            angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
             torque += curvature * math.sin(angle)
-            slope += g * curvature * math.cos(angle)
+            slope += g * curvature * cycles * math.cos(angle)
             recoverable += weight * curvature * math.sin(angle) * rate
         if cautious and slope < 0.0:
             slope = 0.0

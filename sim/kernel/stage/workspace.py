@@ -41,6 +41,7 @@ class Frame(NamedTuple):
     yield_angle: float  # presliding angle, rad
     servo: float  # stiffness of the drive, N m / rad; 0: it gives torque
     backlash: float  # half of the play, rad
+    factor: float = 1.0  # of rows that vary in time
 
 
 @inlined

@@ -20,7 +20,7 @@ _ROUNDING_S = 1e-9
 def read_off(experiment: TurnExperiment, run: Run, rig: PublishedRig) -> Quantities:
     """What the paper would have read from a run of an experiment, in the quantities' units."""
     drive = run.inputs.drive
-    tip, torque = sensed(rig.model, run.time_s, drive, run.tip_deg, run.base_torque_n_mm)
+    tip, torque = sensed(rig.model, run.inputs, run.tip_deg, run.base_torque_n_mm)
     if experiment is TurnExperiment.QUICK_TURN:
         return _of_quick_turn(run.time_s, TURN_DEG - tip)
     return _of_turn_at_rest(AT_REST[experiment], run.time_s, drive - tip, torque)

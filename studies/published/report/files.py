@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+from diagnosis.report.fallible import write_page
 from sim.files import Destination, ResultSet, publishing, write_text
 from studies.published.report.contents import as_json
 from studies.published.report.page import page
@@ -15,7 +16,7 @@ def output_paths(folder: Path) -> list[Path]:
 
 
 def write_report(study: PublishedStudy, destination: Destination) -> ResultSet:
-    """Write JSON and page as one; a page that fails is left out.
+    """Write JSON and page as one; a page that fails is left out, and pictures of it that fail.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
@@ -24,5 +25,5 @@ def write_report(study: PublishedStudy, destination: Destination) -> ResultSet:
     with publishing(destination, paths) as results:
         shown, told = paths
         write_text(results.at(told), json.dumps(as_json(study), indent=1, allow_nan=False))
-        results.optional(shown, lambda part: write_text(part, page(study)))
+        write_page(lambda: page(study), results, shown)
     return results

@@ -1,6 +1,7 @@
 """`paper.html`: the study for people, in one file that opens without a network."""
 
-from diagnosis.report.html_parts import bullets, document, heading, paragraph, picture, table, warnings
+from diagnosis.report.fallible import Page, drawn, page_of
+from diagnosis.report.html_parts import bullets, heading, paragraph, table, warnings
 from studies.published.material_study import MaterialStudy
 from studies.published.report.insertion_tables import insertion_sentences, insertion_table
 from studies.published.report.limitations import limitations
@@ -37,10 +38,10 @@ _FITS_ALT = (
 )
 
 
-def page(study: PublishedStudy) -> str:
-    """The whole page, HTML."""
+def page(study: PublishedStudy) -> Page:
+    """The whole page."""
     plastisol, gelatin = study.plastisol, study.gelatin
-    return document(
+    return page_of(
         "The published figures as a rig",
         [
             heading(verdict_sentence(plastisol), level=1),
@@ -76,9 +77,9 @@ def _stated_model(study: MaterialStudy) -> list[str]:
     return [
         heading("Stated model and published figures"),
         _table(figure_table(study)),
-        picture(draw_residuals(study), alt),
+        drawn(draw_residuals, lambda _: alt, study),
         heading("The quick turn"),
-        picture(draw_quick_turns(study), _TURNS_ALT),
+        drawn(draw_quick_turns, lambda _: _TURNS_ALT, study),
     ]
 
 
@@ -86,7 +87,7 @@ def _mechanisms(study: MaterialStudy) -> list[str]:
     best = min(study.fits, key=lambda f: f.aicc).rms_residual
     return [
         heading("Mechanisms that may explain the residual"),
-        picture(draw_fits(study), _FITS_ALT.format(best=best)),
+        drawn(draw_fits, lambda _: _FITS_ALT.format(best=best), study),
         _table(mechanism_table(study)),
     ]
 

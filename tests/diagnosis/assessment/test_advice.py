@@ -68,7 +68,7 @@ def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     slides = PreparedLog(rig=RIG, trials=(prepared(trial(turns(2.0), speed=-1.0)),))
     said = advise(SimpleNamespace(log=slides), unknown, NOMINAL, LEFT, {})
     assert f"of the nominal model is {NOMINAL.largest}" in said
-    assert f"what the best explanation leaves is {LEFT.largest}: repeat that phase alone" in said
+    assert f"what comes nearest leaves one that is {LEFT.largest}: repeat that phase alone" in said
     assert "at two depths and two rates" in said
 
 

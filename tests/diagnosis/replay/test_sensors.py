@@ -10,6 +10,7 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, sensed
+from sim.schedule import Schedule
 from sim.simulation import SimulationFailed
 
 TIME = np.linspace(0, 10, 1001)
@@ -23,6 +24,18 @@ def sliding():
     return prepared(trial(5.0 + turns(6.0), speed=-1.0))
 
 
+def inputs(time_s, drive_deg=None):
+    """A turn of the drive shaft at constant depth."""
+    depth = np.full(time_s.shape, 50.0)
+    return Schedule(
+        time_s=time_s,
+        drive=time_s if drive_deg is None else drive_deg,
+        free_mm=depth,
+        inserted_mm=depth,
+        speed_mm_s=0 * depth,
+    )
+
+
 def same(sliding, *rigs, **tolerance):
     one, other = predict(RIG, sliding, rigs)
     for sensor in SENSORS:
@@ -31,7 +44,7 @@ def same(sliding, *rigs, **tolerance):
 
 def test_delayed_sensors_show_what_was():
     rig = RigParameters(tip_delay_s=0.5, tip_scale=2.0, tip_bias_deg=3.0)
-    tip, torque = sensed(rig, TIME, TIME, TIME, TIME)
+    tip, torque = sensed(rig, inputs(TIME), TIME, TIME)
     np.testing.assert_allclose(tip, 3 + 2 * np.maximum(TIME - 0.5, 0.0))
     np.testing.assert_array_equal(torque, TIME)
 
@@ -40,7 +53,7 @@ def test_the_torque_sensor_shows_needle_and_bearing_late_and_with_its_gain():
     rig = RigParameters(
         torque_delay_s=0.5, torque_scale=2.0, torque_bias_n_mm=3.0, drive_friction_n_mm=0.25
     )
-    tip, torque = sensed(rig, TIME, 10 * TIME, TIME, TIME)
+    tip, torque = sensed(rig, inputs(TIME, 10 * TIME), TIME, TIME)
     seen = np.maximum(TIME - 0.5, 0.0)
     bearing = 0.25 * np.minimum(10 * seen / 0.1, 1.0)
     np.testing.assert_allclose(torque, 3 + 2 * (seen + bearing), atol=1e-9)
@@ -49,7 +62,7 @@ def test_the_torque_sensor_shows_needle_and_bearing_late_and_with_its_gain():
 
 def test_a_clock_that_runs_off_shows_what_its_time_says():
     rig = RigParameters(tip_clock_ratio=0.9, torque_clock_ratio=0.8, torque_delay_s=0.5)
-    tip, torque = sensed(rig, 5.0 + TIME, TIME, TIME, TIME)
+    tip, torque = sensed(rig, inputs(5.0 + TIME), TIME, TIME)
     np.testing.assert_allclose(tip, 0.9 * TIME, atol=1e-12)
     np.testing.assert_allclose(torque, np.maximum(0.8 * TIME - 0.5, 0.0), atol=1e-12)
 
@@ -57,7 +70,7 @@ def test_a_clock_that_runs_off_shows_what_its_time_says():
 def test_a_low_pass_answers_a_ramp_as_its_equation_says():
     """tau y' = x - y with x = t from rest: y = t - tau (1 - exp(-t / tau)), at any step."""
     for tau in (0.002, 0.1):
-        _, torque = sensed(RigParameters(torque_low_pass_s=tau), TIME, TIME, TIME, TIME)
+        _, torque = sensed(RigParameters(torque_low_pass_s=tau), inputs(TIME), TIME, TIME)
         np.testing.assert_allclose(torque, TIME + tau * np.expm1(-TIME / tau), atol=1e-12)
 
 

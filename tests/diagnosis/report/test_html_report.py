@@ -98,16 +98,33 @@ def test_whatever_scrolls_can_be_reached_by_keyboard_and_has_a_name(outline):
 def test_the_head_names_log_and_day(dry, undrawn):
     log = replace(dry.found.log, name="run 7")
     found = replace(dry.found, log=log, diagnosed_on=date(2026, 2, 3))
-    told = page(found, dry.report)
+    told = page(found, dry.report).text
     assert "log run 7, diagnosed on 2026-02-03, needle-torsion" in told
     assert "<title>run 7: gap report</title>" in told
 
 
 def test_warnings_stand_in_boxes(dry, undrawn):
     warned = replace(dry.found, log=replace(dry.log, warnings=("mind the <gap>",)))
-    assert '<p class="warning">mind the &lt;gap&gt;</p>' in page(warned, dry.report)
+    assert '<p class="warning">mind the &lt;gap&gt;</p>' in page(warned, dry.report).text
 
 
 def test_without_limits_there_is_no_heading_for_them(dry, undrawn):
     told = replace(dry.found.assessment, detection_limits={})
-    assert 'id="detection-limits"' not in page(replace(dry.found, assessment=told), dry.report)
+    assert 'id="detection-limits"' not in page(replace(dry.found, assessment=told), dry.report).text
+
+
+def test_the_page_stands_without_a_picture_and_a_section_that_fail(dry, undrawn, monkeypatch):
+    def fails(*_):
+        raise ValueError("mathtext")
+
+    monkeypatch.setattr(agreement, "draw_loops", fails)
+    monkeypatch.setattr(html_report, "search_section", fails)
+    made = page(dry.found, dry.report)
+    assert made.lacks == (
+        "the picture under 'Loops of torque and lag' (ValueError: mathtext)",
+        "the section after 'Detection limits' (ValueError: mathtext)",
+    )
+    left = HtmlOutline(made.text)
+    assert left.unbalanced == []
+    told = [text for level, text in left.headings if level == 2]
+    assert told == [s for s in SECTIONS if s not in ("Where the residual is", "How the search went")]

@@ -9,9 +9,11 @@ from diagnosis.assessment.advice import advise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
     alike,
+    best_in_words,
     explanation_name,
     explanations,
     headline,
+    label_of,
     largest_parts,
     largest_residual,
     leading,
@@ -153,12 +155,21 @@ def test_the_reduction_is_told_with_its_interval(dry):
     assert f"{100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %" in said
 
 
+def test_the_best_of_an_unknown_log_is_called_no_explanation(dry):
+    unknown = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN))
+    called = {found.verdict.kind: label_of(found, "explained") for found in (dry.found, unknown)}
+    assert called == {VerdictKind.EXPLAINED: "explained", VerdictKind.UNKNOWN: "nearest"}
+    assert label_of(unknown, "nominal") == "nominal"
+    assert best_in_words(dry.found) == "the best explanation"
+    assert "; of what comes nearest: largest in" in largest_parts(unknown)
+
+
 def test_one_more_effect_that_changes_nothing_is_said_to(dry):
     found = dry.found
     assert "Adding another effect changes almost nothing" in with_one_more(found)
     here = found.verdict.best.fit.gap
     told = replace(found.assessment, with_one_more={"tip_drag": 0.5 * here})
-    assert "would change" in with_one_more(replace(found, assessment=told))
+    assert "would lower the residual" in with_one_more(replace(found, assessment=told))
     nothing = replace(found.assessment, with_one_more={})
     assert with_one_more(replace(found, assessment=nothing)) == ""
 
@@ -175,7 +186,9 @@ def test_noise_and_numerical_error_are_told_by_sensor(dry):
 
 def test_the_largest_residual_is_told_with_where_it_is(dry):
     stretch, value = dry.found.assessment.breakdown.worst
-    assert largest_residual(dry.found) == f"Largest residual: {value:.2f} σ, {stretch}"
+    assert (
+        largest_residual(dry.found) == f"Largest residual of the nominal model: {value:.2f} σ, {stretch}"
+    )
 
 
 def test_table_sentence_and_advice_name_the_same_parts_with_the_same_numbers(dry):

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from diagnosis.report import write
+from diagnosis.report.fallible import Page
 from diagnosis.report.write import output_paths, write_report
 from models.errors import OutputExists
 from sim.files import Destination
@@ -46,7 +47,7 @@ def test_an_interrupted_report_leaves_nothing(dry, tmp_path, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(write, "page", lambda *_: "a page")
+    monkeypatch.setattr(write, "page", lambda *_: Page(text="a page", lacks=()))
     monkeypatch.setattr(write, "log_gap", interrupted)
     with pytest.raises(KeyboardInterrupt):
         write_report(dry.found, Destination(folder=tmp_path))

@@ -4,6 +4,7 @@ import errno
 import os
 import shutil
 import subprocess
+from multiprocessing import get_context
 
 import pytest
 
@@ -125,6 +126,36 @@ def test_two_runs_in_one_folder_leave_the_set_of_one(tmp_path):
         publish(tmp_path, "second")
         assert texts(tmp_path).items() >= dict.fromkeys(NAMES, "second").items()
     assert texts(tmp_path) == dict.fromkeys(NAMES, "first")
+
+
+def published(folder, text, force, together, told):
+    """In a process that gives its files their names when all others do."""
+    try:
+        with being_made(folder, force=force) as results:
+            for path in paths_in(folder):
+                results.at(path).write_text(text)
+            together.wait()
+        told.put((text, "done"))
+    except OutputExists:
+        told.put((text, "exists"))
+
+
+@pytest.mark.parametrize(("force", "done"), [(True, 4), (False, 1)])
+def test_processes_in_one_folder_leave_the_set_of_one(tmp_path, force, done):
+    fork = get_context("fork")
+    together, told = fork.Barrier(4, timeout=60), fork.Queue()
+    each = [
+        fork.Process(target=published, args=(tmp_path, text, force, together, told)) for text in "abcd"
+    ]
+    for process in each:
+        process.start()
+    ends = dict(told.get(timeout=60) for _ in each)
+    for process in each:
+        process.join()
+    assert list(ends.values()).count("done") == done
+    (winner,) = set(texts(tmp_path).values())
+    assert texts(tmp_path) == dict.fromkeys(NAMES, winner)
+    assert ends[winner] == "done"
 
 
 def test_ctrl_c_while_files_get_their_names_waits_for_the_rest(tmp_path, monkeypatch):

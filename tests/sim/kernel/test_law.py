@@ -82,6 +82,19 @@ CASES = {
     "stribeck": ({"kinetic": 0.1, "static": 0.3, "stribeck": 2.0}, 1.5, 0.0),
     "shared": ({"shared": 0.2}, 1.3, 0.9),
     "yielding tissue": ({"viscous": 0.02, "stiffness": 5.0, "time": 0.2}, 0.7, 0.0),
+    "shaped": (
+        {
+            "viscous": 0.02,
+            "kinetic": 0.1,
+            "static": 0.1,
+            "shaped": 1.0,
+            "asymmetry": 0.3,
+            "rate_low": -3.0,
+        }
+        | {"rate_step": 1.0, "curve_0": 1.0, "curve_1": 0.5, "curve_2": 0.2, "curve_4": -0.5},
+        0.7,
+        0.0,
+    ),
     "all": (
         {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "shared": 0.1, "stiffness": 5.0, "time": 0.1},
         1.7,

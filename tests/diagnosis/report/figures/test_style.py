@@ -4,7 +4,15 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from diagnosis.log.trial import SENSORS
-from diagnosis.report.figures.style import HATCHES, LABELS, LINES, MEASURED, PREDICTIONS, rms
+from diagnosis.report.figures.style import (
+    HATCHES,
+    LABELS,
+    LINES,
+    MEASURED,
+    PREDICTIONS,
+    block_means,
+    rms,
+)
 
 
 def lightness(colour):
@@ -23,6 +31,12 @@ def test_nominal_and_explained_differ_without_colour():
     assert len(set(LINES.values())) == len(set(HATCHES.values())) == 2
     nominal, explained = (lightness(PREDICTIONS[name]) for name in ("nominal", "explained"))
     assert (nominal + 0.05) / (explained + 0.05) > 2
+
+
+def test_means_over_blocks_are_at_most_so_many_and_the_last_may_be_shorter():
+    np.testing.assert_array_equal(block_means(np.arange(7.0), 3), [1.0, 4.0, 6.0])
+    np.testing.assert_array_equal(block_means(np.arange(3.0), 3), [0.0, 1.0, 2.0])
+    assert block_means(np.zeros(0), 3).size == 0
 
 
 def test_the_root_mean_square_leaves_out_what_was_not_read():

@@ -53,6 +53,19 @@ def test_each_of_several_effects_has_a_line_of_its_own():
     assert len({str(line.get_linestyle()) for line in lines}) == 4
 
 
+def test_four_effects_alone_differ_in_line_or_mark():
+    names = ("a", "b", "c", "d")
+    found = twist(nominal=[90.0, 85.0, 80.0], **{name: [90.0, 83.0, 76.0] for name in names})
+    lines = draw_twist(found).axes[0].get_lines()[1:5]
+    assert len({(line.get_linestyle(), line.get_marker()) for line in lines}) == 4
+
+
+def test_what_comes_nearest_is_not_called_explained():
+    legend = draw_twist(BOTH, "nearest").axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["nominal", "nearest", "tip, measured"]
+    assert "; nearest: 90.0 deg at the chuck" in describe_twist(BOTH, "nearest")
+
+
 def test_meshes_that_differ_are_compared_at_the_same_places():
     found = ShaftTwist(
         trial="trial_01.csv",

@@ -8,6 +8,7 @@ import pytest
 from diagnosis.report.sections import agreement
 from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sentences import reduction
+from diagnosis.selection.verdict import VerdictKind
 
 
 @pytest.fixture(autouse=True)
@@ -29,3 +30,12 @@ def test_without_time_for_the_twist_it_is_left_out(dry):
     told = replace(dry.found.assessment, twist=None)
     parts = agreement_section(replace(dry.found, assessment=told))
     assert not any("Twist along the shaft" in part for part in parts)
+
+
+def test_the_nearest_to_an_unknown_log_is_not_to_be_believed(dry):
+    unknown = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN))
+    said = "".join(agreement_section(unknown))
+    assert "How near the nearest comes" in said
+    assert "Solid red: what comes nearest" in said
+    assert "Why to believe it" not in said
+    assert "explained" not in said

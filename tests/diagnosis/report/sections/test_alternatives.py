@@ -8,6 +8,7 @@ import pytest
 from diagnosis.report.sections import alternatives
 from diagnosis.report.sections.alternatives import alternatives_section
 from diagnosis.report.sentences import alike
+from diagnosis.selection.verdict import VerdictKind
 
 
 @pytest.fixture(autouse=True)
@@ -31,3 +32,11 @@ def test_what_looks_the_same_comes_first(dry):
 def test_where_everything_would_show_that_is_said(dry, monkeypatch):
     monkeypatch.setattr(alternatives, "unidentifiable", lambda _: ())
     assert "Every effect of the library would show" in alternatives_section(dry.found)[-1]
+
+
+def test_of_an_unknown_log_no_explanation_has_a_probability(dry):
+    unknown = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN))
+    said = "".join(alternatives_section(unknown))
+    assert "no explanation has a probability" in said
+    assert "<figure" not in said
+    assert "<table" not in said

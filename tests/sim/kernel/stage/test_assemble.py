@@ -20,6 +20,14 @@ TISSUES = {
     "yielding": Tissue.uniform(
         viscous_n_mm_s_per_mm=0.02, stiffness_n_mm_per_rad_per_mm=0.02, time_constant_s=1.0
     ),
+    "shaped": Tissue.uniform(
+        viscous_n_mm_s_per_mm=0.02,
+        kinetic_n_mm_per_mm=0.01,
+        asymmetry=0.3,
+        rate_curve=(3.0, 2.0, 1.4, 1.0, 0.8, 0.7, 0.65),
+        orientation_n_mm_per_mm=0.003,
+        orientation_cycles=2.0,
+    ),
     "entry": Tissue.uniform(viscous_n_mm_s_per_mm=0.02, entry_friction_n_mm=0.1),
 }
 BENT = NITINOL.but(curvature_n_mm_per_mm=0.003, curvature_phase_deg=40, load_coefficient=0.3)

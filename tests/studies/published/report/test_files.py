@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from diagnosis.report.fallible import Page
 from models.errors import OutputExists
 from sim.files import Destination
 from studies.published.report import files
@@ -12,7 +13,7 @@ from studies.published.report.files import output_paths, write_report
 
 
 def test_page_and_json_are_written_and_not_overwritten_unless_asked(study, tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "page", lambda study: "<html>σ</html>")
+    monkeypatch.setattr(files, "page", lambda study: Page(text="<html>σ</html>", lacks=()))
     paths = write_report(study, Destination(folder=tmp_path)).made
     assert [p.name for p in paths] == ["paper.html", "paper.json"]
     assert paths == output_paths(tmp_path)

@@ -9,7 +9,7 @@ from studies.published.report.page import page
 
 @pytest.fixture(scope="module")
 def html(study):
-    return page(study)
+    return page(study).text
 
 
 def test_the_page_says_the_verdict_first_and_needs_no_network(html):

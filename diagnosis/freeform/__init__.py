@@ -1,0 +1,1 @@
+"""What an unknown effect is like: free-form laws, fitted through the simulation."""

@@ -1,0 +1,51 @@
+"""An assessment whose explanation is a free-form law: readings, gap and what is left are of that."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from diagnosis.assessment.assess import Assessment
+from diagnosis.assessment.gap_reduction import gap_reduction
+from diagnosis.fitting.noise_reestimation import in_units_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.missing import Missing
+from diagnosis.log.rig_log import RigLog
+from diagnosis.nominal_replay import at_samples, nominal_residuals
+from diagnosis.replay.drift import with_drift
+from diagnosis.replay.replay import Prediction, replay
+from diagnosis.residuals.residual_breakdown import residual_breakdown
+from diagnosis.residuals.residual_shape import residual_shape
+from diagnosis.residuals.trial_residual import trial_residuals
+
+
+def explained_by(
+    missing: Missing,
+    log: RigLog,
+    problem: FitProblem,
+    nominal: Sequence[Prediction],
+    told: Assessment,
+) -> Assessment:
+    """The assessment with what the law explains in place of the nearest explanation.
+
+    Args:
+      problem: the log, with the noise that the assessment rests on.
+      nominal: readings of the nominal rig by trial of the problem.
+
+    Raises:
+      SimulationFailed: the rig with the law cannot be simulated.
+    """
+    fit = missing.best.fit
+    rig = fit.parameterization.rig(fit.x)
+    predictions = replay(problem.log, rig, problem.resolution)
+    explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
+    left = trial_residuals(log, explained, problem.noise)
+    plain = problem.noise.uncoloured
+    after = missing.best.held_out or fit.by_trial
+    return replace(
+        told,
+        gap=gap_reduction(
+            nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
+        ),
+        explained=explained,
+        breakdown_after=residual_breakdown(left),
+        shape_after=residual_shape(left),
+    )

@@ -1,0 +1,113 @@
+"""Something that happened once: an angle or a reading that steps by an unknown size at an unknown time.
+
+The time is first looked for in what the nominal rig leaves: where its mean before and after a time
+differ most, in units of what both halves leave (a two-sample test), over all times of all trials.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.readings import TIP, TORQUE
+from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+
+Array = NDArray[np.float64]
+
+_STEP_S = 0.1  # that a step takes
+_MOVES_S = 1.5  # at the most, from where it is looked for first
+_LEAST_S = 0.5  # from either end of a trial
+_PLACES = {
+    ActsOn.DRIVE_ANGLE: (TIP, Place.DRIVE, "slip between drive and needle"),
+    ActsOn.TIP_READING: (TIP, Place.SENSOR, "jump of the tip sensor"),
+    ActsOn.TORQUE_READING: (TORQUE, Place.SENSOR, "jump of the torque sensor"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moment:
+    """When something happened: in which trial, s after it began."""
+
+    trial: str
+    time_s: float
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """One step of each angle or reading, if a log is long enough."""
+    found = []
+    for acts_on, (sensor, place, title) in _PLACES.items():
+        moment = largest_step(ranges, sensor) if sensor in ranges.missing else None
+        if moment is not None:
+            found.append(_step(acts_on, place, title, moment, ranges.missing[sensor]))
+    return tuple(found)
+
+
+def largest_step(ranges: LogRanges, sensor: str) -> Moment | None:
+    """Where the mean of what the nominal rig leaves changes most; None: all trials are too short."""
+    trials = [t for t in ranges.problem.log.trials if t.has(sensor)]
+    best, found = 0.0, None
+    for trial, left in zip(trials, ranges.left[sensor], strict=True):
+        read = np.isfinite(left)
+        time_s = trial.time_s[read] - trial.time_s[0]
+        size, at_s = _largest_change(time_s, left[read])
+        if size > best:
+            best, found = size, Moment(trial=trial.name, time_s=at_s)
+    return found
+
+
+def _largest_change(time_s: Array, left: Array) -> tuple[float, float]:
+    """Share of the variance that a step takes off at best, times the samples, and where."""
+    count = np.arange(1, left.size)
+    total = np.cumsum(left)
+    before, after = total[:-1] / count, (total[-1] - total[:-1]) / (left.size - count)
+    explained = count * (left.size - count) / left.size * (after - before) ** 2
+    middle = (time_s[1:] > _LEAST_S) & (time_s[1:] < time_s[-1] - _LEAST_S)
+    if not middle.any():
+        return 0.0, 0.0
+    at = int(np.argmax(np.where(middle, explained, -1.0)))
+    return float(explained[at]), float(time_s[at + 1])
+
+
+def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float) -> Family:
+    low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
+    when = Parameter(name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0)
+    step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
+    return Family(
+        effect=Effect(
+            name=f"{title}, once",
+            title=f"{title}, once in {moment.trial}",
+            place=place,
+            parameters=(when, step),
+            apply=partial(_apply, acts_on, moment.trial),
+            differences=(3e-2, 1e-2),
+            trial=moment.trial,
+        ),
+        places={place: 1.0},
+        says="event",
+        title=title,
+        curve=_stepped,
+        x_unit="s",
+        unit="N mm" if acts_on is ActsOn.TORQUE_READING else "deg",
+    )
+
+
+def _stepped(time_s: float, step: float) -> Points:
+    return (0.0, time_s, time_s + _STEP_S, time_s + 2.0), (0.0, 0.0, step, step)
+
+
+def _apply(acts_on: ActsOn, trial: str, rig: RigParameters, time_s: float, step: float) -> RigParameters:
+    curve = Curve(
+        acts_on=acts_on,
+        variable=Variable.TIME,
+        places=(time_s, time_s + _STEP_S),
+        values=(0.0, step),
+        trial=trial,
+    )
+    return replace(rig, free=FreeLaw(curves=(curve,)))

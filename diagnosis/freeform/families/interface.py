@@ -1,0 +1,225 @@
+"""Free laws of the interface between shaft and tissue, per mm of shaft.
+
+damping times a curve of time, axial speed, depth, angle turned by, or place along the shaft
+dry friction beside it, as strong as a curve of these, or of the time at rest, says
+damping times a curve of the rate, and dry friction beside it
+damping and dry friction stronger one way than the other
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import UNITS, Variable
+from models.tissue import RATE_POINTS, Interface
+
+DAMPING_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH, Variable.HISTORY)
+FRICTION_OVER = (*DAMPING_OVER, Variable.REST, Variable.BASE_ANGLE)
+FADING = (Variable.TIME, Variable.HISTORY)
+SAYS = {Variable.REST: "history"}
+SLOW_RAD_S = 0.03
+PARTS = 6  # of the inserted length
+_PLACES = {Place.INTERFACE: 1.0}
+_SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """What may be missing between shaft and tissue."""
+    damping = (_damping_over(v, ranges) for v in DAMPING_OVER if v in ranges.ends)
+    friction = (_friction_over(v, ranges) for v in FRICTION_OVER if v in ranges.ends)
+    return (*damping, *friction, _rate(ranges), _direction(ranges), _position(ranges))
+
+
+def tissue_curve(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> Curve:
+    """A factor of the tissue, always positive."""
+    return Curve(
+        acts_on=ActsOn.TISSUE,
+        variable=variable,
+        places=tuple(curve.places),
+        values=tuple(np.exp(curve.values(c))),
+    )
+
+
+def _level(ranges: LogRanges) -> Parameter:
+    return ranges.library["coulomb_friction"].parameters[0]
+
+
+def _damping_over(variable: Variable, ranges: LogRanges) -> Family:
+    curve = smooth_curve(*ranges.ends[variable], fading=variable in FADING)
+    beta = ranges.damping_n_mm_s_per_mm
+
+    return Family(
+        effect=Effect(
+            name=f"damping over {variable}",
+            title=f"damping that changes with {variable}",
+            place=Place.INTERFACE,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_damping, variable, curve),
+        ),
+        places=_PLACES,
+        says=SAYS.get(variable, variable),
+        title="damping along the shaft",
+        curve=partial(_damping, curve, beta),
+        x_unit=UNITS[variable],
+        unit="N mm s / rad / mm",
+    )
+
+
+def _damping(curve: SmoothCurve, beta: float, *c: float) -> Points:
+    return curve.places, beta * np.exp(curve.values(c))
+
+
+def _apply_damping(
+    variable: Variable, curve: SmoothCurve, rig: RigParameters, *c: float
+) -> RigParameters:
+    return replace(rig, free=FreeLaw(tissue_varies=True, curves=(tissue_curve(variable, curve, c),)))
+
+
+def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
+    curve = smooth_curve(*ranges.ends[variable], fading=variable in FADING)
+
+    return Family(
+        effect=Effect(
+            name=f"dry friction over {variable}",
+            title=f"dry friction that changes with {variable}",
+            place=Place.INTERFACE,
+            parameters=(_level(ranges), *_from_neutral(coordinates_of(curve), _level(ranges))),
+            apply=partial(_apply_friction, variable, curve),
+            differences=(1e-2, 1e-3),
+        ),
+        places=_PLACES,
+        says=SAYS.get(variable, variable),
+        title="dry friction along the shaft",
+        curve=partial(_dry_level, curve),
+        x_unit=UNITS[variable],
+        unit="N mm / mm",
+    )
+
+
+def _dry_level(curve: SmoothCurve, level: float, *c: float) -> Points:
+    return curve.places, level * np.exp(curve.values(c))
+
+
+def _from_neutral(own: Sequence[Parameter], level: Parameter) -> tuple[Parameter, ...]:
+    """As many starts as the level has, neutral each."""
+    return tuple(replace(p, start=(0.0,) * len(level.start)) for p in own)
+
+
+def _apply_friction(
+    variable: Variable, curve: SmoothCurve, rig: RigParameters, level: float, *c: float
+) -> RigParameters:
+    law = Interface(kinetic_n_mm_per_mm=level, varies=True)
+    return replace(rig, free=FreeLaw(throughout=(law,), curves=(tissue_curve(variable, curve, c),)))
+
+
+def _rate(ranges: LogRanges) -> Family:
+    fastest = max(abs(end) for end in ranges.ends.get(Variable.RATE, (0.0, 1.0)))
+    rates = (0.003 * fastest, 1.5 * fastest)
+    curve = smooth_curve(0.0, 1.0, RATE_POINTS)
+    beta = ranges.damping_n_mm_s_per_mm
+
+    return Family(
+        effect=Effect(
+            name="friction over rate",
+            title="friction that changes with the rate of turning",
+            place=Place.INTERFACE,
+            parameters=(_level(ranges), *_from_neutral(coordinates_of(curve), _level(ranges))),
+            apply=partial(_apply_rate, curve, rates),
+            differences=(1e-2, 1e-3),
+        ),
+        places=_PLACES,
+        says="rate",
+        title="friction along the shaft",
+        curve=partial(_friction, curve, rates, beta),
+        x_unit="rad/s",
+        unit="N mm / mm",
+    )
+
+
+def _friction(
+    curve: SmoothCurve, rates: tuple[float, float], beta: float, level: float, *c: float
+) -> Points:
+    at = np.geomspace(*rates, RATE_POINTS)
+    return at, level + beta * at * np.exp(curve.values(c))
+
+
+def _apply_rate(
+    curve: SmoothCurve, rates: tuple[float, float], rig: RigParameters, level: float, *c: float
+) -> RigParameters:
+    factors = tuple(float(v) for v in np.exp(curve.values(c)))
+    law = Interface(kinetic_n_mm_per_mm=level)
+    free = FreeLaw(rate_curve=factors, rate_range_rad_s=rates, throughout=(law,))
+    return replace(rig, free=free)
+
+
+def _direction(ranges: LogRanges) -> Family:
+    beta = ranges.damping_n_mm_s_per_mm
+
+    return Family(
+        effect=Effect(
+            name="friction over direction",
+            title="friction that is stronger one way than the other",
+            place=Place.INTERFACE,
+            parameters=(
+                _level(ranges),
+                _SIDE,
+                replace(_SIDE, name="viscous asymmetry", start=(0.0, 0.0, 0.0)),
+            ),
+            apply=_apply_direction,
+            differences=(1e-2, 1e-3),
+        ),
+        places=_PLACES,
+        says="direction",
+        title=f"friction along the shaft, turned slowly at {SLOW_RAD_S:g} rad/s,",
+        curve=partial(_both_ways, beta),
+        x_unit="-",
+        unit="N mm / mm",
+    )
+
+
+def _both_ways(beta: float, level: float, dry: float, viscous: float) -> Points:
+    slow = beta * SLOW_RAD_S
+    return (-1.0, 1.0), [level * (1 + s * dry) + slow * (1 + s * viscous) for s in (-1, 1)]
+
+
+def _apply_direction(rig: RigParameters, level: float, dry: float, viscous: float) -> RigParameters:
+    law = Interface(kinetic_n_mm_per_mm=level, asymmetry=dry)
+    return replace(rig, free=FreeLaw(throughout=(law,), asymmetry=viscous))
+
+
+def _position(ranges: LogRanges) -> Family:
+    curve = smooth_curve(0.0, 1.0, PARTS)
+    beta = ranges.damping_n_mm_s_per_mm
+
+    return Family(
+        effect=Effect(
+            name="damping over position",
+            title="damping that changes along the inserted shaft",
+            place=Place.INTERFACE,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_position, curve),
+        ),
+        places={Place.INTERFACE: 0.6, Place.TISSUE: 0.4},
+        says="position",
+        title="damping along the shaft",
+        curve=partial(_along_depth, curve, beta),
+        x_unit="of the inserted length",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _along_depth(curve: SmoothCurve, beta: float, *c: float) -> Points:
+    return (np.arange(PARTS) + 0.5) / PARTS, beta * np.exp(curve.values(c))
+
+
+def _apply_position(curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
+    factors = tuple(float(v) for v in np.exp(curve.values(c)))
+    return replace(rig, free=FreeLaw(damping_along_depth=factors))

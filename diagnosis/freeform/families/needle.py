@@ -1,0 +1,122 @@
+"""Free laws of the needle itself.
+
+at the tip, in one place: drag and dry friction, stronger one way than the other
+at the tip, or along the inserted shaft: a torque of the angle, as waves once and twice a turn
+"""
+
+import math
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+from models.tissue import Interface
+
+WAVES = (1, 2)  # in a turn
+_SHOWN_DEG = np.linspace(-180.0, 180.0, 25)
+_SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])
+_AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """What may be missing of the needle."""
+    turned = Variable.BASE_ANGLE in ranges.ends
+    angles = (_angle(ranges, tip=True), _angle(ranges, tip=False)) if turned else ()
+    return (_tip_rate(ranges), *angles)
+
+
+def _tip_rate(ranges: LogRanges) -> Family:
+    drag = ranges.library["tip_drag"].parameters[0]
+    dry = _dry(ranges)
+
+    return Family(
+        effect=Effect(
+            name="tip torque over rate",
+            title="drag and dry friction in one place, at the tip",
+            place=Place.NEEDLE,
+            parameters=(
+                replace(drag, start=(drag.start[0],) * len(dry.start)),
+                dry,
+                Parameter(
+                    name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0,) * len(dry.start)
+                ),
+            ),
+            apply=_apply_tip_rate,
+            differences=(1e-2, 1e-3),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="rate",
+        title="torque at the tip",
+        curve=_at_rates,
+        x_unit="rad/s",
+        unit="N mm",
+    )
+
+
+def _at_rates(damping: float, level: float, side: float) -> Points:
+    own = damping * _SHOWN_RAD_S + level * np.sign(_SHOWN_RAD_S)
+    return _SHOWN_RAD_S, own * (1 + side * np.sign(_SHOWN_RAD_S))
+
+
+def _dry(ranges: LogRanges) -> Parameter:
+    """Dry friction in one place, as strong as that of a stretch of shaft."""
+    along = ranges.library["coulomb_friction"].parameters[0]
+    each = {k: getattr(along, k) * _AT_TIP_MM for k in ("low", "high")}
+    start = tuple(v * _AT_TIP_MM for v in along.start)
+    return replace(along, unit="N mm", start=start, **each)
+
+
+def _apply_tip_rate(rig: RigParameters, damping: float, level: float, asymmetry: float) -> RigParameters:
+    law = Interface(viscous_n_mm_s_per_mm=damping, kinetic_n_mm_per_mm=level, asymmetry=asymmetry)
+    return replace(rig, free=FreeLaw(at_tip=(law,)))
+
+
+def _angle(ranges: LogRanges, *, tip: bool) -> Family:
+    """Sine and cosine of each wave."""
+    level = ranges.library["coulomb_friction"].parameters[0].start[-1]
+    size = level * _AT_TIP_MM if tip else level
+    where = "tip torque" if tip else "torque along the shaft"
+
+    return Family(
+        effect=Effect(
+            name=f"{where} over tip_angle",
+            title=f"{where} that depends on its angle",
+            place=Place.NEEDLE,
+            parameters=coordinates(2 * len(WAVES), 0, size),
+            apply=partial(_apply_angle, tip),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="tip_angle",
+        title=where,
+        curve=_over_a_turn,
+        x_unit="deg",
+        unit="N mm" if tip else "N mm / mm",
+    )
+
+
+def _over_a_turn(*c: float) -> Points:
+    angle = np.radians(_SHOWN_DEG)
+    each = zip(WAVES, c[::2], c[1::2], strict=True)
+    waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each]
+    return _SHOWN_DEG, np.sum(waves, axis=0)
+
+
+def _apply_angle(tip: bool, rig: RigParameters, *c: float) -> RigParameters:
+    laws = tuple(_wave(n, a, b) for n, a, b in zip(WAVES, c[::2], c[1::2], strict=True))
+    free = FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws)
+    return replace(rig, free=free)
+
+
+def _wave(cycles: int, sine: float, cosine: float) -> Interface:
+    """a sin x + b cos x = hypot(a, b) sin(x + atan2(b, a))."""
+    return Interface(
+        orientation_n_mm_per_mm=math.hypot(sine, cosine),
+        orientation_phase_deg=-math.degrees(math.atan2(cosine, sine)),
+        orientation_cycles=float(cycles),
+    )

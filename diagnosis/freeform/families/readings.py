@@ -1,0 +1,169 @@
+"""Free laws that add to an angle or a reading: of the drive, and of both sensors.
+
+    the drive shaft turns the needle by its angle + a curve of time, angle, orientation or direction
+    the torque sensor reads a torque of the drive: a curve of its angle, orientation, rate or direction
+    a sensor reads what there is + a curve of it, or of time, axial speed, depth or another signal
+
+An offset that depends on the torque is a twist that torsion by the nominal stiffness does not give:
+more likely of the needle than of the sensor that shows it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Place
+from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.ripple import waves_in_a_turn
+from diagnosis.freeform.smooth_curve import (
+    SmoothCurve,
+    periodic_curve,
+    separate_values,
+    smooth_curve,
+    two_values,
+)
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import UNITS, Variable
+
+TURN_DEG = 360.0
+RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
+PAST_PLACES, RIPPLE_PLACES = 6, 5
+_SAYS = {
+    Variable.TIP_RATE: "rate",
+    Variable.TORQUE_RATE: "history",
+    Variable.PAST: "history",
+}
+DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Added:
+    """Something added to an angle or a reading.
+
+    Attributes:
+      sensor: whose residual shows it most.
+      says: variable of the vocabulary.
+      period_deg: after which it repeats; 0: it does not; RIPPLE: as often in a turn as shows most.
+    """
+
+    acts_on: ActsOn
+    variable: Variable
+    sensor: str
+    places: Mapping[Place, float]
+    title: str
+    says: str
+    period_deg: float = 0.0
+
+
+TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
+
+
+def _added(
+    acts_on: ActsOn,
+    sensor: str,
+    title: str,
+    places: Mapping[Place, float],
+    *variables: Variable,
+    period_deg: float = 0.0,
+) -> tuple[Added, ...]:
+    return tuple(
+        Added(
+            acts_on=acts_on,
+            variable=variable,
+            sensor=sensor,
+            places=places,
+            title=title,
+            says=_SAYS.get(variable, variable),
+            period_deg=period_deg,
+        )
+        for variable in variables
+    )
+
+
+_SHAFT = (ActsOn.DRIVE_ANGLE, TIP, "error of the drive's angle")
+_BEARING = (ActsOn.DRIVE_TORQUE, TORQUE, "torque of the drive that the needle does not feel")
+_TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
+_TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
+_V = Variable
+ADDED = (
+    *_added(*_SHAFT, DRIVE, _V.TIME, _V.BASE_ANGLE, _V.DIRECTION),
+    *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.DIRECTION),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
+    *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, _V.DIRECTION),
+    *_added(*_TIP, {Place.NEEDLE: 0.6, Place.SENSOR: 0.4}, _V.TORQUE),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
+    *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
+    *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
+)
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """What may be added to an angle or a reading."""
+    seen = (a for a in ADDED if a.variable in ranges.ends and a.sensor in ranges.missing)
+    return tuple(family_of(a, curve_of(a, ranges), ranges) for a in seen)
+
+
+def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
+    """The curve that is added, over the range of the log."""
+    if added.period_deg == RIPPLE:
+        return periodic_curve(
+            TURN_DEG / waves_in_a_turn(ranges, added.sensor, added.variable), RIPPLE_PLACES
+        )
+    if added.period_deg:
+        return periodic_curve(added.period_deg)
+    if added.variable is Variable.DIRECTION:
+        return two_values()
+    if added.variable is Variable.PAST:
+        return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
+    return smooth_curve(*ranges.ends[added.variable])
+
+
+def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
+    """The family of one addition."""
+    period = f", every {curve.period:.3g} deg" if curve.period else ""
+    scale = 1.0 if added.variable is Variable.PAST else ranges.missing[added.sensor]
+    name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}"
+
+    return Family(
+        effect=Effect(
+            name=name,
+            title=name,
+            place=max(added.places, key=lambda place: added.places[place]),
+            parameters=coordinates_of(curve, scale),
+            apply=partial(_apply, added, curve),
+        ),
+        places=added.places,
+        says=added.says,
+        title=added.title,
+        curve=partial(_points, curve),
+        x_unit=UNITS[added.variable],
+        unit=_unit(added),
+    )
+
+
+def _unit(added: Added) -> str:
+    if added.variable is Variable.PAST:
+        return "-"
+    return "N mm" if added.sensor == TORQUE else "deg"
+
+
+def _points(curve: SmoothCurve, *c: float) -> Points:
+    return curve.places, curve.values(c)
+
+
+def _apply(added: Added, curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
+    own = Curve(
+        acts_on=added.acts_on,
+        variable=added.variable,
+        places=tuple(float(x) for x in curve.places),
+        values=curve.values(c),
+        period=curve.period,
+    )
+    return replace(rig, free=FreeLaw(curves=(own,)))

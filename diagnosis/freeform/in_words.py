@@ -1,0 +1,90 @@
+"""What is missing, in plain words."""
+
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.missing import Law, Missing
+from diagnosis.freeform.shapes import likeness_of
+
+PLACES = {
+    Place.INTERFACE: "along the shaft, between it and the tissue",
+    Place.TISSUE: "in the tissue",
+    Place.DRIVE: "at the drive",
+    Place.NEEDLE: "in the needle or at its tip",
+    Place.SENSOR: "in a sensor",
+    Place.PARAMETERS: "in the constants of the rig",
+}
+VARIABLES = {
+    "time": "the time since a trial began",
+    "event": "something that happened once",
+    "base_angle": "the angle of the base",
+    "tip_angle": "the angle of the tip",
+    "rate": "the rate of turning",
+    "direction": "the direction of turning",
+    "axial_speed": "the axial speed",
+    "depth": "the inserted length",
+    "torque": "the torque",
+    "position": "the place along the shaft",
+    "history": "what went before",
+}
+DOUBT = (
+    "Doubt first what all of these laws take for granted: lengths, diameter and clocks of the rig, one "
+    "zero for all trials, and that one thing at a time is missing"
+)
+_OTHERS = 3
+_MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
+
+
+def what_is_missing(missing: Missing, gap_before: float) -> str:
+    """Where it acts, what it depends on, and how much a law of it explains; one or two sentences.
+
+    Args:
+      gap_before: that the nominal rig leaves, in sigma.
+    """
+    if missing.law is None:
+        return f"No free-form law that was tried leaves less than the library does. {DOUBT}."
+    law, first = missing.law, missing.depends_on[0]
+    probability = missing.place[law.place]
+    beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
+    told = (
+        f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
+        f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of it{beside} brings "
+        f"{gap_before:.2f} σ to {first.gap_after:.2f} σ on trials that its fit has not seen"
+    )
+    return f"{told}{_beside(missing)}.{_likeness(law)}"
+
+
+def _likeness(law: Law) -> str:
+    """What the law looks like; empty: nothing that has a name."""
+    like = likeness_of(law)
+    if like is None:
+        return ""
+    library = f", a law that {' and '.join(like.library)} of the library has" if like.library else ""
+    return f" The law looks like a {like.shape}{library}: {like.says}."
+
+
+def course_of(law: Law) -> str:
+    """How a law runs, in words."""
+    low, high = min(law.y), max(law.y)
+    if law.variable == "event":
+        return f"{law.title}, by {law.y[-1]:.3g} {law.unit} at {law.x[1]:.2f} {law.x_unit}"
+    if law.variable == "direction":
+        back, forth = law.y[0], law.y[-1]
+        if back * forth > 0:
+            way, ratio = ("forwards", forth / back) if forth > back else ("backwards", back / forth)
+            return f"{law.title} is {ratio:.2g} times as strong {way}"
+        return f"{law.title} is {forth:.3g} {law.unit} forwards, {back:.3g} {law.unit} backwards"
+    rises = law.y[-1] - law.y[0]
+    if abs(rises) >= _MOSTLY * (high - low):
+        verb = "rises" if rises > 0 else "falls"
+        unit = "" if law.x_unit == "-" else f" {law.x_unit}"
+        return (
+            f"{law.title} {verb} from {law.y[0]:.3g} to {law.y[-1]:.3g} {law.unit} between "
+            f"{law.x[0]:.3g} and {law.x[-1]:.3g}{unit}"
+        )
+    return f"{law.title} varies between {low:.3g} and {high:.3g} {law.unit}"
+
+
+def _beside(missing: Missing) -> str:
+    """What laws of other variables leave."""
+    others = [d for d in missing.depends_on[1:] if d.gap_after < float("inf")][:_OTHERS]
+    told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
+    return f"; other variables leave more or explain no better ({told})" if told else ""

@@ -1,0 +1,163 @@
+"""What the log says of what is not in the library: where, what it depends on, and as what law.
+
+Families compete by the gap g that they leave on trials that their fits have not seen,
+
+    weight = g^(-2 / PATIENCE) exp(-freedom / FREEDOM),
+
+so that a law that leaves 10 % more than another has a seventh of its weight. This is less sure than a
+likelihood would be: no family is the true law, and the best of them may be so by chance. Places that no
+family favours keep a little.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.prior import free_covariance, well_determined
+from diagnosis.freeform.search import FreeFit
+
+Array = NDArray[np.float64]
+
+PATIENCE, FREEDOM = 0.1, 10.0
+LEAST_WEIGHT = 0.01
+_DRAWS, _SEED = 400, 17
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dependence:
+    """A variable with the gap that the best law of it leaves.
+
+    Attributes:
+      title: what the law is of.
+      place: where it acts.
+    """
+
+    variable: str
+    gap_after: float
+    title: str
+    place: Place
+
+
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    """A free-form law as a curve with a 95 % band; arrays are (K,).
+
+    Attributes:
+      beside: effects of the library that are fitted with it.
+    """
+
+    place: Place
+    variable: str
+    title: str
+    x_unit: str
+    unit: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    beside: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Missing:
+    """What is not in the library.
+
+    Attributes:
+      place: probabilities.
+      depends_on: variables, the one whose law leaves least first.
+      law: that leaves least; None: none leaves visibly less than the library does.
+      best: its fit.
+      closed: whether it leaves little more than noise.
+    """
+
+    place: Mapping[Place, float]
+    depends_on: tuple[Dependence, ...]
+    law: Law | None
+    best: FreeFit
+    closed: bool
+
+
+def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
+    """What free-form fits say.
+
+    Args:
+      nearest_gap: that the library's nearest explanation leaves, on unseen trials.
+    """
+    ranked = sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
+    best = ranked[0]
+    helps = best.gap_after < FREE_LAW_GAIN * nearest_gap
+    return Missing(
+        place=_places(fits),
+        depends_on=_dependences(ranked),
+        law=_law(best) if helps else None,
+        best=best,
+        closed=helps and best.gap_after <= CLOSED_GAP,
+    )
+
+
+def _places(fits: Sequence[FreeFit]) -> dict[Place, float]:
+    """Each place by the best family that may live there."""
+    logs = [_log_weight(f) for f in fits]
+    most = dict.fromkeys(Place, 0.0)
+    for one, log in zip(fits, logs, strict=True):
+        for place, share in one.family.places.items():
+            most[place] = max(most[place], share * math.exp(log - max(logs)))
+    weights = {place: LEAST_WEIGHT + weight for place, weight in most.items()}
+    return {place: weight / sum(weights.values()) for place, weight in weights.items()}
+
+
+def _log_weight(one: FreeFit) -> float:
+    freedom = well_determined(one.family, one.fit) + len(one.beside)
+    return -2.0 * math.log(one.gap_after) / PATIENCE - freedom / FREEDOM
+
+
+def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
+    found: dict[str, Dependence] = {}
+    for one in ranked:
+        family = one.family
+        found.setdefault(
+            family.says,
+            Dependence(
+                variable=family.says, gap_after=one.gap_after, title=family.title, place=family.place
+            ),
+        )
+    return tuple(found.values())
+
+
+def _law(one: FreeFit) -> Law:
+    """The curve with a band from draws of its coordinates."""
+    family, fit = one.family, one.fit
+    own = [owner == family.name for owner in fit.parameterization.owners]
+    low, high = fit.parameterization.bounds()
+    rng = np.random.default_rng(_SEED)
+    draws = rng.multivariate_normal(fit.x, free_covariance(fit), size=_DRAWS)
+    curves = [_points(one, np.clip(x, low, high), own)[1] for x in draws]
+    ends = np.quantile(curves, [0.025, 0.975], axis=0)
+    x, y = _points(one, fit.x, own)
+    return Law(
+        place=family.place,
+        variable=family.says,
+        title=family.title,
+        x_unit=family.x_unit,
+        unit=family.unit,
+        x=_numbers(x),
+        y=_numbers(y),
+        low=_numbers(ends[0]),
+        high=_numbers(ends[1]),
+        beside=one.beside,
+    )
+
+
+def _points(one: FreeFit, x: Array, own: Sequence[bool]) -> tuple[Array, Array]:
+    values = np.array(one.fit.parameterization.values(x))[np.array(own)]
+    across, up = one.family.curve(*(float(v) for v in values))
+    return np.asarray(across, float), np.asarray(up, float)
+
+
+def _numbers(values: Array) -> tuple[float, ...]:
+    return tuple(float(v) for v in values)

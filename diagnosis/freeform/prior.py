@@ -1,0 +1,63 @@
+"""How strong the prior of a curve is: estimated from the fit itself.
+
+With n coordinates c of standard deviation tau a priori, and covariance C after the fit,
+
+    well determined = n - trace(C) / tau^2,    tau^2 = c'c / well determined
+
+(MacKay 1992, "Bayesian interpolation", equations 4.8 and 4.9). What a fit leaves above the noise counts
+as noise.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.fitting.cross_validation import information
+from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.family import Family, kind_of
+
+Array = NDArray[np.float64]
+
+LEAST, MOST = 0.01, 20.0
+
+
+def free_covariance(fit: Fit, *, without: int | None = None) -> Array:
+    """Of the vector of a fit, (n, n), with what is left above the noise taken for noise.
+
+    Args:
+      without: a trial that is left out.
+    """
+    weights = np.diag(fit.parameterization.weights**2)
+    data = information(fit, without=without) - weights
+    return np.asarray(np.linalg.pinv(data / max(1.0, fit.gap**2) + weights))
+
+
+def well_determined(family: Family, fit: Fit) -> float:
+    """How many of the parameters of a family the data determine."""
+    entries = _entries(family, fit)
+    spread = np.diag(free_covariance(fit))[entries]
+    weights = fit.parameterization.weights[entries]
+    return float(np.sum(1.0 - np.minimum(spread * weights**2, 1.0)))
+
+
+def with_estimated_prior(family: Family, fit: Fit) -> Family:
+    """The family with the strengths that the fit speaks for, of the straight part and of the rest."""
+    kinds = np.array([kind_of(p) for p in family.effect.parameters])
+    entries = _entries(family, fit)
+    spread = np.diag(free_covariance(fit))
+    straight, rest = (_strength(fit, spread, entries[kinds == k]) for k in ("straight", "rest"))
+    return family.with_prior(straight, rest)
+
+
+def _strength(fit: Fit, spread: Array, entries: NDArray[np.int_]) -> float:
+    """Standard deviation of some coordinates."""
+    if entries.size == 0:
+        return 1.0
+    sigma = 1.0 / fit.parameterization.weights[entries]
+    known = max(entries.size - float(np.sum(spread[entries] / sigma**2)), 0.1)
+    return float(np.clip(math.sqrt(float(fit.x[entries] @ fit.x[entries]) / known), LEAST, MOST))
+
+
+def _entries(family: Family, fit: Fit) -> NDArray[np.int_]:
+    return np.flatnonzero([owner == family.name for owner in fit.parameterization.owners])

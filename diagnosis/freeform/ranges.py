@@ -1,0 +1,106 @@
+"""What free laws are drawn to: the ranges that a log covers, and the size of what is missing."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects.effect import Effect
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.replay.replay import Prediction
+from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+
+Array = NDArray[np.float64]
+
+LEAST_PAST_S, LONGEST_PAST_S = 0.03, 3.0
+_ALL_BUT = 0.002  # of the samples at either end lie beyond a range
+LEAST_RANGE = {
+    Variable.TIME: 1.0,
+    Variable.BASE_ANGLE: 20.0,
+    Variable.RATE: 0.05,
+    Variable.DIRECTION: 1.5,
+    Variable.AXIAL_SPEED: 0.3,
+    Variable.DEPTH: 5.0,
+    Variable.HISTORY: 0.1,
+    Variable.REST: 0.5,
+    Variable.TIP_ANGLE: 20.0,
+    Variable.TIP_RATE: 0.05,
+    Variable.TORQUE: 0.0,
+    Variable.TORQUE_RATE: 0.0,
+    Variable.PAST: 0.0,
+}
+"""Below which nothing can depend on a variable visibly."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LogRanges:
+    """What a log covers.
+
+    Attributes:
+      ends: lowest and highest value of each variable that moves enough.
+      missing: rms of the nominal residual by sensor that was read, in the unit of its name.
+      nominal: readings of the nominal rig by trial.
+      left: residual of the nominal rig by sensor and trial, in the unit of its name, NaN where none.
+      library: effects with bounds and starts for a rig of this size.
+      damping_n_mm_s_per_mm: nominal.
+    """
+
+    problem: FitProblem
+    nominal: Sequence[Prediction]
+    ends: Mapping[Variable, tuple[float, float]]
+    missing: Mapping[str, float]
+    left: Mapping[str, tuple[Array, ...]]
+
+    @property
+    def library(self) -> Mapping[str, Effect]:
+        """Effects with bounds and starts for a rig of this size."""
+        return self.problem.library
+
+    @property
+    def damping_n_mm_s_per_mm(self) -> float:
+        """Nominal."""
+        return float(self.problem.log.rig.tissue.damping_n_mm_s_per_mm)
+
+
+def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
+    """Ranges of a log, given readings of the nominal rig by trial."""
+    trials = problem.log.trials
+    moving = (v for v in Variable if v is not Variable.PAST)
+    found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
+    found[Variable.PAST] = (LEAST_PAST_S, LONGEST_PAST_S)
+    left = {
+        sensor: tuple(
+            trial.readings[sensor] - own[sensor]
+            for trial, own in zip(trials, nominal, strict=True)
+            if trial.has(sensor)
+        )
+        for sensor in SENSORS
+    }
+    read = {sensor: each for sensor, each in left.items() if each}
+    return LogRanges(
+        problem=problem,
+        nominal=nominal,
+        ends={v: e for v, e in found.items() if e[1] - e[0] > LEAST_RANGE[v]},
+        missing={s: float(np.sqrt(np.nanmean(np.concatenate(each) ** 2))) for s, each in read.items()},
+        left=read,
+    )
+
+
+def _ends(
+    variable: Variable, trials: Sequence[PreparedTrial], nominal: Sequence[Prediction]
+) -> tuple[float, float]:
+    values = np.concatenate(
+        [values_of(variable, trial, own) for trial, own in zip(trials, nominal, strict=True)]
+    )
+    low, high = np.quantile(values, [_ALL_BUT, 1 - _ALL_BUT])
+    return float(low), float(high)
+
+
+def values_of(variable: Variable, trial: PreparedTrial, nominal: Prediction) -> Array:
+    """A variable at the times of the nominal schedule, or of the trial's samples if of the needle."""
+    if variable not in OF_THE_NEEDLE:
+        return of_inputs(variable, trial.schedule, float(trial.time_s[0]))
+    return of_needle(variable, trial.time_s, nominal.tip_angle_deg, nominal.base_torque_n_mm)

@@ -1,0 +1,160 @@
+"""Which free-form law closes most of a gap that no effect of the library explains.
+
+Every family is fitted through the simulation: for a few iterations on the decimated log; the best to
+their end there, the strength of their prior estimated, alone and beside the library's effects that came
+nearest; the best of these on the log itself, and checked on trials that the fit has not seen.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import CLOSED_GAP
+from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.families import families_of
+from diagnosis.freeform.family import Family
+from diagnosis.freeform.prior import free_covariance, well_determined, with_estimated_prior
+from diagnosis.freeform.ranges import ranges_of
+from diagnosis.replay.replay import replay
+from diagnosis.selection.screening import screen
+from diagnosis.workers import Failure, Task, Workers
+from sim.simulation import SimulationFailed
+
+Array = NDArray[np.float64]
+
+SCREENING, FITTING, BESIDE, FINALS = (
+    "screening free-form laws",
+    "free-form laws",
+    "free-form laws beside an effect",
+    "finalists, free-form laws",
+)
+FIRST_ITERATIONS, ITERATIONS = 2, 8
+CONTENDERS, COMPANIONS, FINALISTS = 8, 2, 4
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FreeFit:
+    """A family fitted to a log.
+
+    Attributes:
+      beside: effects of the library that are in the fit as well.
+      held_out: residuals / sigma by trial that the fit has not seen; None where there are none.
+      gap_after: on these (`predictive_gap`); on the trials of the fit where there are none.
+      final: whether it was fitted to the log itself, not the decimated one.
+    """
+
+    family: Family
+    fit: Fit
+    beside: tuple[str, ...] = ()
+    held_out: tuple[Array, ...] | None = None
+    gap_after: float = np.inf
+    final: bool = False
+
+    @property
+    def score(self) -> float:
+        """Least is best: the cost in units of itself, and a penalty for what the data determine."""
+        samples = self.fit.samples
+        freedom = well_determined(self.family, self.fit) + 2.0 * len(self.beside)
+        return samples * float(np.log(self.fit.cost / samples)) + freedom * float(np.log(samples))
+
+
+def free_form_fits(
+    problem: FitProblem,
+    coarse: FitProblem,
+    companions: Sequence[str],
+    workers: Workers,
+) -> tuple[FreeFit, ...]:
+    """The best fit of every family; those of the log itself before the others.
+
+    Args:
+      problem, coarse: the log itself, and decimated.
+      companions: effects of the library that came nearest, best first.
+    """
+    nominal = replay(coarse.log, resolution=coarse.resolution)
+    families = families_of(ranges_of(coarse, nominal))
+    base = fit_effects(coarse, ())
+    first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
+    near = sorted(first, key=lambda f: f.score)[:CONTENDERS]
+    fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
+    if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
+        best = sorted(fitted, key=lambda f: f.score)[: CONTENDERS // 2]
+        pairs = [(coarse, f, (name,)) for f in best for name in companions[:COMPANIONS]]
+        fitted += _each(BESIDE, _to_its_end, pairs, workers)
+    last = _distinct(sorted(fitted, key=lambda f: f.score))[:FINALISTS]
+    finals = _each(FINALS, _on_the_log, [(problem, f) for f in last], workers)
+    names = {f.family.name for f in finals}
+    fitted_names = {f.family.name for f in fitted}
+    others = [f for f in (*fitted, *(f for f in first if f.family.name not in fitted_names))]
+    behind = _distinct(sorted((f for f in others if f.family.name not in names), key=lambda f: f.score))
+    return (*finals, *behind)
+
+
+def with_family(problem: FitProblem, family: Family) -> FitProblem:
+    """The problem, its library with a family in it."""
+    return replace(problem, library={**problem.library, family.name: family.effect})
+
+
+def _each(
+    stage: str, function: Callable[..., FreeFit], calls: Sequence[tuple[Any, ...]], workers: Workers
+) -> list[FreeFit]:
+    tasks = [Task(effects=(), arguments=call) for call in calls]
+    return [f for f in workers.each(stage, function, tasks) if not isinstance(f, Failure)]
+
+
+def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
+    problem = with_family(coarse, family)
+    start = screen(problem, base, family.name)[0].start
+    fit = fit_effects(problem, (family.name,), start, most_iterations=FIRST_ITERATIONS)
+    return FreeFit(family=family, fit=fit, gap_after=fit.gap)
+
+
+def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> FreeFit:
+    """Fitted twice: the second time with the strength of the prior that the first one speaks for."""
+    family, problem = first.family, with_family(coarse, first.family)
+    start, names = first.fit.x, (family.name, *beside)
+    if beside:
+        start = screen(problem, first.fit, beside[0])[0].start
+    fit = fit_effects(problem, names, start, most_iterations=ITERATIONS)
+    family = with_estimated_prior(family, fit)
+    fit = fit_effects(with_family(coarse, family), names, fit.x, most_iterations=ITERATIONS // 2)
+    return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
+
+
+def _on_the_log(problem: FitProblem, contender: FreeFit) -> FreeFit:
+    """Fitted to the log itself and checked on trials that the fit has not seen."""
+    own = with_family(problem, contender.family)
+    fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=ITERATIONS)
+    if len(problem.log.trials) == 1:
+        return replace(contender, fit=fit, gap_after=fit.gap, final=True)
+    try:
+        held_out = held_out_residuals(own, fit)
+    except SimulationFailed:
+        return replace(contender, fit=fit, gap_after=np.inf, final=True)
+    gap = max(predictive_gap(fit, held_out), fit.gap)
+    return replace(contender, fit=fit, held_out=held_out, gap_after=gap, final=True)
+
+
+def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
+    """Root mean square of residuals of held-out trials over their predictive standard deviation.
+
+    That is the noise and what the other trials leave open of the curve: where none of them has been,
+    its law says nothing, and nothing is held against it. Of a law that they determine it is the gap.
+    """
+    squares = []
+    for i, (left, slopes) in enumerate(zip(held_out, fit.jacobian, strict=True)):
+        spread = free_covariance(fit, without=i)
+        squares.append(left**2 / (1.0 + np.sum((slopes @ spread) * slopes, axis=1)))
+    return float(np.sqrt(np.mean(np.concatenate(squares))))
+
+
+def _distinct(ranked: Sequence[FreeFit]) -> list[FreeFit]:
+    """The best fit of each family."""
+    best: dict[str, FreeFit] = {}
+    for f in ranked:
+        best.setdefault(f.family.name, f)
+    return list(best.values())

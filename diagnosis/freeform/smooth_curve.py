@@ -1,0 +1,91 @@
+"""Smooth curves whose coordinates are a priori independent.
+
+A curve by its values at a few places is a straight line and a smooth rest,
+
+    y = scale [a + b u + sum over k of c_k sqrt(lambda_k) v_k],    u: x scaled to -1 ... 1,
+
+where lambda_k, v_k are what a Gaussian process of covariance exp(-(u - u')^2 / (2 l^2)), l = 0.4, has
+beside straight lines (Rasmussen and Williams 2006, Section 2.7). A curve that has a period is a constant
+and a rest of covariance exp(-2 sin^2((x - x') pi / period) / l^2), their Section 4.2. Straight part and
+rest each have a prior strength of their own, so that a law that is straight goes on straight where no
+trial has been.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_LENGTH, _PERIODIC_LENGTH = 0.4, 0.6
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SmoothCurve:
+    """A curve by its coordinates.
+
+    Attributes:
+      places: of the variable, increasing, (K,).
+      basis: values at the places for each coordinate, (K, n).
+      straight: coordinates that come first: constant and slope.
+      period: of the variable; 0: none.
+    """
+
+    places: Array
+    basis: Array
+    straight: int
+    period: float = 0.0
+
+    @property
+    def size(self) -> int:
+        """Coordinates."""
+        return int(self.basis.shape[1])
+
+    def values(self, coordinates: Sequence[float]) -> tuple[float, ...]:
+        """At the places."""
+        return tuple(float(v) for v in self.basis @ np.asarray(coordinates, float))
+
+
+def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = False) -> SmoothCurve:
+    """A curve between two ends of a variable.
+
+    Args:
+      fading: what happens near the low end may be faster: places are closer there, as squares.
+    """
+    u = np.linspace(-1.0, 1.0, count)
+    share = (0.5 * (u + 1.0)) ** (2 if fading else 1)
+    covariance = np.exp(-((u[:, None] - u) ** 2) / (2 * _LENGTH**2))
+    line = np.stack([np.ones(count), u], axis=1)
+    places = low + (high - low) * share
+    return SmoothCurve(places=places, basis=_beside(line, covariance), straight=2)
+
+
+def periodic_curve(period: float, count: int = 12) -> SmoothCurve:
+    """A curve that repeats."""
+    places = np.arange(count) * period / count
+    sine = np.sin((places[:, None] - places) * np.pi / period)
+    covariance = np.exp(-2.0 * sine**2 / _PERIODIC_LENGTH**2)
+    basis = _beside(np.ones((count, 1)), covariance)
+    return SmoothCurve(places=places, basis=basis, straight=1, period=period)
+
+
+def two_values() -> SmoothCurve:
+    """One value backwards, one forwards."""
+    line = np.array([[1.0, -1.0], [1.0, 1.0]])
+    return SmoothCurve(places=np.array([-1.0, 1.0]), basis=line, straight=2)
+
+
+def separate_values(places: Array) -> SmoothCurve:
+    """Values that know nothing of each other."""
+    return SmoothCurve(places=places, basis=np.eye(places.size), straight=0)
+
+
+def _beside(line: Array, covariance: Array) -> Array:
+    """A straight part, and what a process has beside it, as columns."""
+    onto = line @ np.linalg.pinv(line)
+    rest = np.eye(len(line)) - onto
+    values, vectors = np.linalg.eigh(rest @ covariance @ rest)
+    kept = slice(line.shape[1], None)  # eigenvalues rise; those of the line are 0
+    return np.hstack([line, vectors[:, kept] * np.sqrt(values[kept])])

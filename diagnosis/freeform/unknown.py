@@ -1,0 +1,50 @@
+"""What is told of an unknown log beside the library's nearest explanation."""
+
+from collections.abc import Sequence
+
+from diagnosis.assessment.assess import Assessment
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.explained import explained_by
+from diagnosis.freeform.missing import Missing, missing_of
+from diagnosis.freeform.search import free_form_fits
+from diagnosis.log.rig_log import RigLog
+from diagnosis.replay.replay import Prediction
+from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+FREE_FORM = "free-form laws"
+
+
+def with_what_is_missing(
+    log: RigLog,
+    problem: FitProblem,
+    coarse: FitProblem,
+    nominal: Sequence[Prediction],
+    verdict: Verdict,
+    told: Assessment,
+    companions: Sequence[str],
+    workers: Workers,
+) -> tuple[Missing | None, Assessment]:
+    """What is missing, and the assessment with what its law explains; None: the log is not unknown.
+
+    Args:
+      nominal: readings of the nominal rig by trial of the problem.
+      companions: effects of the library that came nearest, best first.
+    """
+    if verdict.kind is not VerdictKind.UNKNOWN:
+        return None, told
+    if workers.stop.due:
+        workers.stop.leave_out(FREE_FORM)
+        return None, told
+    try:
+        fits = free_form_fits(problem, coarse, companions, workers)
+    except SimulationFailed:
+        return None, told
+    if not fits or workers.stop.due:
+        workers.stop.leave_out(FREE_FORM)
+        return None, told
+    missing = missing_of(fits, told.nearest.gap_after)
+    if missing.law is None:
+        return missing, told
+    return missing, explained_by(missing, log, problem, nominal, told)

@@ -1,0 +1,167 @@
+"""A free-form law in a rig: torques, angles and readings that no effect of the library has.
+
+A curve runs smoothly through its values at some places of a variable and is level beyond them. It acts
+on what its name says:
+
+    tissue          the torque of tissue that varies is times the curve
+    drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
+    drive_torque    the torque sensor reads the curve beside what the needle takes, N mm
+    tip_reading     the tip sensor reads the tip's angle + the curve, deg
+    torque_reading  the torque sensor reads the torque + the curve, N mm
+
+A curve over the past says how much a reading shows of what was so long ago in place of what is,
+
+    reading += sum over places of value (what was, then - what is).
+
+What depends on the rate, angle or place of each piece of the shaft by itself is a law of the tissue.
+"""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from models.tissue import Interface, Layer, Tissue
+from sim.schedule import Schedule
+
+Array = NDArray[np.float64]
+
+_LEAST_FACTOR = 1e-3
+
+
+class ActsOn(StrEnum):
+    """What a curve changes."""
+
+    TISSUE = "tissue"
+    DRIVE_ANGLE = "drive_angle"
+    DRIVE_TORQUE = "drive_torque"
+    TIP_READING = "tip_reading"
+    TORQUE_READING = "torque_reading"
+
+
+_SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curve:
+    """A curve of one variable.
+
+    Attributes:
+      places: increasing, of the variable.
+      values: at the places.
+      period: of the variable, after which the curve repeats; 0: none.
+      trial: the only trial that it is in; empty: all.
+    """
+
+    acts_on: ActsOn
+    variable: Variable
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+    period: float = 0.0
+    trial: str = ""
+
+    def at(self, x: Array) -> Array:
+        """The curve at values of its variable, (N,)."""
+        if self.period:
+            places = (*self.places, self.places[0] + self.period)
+            wrapped = self.places[0] + np.mod(x - self.places[0], self.period)
+            return np.asarray(PchipInterpolator(places, (*self.values, self.values[0]))(wrapped))
+        within = np.clip(x, self.places[0], self.places[-1])
+        return np.asarray(PchipInterpolator(self.places, self.values)(within))
+
+    def of_past(self, time_s: Array, values: Array) -> Array:
+        """What a sensor shows of the past beside what is, (N,)."""
+        each = zip(self.places, self.values, strict=True)
+        shown = [share * (np.interp(time_s - ago, time_s, values) - values) for ago, share in each]
+        return np.asarray(np.sum(shown, axis=0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class FreeLaw:
+    """What is free of a rig.
+
+    Attributes:
+      curves: of variables that a trial has one value of at a time.
+      tissue_varies: whether the torque of the nominal tissue is times a curve.
+      asymmetry: of it (models.tissue).
+      rate_curve: factors of its viscous torque (models.tissue).
+      rate_range_rad_s: that they span.
+      damping_along_depth: factors of its viscous torque in equal parts of the inserted length.
+      throughout, at_tip: further laws (models.tissue).
+    """
+
+    curves: tuple[Curve, ...] = ()
+    tissue_varies: bool = False
+    asymmetry: float = 0.0
+    rate_curve: tuple[float, ...] = ()
+    rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
+    damping_along_depth: tuple[float, ...] = ()
+    throughout: tuple[Interface, ...] = ()
+    at_tip: tuple[Interface, ...] = ()
+
+    @property
+    def more_rows(self) -> int:
+        """Of the law table, beside those of any rig."""
+        return len(self.throughout) + len(self.at_tip) + len(self.damping_along_depth)
+
+    def on_trial(self, trial: str) -> "FreeLaw":
+        """What one trial sees."""
+        return replace(self, curves=tuple(c for c in self.curves if c.trial in ("", trial)))
+
+    def without_sensors(self) -> "FreeLaw":
+        """What the needle feels."""
+        return replace(self, curves=tuple(c for c in self.curves if c.acts_on not in _SENSORS))
+
+    def tissue(self, tissue: Tissue) -> Tissue:
+        """The tissue with the law in it.
+
+        Where damping changes along the depth, the layers are those of the first.
+        """
+        layers = tissue.layers
+        if self.damping_along_depth:
+            layers = self._along_depth(layers[0].interface)
+        changes: dict[str, Any] = {"varies": self.tissue_varies, "asymmetry": self.asymmetry}
+        if self.rate_curve:
+            changes |= {"rate_curve": self.rate_curve, "rate_range_rad_s": self.rate_range_rad_s}
+        shaped = tuple(layer.but(interface=layer.interface.but(**changes)) for layer in layers)
+        whole: Tissue = tissue.but(layers=shaped, throughout=self.throughout, at_tip=self.at_tip)
+        return whole
+
+    def _along_depth(self, law: Interface) -> tuple[Layer, ...]:
+        share = 1.0 / len(self.damping_along_depth)
+        laws = [
+            law.but(viscous_n_mm_s_per_mm=factor * law.viscous_n_mm_s_per_mm)
+            for factor in self.damping_along_depth
+        ]
+        return (*(Layer(interface=own, fraction=share) for own in laws[:-1]), Layer(interface=laws[-1]))
+
+    def driven(self, inputs: Schedule, start_s: float) -> Schedule:
+        """What is done to the needle, and how its tissue varies."""
+        factor, drive = np.ones(inputs.time_s.size), inputs.drive
+        for curve in self.curves:
+            if curve.acts_on is ActsOn.TISSUE:
+                factor = factor * curve.at(of_inputs(curve.variable, inputs, start_s))
+            elif curve.acts_on is ActsOn.DRIVE_ANGLE:
+                drive = drive + curve.at(of_inputs(curve.variable, inputs, start_s))
+        return replace(inputs, drive=drive, tissue_factor=np.maximum(factor, _LEAST_FACTOR))
+
+    def sensed(
+        self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array
+    ) -> tuple[Array, Array]:
+        """What tip and torque read beside themselves, (N,) each."""
+        read = {True: np.zeros(tip_deg.size), False: np.zeros(torque_n_mm.size)}
+        for curve in self.curves:
+            if curve.acts_on in _SENSORS:
+                of_tip = curve.acts_on is ActsOn.TIP_READING
+                if curve.variable is Variable.PAST:
+                    more = curve.of_past(inputs.time_s, tip_deg if of_tip else torque_n_mm)
+                elif curve.variable in OF_THE_NEEDLE:
+                    more = curve.at(of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm))
+                else:
+                    more = curve.at(of_inputs(curve.variable, inputs, start_s))
+                read[of_tip] = read[of_tip] + more
+        return read[True], read[False]

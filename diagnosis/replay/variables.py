@@ -1,0 +1,135 @@
+"""What a free law may depend on, from the inputs of a trial and what its needle does.
+
+time        since the trial began, s
+base_angle  of the drive shaft, deg
+rate        at which the drive shaft turns, rad/s
+direction   in which it last turned: 1 forwards, -1 backwards, straight between over a short time
+axial_speed of the needle into the tissue, mm/s
+depth       inserted length, mm
+history     angle that the drive shaft has turned by so far, to and fro, turns
+rest        time since it last turned, s, as log(1 + time)
+tip_angle   deg
+tip_rate    rad/s
+torque      that the needle takes at the chuck, N mm
+    torque_rate N mm / s
+    past        how long ago, s, of a reading that shows what was
+"""
+
+from collections.abc import Callable
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
+
+from sim.schedule import Schedule
+
+Array = NDArray[np.float64]
+
+STILL_DEG_S = 1.0  # slower than this, a drive shaft rests
+_TURN_S = 0.1  # in which a direction changes
+_RATE_S = 0.05  # over which rates are taken
+
+
+class Variable(StrEnum):
+    """What a free law is a curve of."""
+
+    TIME = "time"
+    BASE_ANGLE = "base_angle"
+    RATE = "rate"
+    DIRECTION = "direction"
+    AXIAL_SPEED = "axial_speed"
+    DEPTH = "depth"
+    HISTORY = "history"
+    REST = "rest"
+    TIP_ANGLE = "tip_angle"
+    TIP_RATE = "tip_rate"
+    TORQUE = "torque"
+    TORQUE_RATE = "torque_rate"
+    PAST = "past"
+
+
+UNITS = {
+    Variable.TIME: "s",
+    Variable.BASE_ANGLE: "deg",
+    Variable.RATE: "rad/s",
+    Variable.DIRECTION: "-",
+    Variable.AXIAL_SPEED: "mm/s",
+    Variable.DEPTH: "mm",
+    Variable.HISTORY: "turns",
+    Variable.REST: "log(1 + s)",
+    Variable.TIP_ANGLE: "deg",
+    Variable.TIP_RATE: "rad/s",
+    Variable.TORQUE: "N mm",
+    Variable.TORQUE_RATE: "N mm / s",
+    Variable.PAST: "s",
+}
+OF_THE_NEEDLE = (Variable.TIP_ANGLE, Variable.TIP_RATE, Variable.TORQUE, Variable.TORQUE_RATE)
+"""Variables that are known only once the needle was simulated."""
+
+
+def of_inputs(variable: Variable, inputs: Schedule, start_s: float) -> Array:
+    """Values at the times of the inputs, (N,).
+
+    Args:
+      start_s: of the trial; inputs before it are of its past.
+    """
+    return _OF_INPUTS[variable](inputs, start_s)
+
+
+def of_needle(variable: Variable, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> Array:
+    """Values of what is known once the needle was simulated, (N,)."""
+    match variable:
+        case Variable.TIP_ANGLE:
+            return tip_deg
+        case Variable.TIP_RATE:
+            return _rate(np.radians(tip_deg), time_s)
+        case Variable.TORQUE:
+            return torque_n_mm
+    return _rate(torque_n_mm, time_s)
+
+
+def _rate(values: Array, time_s: Array) -> Array:
+    return _smooth(np.gradient(values, time_s), time_s, _RATE_S)
+
+
+def _smooth(values: Array, time_s: Array, over_s: float) -> Array:
+    size = max(1, round(over_s / float(np.median(np.diff(time_s)))))
+    return np.asarray(uniform_filter1d(values, size, mode="nearest"))
+
+
+def _base_rate_deg_s(inputs: Schedule) -> Array:
+    return _rate(inputs.drive, inputs.time_s)
+
+
+def _direction(inputs: Schedule, _: float) -> Array:
+    """Held at rest; before the first turn as in it."""
+    rate = _base_rate_deg_s(inputs)
+    turning = np.flatnonzero(np.abs(rate) > STILL_DEG_S)
+    if turning.size == 0:
+        return np.zeros(rate.size)
+    last = turning[np.maximum(np.searchsorted(turning, np.arange(rate.size), side="right") - 1, 0)]
+    return _smooth(np.sign(rate[last]), inputs.time_s, _TURN_S)
+
+
+def _rest(inputs: Schedule, start_s: float) -> Array:
+    """A trial begins rested for as long as it has not turned."""
+    turns = np.abs(_base_rate_deg_s(inputs)) > STILL_DEG_S
+    last_s = np.maximum.accumulate(np.where(turns, inputs.time_s, min(start_s, inputs.time_s[0])))
+    return np.log1p(inputs.time_s - last_s)
+
+
+def _history(inputs: Schedule, _: float) -> Array:
+    return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(inputs.drive)))]) / 360.0
+
+
+_OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
+    Variable.TIME: lambda inputs, start_s: inputs.time_s - start_s,
+    Variable.BASE_ANGLE: lambda inputs, _: inputs.drive,
+    Variable.RATE: lambda inputs, _: np.radians(_base_rate_deg_s(inputs)),
+    Variable.DIRECTION: _direction,
+    Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
+    Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
+    Variable.HISTORY: _history,
+    Variable.REST: _rest,
+}

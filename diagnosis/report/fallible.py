@@ -1,0 +1,111 @@
+"""Parts of a page that may fail: a sentence stands in their place, and the rest of the page stands."""
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from html import unescape
+from pathlib import Path
+from typing import TypeVarTuple
+
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+from diagnosis.report.html_parts import document, paragraph, picture
+from sim.files import ResultSet, write_text
+
+Shown = TypeVarTuple("Shown")
+
+_HEADING = re.compile(r"<h\d[^>]*>(.*)</h\d>")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Page:
+    """A page for people.
+
+    Attributes:
+      text: HTML.
+      lacks: each part that could not be made, with the reason.
+    """
+
+    text: str
+    lacks: tuple[str, ...]
+
+
+class MissingPart(str):
+    """A sentence, as HTML, in place of a part.
+
+    Attributes:
+      where: what is missing, and how its place lies to the heading before it.
+      why: it could not be made.
+    """
+
+    where: str
+    why: str
+
+    def __new__(cls, what: str, place: str, error: Exception) -> "MissingPart":
+        """The sentence."""
+        why = f"{type(error).__name__}: {error}".removesuffix(": ")
+        sentence = f"A {what} belongs here, but could not be made ({why}). The rest stands without it."
+        part = super().__new__(cls, paragraph(sentence, "warning"))
+        part.where, part.why = f"{what} {place}", why
+        return part
+
+
+def page_of(title: str, parts: Iterable[str]) -> Page:
+    """A whole page from parts that are HTML already, and what is missing among them."""
+    every = list(parts)
+    return Page(text=document(title, every), lacks=tuple(_missing(every)))
+
+
+def write_page(make: Callable[[], Page], results: ResultSet, path: Path) -> None:
+    """Make a page and write it, as a result that others can stand without.
+
+    Raises:
+      OSError: the disk is at fault.
+    """
+
+    def write(draft: Path) -> None:
+        made = make()
+        write_text(draft, made.text)
+        results.lacks[path] = made.lacks
+
+    results.optional(path, write)
+
+
+def drawn(draw: Callable[[*Shown], Figure], describe: Callable[[*Shown], str], *shown: *Shown) -> str:
+    """A picture of what is shown, described in words; if it fails, a sentence in its place."""
+    with _closing_what_fails():
+        try:
+            return picture(draw(*shown), describe(*shown))
+        except Exception as error:
+            return MissingPart("picture", "under", error)
+
+
+def section(make: Callable[[*Shown], list[str]], *shown: *Shown) -> list[str]:
+    """The parts of a section; if it fails, a sentence in its place."""
+    try:
+        return make(*shown)
+    except Exception as error:
+        return [MissingPart("section", "after", error)]
+
+
+def _missing(parts: Iterable[str]) -> Iterator[str]:
+    """What is missing, by the heading before it."""
+    heading = ""
+    for part in parts:
+        if found := _HEADING.fullmatch(part):
+            heading = unescape(found[1])
+        if isinstance(part, MissingPart):
+            yield f"the {part.where} {heading!r} ({part.why})"
+
+
+@contextmanager
+def _closing_what_fails() -> Iterator[None]:
+    """Figures that were begun are closed."""
+    before = set(plt.get_fignums())
+    try:
+        yield
+    finally:
+        for number in set(plt.get_fignums()) - before:
+            plt.close(number)

@@ -1,0 +1,115 @@
+"""Laws beyond the usual ones, against closed forms.
+
+Turned steadily, every place of a shaft in viscous tissue turns at the rate of its base, so that the
+base torque is damping * length * rate times whatever shapes the law. At rest in tissue that prefers an
+orientation, a short stiff shaft takes torque sin(cycles theta - phase) per mm.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from models.errors import InvalidValue
+from models.needle import Needle
+from models.tissue import RATE_POINTS, Interface, Layer, Tissue
+from sim.discretisation import Arrangement, Discretisation
+from sim.kernel import memory_map
+from sim.schedule import Schedule
+from sim.simulation import Run, simulate
+from sim.spec import Setup
+
+DAMPING, LENGTH_MM, RATE = 0.017, 60.0, 0.8
+NEEDLE = Needle(diameter_mm=0.59, shear_modulus_gpa=27.2, density_g_cm3=6.45)
+
+
+def turned(tissue: Tissue, *, rate: float = RATE, factor: float = 1.0, end_s: float = 6.0) -> Run:
+    """A run at a constant rate; to a constant angle at rate 0."""
+    time_s = np.linspace(0.0, end_s, 601)
+    return run_of(tissue, time_s, np.degrees(rate) * time_s, np.full(time_s.shape, factor))
+
+
+def run_of(tissue: Tissue, time_s: np.ndarray, drive_deg: np.ndarray, factor: np.ndarray) -> Run:
+    setup = Setup(
+        needle=NEEDLE,
+        tissue=tissue,
+        free_mm=10.0,
+        inserted_mm=LENGTH_MM,
+        discretisation=Discretisation(elements=16, step_s=0.01, arrangement=Arrangement.SIBLINGS),
+    )
+    inputs = Schedule(
+        time_s=time_s,
+        drive=drive_deg,
+        free_mm=np.full(time_s.shape, 10.0),
+        inserted_mm=np.full(time_s.shape, LENGTH_MM),
+        speed_mm_s=np.zeros(time_s.shape),
+        tissue_factor=factor,
+    )
+    return simulate([setup], inputs)[0]
+
+
+def steady_n_mm(run: Run) -> float:
+    return float(run.base_torque_n_mm[-1])
+
+
+PLAIN_N_MM = DAMPING * LENGTH_MM * RATE
+
+
+def test_the_factor_of_time_scales_tissue_that_varies_and_no_other() -> None:
+    varies = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, varies=True)
+    assert steady_n_mm(turned(varies, factor=1.7)) == pytest.approx(1.7 * PLAIN_N_MM, rel=1e-6)
+    still = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING)
+    assert steady_n_mm(turned(still, factor=1.7)) == pytest.approx(PLAIN_N_MM, rel=1e-6)
+
+
+@pytest.mark.parametrize("rate", [RATE, -RATE])
+def test_asymmetry_is_stronger_one_way(rate: float) -> None:
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, asymmetry=0.3)
+    expected = (1 + math.copysign(0.3, rate)) * math.copysign(PLAIN_N_MM, rate)
+    assert steady_n_mm(turned(tissue, rate=rate)) == pytest.approx(expected, rel=1e-6)
+
+
+def test_dry_friction_over_the_inserted_length_may_be_asymmetric() -> None:
+    dry = Interface(kinetic_n_mm_per_mm=0.002, asymmetry=-0.4)
+    base = Layer(interface=Interface(viscous_n_mm_s_per_mm=DAMPING))
+    tissue = Tissue(layers=(base,), throughout=(dry,))
+    for rate, level in ((RATE, 0.6), (-RATE, 1.4)):
+        expected = math.copysign(PLAIN_N_MM + level * 0.002 * LENGTH_MM, rate)
+        assert steady_n_mm(turned(tissue, rate=rate)) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("rate", [0.03, 0.3, 0.8, 20.0])
+def test_the_rate_curve_is_followed_between_and_beyond_its_places(rate: float) -> None:
+    factors = (3.0, 2.0, 1.5, 1.0, 0.8, 0.5, 0.4)
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, rate_curve=factors)
+    places = np.linspace(math.log(0.01), math.log(10.0), RATE_POINTS)
+    factor = math.exp(np.interp(math.log(rate), places, np.log(factors)))
+    expected = factor * DAMPING * LENGTH_MM * rate
+    assert steady_n_mm(turned(tissue, rate=rate)) == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_law_at_the_tip_acts_there_alone() -> None:
+    """Twist between base and tip is torque over stiffness: rate * drag * length / rigidity."""
+    none = Layer(interface=Interface())
+    law = Interface(viscous_n_mm_s_per_mm=0.5, kinetic_n_mm_per_mm=0.1)
+    run = turned(Tissue(layers=(none,), at_tip=(law,)))
+    torque = 0.5 * RATE + 0.1
+    assert steady_n_mm(run) == pytest.approx(torque, rel=1e-5)
+    lag_deg = math.degrees(torque * (10.0 + LENGTH_MM) / NEEDLE.rigidity_n_mm2)
+    assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-4)
+
+
+def test_a_torque_that_depends_on_the_angle_twice_a_turn() -> None:
+    law = Interface(orientation_n_mm_per_mm=0.05, orientation_cycles=2.0, orientation_phase_deg=20.0)
+    damped = Interface(viscous_n_mm_s_per_mm=0.5)
+    tissue = Tissue(layers=(Layer(interface=Interface()),), at_tip=(law, damped))
+    time_s = np.linspace(0.0, 10.0, 1001)
+    run = run_of(tissue, time_s, np.minimum(40.0 * time_s, 40.0), np.ones(time_s.shape))
+    angle = math.radians(2 * run.tip_deg[-1] - 20.0)
+    assert steady_n_mm(run) == pytest.approx(0.05 * math.sin(angle), rel=1e-4)
+
+
+def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
+    assert RATE_POINTS == memory_map.CURVE_POINTS
+    with pytest.raises(InvalidValue, match=r"rate_curve.*7 factors"):
+        Interface(rate_curve=(1.0, 2.0))
