@@ -69,9 +69,9 @@ def make(
             )
     except (ValueError, ImpossibleDraw) as error:
         raise NeedleError(str(error)) from error
-    shown: list[Path | str] = [f"{folder / 'logs'} ({count} logs)", folder / "answers"]
+    logs = "1 log" if count == 1 else f"{count} logs"
+    shown: list[Path | str] = [f"{folder / 'logs'} ({logs})", folder / "answers"]
     return tell(written, console, shown=shown)
-    return 0
 
 
 def _check_names(field: str, given: Sequence[str], known: Sequence[str]) -> None:
@@ -140,24 +140,26 @@ def _print(scores: pd.DataFrame, console: Console) -> None:
     if len(limits):
         print_table(console, _limits(limits))
     print_table(console, _calibration(scores))
-    _list(scores[~scores["exact"] & ~wrong], "", console)
+    _list(scores[~scores["exact"] & ~wrong], "not exact: ", console)
 
 
 def _list(scores: pd.DataFrame, what: str, console: Console) -> None:
     for case, row in scores.iterrows():
-        line = f"{what}{case}: true {row['truth']}, diagnosed {row['said']} ({row['verdict']})"
+        verdict = "" if row["said"] == row["verdict"] else f" ({row['verdict']})"
+        line = f"{what}{case}: true {row['truth']}, diagnosed {row['said']}{verdict}"
         console.print(line, highlight=False)
 
 
 def _by_kind(summary: pd.DataFrame) -> Table:
-    shown = ("logs", "confidently\nwrong", "exact", "undecided", "unknown", "median\ns", "worst\ns")
+    shares = ("exact\n%", "undecided\n%", "unknown\n%")
+    shown = ("logs", "confidently\nwrong", *shares, "median\ns", "worst\ns")
     kind_column = Column("kind", no_wrap=True)
-    table = Table(kind_column, *shown, title="By kind of log", box=SIMPLE_HEAD, collapse_padding=True)
+    table = Table(kind_column, *shown, title="By kind of log", box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
     for kind, row in summary.iterrows():
-        shares = [f"{100 * row[c]:.1f} %" for c in ("exact", "undecided", "unknown")]
+        percent = [f"{100 * row[c]:.1f}" for c in ("exact", "undecided", "unknown")]
         counts = [f"{row[c]:.0f}" for c in ("logs", "confidently_wrong")]
         seconds = [f"{row[c]:.0f}" for c in ("seconds", "worst_seconds")]
-        table.add_row(str(kind), *counts, *shares, *seconds)
+        table.add_row(str(kind), *counts, *percent, *seconds)
     return table
 
 

@@ -25,12 +25,15 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from models.errors import InvalidValue
 from models.tissue import Interface, Layer, Tissue
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 
 _LEAST_FACTOR = 1e-3
+_MOST_SIDED = 0.99  # asymmetry
+_TORQUES = ("viscous_n_mm_s_per_mm", "kinetic_n_mm_per_mm", "orientation_n_mm_per_mm")
 
 
 class ActsOn(StrEnum):
@@ -55,6 +58,9 @@ class Curve:
       values: at the places.
       period: of the variable, after which the curve repeats; 0: none.
       trial: the only trial that it is in; empty: all.
+
+    Raises:
+      InvalidValue: places do not increase, or values are not as many.
     """
 
     acts_on: ActsOn
@@ -64,6 +70,15 @@ class Curve:
     period: float = 0.0
     trial: str = ""
 
+    def __post_init__(self) -> None:
+        places = np.asarray(self.places, float)
+        if places.size < 2 or not (np.diff(places) > 0).all() or not np.isfinite(places).all():
+            raise InvalidValue("places", self.places, "two finite numbers at least, increasing")
+        if len(self.values) != places.size or not np.isfinite(self.values).all():
+            raise InvalidValue(
+                "values", self.values, f"{places.size} finite numbers, one for each place"
+            )
+
     def at(self, x: Array) -> Array:
         """The curve at values of its variable, (N,)."""
         if self.period:
@@ -72,6 +87,12 @@ class Curve:
             return np.asarray(PchipInterpolator(places, (*self.values, self.values[0]))(wrapped))
         within = np.clip(x, self.places[0], self.places[-1])
         return np.asarray(PchipInterpolator(self.places, self.values)(within))
+
+    def times(self, strength: float) -> "Curve":
+        """The curve so many times as strong; of a factor, raised to that power."""
+        if self.acts_on is ActsOn.TISSUE:
+            return replace(self, values=tuple(value**strength for value in self.values))
+        return replace(self, values=tuple(value * strength for value in self.values))
 
     def of_past(self, time_s: Array, values: Array) -> Array:
         """What a sensor shows of the past beside what is, (N,)."""
@@ -107,6 +128,22 @@ class FreeLaw:
     def more_rows(self) -> int:
         """Of the law table, beside those of any rig."""
         return len(self.throughout) + len(self.at_tip) + len(self.damping_along_depth)
+
+    def times(self, strength: float) -> "FreeLaw":
+        """The law so many times as strong; 0 is none of it, 1 the law itself.
+
+        What is added to an angle, a reading or a torque is multiplied; factors are raised to a power.
+        """
+        return FreeLaw(
+            curves=tuple(curve.times(strength) for curve in self.curves),
+            tissue_varies=self.tissue_varies,
+            asymmetry=max(min(self.asymmetry * strength, _MOST_SIDED), -_MOST_SIDED),
+            rate_curve=tuple(factor**strength for factor in self.rate_curve),
+            rate_range_rad_s=self.rate_range_rad_s,
+            damping_along_depth=tuple(factor**strength for factor in self.damping_along_depth),
+            throughout=tuple(_stronger(law, strength) for law in self.throughout),
+            at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
+        )
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """What one trial sees."""
@@ -165,3 +202,9 @@ class FreeLaw:
                     more = curve.at(of_inputs(curve.variable, inputs, start_s))
                 read[of_tip] = read[of_tip] + more
         return read[True], read[False]
+
+
+def _stronger(law: Interface, strength: float) -> Interface:
+    """A further law, its torques multiplied."""
+    stronger: Interface = law.but(**{name: strength * getattr(law, name) for name in _TORQUES})
+    return stronger
