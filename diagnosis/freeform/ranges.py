@@ -28,6 +28,7 @@ LEAST_RANGE = {
     Variable.REST: 0.5,
     Variable.TIP_ANGLE: 20.0,
     Variable.TIP_RATE: 0.05,
+    Variable.TIP_DIRECTION: 1.5,
     Variable.TORQUE: 0.0,
     Variable.TORQUE_RATE: 0.0,
     Variable.PAST: 0.0,

@@ -34,6 +34,7 @@ RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
 PAST_PLACES, RIPPLE_PLACES = 6, 5
 _SAYS = {
     Variable.TIP_RATE: "rate",
+    Variable.TIP_DIRECTION: "direction",
     Variable.TORQUE_RATE: "history",
     Variable.PAST: "history",
 }
@@ -96,6 +97,7 @@ ADDED = (
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, SENSOR, _V.TIP_DIRECTION),
     *_added(*_TIP, {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, _V.DIRECTION),
     *_added(*_TIP, {Place.NEEDLE: 0.6, Place.SENSOR: 0.4}, _V.TORQUE),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
@@ -118,7 +120,7 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         )
     if added.period_deg:
         return periodic_curve(added.period_deg)
-    if added.variable is Variable.DIRECTION:
+    if added.variable in (Variable.DIRECTION, Variable.TIP_DIRECTION):
         return two_values()
     if added.variable is Variable.PAST:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
