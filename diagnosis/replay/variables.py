@@ -14,6 +14,7 @@ tip_direction  in which the tip last turned, as direction
 torque         that the needle takes at the chuck, N mm
 torque_rate    N mm / s
 past           how long ago, s, of a reading that shows what was
+turned_by      since it turned back, of a reading with hysteresis, in its own unit
 """
 
 from collections.abc import Callable
@@ -49,6 +50,7 @@ class Variable(StrEnum):
     TORQUE = "torque"
     TORQUE_RATE = "torque_rate"
     PAST = "past"
+    TURNED_BY = "turned_by"
 
 
 UNITS = {
@@ -66,6 +68,7 @@ UNITS = {
     Variable.TORQUE: "N mm",
     Variable.TORQUE_RATE: "N mm / s",
     Variable.PAST: "s",
+    Variable.TURNED_BY: "of its unit",
 }
 OF_THE_NEEDLE = (
     Variable.TIP_ANGLE,
