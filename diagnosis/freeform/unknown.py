@@ -41,8 +41,10 @@ def with_what_is_missing(
         fits = free_form_fits(problem, coarse, companions, workers)
     except SimulationFailed:
         return None, told
-    if not fits or workers.stop.due:
+    if workers.stop.due:
         workers.stop.leave_out(FREE_FORM)
+        return None, told
+    if not fits:
         return None, told
     missing = missing_of(fits, told.nearest.gap_after)
     if missing.law is None:

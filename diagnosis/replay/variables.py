@@ -11,8 +11,8 @@ rest        time since it last turned, s, as log(1 + time)
 tip_angle   deg
 tip_rate    rad/s
 torque      that the needle takes at the chuck, N mm
-    torque_rate N mm / s
-    past        how long ago, s, of a reading that shows what was
+torque_rate N mm / s
+past        how long ago, s, of a reading that shows what was
 """
 
 from collections.abc import Callable
