@@ -157,8 +157,7 @@ def same_readings(angle, one, other, *, mirrored=False, within=1e-6):
     sign = -1.0 if mirrored else 1.0
     first, second = _read(tuple(angle[::4]), one), _read(tuple(sign * angle[::4]), other)
     return all(
-        np.allclose(first[s], sign * second[s], rtol=0, atol=within * np.ptp(first[s]))
-        for s in SENSORS
+        np.allclose(first[s], sign * second[s], rtol=0, atol=within * np.ptp(first[s])) for s in SENSORS
     )
 
 

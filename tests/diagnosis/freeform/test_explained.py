@@ -27,7 +27,9 @@ def told():
     drift = np.linspace(0.0, RISE, size)
     table = table.assign(base_torque_n_mm=table["base_torque_n_mm"] + drift)
     log = replace(clean, trials=(replace(clean.trials[0], table=table),))
-    problem = problem_of(log, sigma={"tip_angle_deg": 0.25, "base_torque_n_mm": TORQUE, "base_angle_deg": 0.02})
+    problem = problem_of(
+        log, sigma={"tip_angle_deg": 0.25, "base_torque_n_mm": TORQUE, "base_angle_deg": 0.02}
+    )
     nominal = replay(problem.log)
     ranges = ranges_of(problem, nominal)
     family = next(f for f in families(ranges) if f.name == "torque reading over time")

@@ -81,9 +81,7 @@ def test_a_trial_sees_what_is_of_all_trials_and_of_itself():
 def test_the_needle_feels_tissue_and_drive_angle_alone():
     curves = {acts_on: curve(acts_on) for acts_on in ActsOn}
     felt = FreeLaw(curves=tuple(curves.values()), asymmetry=0.2).without_sensors()
-    assert felt == FreeLaw(
-        curves=(curves[ActsOn.TISSUE], curves[ActsOn.DRIVE_ANGLE]), asymmetry=0.2
-    )
+    assert felt == FreeLaw(curves=(curves[ActsOn.TISSUE], curves[ActsOn.DRIVE_ANGLE]), asymmetry=0.2)
 
 
 def test_what_is_done_to_the_needle_is_the_drive_and_the_curve():

@@ -11,7 +11,11 @@ from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
 FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
-RATE, TIP_ANGLE, ALONG = "tip torque over rate", "tip torque over tip_angle", "torque along the shaft over tip_angle"
+RATE, TIP_ANGLE, ALONG = (
+    "tip torque over rate",
+    "tip torque over tip_angle",
+    "torque along the shaft over tip_angle",
+)
 
 
 def rig_of(name, *values):

@@ -68,7 +68,11 @@ def test_what_repeats_says_after_how_much():
     names = [name for name in FAMILIES if ", every 360 deg" in name]
     assert sorted(names) == [
         f"{what}, every 360 deg"
-        for what in ("drive angle over base_angle", "drive torque over base_angle", "tip reading over tip_angle")
+        for what in (
+            "drive angle over base_angle",
+            "drive torque over base_angle",
+            "tip reading over tip_angle",
+        )
     ]
 
 
