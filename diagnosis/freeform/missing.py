@@ -90,7 +90,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
     """
     ranked = sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
     best = ranked[0]
-    helps = best.gap_after < FREE_LAW_GAIN * nearest_gap
+    helps = best.final and best.gap_after < FREE_LAW_GAIN * nearest_gap
     return Missing(
         place=_places(fits),
         depends_on=_dependences(ranked),

@@ -6,7 +6,7 @@ from diagnosis.assessment.assess import Assessment
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.missing import Missing, missing_of
-from diagnosis.freeform.search import free_form_fits
+from diagnosis.freeform.search import FreeFit, free_form_fits
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.verdict import Verdict, VerdictKind
@@ -34,19 +34,20 @@ def with_what_is_missing(
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return None, told
-    if workers.stop.due:
-        workers.stop.leave_out(FREE_FORM)
-        return None, told
-    try:
-        fits = free_form_fits(problem, coarse, companions, workers)
-    except SimulationFailed:
-        return None, told
-    if workers.stop.due:
-        workers.stop.leave_out(FREE_FORM)
-        return None, told
+    fits = workers.stop.unless_due(FREE_FORM, lambda: _fits(problem, coarse, companions, workers))
     if not fits:
         return None, told
     missing = missing_of(fits, told.nearest.gap_after)
     if missing.law is None:
         return missing, told
     return missing, explained_by(missing, log, problem, nominal, told)
+
+
+def _fits(
+    problem: FitProblem, coarse: FitProblem, companions: Sequence[str], workers: Workers
+) -> tuple[FreeFit, ...]:
+    """None where not even the scatter of the rig can be simulated."""
+    try:
+        return free_form_fits(problem, coarse, companions, workers)
+    except SimulationFailed:
+        return ()

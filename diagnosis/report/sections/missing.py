@@ -19,9 +19,9 @@ _PLACES = (
     "trials that its fit has not seen, and with how much freedom."
 )
 _GAPS = (
-    "For each variable the law that leaves least, on trials that its fit has not seen, over the noise and "
-    "what the other trials leave open of the curve; 1 is the noise floor. Only the first few are fitted "
-    "to the whole log, the others to a decimated one."
+    "For each variable the law that leaves least, on trials that its fit has not seen, over the noise "
+    "and what the other trials leave open of the curve; 1 is the noise floor. Only the first few are "
+    "fitted to the whole log, the others to a decimated one, and their gap is that of the fit."
 )
 
 

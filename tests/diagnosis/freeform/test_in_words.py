@@ -70,7 +70,14 @@ def test_effects_beside_a_law_are_named():
 def test_of_a_single_trial_nothing_is_called_unseen():
     said = what_is_missing(missing_with(), 8.9)
     assert "not seen" not in said
-    assert "on the one trial that there is, which is that of the fit" in said
+    assert "1.03 σ on the trials of its fit" in said
+
+
+def test_of_what_happened_once_nothing_is_called_unseen():
+    best = seen_fit()
+    effect = replace(best.family.effect, trial="trial_02.csv")
+    once = replace(best, family=replace(best.family, effect=effect))
+    assert "not seen" not in what_is_missing(missing_with(best=once), 8.9)
 
 
 def test_where_no_law_helps_the_sentence_says_what_to_doubt():

@@ -33,7 +33,7 @@ def test_places_are_probabilities_of_all_six():
 
 
 def test_a_gap_that_is_larger_weighs_less_by_its_power():
-    """Weights are 1 and (1.2 / 1.02)^(-2 / PATIENCE), shared as the family says, and a little for each."""
+    """Weights are 1 and (1.2 / 1.02)^(-2 / PATIENCE), shared as the family says; a little for each."""
     place = missing_of(fits(), 5.0).place
     weight = (1.2 / 1.02) ** (-2 / PATIENCE)
     assert place[Place.SENSOR] / place[Place.INTERFACE] == pytest.approx(
@@ -69,6 +69,11 @@ def test_what_was_fitted_to_the_log_itself_comes_before_what_was_not():
     found = missing_of([rough, *fits()[:1]], 5.0)
     assert found.best.family.name == "direction"
     assert [d.variable for d in found.depends_on] == ["direction", "time"]
+
+
+def test_of_laws_that_were_fitted_to_the_decimated_log_alone_none_is_told():
+    found = missing_of([free_fit(1.0, final=False)], 5.0)
+    assert (found.law, found.closed) == (None, False)
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,7 @@ def test_what_is_beside_a_family_is_not_counted_as_its_own():
 
 @pytest.mark.parametrize(("tau", "slope"), [(3.0, 10.0), (0.5, 3.0)])
 def test_repeated_it_comes_to_where_the_evidence_is_greatest(tau, slope):
-    """Readings have the variance (slope tau)^2 + 1: the evidence says tau^2 = (mean y^2 - 1) / slope^2."""
+    """Readings have the variance (slope tau)^2 + 1: evidence says tau^2 = (mean y^2 - 1) / slope^2."""
     y = readings_of(tau, slope, np.random.default_rng(4))
     family = family_of(parameters=coordinates(0, COUNT))
     for _ in range(60):
