@@ -117,6 +117,7 @@ def _log_weight(one: FreeFit) -> float:
 
 
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
+    """The best fit's variable, then the others by what is left."""
     found: dict[str, Dependence] = {}
     for one in ranked:
         family = one.family
@@ -126,7 +127,8 @@ def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
                 variable=family.says, gap_after=one.gap_after, title=family.title, place=family.place
             ),
         )
-    return tuple(found.values())
+    first, *others = found.values()
+    return (first, *sorted(others, key=lambda one: one.gap_after))
 
 
 def _law(one: FreeFit) -> Law:

@@ -64,6 +64,16 @@ def test_variables_are_told_once_the_one_that_leaves_least_first():
     assert [d.place for d in told] == [Place.INTERFACE, Place.SENSOR, Place.TISSUE]
 
 
+def test_after_the_best_variables_are_in_the_order_of_what_is_left():
+    """Whether or not their laws were fitted to the log itself, and where there is no gap to tell."""
+    more = [
+        free_fit(math.inf, name="lost", says="rate"),
+        free_fit(2.0, final=False, name="rough", says="depth"),
+    ]
+    told = missing_of([*fits(), *more], 5.0).depends_on
+    assert [d.variable for d in told] == ["direction", "torque", "depth", "time", "rate"]
+
+
 def test_what_was_fitted_to_the_log_itself_comes_before_what_was_not():
     rough = free_fit(0.9, final=False, name="rough", says="time", places={Place.TISSUE: 1.0})
     found = missing_of([rough, *fits()[:1]], 5.0)
