@@ -3,7 +3,7 @@
 `sim.batch.simulate_each` runs insertions that differ in tissue, turn and depth on one thread and on two,
 in turns, in wall time: the ratio is the speed-up. It needs two cores that have nothing else to do; the
 load of the machine is printed. What a campaign adds (drawing values, rows, files) is measured on one
-process, as CPU time beside that of the same insertions.
+process, as CPU time beside that of its insertions in the same run.
 """
 
 import os
@@ -11,12 +11,16 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from benchmarks import report
 from diagnosis.engines.local import on_this_machine
 from sim.batch import simulate_each
 from sim.paper_protocols import protocol_named
 from sim.simulation import prepare_processes
+from studies.campaign import run_case
 from studies.campaign.campaign import Campaign, Kind
 from studies.campaign.cases import case_count, cases_of
 from studies.campaign.results import ResultFolder
@@ -25,8 +29,9 @@ from studies.campaign.variation import Variation
 
 SPEED_UP_BOUND = 1.8  # on two cores
 OVERHEAD_BOUND = 5.0  # percent
-_INSERTIONS = 96
-_TURNS = 5
+_PARTS = ("insertions", "what a campaign does beside them")
+_INSERTIONS = 64
+_TURNS = 3
 
 
 def campaign() -> Campaign:
@@ -56,6 +61,28 @@ def _least_wall_times_s(tasks: dict[str, Callable[[], object]]) -> dict[str, flo
     return least
 
 
+def _overhead(whole: Campaign) -> tuple[float, float]:
+    """CPU time of a campaign's insertions, and of all that it does beside them, s, in one run."""
+    inside = 0.0
+
+    def timed(*given: Any, **how: Any) -> Any:
+        nonlocal inside
+        began = time.process_time()
+        found = simulate_each(*given, **how)
+        inside += time.process_time() - began
+        return found
+
+    run_case.simulate_each, usual = timed, run_case.simulate_each
+    began = time.process_time()
+    try:
+        with tempfile.TemporaryDirectory() as kept:
+            results = ResultFolder(folder=Path(kept), campaign=whole)
+            run_campaign(results, on_this_machine(1), force=True, progress=lambda _: None)
+    finally:
+        run_case.simulate_each = usual
+    return inside, time.process_time() - began - inside
+
+
 def run(folder: Path) -> list[report.Goal]:
     """Measure, print, write."""
     prepare_processes()
@@ -67,26 +94,28 @@ def run(folder: Path) -> list[report.Goal]:
             "2 threads": lambda: simulate_each(protocols, threads=2),
         }
     )
-    with tempfile.TemporaryDirectory() as kept:
-
-        def run_whole() -> None:
-            results = ResultFolder(folder=Path(kept), campaign=whole)
-            run_campaign(results, on_this_machine(1), force=True, progress=lambda _: None)
-
-        tasks = {"insertions": lambda: simulate_each(protocols, threads=1), "campaign": run_whole}
-        cpu = report.least_times_s(tasks, turns=_TURNS, enough_s=30.0)
+    shares = [_overhead(whole) for _ in range(_TURNS)]
     rows = [
         {"what": name, "clock": clock, "ms an insertion": 1e3 * seconds / len(protocols)}
-        for clock, times in (("wall", wall), ("CPU", cpu))
+        for clock, times in (
+            ("wall", wall),
+            ("CPU", dict(zip(_PARTS, min(shares, key=sum), strict=True))),
+        )
         for name, seconds in times.items()
     ]
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     title = f"{len(protocols)} insertions of 9.3 s; {os.cpu_count()} cores, load {load:.1f}"
     report.show(title, rows, folder, "batches")
-    overhead = 100 * (cpu["campaign"] / cpu["insertions"] - 1)
+    overhead = 100 * float(np.median([beside / inside for inside, beside in shares]))
     gain = wall["1 thread"] / wall["2 threads"]
     return [
-        report.Goal(name="insertions, 2 threads", measured=gain, bound=SPEED_UP_BOUND, at_least=True),
+        report.Goal(
+            name="insertions, 2 threads",
+            measured=gain,
+            bound=SPEED_UP_BOUND,
+            at_least=True,
+            accuracy=f"the same bits; load {load:.1f}",
+        ),
         report.Goal(
             name="campaign over its insertions", measured=overhead, bound=OVERHEAD_BOUND, unit="%"
         ),

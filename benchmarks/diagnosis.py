@@ -47,6 +47,7 @@ TIMES_OVER = (1, 2, 4)
 SINGLE_BOUND_S, PAIR_BOUND_S, MEMORY_BOUND_GIB, GROWTH_BOUND = 60.0, 180.0, 1.0, 1.3
 
 _SEED = 6
+_TOLD = 0.05  # share of the time from which a stage is in the one table
 _SIGNATURE = (4.0, 6.0)  # of each effect: rms of what it changes / sigma
 _NOISE = {TIP: 0.4, TORQUE: 0.015, BASE: 0.02}
 _SENSORS = LogSensors(noise=_NOISE, claims=dict.fromkeys(_NOISE, 1.0), steps={})
@@ -129,7 +130,7 @@ def cost(folder: Path) -> Cost:
 
 def _cost(folder: Path, usual: str) -> Cost:
     multiprocessing.set_start_method(usual, force=True)
-    stages, start_s = Stages(), _cpu_s()
+    stages, start_s = Stages(), used_cpu_s()
     prepare_processes()
     stages.mark(_LOADING)
     log = read_rig_log(folder)
@@ -138,7 +139,7 @@ def _cost(folder: Path, usual: str) -> Cost:
     stages.mark(_AFTER)
     write_report(found, Destination(folder=folder / "report", force=True))
     stages.mark(_REPORT)
-    cpu_s, peak_gib = _cpu_s() - start_s, _peak_gib()
+    cpu_s, peak_gib = used_cpu_s() - start_s, _peak_gib()
 
     prepared, _ = prepare(log)
 
@@ -152,7 +153,7 @@ def _cost(folder: Path, usual: str) -> Cost:
     )
 
 
-def _cpu_s() -> float:
+def used_cpu_s() -> float:
     """Of this process and of its workers that have ended."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(usage.ru_utime + usage.ru_stime for usage in used)
@@ -210,8 +211,14 @@ def _goals(costs: dict[str, Cost], grown: list[Cost]) -> list[report.Goal]:
     peak_gib = max(one.peak_gib for one in costs.values())
     wall_s = [costs[name].wall_s for name in (_ONE, _TWO)]
     growth = f"time a trial, {TIMES_OVER[-1]} times as many trials: largest over least"
+    stages = [
+        report.Goal(name=f"of it, {stage}", measured=100 * seconds / costs[_ONE].wall_s, unit="%")
+        for stage, seconds in costs[_ONE].stages_s.items()
+        if seconds > _TOLD * costs[_ONE].wall_s
+    ]
     return [
         report.Goal(name=f"diagnosis of {_ONE}", measured=wall_s[0], bound=SINGLE_BOUND_S, unit="s"),
+        *stages,
         report.Goal(name=f"diagnosis of {_TWO}", measured=wall_s[1], bound=PAIR_BOUND_S, unit="s"),
         report.Goal(name=growth, measured=max(a_trial) / min(a_trial), bound=GROWTH_BOUND),
         report.Goal(name="diagnosis, memory", measured=peak_gib, bound=MEMORY_BOUND_GIB, unit="GiB"),

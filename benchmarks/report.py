@@ -7,7 +7,9 @@ tasks that are compared take turns in one run, and the least time of each counts
 import argparse
 import math
 import time
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -24,23 +26,38 @@ mpl.use("Agg")
 Key = TypeVar("Key", bound=Hashable)
 
 _CONSOLE = Console(width=120, highlight=False)
+_FILES_ALONE: ContextVar[bool] = ContextVar("files_alone", default=False)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Goal:
-    """A measured value and the bound that it is to keep; NaN: not measured here."""
+    """A measured value and the bound that it is to keep; NaN: not measured here, or no bound.
+
+    Attributes:
+      accuracy: at which it was measured.
+    """
 
     name: str
     measured: float
-    bound: float
+    bound: float = math.nan
     at_least: bool = False
     unit: str = "-"
+    accuracy: str = "-"
+
+    @property
+    def asked(self) -> str:
+        """The bound as a person reads it."""
+        if math.isnan(self.bound):
+            return "-"
+        return f"{'>=' if self.at_least else '<='} {self.bound:g}"
 
     @property
     def met(self) -> str:
         """As a person reads it."""
         if math.isnan(self.measured):
             return "not measured"
+        if math.isnan(self.bound):
+            return "-"
         kept = self.measured >= self.bound if self.at_least else self.measured <= self.bound
         return "yes" if kept else "NO"
 
@@ -72,7 +89,23 @@ def least_times_s(
 
 
 def show(title: str, rows: Sequence[Mapping[str, Any]], folder: Path, name: str) -> None:
-    """Print rows of one shape as a table and write them as `name`.csv."""
+    """Write rows of one shape as `name`.csv, and print them as a table, unless in `files_alone`."""
+    if not _FILES_ALONE.get():
+        _print(title, rows)
+    write_csv(rows, folder, name)
+
+
+@contextmanager
+def files_alone() -> Iterator[None]:
+    """Tables are written and not printed while the block runs."""
+    before = _FILES_ALONE.set(True)
+    try:
+        yield
+    finally:
+        _FILES_ALONE.reset(before)
+
+
+def _print(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
     table = RichTable(title=title, title_justify="left")
     for column in rows[0]:
         numeric = not isinstance(rows[0][column], str)
@@ -80,7 +113,6 @@ def show(title: str, rows: Sequence[Mapping[str, Any]], folder: Path, name: str)
     for row in rows:
         table.add_row(*(_cell(value) for value in row.values()))
     _CONSOLE.print(table)
-    write_csv(rows, folder, name)
 
 
 def write_csv(rows: Sequence[Mapping[str, Any]], folder: Path, name: str) -> None:
@@ -96,18 +128,20 @@ def _cell(value: Any) -> str:
 
 
 def show_goals(goals: Sequence[Goal], folder: Path) -> None:
-    """The summary: goal, measured, met."""
+    """The one table: what, measured, at which accuracy, and whether a goal is met."""
     rows = [
         {
-            "goal": goal.name,
-            "bound": f"{'>=' if goal.at_least else '<='} {goal.bound:g}",
+            "what": goal.name,
             "measured": goal.measured,
             "unit": goal.unit,
+            "accuracy": goal.accuracy,
+            "goal": goal.asked,
             "met": goal.met,
         }
         for goal in goals
     ]
-    show("Goals", rows, folder, "goals")
+    _print("Each measured in one run; ratios are over ours, or as named", rows)
+    write_csv(rows, folder, "goals")
 
 
 def say(text: str) -> None:

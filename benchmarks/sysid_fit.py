@@ -8,6 +8,7 @@ import contextlib
 import importlib
 import io
 import logging
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -38,6 +39,7 @@ class Finding:
       intervals: value, low and high by `effect.parameter`, in the vocabulary's units.
       residual: root mean square of residual / sigma; 1 is the floor.
       alone: the damping scale of each trial by itself.
+      cpu_s: of the process and its workers that have ended.
     """
 
     log: str
@@ -46,6 +48,7 @@ class Finding:
     intervals: dict[str, tuple[float, float, float]]
     residual: float
     alone: tuple[float, ...] = ()
+    cpu_s: float = math.nan
 
 
 def missing() -> str:

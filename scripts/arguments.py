@@ -140,6 +140,12 @@ def _add_diagnose(diagnose: Parser) -> None:
         metavar="SECONDS",
         help="time for all of it: what explains the log best by then is told, marked as such",
     )
+    diagnose.add_argument(
+        "--save-effect",
+        metavar="NAME",
+        help="save the free-form law that closes the gap of an unknown log as an effect, which later "
+        "diagnoses know (in $NEEDLE_EFFECTS, else ~/.local/share/needle-torsion/effects)",
+    )
     _add_output(diagnose, "diagnose", "; out/paper with --paper")
 
 

@@ -1,5 +1,6 @@
 """`needle blind`: how often is the diagnosis right on rigs that it has never met?"""
 
+import json
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -22,6 +23,8 @@ from validation.logs.case import ImpossibleDraw
 from validation.logs.make import NAMES, make_logs
 from validation.score import calibration, picture
 from validation.score.detection import detection_limits
+from validation.score.json_summary import as_json
+from validation.score.missing import CLOSED, ELSEWHERE_GOAL, missing_summary
 from validation.score.run import score_logs
 
 KNOWN_NAMES = NAMES
@@ -69,9 +72,9 @@ def make(
             )
     except (ValueError, ImpossibleDraw) as error:
         raise NeedleError(str(error)) from error
-    shown: list[Path | str] = [f"{folder / 'logs'} ({count} logs)", folder / "answers"]
+    logs = "1 log" if count == 1 else f"{count} logs"
+    shown: list[Path | str] = [f"{folder / 'logs'} ({logs})", folder / "answers"]
     return tell(written, console, shown=shown)
-    return 0
 
 
 def _check_names(field: str, given: Sequence[str], known: Sequence[str]) -> None:
@@ -119,16 +122,17 @@ def run_score(
 
 
 def _write(scores: pd.DataFrame, destination: Destination) -> ResultSet:
-    table, shown = paths = _score_paths(destination.folder)
+    table, summary, shown = paths = _score_paths(destination.folder)
     with publishing(destination, paths) as written:
         text = scores.to_csv(index_label="case", float_format="%.4g")
         write_text(written.at(table), text)
+        write_text(written.at(summary), json.dumps(as_json(scores), indent=1, allow_nan=False) + "\n")
         written.optional(shown, partial(picture.draw, scores))
     return written
 
 
 def _score_paths(folder: Path) -> list[Path]:
-    return [folder / name for name in ("scores.csv", "score.png")]
+    return [folder / name for name in ("scores.csv", "score.json", "score.png")]
 
 
 def _print(scores: pd.DataFrame, console: Console) -> None:
@@ -140,24 +144,28 @@ def _print(scores: pd.DataFrame, console: Console) -> None:
     if len(limits):
         print_table(console, _limits(limits))
     print_table(console, _calibration(scores))
-    _list(scores[~scores["exact"] & ~wrong], "", console)
+    if scores["missing_told"].any() or scores["missing_said"].any():
+        print_table(console, _missing(scores))
+    _list(scores[~scores["exact"] & ~wrong], "not exact: ", console)
 
 
 def _list(scores: pd.DataFrame, what: str, console: Console) -> None:
     for case, row in scores.iterrows():
-        line = f"{what}{case}: true {row['truth']}, diagnosed {row['said']} ({row['verdict']})"
+        verdict = "" if row["said"] == row["verdict"] else f" ({row['verdict']})"
+        line = f"{what}{case}: true {row['truth']}, diagnosed {row['said']}{verdict}"
         console.print(line, highlight=False)
 
 
 def _by_kind(summary: pd.DataFrame) -> Table:
-    shown = ("logs", "confidently\nwrong", "exact", "undecided", "unknown", "median\ns", "worst\ns")
+    shares = ("exact\n%", "undecided\n%", "unknown\n%")
+    shown = ("logs", "confidently\nwrong", *shares, "median\ns", "worst\ns")
     kind_column = Column("kind", no_wrap=True)
-    table = Table(kind_column, *shown, title="By kind of log", box=SIMPLE_HEAD, collapse_padding=True)
+    table = Table(kind_column, *shown, title="By kind of log", box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
     for kind, row in summary.iterrows():
-        shares = [f"{100 * row[c]:.1f} %" for c in ("exact", "undecided", "unknown")]
+        percent = [f"{100 * row[c]:.1f}" for c in ("exact", "undecided", "unknown")]
         counts = [f"{row[c]:.0f}" for c in ("logs", "confidently_wrong")]
         seconds = [f"{row[c]:.0f}" for c in ("seconds", "worst_seconds")]
-        table.add_row(str(kind), *counts, *shares, *seconds)
+        table.add_row(str(kind), *counts, *percent, *seconds)
     return table
 
 
@@ -186,4 +194,20 @@ def _calibration(scores: pd.DataFrame) -> Table:
     if unseen:
         row = f"undetected effects that are below the reported detection limit (of {unseen})"
         table.add_row(row, f"{100 * below:.0f} %")
+    return table
+
+
+def _missing(scores: pd.DataFrame) -> Table:
+    counted = missing_summary(scores)
+    rows = {
+        "said": "reports that say what is missing, of logs outside of the library",
+        "place_right": "of these: likeliest place right",
+        "variable_right": "of these: first variable right",
+        "closed": f"of these: its law leaves at most {CLOSED} σ on trials that it has not seen",
+        "elsewhere": f"reports that say so of other logs (goal: {100 * ELSEWHERE_GOAL:.0f} % or less)",
+    }
+    table = Table("what is missing", "reports", "share", title="Outside of the library")
+    for name, row in rows.items():
+        some, of = counted[name]
+        table.add_row(row, f"{some} of {of}", f"{100 * some / of:.1f} %" if of else "–")
     return table

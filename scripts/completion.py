@@ -20,8 +20,8 @@ _FOLDERS = ("DIR", "LOG")
 
 
 def run(shell: str, console: Console) -> int:
-    """Print the script."""
-    console.print(script(shell), highlight=False, markup=False, soft_wrap=True)
+    """Print the script as it stands: rich would make blanks of its tabs."""
+    console.file.write(script(shell))
     return 0
 
 
@@ -37,7 +37,7 @@ def script(shell: str) -> str:
         elif action.dest in _NAMES:
             action.choices = list(_NAMES[action.dest])
     made: str = shtab.complete(top, shell)
-    return made
+    return made.rstrip("\n") + "\n"
 
 
 def _actions(of: argparse.ArgumentParser) -> Iterator[argparse.Action]:

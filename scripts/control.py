@@ -25,6 +25,10 @@ from studies.control.steering.steered_insertions import STEERED, SteeredInsertio
 from studies.control.study import run_study
 
 DEFAULT = Path("out/control")
+_HANKEL = (
+    "Hankel singular values of torque to tip at 20 cm, over the largest (an estimator can leave out the "
+    "modes of small ones)"
+)
 _STUDY_SHARE, _PICTURES_SHARE = 0.8, 0.84  # of the time, until the study and its pictures are done
 
 
@@ -103,7 +107,7 @@ def show(study: ControlStudy, console: Console) -> None:
     print_table(console, settling_table(study.tables), keys=3)
     print_table(console, integral_table(study.tables), keys=3)
     ratios = ", ".join(f"{x:.2g}" for x in hankel())
-    console.print(f"Hankel singular values of torque to tip at 20 cm, over the largest: {ratios}")
+    console.print(f"{_HANKEL}: {ratios}", highlight=False)
     for table in robustness_tables(study.robustness):
         print_table(console, table)
     print_table(console, failures_table(study.robustness), keys=2)

@@ -16,9 +16,15 @@ _GROUPS = {
 }
 
 
+_BASELINES = (
+    "Same limits: the base alone, as fast as the motor can. Base only: in 0.3 s, as in the paper."
+)
+
+
 def settling_table(responses: list[StepResponse]) -> Table:
     """Table IV: settling to 3 deg."""
     table = _table("Table IV: a step of 90 deg, time to settle within 3 deg, s")
+    table.caption = _BASELINES
     for o in responses:
         table.add_row(
             *_where(o),
@@ -45,10 +51,7 @@ def integral_table(responses: list[StepResponse]) -> Table:
             f"{o.shear_stress_mpa:.0f}",
             end_section=o is responses[-1] or _next_differs(responses, o),
         )
-    table.caption = (
-        "Same limits: the base alone, as fast as the motor can. Base only: in 0.3 s, as in the paper.\n"
-        "MPa: largest shear stress in the shaft."
-    )
+    table.caption = f"{_BASELINES}\nMPa: largest shear stress in the shaft."
     return table
 
 

@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from diagnosis.assessment.identifiability import unidentifiable
+from diagnosis.freeform.save import as_file, file_of
 from diagnosis.log.rig_log import files_of, read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.answer import answer
@@ -32,7 +33,7 @@ from scripts.stop_signals import EXIT_CODES, stops_on_signals
 from scripts.streams import complain
 from scripts.tables import print_table
 from scripts.terminal import terminal
-from sim.files import finish_interrupted
+from sim.files import Destination, finish_interrupted, write_text
 from sim.simulation import prepare_processes
 
 DEFAULT = Path("out/diagnose")
@@ -49,6 +50,7 @@ def run(
     console: Console,
     limit_s: float | None = None,
     began_s: float | None = None,
+    save_effect: str | None = None,
 ) -> int:
     """Diagnose a log; prints a summary, or `report.json`.
 
@@ -56,10 +58,14 @@ def run(
       out: where the report goes; None: a default folder, or nowhere with `json_only`.
       limit_s: for all of it; None: no limit.
       began_s: `time.monotonic()` from which the limit counts; None: now.
+      save_effect: name under which a free-form law that closes the gap is saved; None: it is not.
 
     Returns:
       0, or 128 and the number of the signal that asked for the best so far.
     """
+    effect_file = file_of(save_effect) if save_effect is not None else None
+    if effect_file:
+        Destination(folder=effect_file.parent, force=force).check([effect_file])
     used_s = time.monotonic() - began_s if began_s else 0.0
     writes = out is not None or not json_only
     reserve_s = max(_REPORT_LEAST_S, _REPORT_STARTS * used_s) if writes else 0.0
@@ -86,7 +92,19 @@ def run(
         else:
             _summary(found, console)
         code = tell(written, console, shown=() if json_only else None) if written else ExitCode.DONE
+        if save_effect and effect_file:
+            _save(found, save_effect, effect_file, force=force)
     return EXIT_CODES[stop.requested] or code
+
+
+def _save(found: Diagnosis, name: str, path: Path, *, force: bool) -> None:
+    """Save the law, or say why there is none."""
+    text = as_file(found.missing, name)
+    if not text:
+        complain(f"{name} is not saved: no free-form law closes a gap that the library leaves here")
+        return
+    write_text(path, text, force=force)
+    complain(f"saved      {path}: later diagnoses know {name}")
 
 
 def _summary(found: Diagnosis, console: Console) -> None:

@@ -88,6 +88,7 @@ def _run(args: argparse.Namespace, console: Console, began_s: float) -> int:
                 args.out,
                 limit_s=args.limit,
                 began_s=began_s,
+                save_effect=args.save_effect,
                 json_only=args.json,
                 force=args.force,
                 console=console,

@@ -19,7 +19,7 @@ def steering_tables(study: SteeringStudy) -> list[tuple[Table, int]]:
 
 def _steered(study: SteeringStudy) -> Table:
     title = "Steered insertions, Fig. 12: largest deviation from the plane, mm"
-    table = Table("insertion", *(order.value for order in study.steered), title=title)
+    table = Table("insertion", *(order.value.replace("_", " ") for order in study.steered), title=title)
     table.add_column("paper (to and fro)")
     table.add_column("ratio")
     by_order = [{one.name: one.out_of_plane_mm for one in s} for s in study.steered.values()]
@@ -41,7 +41,7 @@ def _known_pose(study: SteeringStudy) -> Table:
 
 
 def _travels(study: SteeringStudy) -> Table:
-    title = "Planar controller, images: the same travel, median (range) of the seeds, mm"
+    title = "Planar controller, images: travel until within 0.5 mm, median (range) of the seeds, mm"
     table = Table("case", *(f"{speed:g} mm/s" for speed in study.imaged), title=title)
     for name in PLANAR_CASES:
         table.add_row(name, *(_travel(PlanarSpread.of(by[name])) for by in study.imaged.values()))
@@ -49,7 +49,7 @@ def _travels(study: SteeringStudy) -> Table:
 
 
 def _travel(spread: PlanarSpread) -> str:
-    return _shown(spread.converged_mm, ".0f") + (f", never {spread.never} x" if spread.never else "")
+    return _shown(spread.converged_mm, ".0f") + (f", never in {spread.never}" if spread.never else "")
 
 
 def _heights(study: SteeringStudy) -> Table:
@@ -82,7 +82,7 @@ def _spun(study: SteeringStudy) -> Table:
         title=title,
     )
     for one in study.spun:
-        direction = "" if math.isnan(one.direction_deg) else f"{one.direction_deg:.0f}"
+        direction = "" if math.isnan(one.direction_deg) else f"{round(one.direction_deg)}"
         row = (one.case, f"{one.start_mm / 10:g}", f"{one.duty:g}", f"{1 - one.duty:.2f}")
         table.add_row(*row, f"{one.share:.2f}", direction)
     return table
@@ -92,7 +92,7 @@ def _shown(spread: Spread, shape: str) -> str:
     median, least, largest = (
         _or_never(value, shape) for value in (spread.median, spread.least, spread.largest)
     )
-    return f"{median} ({least} - {largest})"
+    return f"{median} ({least} to {largest})"
 
 
 def _or_never(value: float, shape: str = ".0f") -> str:

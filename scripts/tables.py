@@ -84,8 +84,7 @@ def _rules(table: Table, columns: Sequence[Column]) -> int:
     """Width of everything beside the cells."""
     edges = 2 if table.box and table.show_edge else 0
     _, right, _, left = table.padding
-    between = max(left, right) if table.collapse_padding else left + right
-    padding = between * (len(columns) - 1) + left + right
+    padding = (left + right) * len(columns)
     return edges + padding + (len(columns) - 1 if table.box else 0)
 
 
@@ -110,7 +109,6 @@ def _like(table: Table, columns: Sequence[Column]) -> Table:
         caption=table.caption,
         box=table.box,
         show_header=table.show_header,
-        collapse_padding=table.collapse_padding,
     )
     made.padding = table.padding
     rows = zip(*(column.cells for column in columns), strict=True)

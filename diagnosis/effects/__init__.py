@@ -1,4 +1,4 @@
-"""The library of effects: one small file each, found by looking into this folder.
+"""The library of effects: one small file each, found by looking into this folder and the user's own.
 
 `LIBRARY` is the vocabulary of verdicts, `IMPERFECTIONS` what sensors do beside noise; fits may use both.
 They are written for needles like the paper's; `library_of` is the same for a rig of another size.
@@ -15,6 +15,7 @@ from types import ModuleType
 from diagnosis.criteria import INSERTED_AT_LEAST
 from diagnosis.effects import imperfections
 from diagnosis.effects.effect import Effect, Parameter
+from diagnosis.effects.saved.folder import saved_effects
 from diagnosis.prepare.rig_scale import RigScale
 
 
@@ -25,10 +26,11 @@ def _found_in(package: ModuleType) -> dict[str, Effect]:
     return {module.EFFECT.name: module.EFFECT for module in modules}
 
 
-LIBRARY = _found_in(sys.modules[__name__])
-"""Effects that a verdict may name."""
 IMPERFECTIONS = _found_in(imperfections)
 """What sensors do beside noise: fitted where a log asks, told in the report, never named."""
+_OWN = _found_in(sys.modules[__name__])
+LIBRARY = _OWN | saved_effects({*_OWN, *IMPERFECTIONS})
+"""Effects that a verdict may name: the vocabulary, and what the user saved."""
 FITTED: Mapping[str, Effect] = ChainMap(IMPERFECTIONS, LIBRARY)
 """All that a fit may use."""
 

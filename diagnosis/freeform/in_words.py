@@ -2,6 +2,7 @@
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.missing import Law, Missing
+from diagnosis.freeform.shapes import likeness_of
 
 PLACES = {
     Place.INTERFACE: "along the shaft, between it and the tissue",
@@ -24,6 +25,21 @@ VARIABLES = {
     "position": "the place along the shaft",
     "history": "what went before",
 }
+CHECKS = {
+    "time": "repeat one slow turn at the beginning of a trial and some minutes later",
+    "event": "look up what was done at that time, and repeat the trial: the jump should not come back",
+    "base_angle": "turn slowly by whole turns with the needle out of the tissue: what is of the drive "
+    "stays",
+    "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
+    "rate": "turn at four steady rates, a few turns each, at one depth",
+    "direction": "turn at one steady rate, a few turns forwards, then as many backwards",
+    "axial_speed": "slide the needle in and out at three speeds without turning it",
+    "depth": "repeat one turn at four depths",
+    "torque": "load the needle by known torques at rest, and read angle and torque",
+    "position": "repeat one turn at depths that grow in equal steps: what a step adds is of that part",
+    "history": "repeat one turn after rests of different length, and after different numbers of turns",
+}
+"""What shows a law of each variable by itself, as an order."""
 DOUBT = (
     "Doubt first what all of these laws take for granted: lengths, diameter and clocks of the rig, one "
     "zero for all trials, and that one thing at a time is missing"
@@ -52,7 +68,28 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
         f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of it{beside} brings "
         f"{gap_before:.2f} σ to {first.gap_after:.2f} σ {where}"
     )
-    return f"{told}{_beside(missing)}."
+    return f"{told}{_beside(missing)}.{_likeness(law)}"
+
+
+def _likeness(law: Law) -> str:
+    """What the law looks like; empty: nothing that has a name."""
+    like = likeness_of(law)
+    if like is None:
+        return ""
+    library = f", a law that {' and '.join(like.library)} of the library has" if like.library else ""
+    return f" The law looks like a {like.shape}{library}: {like.says}."
+
+
+def next_step(missing: Missing) -> str:
+    """What to do next, as an order; empty: there is no law to check."""
+    if missing.law is None:
+        return ""
+    check = CHECKS[missing.law.variable]
+    if not missing.closed:
+        return f"{check}; what the law leaves is more than noise, so look at that next"
+    if missing.law.variable == "event":
+        return check
+    return f"{check}; if it comes out the same, save the law as an effect (--save-effect NAME)"
 
 
 def course_of(law: Law) -> str:
@@ -81,4 +118,4 @@ def _beside(missing: Missing) -> str:
     """What laws of other variables leave."""
     others = [d for d in missing.depends_on[1:] if d.gap_after < float("inf")][:_OTHERS]
     told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
-    return f"; other variables leave more or explain no better ({told})" if told else ""
+    return f"; of other variables the best laws leave {told}" if told else ""

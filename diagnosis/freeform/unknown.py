@@ -10,6 +10,7 @@ from diagnosis.freeform.search import FreeFit, free_form_fits
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.stopping import StoppedEarly
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
@@ -35,7 +36,7 @@ def with_what_is_missing(
     if verdict.kind is not VerdictKind.UNKNOWN:
         return None, told
     fits = workers.stop.unless_due(FREE_FORM, lambda: _fits(problem, coarse, companions, workers))
-    if not fits:
+    if not fits or not any(fit.final for fit in fits):
         return None, told
     missing = missing_of(fits, told.nearest.gap_after)
     if missing.law is None:
@@ -46,8 +47,8 @@ def with_what_is_missing(
 def _fits(
     problem: FitProblem, coarse: FitProblem, companions: Sequence[str], workers: Workers
 ) -> tuple[FreeFit, ...]:
-    """None where not even the scatter of the rig can be simulated."""
+    """None where the nominal rig cannot be simulated, or there was no time."""
     try:
         return free_form_fits(problem, coarse, companions, workers)
-    except SimulationFailed:
+    except (SimulationFailed, StoppedEarly):
         return ()

@@ -5,6 +5,7 @@ on what its name says:
 
     tissue          the torque of tissue that varies is times the curve
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
+    drive_slip      the needle is left behind by the curve, deg/s, at the chuck
     drive_torque    the torque sensor reads the curve beside what the needle takes, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
@@ -13,24 +14,34 @@ A curve over the past says how much a reading shows of what was so long ago in p
 
     reading += sum over places of value (what was, then - what is).
 
+A curve over what was turned by since turning back adds hysteresis (Prandtl-Ishlinskii),
+
+    += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
+
 What depends on the rate, angle or place of each piece of the shaft by itself is a law of the tissue.
 """
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import PchipInterpolator
 
+from diagnosis.replay.bearing import stopped_at
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from models.errors import InvalidValue
 from models.tissue import Interface, Layer, Tissue
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 
 _LEAST_FACTOR = 1e-3
+_MOST_SIDED = 0.99  # asymmetry
+_TORQUES = ("viscous_n_mm_s_per_mm", "kinetic_n_mm_per_mm", "orientation_n_mm_per_mm")
 
 
 class ActsOn(StrEnum):
@@ -38,6 +49,7 @@ class ActsOn(StrEnum):
 
     TISSUE = "tissue"
     DRIVE_ANGLE = "drive_angle"
+    DRIVE_SLIP = "drive_slip"
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"
     TORQUE_READING = "torque_reading"
@@ -55,6 +67,9 @@ class Curve:
       values: at the places.
       period: of the variable, after which the curve repeats; 0: none.
       trial: the only trial that it is in; empty: all.
+
+    Raises:
+      InvalidValue: places do not increase, or values are not as many.
     """
 
     acts_on: ActsOn
@@ -64,6 +79,15 @@ class Curve:
     period: float = 0.0
     trial: str = ""
 
+    def __post_init__(self) -> None:
+        places = np.asarray(self.places, float)
+        if places.size < 2 or not (np.diff(places) > 0).all() or not np.isfinite(places).all():
+            raise InvalidValue("places", self.places, "two finite numbers at least, increasing")
+        if len(self.values) != places.size or not np.isfinite(self.values).all():
+            raise InvalidValue(
+                "values", self.values, f"{places.size} finite numbers, one for each place"
+            )
+
     def at(self, x: Array) -> Array:
         """The curve at values of its variable, (N,)."""
         if self.period:
@@ -72,6 +96,17 @@ class Curve:
             return np.asarray(PchipInterpolator(places, (*self.values, self.values[0]))(wrapped))
         within = np.clip(x, self.places[0], self.places[-1])
         return np.asarray(PchipInterpolator(self.places, self.values)(within))
+
+    def with_hysteresis(self, values: Array) -> Array:
+        """What hysteresis adds to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
+        each = zip(self.places, self.values, strict=True)
+        return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
+
+    def times(self, strength: float) -> "Curve":
+        """The curve so many times as strong; of a factor, raised to that power."""
+        if self.acts_on is ActsOn.TISSUE:
+            return replace(self, values=tuple(value**strength for value in self.values))
+        return replace(self, values=tuple(value * strength for value in self.values))
 
     def of_past(self, time_s: Array, values: Array) -> Array:
         """What a sensor shows of the past beside what is, (N,)."""
@@ -91,6 +126,7 @@ class FreeLaw:
       rate_curve: factors of its viscous torque (models.tissue).
       rate_range_rad_s: that they span.
       damping_along_depth: factors of its viscous torque in equal parts of the inserted length.
+      stiffness_along_depth: of its stiffness, where it is elastic, in as many parts.
       throughout, at_tip: further laws (models.tissue).
     """
 
@@ -100,13 +136,32 @@ class FreeLaw:
     rate_curve: tuple[float, ...] = ()
     rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
     damping_along_depth: tuple[float, ...] = ()
+    stiffness_along_depth: tuple[float, ...] = ()
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
 
     @property
     def more_rows(self) -> int:
         """Of the law table, beside those of any rig."""
-        return len(self.throughout) + len(self.at_tip) + len(self.damping_along_depth)
+        parts = max(len(self.damping_along_depth), len(self.stiffness_along_depth))
+        return len(self.throughout) + len(self.at_tip) + parts
+
+    def times(self, strength: float) -> "FreeLaw":
+        """The law so many times as strong; 0 is none of it, 1 the law itself.
+
+        What is added to an angle, a reading or a torque is multiplied; factors are raised to a power.
+        """
+        return FreeLaw(
+            curves=tuple(curve.times(strength) for curve in self.curves),
+            tissue_varies=self.tissue_varies,
+            asymmetry=max(min(self.asymmetry * strength, _MOST_SIDED), -_MOST_SIDED),
+            rate_curve=tuple(factor**strength for factor in self.rate_curve),
+            rate_range_rad_s=self.rate_range_rad_s,
+            damping_along_depth=tuple(factor**strength for factor in self.damping_along_depth),
+            stiffness_along_depth=tuple(factor**strength for factor in self.stiffness_along_depth),
+            throughout=tuple(_stronger(law, strength) for law in self.throughout),
+            at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
+        )
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """What one trial sees."""
@@ -122,7 +177,7 @@ class FreeLaw:
         Where damping changes along the depth, the layers are those of the first.
         """
         layers = tissue.layers
-        if self.damping_along_depth:
+        if self.damping_along_depth or self.stiffness_along_depth:
             layers = self._along_depth(layers[0].interface)
         changes: dict[str, Any] = {"varies": self.tissue_varies, "asymmetry": self.asymmetry}
         if self.rate_curve:
@@ -132,21 +187,39 @@ class FreeLaw:
         return whole
 
     def _along_depth(self, law: Interface) -> tuple[Layer, ...]:
-        share = 1.0 / len(self.damping_along_depth)
+        each = zip_longest(self.damping_along_depth, self.stiffness_along_depth, fillvalue=1.0)
+        stiffness = law.stiffness_n_mm_per_rad_per_mm
         laws = [
-            law.but(viscous_n_mm_s_per_mm=factor * law.viscous_n_mm_s_per_mm)
-            for factor in self.damping_along_depth
+            law.but(
+                viscous_n_mm_s_per_mm=damping * law.viscous_n_mm_s_per_mm,
+                stiffness_n_mm_per_rad_per_mm=None if stiffness is None else factor * stiffness,
+            )
+            for damping, factor in each
         ]
+        share = 1.0 / len(laws)
         return (*(Layer(interface=own, fraction=share) for own in laws[:-1]), Layer(interface=laws[-1]))
 
-    def driven(self, inputs: Schedule, start_s: float) -> Schedule:
-        """What is done to the needle, and how its tissue varies."""
+    def driven(self, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Schedule:
+        """What is done to the needle, and how its tissue varies.
+
+        Args:
+          torque_n_mm: as measured, without its noise; what the chuck carries is not known before.
+        """
         factor, drive = np.ones(inputs.time_s.size), inputs.drive
         for curve in self.curves:
+            if curve.acts_on in _SENSORS:
+                continue
+            if curve.variable is Variable.TURNED_BY:
+                drive = drive + curve.with_hysteresis(inputs.drive)
+                continue
+            of_torque = curve.variable is Variable.TORQUE
+            own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on is ActsOn.TISSUE:
-                factor = factor * curve.at(of_inputs(curve.variable, inputs, start_s))
-            elif curve.acts_on is ActsOn.DRIVE_ANGLE:
-                drive = drive + curve.at(of_inputs(curve.variable, inputs, start_s))
+                factor = factor * own
+            elif curve.acts_on is ActsOn.DRIVE_SLIP:
+                drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
+            else:
+                drive = drive + own
         return replace(inputs, drive=drive, tissue_factor=np.maximum(factor, _LEAST_FACTOR))
 
     def sensed(
@@ -157,11 +230,20 @@ class FreeLaw:
         for curve in self.curves:
             if curve.acts_on in _SENSORS:
                 of_tip = curve.acts_on is ActsOn.TIP_READING
+                own = tip_deg if of_tip else torque_n_mm
                 if curve.variable is Variable.PAST:
-                    more = curve.of_past(inputs.time_s, tip_deg if of_tip else torque_n_mm)
+                    more = curve.of_past(inputs.time_s, own)
+                elif curve.variable is Variable.TURNED_BY:
+                    more = curve.with_hysteresis(own)
                 elif curve.variable in OF_THE_NEEDLE:
                     more = curve.at(of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm))
                 else:
                     more = curve.at(of_inputs(curve.variable, inputs, start_s))
                 read[of_tip] = read[of_tip] + more
         return read[True], read[False]
+
+
+def _stronger(law: Interface, strength: float) -> Interface:
+    """A further law, its torques multiplied."""
+    stronger: Interface = law.but(**{name: strength * getattr(law, name) for name in _TORQUES})
+    return stronger

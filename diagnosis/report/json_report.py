@@ -13,7 +13,8 @@ from diagnosis.assessment.joint_uncertainty import JointUncertainty
 from diagnosis.assessment.nearest import Nearest
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
-from diagnosis.freeform.missing import Dependence, Missing
+from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.freeform.shapes import likeness_of
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
@@ -101,8 +102,14 @@ def _missing(missing: Missing) -> dict[str, Any]:
         "place": {place.value: p for place, p in missing.place.items()},
         "depends_on": [_dependence(one) for one in missing.depends_on],
         "law": None if law is None else _lists(asdict(law)),
+        "looks_like": _looks_like(law),
         "closed": missing.closed,
     }
+
+
+def _looks_like(law: Law | None) -> dict[str, Any] | None:
+    like = likeness_of(law) if law else None
+    return _lists(asdict(like)) if like else None
 
 
 def _dependence(one: Dependence) -> dict[str, Any]:

@@ -5,6 +5,8 @@ import subprocess
 
 import pytest
 
+from scripts import completion
+from scripts.arguments import SHELLS
 from scripts.completion import script
 from scripts.main import main
 
@@ -38,9 +40,23 @@ def test_bash_completes(bash, words, offered):
     assert offered <= completed(bash, *words)
 
 
-def test_the_command_prints_a_script_for_zsh(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "40")  # no line is broken
-    assert main(["completion", "zsh"]) == 0
-    said = capsys.readouterr().out
-    assert said.startswith("#compdef needle")
-    assert script("zsh").strip() == said.strip()
+@pytest.mark.parametrize("shell", SHELLS)
+@pytest.mark.parametrize("columns", ["60", "200"])
+def test_the_command_prints_the_script_and_nothing_else(capfdbinary, monkeypatch, shell, columns):
+    monkeypatch.setenv("COLUMNS", columns)
+    assert main(["completion", shell]) == 0
+    told = capfdbinary.readouterr()
+    assert told.out == script(shell).encode()
+    assert told.err == b""
+
+
+def test_tabs_blanks_marks_and_long_lines_stay_as_they_are(capsys, monkeypatch):
+    text = "\tif [[ -n $x ]]; then  \n" + "word " * 100 + "[bold]:bomb:\n"
+    monkeypatch.setattr(completion, "script", lambda _: text)
+    monkeypatch.setenv("COLUMNS", "60")
+    assert main(["completion", "bash"]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_a_script_for_zsh_begins_as_zsh_asks():
+    assert script("zsh").startswith("#compdef needle\n")

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.logs.comparison import RigComparison, rms
-from validation.logs.strengths import ALL_FAMILIES, FAMILIES, TWO_SIDED, ByStrength, with_effect, without
+from validation.logs.strengths.families import ALL_FAMILIES, FAMILIES, TWO_SIDED, with_effect, without
+from validation.logs.strengths.family import ByStrength
 from validation.rig.rig import IndependentRig
 
 Array = NDArray[np.float64]

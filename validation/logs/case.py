@@ -17,35 +17,27 @@ from validation.logs.alternatives import Alternatives, find_alternatives
 from validation.logs.comparison import RigComparison
 from validation.logs.equivalents import as_effects
 from validation.logs.motions import LogPlan, draw_motions, draw_plan
+from validation.logs.nearest import NEAREST
 from validation.logs.rig_draw import draw_rig
 from validation.logs.roughness.recording import ROUGHNESSES
 from validation.logs.roughness.roughness import Roughness
 from validation.logs.roughness.wrong import FAULTS
 from validation.logs.schedule import PLAIN_KINDS
 from validation.logs.sensors import LogSensors, draw_sensors, plain
-from validation.logs.strengths import (
+from validation.logs.strengths.families import (
     FAMILIES,
     UNLISTED_FAMILIES,
     WRONG_CONSTANT_FAMILIES,
     without,
 )
+from validation.logs.strengths.unmodelled import UNMODELLED_FAMILIES
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
-NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk"}
+NEEDS_SLIDING = {"speed_dependent_friction", "axial_crosstalk", "axially_relieved_friction"}
 NEEDS_LOAD = {"load_dependent_friction"}
-NEAREST = {
-    "tip_sensor_lag": ("tip_sensor_delay",),
-    "damping_gradient": ("layered_tissue", "base_compliance"),
-    "friction_ageing": ("stiction", "coulomb_friction"),
-    "one_way_friction": ("stiction", "coulomb_friction"),
-    "stiction": ("coulomb_friction",),
-    "drive_friction": ("sheath_friction", "entry_friction"),
-    "inserted_offset": ("damping_error", "stiffness_error"),
-}
-"""Modelled effects that look most like these."""
-NEWER = {*WRONG_CONSTANT_FAMILIES, *UNLISTED_FAMILIES}
+NEWER = {*WRONG_CONSTANT_FAMILIES, *UNLISTED_FAMILIES, *UNMODELLED_FAMILIES}
 """Logs of what came later have all effects for alternatives; those of before keep their bytes."""
 LEAST_UNMODELLED, MOST_UNMODELLED = 2.0, 8.0
 """The range of signatures of unmodelled effects begins and ends no lower."""

@@ -10,7 +10,7 @@ from validation.logs.sensors import TIP, TORQUE, LogSensors
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
 from validation.rig.simulation import COARSE, FINE, CellCounts, ideal_signals
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 Array = NDArray[np.float64]
 COARSE_STEP_S = 0.01
@@ -78,6 +78,7 @@ def _decimated(motion: TrialMotion) -> TrialMotion:
     return TrialMotion(
         dt_s=motion.dt_s * every,
         per_sample=1,
+        trial=motion.trial,
         lead=motion.lead // every,
         base_deg=motion.base_deg[::every],
         inserted_mm=motion.inserted_mm[::every],

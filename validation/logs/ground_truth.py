@@ -7,6 +7,7 @@ import numpy as np
 from validation.logs.case import ValidationCase
 from validation.logs.equivalents import acceptable, as_effects
 from validation.rig.motion import TrialMotion
+from validation.rig.unmodelled.library import EFFECTS, UNLISTED_CONSTANTS
 
 Answer = dict[str, Any]
 VERDICTS = {"none": "none", "rough_none": "none", "outside": "unknown"}
@@ -38,6 +39,8 @@ def ground_truth(kind: str, case: ValidationCase) -> Answer:
         answer |= _wrong_outside(case)
     elif case.roughness:
         answer["roughness"] = {one.name: dict(one.numbers) for one in case.roughness}
+    if answer["verdict"] == "unknown" and case.rig.outside:
+        answer["missing"] = _missing(answer["outside"])
     if case.alternatives.alone:
         best = dict(list(case.alternatives.alone.items())[:3])
         answer["rivals"] = {name: round(value, 3) for name, value in best.items()}
@@ -65,6 +68,12 @@ def _wrong_outside(case: ValidationCase) -> Answer:
     if fault.name == "flipped_sign":
         answer["refusal"] = [*fault.numbers.values()]
     return answer
+
+
+def _missing(outside: str) -> dict[str, list[str]]:
+    """Where the effect acts, and what it depends on: the leading variable, then what is as right."""
+    effect = (EFFECTS | UNLISTED_CONSTANTS)[outside]
+    return {"place": [*effect.place], "variables": [*effect.variables]}
 
 
 def _trial(motion: TrialMotion) -> dict[str, Any]:

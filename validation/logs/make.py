@@ -25,7 +25,7 @@ from validation.logs.schedule import ALL_KINDS, KINDS, ROUGH_SHARES, effects_of,
 from validation.logs.sensors import FINE_TIME, FORMATS, as_csv, measure, rig_yaml
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 from validation.rig.simulation import compile_kernels
-from validation.rig.unmodelled import UNMODELLED
+from validation.rig.unmodelled.library import UNMODELLED
 
 MOST_LOGS = 100_000
 """A day of computing, and 40 GB."""

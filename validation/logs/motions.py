@@ -1,7 +1,7 @@
 """The motions of a log: how its trials turn and slide, how deep, how long, how finely sampled."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +60,8 @@ def draw_motions(rng: np.random.Generator, plan: LogPlan) -> list[TrialMotion]:
     for i in range(plan.trials):
         depth = depth if same_depth else rng.uniform(40, 160)
         kind = tuple(bool(flag[i]) for flag in flags)
-        motions.append(_draw_motion(rng, plan.rate_hz, float(durations[i]), depth, kind))
+        motion = _draw_motion(rng, plan.rate_hz, float(durations[i]), depth, kind)
+        motions.append(replace(motion, trial=i))
     return motions
 
 

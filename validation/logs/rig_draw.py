@@ -8,7 +8,7 @@ import numpy as np
 from validation.logs.comparison import RigComparison
 from validation.logs.profiles import log_uniform
 from validation.logs.schedule import PARAMETER_ERRORS
-from validation.logs.strengths import ALL_FAMILIES, with_effect
+from validation.logs.strengths.families import ALL_FAMILIES, with_effect
 from validation.rig.rig import IndependentRig
 
 OFF_NOMINAL = 0.02

@@ -10,7 +10,7 @@ import numpy as np
 from validation.logs.roughness.recording import PAIRS
 from validation.logs.roughness.wrong import FAULTS
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
-from validation.rig.unmodelled import UNLISTED, UNMODELLED
+from validation.rig.unmodelled.library import UNLISTED, UNMODELLED
 
 BLOCK = 33
 SHARES = {"none": 0.12, "single": 0.45, "pair": 0.18, "off_nominal": 0.13, "outside": 0.12}

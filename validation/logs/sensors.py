@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from validation.logs.profiles import log_uniform
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 Array = NDArray[np.float64]
 TIP, TORQUE, BASE = "tip_angle_deg", "base_torque_n_mm", "base_angle_deg"

@@ -1,9 +1,9 @@
 """The balance of torques at the end of one step in time, and its linearisation.
 
 Every node: torque from the chuck's side - torque to the tip's side = friction on it. The twist of the
-tissue follows the interface torque, with compliance c and retardation time r
+tissue follows the interface torque, with compliance c, retardation time r and hardening h
 
-    twist = (c torque - r past) / (1 + r lead),
+    (1 + r lead) twist + h twist^3 = c torque - r past,
 
 and is eliminated node by node, so that each step of Newton's method solves one tridiagonal system for
 the angles.
@@ -13,35 +13,12 @@ import math
 
 from numba import njit
 
-from validation.rig.laws import LawParameters, interface, preslide
+from validation.rig.laws.interface import damping_share, dry_share, interface, preslide
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.shaft import chuck_torque, link_torque
+from validation.rig.laws.tissue import tissue_compliance
 from validation.rig.mesh import CellChain
-from validation.rig.state import CHUCK, ENTRY, TIP, NewtonWorkspace, RigState, StepInput
-
-
-@njit(cache=True)
-def chuck_torque(
-    law: LawParameters, chain: CellChain, state: RigState, base: float, first: float
-) -> tuple[float, float, float]:
-    """Torque of the drive on the needle, its slope with the stretch, and how far the chuck slips.
-
-    Args:
-      base, first: angles of the drive shaft and of the first node, rad.
-    """
-    stiffness = 1.0 / (1.0 / chain.link[0] + law.base_compliance)
-    stretch = base - state.lumped[CHUCK] - first
-    elastic = stretch - min(max(stretch, -law.half_gap), law.half_gap)
-    torque, slope = _spring(law, stiffness, chain.link_mm[0], elastic)
-    if abs(torque) > law.grip:
-        held = math.copysign(law.grip, torque)
-        return held, 0.0, (torque - held) / stiffness
-    return torque, slope if abs(stretch) >= law.half_gap else 0.0, 0.0
-
-
-@njit(cache=True)
-def _spring(law: LawParameters, stiffness: float, length: float, twist: float) -> tuple[float, float]:
-    strain = twist / length
-    more = law.hardening * strain * strain
-    return stiffness * twist * (1.0 + more), stiffness * (1.0 + 3.0 * more)
+from validation.rig.state import ENTRY, TIP, NewtonWorkspace, RigState, StepInput
 
 
 @njit(cache=True)
@@ -79,7 +56,7 @@ def _add_shaft(
         next_torque, next_slope = 0.0, 0.0
         if i + 1 < nodes:
             twist = work.angle[i] - work.angle[i + 1]
-            next_torque, next_slope = _spring(law, chain.link[i + 1], chain.link_mm[i + 1], twist)
+            next_torque, next_slope = link_torque(law, chain, state, i + 1, twist)
         work.residual[i] = torque - next_torque
         work.lower[i], work.diagonal[i], work.upper[i] = -slope, slope + next_slope, -next_slope
         torque, slope = next_torque, next_slope
@@ -100,7 +77,6 @@ def _add_interface(
     work: NewtonWorkspace,
     lagged: bool,
 ) -> None:
-    retarded = 1.0 + law.retardation * inputs.lead
     for i in range(work.angle.size):
         if chain.tissue[i] == 0.0:
             work.torque[i] = work.twist_increment[i] = work.twist_gain[i] = work.twist[i] = 0.0
@@ -109,16 +85,18 @@ def _add_interface(
         rate = slip_rate(inputs, work, i)
         slip = (rate, turn - work.twist[i] + work.twist_now[i], inputs.axial_travel)
         before = (state.presliding[i], state.turning[i], state.axial[i], state.age[i])
-        damping = chain.damping[i]
-        if law.worn_share > 0.0:
-            damping *= 1.0 - law.worn_share * (1.0 - math.exp(-state.worn[i] / law.worn_angle))
+        damping = chain.damping[i] * damping_share(law, state.worn[i], inputs.time)
+        level_share = dry_share(law, chain.depth[i], inputs.speed)
         torque, per_rate, per_travel = interface(
-            law, damping, before, slip, work.lagged_rate[i] if lagged else rate
+            law, damping, before, slip, work.lagged_rate[i] if lagged else rate, level_share
         )
         per_turn = inputs.lead * per_rate + per_travel
-        compliance = law.compliance / retarded
+        harder = law.tissue_hardening * work.twist[i] ** 2
+        retarded = 1.0 + law.retardation * inputs.lead + 3.0 * harder
+        compliance = tissue_compliance(law, inputs.time, chain.depth[i]) / retarded
         reduction = 1.0 / (1.0 + compliance * per_turn)
         twist = compliance * torque - law.retardation / retarded * work.twist_past[i]
+        twist += 2.0 * harder * work.twist[i] / retarded
         work.torque[i] = torque
         work.twist_increment[i] = (twist - work.twist[i]) * reduction if law.compliance > 0.0 else 0.0
         work.twist_gain[i] = compliance * per_turn * reduction
@@ -169,8 +147,11 @@ def _add_entry(law: LawParameters, chain: CellChain, state: RigState, work: Newt
 @njit(cache=True)
 def _add_tip(law: LawParameters, state: RigState, inputs: StepInput, work: NewtonWorkspace) -> None:
     last = work.angle.size - 1
-    level = law.load * abs(inputs.tip_torque) / law.limit
+    level = (law.load * abs(inputs.tip_torque) + law.tip_dry) / law.limit
     z, gain = preslide(law.limit, state.lumped[TIP], work.angle[last] - state.angle[last])
     rate = inputs.lead * work.angle[last] + work.angle_past[last]
     work.residual[last] -= inputs.tip_torque + law.tip_drag * rate + level * z
     work.diagonal[last] += law.tip_drag * inputs.lead + level * gain
+    tilt = 2.0 * (work.angle[last] - law.fibre_phase)
+    work.residual[last] -= law.fibre * math.sin(tilt)
+    work.diagonal[last] += 2.0 * law.fibre * math.cos(tilt)

@@ -9,8 +9,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from validation.rig.balance import chuck_torque
-from validation.rig.laws import LawParameters
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.shaft import chuck_torque
 from validation.rig.memory import commit, interpolate_to_nodes, tissue_point_count
 from validation.rig.mesh import CellChain, MeshSize, assemble, empty_chain
 from validation.rig.newton import solve
@@ -19,7 +19,7 @@ from validation.rig.state import NewtonWorkspace, RigState, StepInput, initial_s
 Array = NDArray[np.float64]
 
 SMALLEST_PART = 1.0 / 256.0
-BASE, INSERTED, FREE, SPEED, TIP_TORQUE = 0, 1, 2, 3, 4
+BASE, INSERTED, FREE, SPEED, TIP_TORQUE, TIME = 0, 1, 2, 3, 4, 5
 
 
 @njit(cache=True)
@@ -28,7 +28,7 @@ def integrate(law: LawParameters, mesh: MeshSize, dt: float, drive: Array) -> tu
 
     Args:
       dt: distance of the points of the time grid, s.
-      drive: (5, N) base angle, inserted and free length, axial speed, tip torque.
+      drive: (6, N) base angle, inserted and free length, axial speed, tip torque, time.
 
     Returns:
       Tip angle (N,), rad; drive torque (N,), N mm; index of the time at which no balance
@@ -75,7 +75,7 @@ def _advance(
     """One step; the state is untouched if no balance is found.
 
     Args:
-      start, end: inputs at both ends of the step, (5,).
+      start, end: inputs at both ends of the step, (6,).
       steps: this step and the last one, s.
     """
     step, last = steps
@@ -89,8 +89,9 @@ def _advance(
     interpolate_to_nodes(mesh, chain, state.tissue_twist, work.twist_now)
     interpolate_to_nodes(mesh, chain, tissue_past, work.twist_past)
     work.twist[:] = work.twist_now
-    travel = 0.5 * (start[SPEED] + end[SPEED]) * step / law.radius
-    inputs = StepInput(end[BASE], end[TIP_TORQUE], lead, travel)
+    speed = 0.5 * (start[SPEED] + end[SPEED])
+    travel = speed * step / law.radius
+    inputs = StepInput(end[BASE], end[TIP_TORQUE], lead, travel, end[TIME], speed)
     if not solve(law, chain, state, inputs, work):
         return False
     commit(law, mesh, chain, state, work, inputs, tissue_past, (step, end[INSERTED]))

@@ -1,4 +1,4 @@
-"""Internal variables after a step: presliding, age and wear of nodes, twist of points of the tissue.
+"""Internal variables after a step: presliding, age and wear of nodes, set of links, twist of the tissue.
 
 The twist belongs to points of the tissue: the nodes themselves in an Eulerian mesh, else a finer grid
 through which the needle slides. Each point carries the torque of the shaft that is there; tissue without
@@ -9,8 +9,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from validation.rig.balance import chuck_torque, entry_turn
-from validation.rig.laws import LawParameters, preslide, preslide_shared
+from validation.rig.balance import entry_turn
+from validation.rig.laws.interface import preslide, preslide_shared
+from validation.rig.laws.parameters import LawParameters
+from validation.rig.laws.shaft import chuck_torque, set_growth
+from validation.rig.laws.tissue import hardening_twist, tissue_compliance
 from validation.rig.mesh import CellChain, MeshSize
 from validation.rig.state import CHUCK, ENTRY, TIP, NewtonWorkspace, RigState, StepInput
 
@@ -62,6 +65,9 @@ def commit(
     state.lumped[TIP] = preslide(law.limit, state.lumped[TIP], tip_turn)[0]
     state.lumped[CHUCK] += chuck_torque(law, chain, state, inputs.base, work.angle[0])[2]
     for i in range(mesh.nodes):
+        before = inputs.base - state.lumped[CHUCK] if i == 0 else work.angle[i - 1]
+        twist = before - work.angle[i]
+        state.set_twist[i] += set_growth(law, chain.link[i], twist, state.set_twist[i])
         _remember(law, chain, state, work, inputs, i, step_and_depth[0])
     _twist_tissue(law, mesh, chain, state, work, inputs, tissue_past, step_and_depth[1])
     state.angle_before[:] = state.angle
@@ -115,6 +121,6 @@ def _twist_tissue(
     state.tissue_twist_before[:] = state.tissue_twist
     for i in range(state.tissue_twist.size):
         share = min(max((inserted - depths[i]) / spacing + 0.5, 0.0), 1.0)
-        state.tissue_twist[i] = (
-            law.compliance * share * torque[i] - law.retardation * tissue_past[i]
-        ) / retarded
+        compliance = tissue_compliance(law, inputs.time, depths[i])
+        forced = compliance * share * torque[i] - law.retardation * tissue_past[i]
+        state.tissue_twist[i] = hardening_twist(law.tissue_hardening, retarded, forced)

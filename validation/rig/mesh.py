@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from validation.rig.laws import LawParameters
+from validation.rig.laws.parameters import LawParameters
 
 Array = NDArray[np.float64]
 

@@ -18,6 +18,7 @@ class TrialMotion:
     Attributes:
       tip_torque_n_mm: known torque at the tip that resists the turn; None: none acts.
       lead: points of the grid that pass before the recording begins.
+      trial: its number in the log, from 0.
     """
 
     dt_s: float
@@ -28,6 +29,7 @@ class TrialMotion:
     speed_mm_s: Array
     tip_torque_n_mm: Array | None = None
     lead: int = 0
+    trial: int = 0
 
     @property
     def time_s(self) -> Array:

@@ -12,7 +12,7 @@ import math
 from numba import njit
 
 from validation.rig.balance import linearise, slip_rate
-from validation.rig.laws import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.mesh import CellChain
 from validation.rig.state import NewtonWorkspace, RigState, StepInput
 

@@ -3,14 +3,14 @@
 import math
 from dataclasses import dataclass, field
 
-from validation.rig.laws import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.modelled import (
     LAW_FIELDS,
     SENSOR_FIELDS,
     WRONG_CONSTANT_FIELDS,
     Effects,
 )
-from validation.rig.unmodelled import LAW_EFFECTS, UNLISTED, UNMODELLED
+from validation.rig.unmodelled.library import EFFECTS, UNLISTED, UNMODELLED
 
 NEUTRAL = SENSOR_FIELDS | WRONG_CONSTANT_FIELDS
 
@@ -55,7 +55,8 @@ class IndependentRig:
             for name, target in LAW_FIELDS.get(effect, {}).items():
                 law = law._replace(**{target: _in_law(target, law, parameters[name])})
         for effect, parameters in self.outside.items():
-            law = LAW_EFFECTS[effect](law, parameters) if effect in LAW_EFFECTS else law
+            if effect in EFFECTS and (changed := EFFECTS[effect].law):
+                law = changed(law, parameters)
         return law
 
     def sensor(self, effect: str, parameter: str) -> float:

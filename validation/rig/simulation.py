@@ -8,11 +8,13 @@ from numba import njit
 from numpy.typing import NDArray
 
 from validation.rig.integrator import integrate
-from validation.rig.laws import LawParameters, preslide
+from validation.rig.laws.interface import preslide
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.mesh import MeshSize
 from validation.rig.motion import TrialMotion
 from validation.rig.rig import IndependentRig
-from validation.rig.unmodelled import SENSOR_EFFECTS, IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
+from validation.rig.unmodelled.library import EFFECTS
 
 Array = NDArray[np.float64]
 
@@ -41,9 +43,9 @@ def simulate_twist(
     if motion.growing:
         mesh = MeshSize(cells.needle + 1, 0, True)
     tip_torque = 0.0 if motion.tip_torque_n_mm is None else motion.tip_torque_n_mm
-    drive = np.empty((5, motion.base_deg.size))
+    drive = np.empty((6, motion.base_deg.size))
     drive[0], drive[1], drive[2] = np.radians(motion.base_deg), motion.inserted_mm, motion.free_mm
-    drive[3], drive[4] = motion.speed_mm_s, tip_torque
+    drive[3], drive[4], drive[5] = motion.speed_mm_s, tip_torque, motion.time_s
     tip, torque, lost = integrate(law, mesh, motion.dt_s, drive)
     if lost >= 0:
         raise RuntimeError(f"no balance of torques was found at {lost * motion.dt_s} s with {law}")
@@ -56,7 +58,7 @@ def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = 
     `motion` has the base angle that the drive shaft really turns, and the lengths that the log states.
     """
     law = rig.law()
-    tip, torque = simulate_twist(law, _true_lengths(rig, motion), cells)
+    tip, torque = simulate_twist(law, _at_chuck(rig, _true_lengths(rig, motion)), cells)
     bearing = rig.sensor("drive_friction", "level")
     if bearing:
         torque = torque + bearing * presliding_shares(np.radians(motion.base_deg), law.limit)
@@ -70,11 +72,20 @@ def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = 
         torque_n_mm=rig.sensor("torque_scale", "scale") * torque + rig.sensor("torque_bias", "bias"),
         tip_deg=rig.sensor("tip_angle_scale", "scale") * tip + rig.sensor("tip_angle_bias", "bias"),
         speed_mm_s=motion.speed_mm_s,
+        trial=motion.trial,
     )
-    for effect, parameters in rig.outside.items():
-        if effect in SENSOR_EFFECTS:
-            signals = SENSOR_EFFECTS[effect](signals, parameters)
+    for name, parameters in rig.outside.items():
+        if name in EFFECTS and (shown := EFFECTS[name].signals):
+            signals = shown(signals, parameters)
     return signals
+
+
+def _at_chuck(rig: IndependentRig, motion: TrialMotion) -> TrialMotion:
+    """The motion with the base angle that reaches the chuck."""
+    for name, parameters in rig.outside.items():
+        if name in EFFECTS and (reached := EFFECTS[name].drive):
+            motion = replace(motion, base_deg=reached(motion, parameters))
+    return motion
 
 
 def _true_lengths(rig: IndependentRig, motion: TrialMotion) -> TrialMotion:

@@ -19,7 +19,7 @@ class RigState(NamedTuple):
       angle, angle_before: rad, after this step and after the one before it.
       presliding, turning, axial, sheath: presliding of dry friction, of shared friction (two
         components), and of the sheath, rad.
-      age: of the contact, s; worn: travelled slip, rad.
+      age: of the contact, s; worn: travelled slip, rad; set_twist: permanent, of links, rad.
       tissue_twist, tissue_twist_before: at points of the tissue, rad.
       lumped: see `ENTRY`, `TIP`, `CHUCK`.
     """
@@ -32,6 +32,7 @@ class RigState(NamedTuple):
     sheath: Array
     age: Array
     worn: Array
+    set_twist: Array
     tissue_twist: Array
     tissue_twist_before: Array
     lumped: Array
@@ -73,20 +74,23 @@ class StepInput(NamedTuple):
       base, tip_torque: rad, N mm.
       lead: coefficient of the new value in a rate, 1/s.
       axial_travel: within the step, over the radius.
+      time, speed: s, mm/s.
     """
 
     base: float
     tip_torque: float
     lead: float
     axial_travel: float
+    time: float
+    speed: float
 
 
 @njit(cache=True)
 def initial_state(nodes: int, places: int, angle: float) -> RigState:
     """Untwisted and at rest at that angle, rad, in the middle of the chuck's play."""
-    n, p = np.zeros((8, nodes)), np.zeros((2, places))
+    n, p = np.zeros((9, nodes)), np.zeros((2, places))
     n[:2] = angle
-    return RigState(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], p[0], p[1], np.zeros(3))
+    return RigState(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], p[0], p[1], np.zeros(3))
 
 
 @njit(cache=True)

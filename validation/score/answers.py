@@ -10,6 +10,8 @@ from models.errors import InvalidValue
 FILE = Path("answers", "answers.json")
 NEEDED = ("verdict", "effects", "parameters")
 """Keys without which an answer cannot be compared with a report."""
+MISSING = ("place", "variables")
+"""Keys of what is missing of a log whose effect is outside of the library."""
 FIX = "restore the file, or write a new set with needle blind make"
 
 
@@ -40,16 +42,23 @@ def _refuse_other_types(place: str, answer: dict[str, Any]) -> None:
     effects, parameters = answer["effects"], answer["parameters"]
     if not isinstance(answer["verdict"], str):
         raise InvalidValue(f"{place}.verdict", answer["verdict"], "a word", FIX)
-    if not (isinstance(effects, list) and all(isinstance(name, str) for name in effects)):
+    if not _are_words(effects):
         raise InvalidValue(f"{place}.effects", effects, "a list of names", FIX)
     if not isinstance(parameters, dict):
         raise InvalidValue(f"{place}.parameters", parameters, "an object with an entry per effect", FIX)
     for name, own in parameters.items():
         if not (isinstance(own, dict) and (name not in LIBRARY or _are_numbers(own))):
             raise InvalidValue(f"{place}.parameters.{name}", own, "an object of numbers", FIX)
+    missing = answer.get("missing", {"place": [], "variables": []})
+    if not (isinstance(missing, dict) and all(_are_words(missing.get(n)) for n in MISSING)):
+        raise InvalidValue(f"{place}.missing", missing, f"lists of names as {', '.join(MISSING)}", FIX)
     signature = answer.get("signature", {})
     if not (isinstance(signature, dict) and _are_numbers(signature)):
         raise InvalidValue(f"{place}.signature", signature, "an object of numbers", FIX)
+
+
+def _are_words(values: Any) -> bool:
+    return isinstance(values, list) and all(isinstance(name, str) for name in values)
 
 
 def _are_numbers(values: dict[str, Any]) -> bool:

@@ -11,6 +11,7 @@ from diagnosis.effects import LIBRARY
 from models.errors import InvalidValue
 from validation.score.answers import FILE, read_answers
 from validation.score.correctness import correctness
+from validation.score.missing import missing_scores
 
 
 def read_scores(folder: Path, trials: int | None = None, limit_s: float | None = None) -> pd.DataFrame:
@@ -70,6 +71,7 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
         "gap_before": report.get("gap", {}).get("before", np.nan),
         "gap_after": report.get("gap", {}).get("after", np.nan),
         "seconds": report.get("seconds", np.nan),
+        **missing_scores(answer, report),
     }
 
 

@@ -1,13 +1,14 @@
 """steered.png and planar.png."""
 
-from collections.abc import Iterable, Mapping
-from types import MappingProxyType
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 from studies.control.steering.planar_study import PLANAR_CASES, WITHIN_MM, PlaneApproach
 from studies.control.steering.steered_insertions import PUBLISHED_MM, SteeredInsertion, TurnOrder
@@ -50,34 +51,41 @@ def _draw_heights(axis: Axes, insertions: list[SteeredInsertion], title: str) ->
 
 
 def draw_planes(study: SteeringStudy) -> Figure:
-    """Heights over the plane: above with the pose known, below with images, a line a seed."""
+    """Heights over the plane: above with the pose known, below with images, thinly each seed and the
+    median of the seeds as a thick line."""
     count = len(study.known_pose)
     figure, axes = plt.subplots(
         2, count, figsize=(4.6 * count, 7.5), layout="constrained", squeeze=False, sharey=True
     )
     for axis, (speed, approaches) in zip(axes[0], study.known_pose.items(), strict=True):
-        _draw_approaches(axis, approaches, _LINES)
+        for one in approaches:
+            axis.plot(one.travelled_mm, one.height_mm, lw=1.2, **_look(one.name))
+        _shade_plane(axis)
         axis.set_title(f"pose known, {speed:g} mm/s")
     for axis, (speed, cases) in zip(axes[1], study.imaged.items(), strict=True):
-        for approaches in cases.values():
-            _draw_approaches(axis, approaches)
+        for name, approaches in cases.items():
+            _draw_seeds(axis, name, approaches)
+        _shade_plane(axis)
         axis.set(title=f"images of the height, {speed:g} mm/s", xlabel="travelled, mm")
     for row in axes:
         row[0].set(ylabel="height over the plane, mm", ylim=(-_SHOWN_MM, _SHOWN_MM))
-    handles = [Line2D([], [], color=colour, ls=_LINES[name]) for name, colour in _COLOURS.items()]
+    handles = [Line2D([], [], **_look(name)) for name in _COLOURS]
     figure.legend(handles, list(_COLOURS), loc="outside lower center", ncols=len(_COLOURS))
     return figure
 
 
-def _draw_approaches(
-    axis: Axes, approaches: Iterable[PlaneApproach], lines: Mapping[str, str] = MappingProxyType({})
-) -> None:
-    axis.axhspan(-WITHIN_MM, WITHIN_MM, color="0.9", zorder=0)
+def _draw_seeds(axis: Axes, name: str, approaches: Sequence[PlaneApproach]) -> None:
     for one in approaches:
-        axis.plot(
-            one.travelled_mm,
-            one.height_mm,
-            color=_COLOURS[one.name],
-            ls=lines.get(one.name, "-"),
-            lw=1.2,
-        )
+        axis.plot(one.travelled_mm, one.height_mm, color=_COLOURS[name], lw=0.6, alpha=0.35)
+    if approaches:
+        median = np.median([one.height_mm for one in approaches], axis=0)
+        (line,) = axis.plot(approaches[0].travelled_mm, median, lw=2, **_look(name))
+        line.set(path_effects=[withStroke(linewidth=3.5, foreground="white")], zorder=3)
+
+
+def _look(name: str) -> dict[str, Any]:
+    return {"color": _COLOURS[name], "ls": _LINES[name]}
+
+
+def _shade_plane(axis: Axes) -> None:
+    axis.axhspan(-WITHIN_MM, WITHIN_MM, color="0.9", zorder=0)

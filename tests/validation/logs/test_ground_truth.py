@@ -32,6 +32,17 @@ def test_a_kind_has_its_right_verdict(case, kind, verdict):
     assert ground_truth(kind, case)["verdict"] == verdict
 
 
+def test_the_truth_of_an_effect_outside_says_what_is_missing(case):
+    outside = replace(case, rig=replace(case.rig, outside={"drive_creep": {"rate": 0.1}}))
+    missing = ground_truth("outside", outside)["missing"]
+    assert missing == {"place": ["drive", "sensor"], "variables": ["time"]}
+    assert "missing" not in ground_truth("outside", case)
+    thicker = replace(case, rig=replace(case.rig, outside={"diameter_error": {"share": 0.03}}))
+    assert "missing" not in ground_truth("wrong_outside", thicker)
+    shorter = replace(case, rig=replace(case.rig, outside={"free_length_error": {"offset": -9.0}}))
+    assert ground_truth("wrong_outside", shorter)["missing"]["place"] == ["parameters", "drive"]
+
+
 def test_alternatives_are_written_where_they_were_looked_for(case):
     assert "rivals" not in ground_truth("pair", case)
     alone = {"a": 0.1, "b": 0.2, "c": 0.3, "d": 0.4}

@@ -8,7 +8,7 @@ import pytest
 from validation.logs.make import make_logs
 from validation.logs.roughness.recording import ROUGHNESSES
 from validation.logs.schedule import ALL_KINDS, KINDS
-from validation.logs.strengths import UNMODELLED_FAMILIES
+from validation.logs.strengths.families import UNMODELLED_FAMILIES
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
 
 

@@ -9,7 +9,7 @@ from validation.logs.motions import draw_motions, draw_plan
 from validation.logs.rig_draw import CLOSENESS, OFF_NOMINAL, draw_rig
 from validation.logs.schedule import PARAMETER_ERRORS
 from validation.logs.sensors import draw_sensors
-from validation.logs.strengths import FAMILIES, UNMODELLED_FAMILIES, without
+from validation.logs.strengths.families import FAMILIES, UNMODELLED_FAMILIES, without
 
 EFFECTS = (*FAMILIES, *UNMODELLED_FAMILIES)
 

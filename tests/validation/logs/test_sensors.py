@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from validation.logs.sensors import BASE, MEASURED, TIP, TORQUE, as_csv, draw_sensors, measure, rig_yaml
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 
 @pytest.fixture

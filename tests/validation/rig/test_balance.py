@@ -1,11 +1,11 @@
-"""The balance of torques: its linearisation against differences, and the chuck."""
+"""The balance of torques: its linearisation against differences."""
 
 import math
 
 import numpy as np
 import pytest
 
-from validation.rig.balance import chuck_torque, entry_turn, linearise, slip_rate
+from validation.rig.balance import entry_turn, linearise, slip_rate
 
 LAWS = {
     "nominal": {},
@@ -14,6 +14,11 @@ LAWS = {
     "viscoelastic": {"compliance": 20.0, "retardation": 0.5},
     "dry": {"coulomb": 0.004, "entry": 0.1, "load": 0.4},
     "drive": {"half_gap": 0.01, "base_compliance": 0.1},
+    "soft chuck": {"soft_play": 0.3, "soft_torque": 0.5},
+    "set": {"yield_torque": 0.2, "yield_slope": 0.5},
+    "tissue": {"compliance": 20.0, "retardation": 0.5, "tissue_hardening": 40.0, "stiffening": 3.0},
+    "rates": {"saturation": 0.8, "coulomb": 0.004, "pressing": 1.5},
+    "fibres": {"tip_dry": 0.1, "fibre": 0.3, "fibre_phase": 0.2},
     "lumped": {"tip_drag": 0.2, "curvature": 0.001, "phase": 0.5},
 }
 
@@ -50,25 +55,6 @@ def test_rows_are_the_derivatives_of_the_residual(step, name, mesh):
             sides.append(residual(made)[0])
         differences[:, i] = -(sides[0] - sides[1]) / (2 * h)
     assert jacobian == pytest.approx(differences, rel=1e-6, abs=1e-6 * np.abs(jacobian).max())
-
-
-def test_the_chuck_is_a_spring_with_play_that_slips_at_its_grip(step):
-    made = step(half_gap=0.01, base_compliance=0.5, grip=1.0)
-    stiffness = 1 / (1 / made.chain.link[0] + 0.5)
-    assert chuck_torque(made.law, made.chain, made.state, 0.005, 0.0)[0] == 0.0
-    torque, slope, slipped = chuck_torque(made.law, made.chain, made.state, 0.11, 0.0)
-    assert (torque, slope, slipped) == (pytest.approx(0.1 * stiffness), stiffness, 0.0)
-    torque, slope, slipped = chuck_torque(made.law, made.chain, made.state, 9.01, 0.0)
-    assert (torque, slope) == (1.0, 0.0)
-    assert slipped == pytest.approx(9.0 - 1.0 / stiffness)
-
-
-def test_a_strain_hardening_spring_adds_the_cube_of_the_strain(step):
-    soft, hard = step(), step(hardening=1e4)
-    one = chuck_torque(soft.law, soft.chain, soft.state, 0.4, 0.0)[0]
-    other = chuck_torque(hard.law, hard.chain, hard.state, 0.4, 0.0)[0]
-    strain = 0.4 / hard.chain.link_mm[0]
-    assert other / one == pytest.approx(1 + 1e4 * strain**2)
 
 
 def test_slip_is_of_the_shaft_against_the_tissue(step):

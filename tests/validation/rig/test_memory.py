@@ -41,7 +41,7 @@ def test_presliding_follows_the_turn_and_stops_at_its_limit(step):
     moved = made.chain.tissue > 0
     assert made.state.presliding[moved] == pytest.approx(made.work.angle[moved])
     assert made.state.lumped[[ENTRY, TIP]] == pytest.approx(made.work.angle[[0, -1]])
-    made.inputs = StepInput(3.0, 0.0, 100.0, 0.0)
+    made.inputs = StepInput(3.0, 0.0, 100.0, 0.0, 0.0, 0.0)
     done(made)
     assert (made.state.presliding[moved] == made.law.limit).all()
     assert (made.state.angle_before[moved] < 1e-4).all()
@@ -55,6 +55,13 @@ def test_age_grows_with_rest_and_wear_with_slip(step):
     turned = done(step(base=0.35), step_s=2.0)
     assert turned.state.worn[moved] == pytest.approx(turned.work.angle[moved])
     assert (turned.state.age[moved] < 2.0).all()
+
+
+def test_links_that_yield_remember_their_set(step):
+    made = done(step(base=0.35, yield_torque=0.1, yield_slope=0.5))
+    torque = made.chain.link[0] * (0.35 - made.work.angle[0] - made.state.set_twist[0])
+    assert torque - 0.5 * made.chain.link[0] * made.state.set_twist[0] == pytest.approx(0.1)
+    assert not done(step(base=0.35)).state.set_twist.any()
 
 
 def test_a_chuck_that_slips_remembers_how_far(step):

@@ -1,7 +1,7 @@
 """The names of the modelled effects: those of the diagnosis, each with a place in the rig."""
 
 from diagnosis.effects import LIBRARY
-from validation.rig.laws import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.modelled import (
     LAW_FIELDS,
     MODELLED,

@@ -46,5 +46,5 @@ def test_a_solution_balances_all_torques(step, law):
 
 def test_no_solution_is_reported_where_numbers_are_lost(step):
     made = step(base=0.35)
-    made.inputs = StepInput(math.nan, 0.0, 100.0, 0.0)
+    made.inputs = StepInput(math.nan, 0.0, 100.0, 0.0, 0.0, 0.0)
     assert not run(made)

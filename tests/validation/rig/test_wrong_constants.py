@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.rig.laws import LawParameters
+from validation.rig.laws.parameters import LawParameters
 from validation.rig.simulation import CellCounts, ideal_signals, presliding_shares
 
 LIMIT = LawParameters(323.6, 0.018, 0.295).limit

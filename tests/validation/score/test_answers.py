@@ -62,6 +62,9 @@ def test_an_entry_that_lacks_a_key_is_refused_by_its_name(written, entry):
         ({"parameters": {"tip_drag": 3}}, r"case_001\.parameters\.tip_drag: expected an object"),
         ({"parameters": {"tip_drag": {"damping": "much"}}}, r"parameters\.tip_drag: .*of numbers"),
         ({"signature": {"tip_drag": None}}, r"case_001\.signature"),
+        ({"missing": []}, r"case_001\.missing"),
+        ({"missing": {"place": ["drive"]}}, r"case_001\.missing: expected lists of names"),
+        ({"missing": {"place": "drive", "variables": []}}, r"case_001\.missing"),
     ],
 )
 def test_a_value_of_another_kind_is_named(written, change, said):

@@ -20,6 +20,10 @@ def test_the_score_is_printed_and_kept(folder, tmp_path, capsys):
     assert lines[0].startswith(
         "case,kind,truth,said,verdict,expected,exact,confidently_wrong,confused,open,signature"
     )
+    summary = json.loads((tmp_path / "score" / "score.json").read_text())
+    assert summary["logs"] == LOGS
+    assert summary["missing"]["said"][1] == 1  # one log is from outside of the library
+    assert summary["missing"]["elsewhere"] == [0, LOGS - 1]
     assert (tmp_path / "score" / "score.png").read_bytes()[:4] == b"\x89PNG"
 
 

@@ -36,6 +36,7 @@ def test_the_answers_are_read_after_the_reports_are_written(unusable, monkeypatc
     monkeypatch.setattr(run, "read_answers", lambda folder: order.append("checked"))
     monkeypatch.setattr(run, "read_scores", lambda *given: order.append(("scored", *given)) or scores)
     monkeypatch.setattr(blind, "_print", lambda *given: None)
+    monkeypatch.setattr(blind, "as_json", lambda scores: {})
     (unusable / "answers").mkdir()
     (unusable / "answers" / "answers.json").write_text("{}")
     scores = pd.DataFrame()

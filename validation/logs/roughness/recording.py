@@ -13,7 +13,7 @@ from validation.logs.roughness.timing import dropped_samples, sampling_rate, sen
 from validation.logs.roughness.torque import low_pass_torque, torque_drift
 from validation.logs.sensors import BASE, TIP, TORQUE, LogSensors, channels
 from validation.rig.motion import TrialMotion
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 ROUGHNESSES: dict[str, Callable[[Generator], Roughness]] = {
     "coloured_noise": coloured_noise,

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from validation.logs.motions import LogPlan
 from validation.logs.sensors import LogSensors
 from validation.rig.motion import TrialMotion
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]

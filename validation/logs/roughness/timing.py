@@ -10,7 +10,7 @@ from validation.logs.profiles import log_uniform
 from validation.logs.roughness.roughness import Array, Columns, Roughness
 from validation.logs.sensors import MEASURED, TIP, LogSensors
 from validation.rig.motion import TrialMotion
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 RATES_HZ = (20, 25, 33, 250, 500, 1000)
 SHORT_FROM_HZ, SHORT_S, FEW = 500, 60.0, 4
@@ -71,7 +71,7 @@ def sensor_clock(
         fields = {
             n: getattr(ideal, n) for n in ("time_s", "base_deg", "torque_n_mm", "tip_deg", "speed_mm_s")
         }
-        return IdealSignals(**{n: values[kept] for n, values in (fields | read).items()})
+        return replace(ideal, **{n: values[kept] for n, values in (fields | read).items()})
 
     return Roughness(name=name, numbers={"signals": list(chosen), "error": float(error)}, signals=shown)
 

@@ -9,8 +9,9 @@ from validation.logs.profiles import log_uniform
 from validation.logs.roughness.readings import first_order
 from validation.logs.roughness.roughness import Array, Columns, Noise, Roughness
 from validation.logs.sensors import TORQUE, LogSensors
+from validation.rig.filters import low_passed
 from validation.rig.motion import TrialMotion
-from validation.rig.unmodelled import IdealSignals, low_passed
+from validation.rig.unmodelled.effect import IdealSignals
 
 
 def torque_drift(rng: Generator) -> Roughness:

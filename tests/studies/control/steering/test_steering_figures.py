@@ -31,7 +31,8 @@ def test_every_seed_has_its_line_in_the_panel_of_its_speed(small_steering):
     known, imaged = figure.axes
     assert isinstance(small_steering.known_pose[10.0][0], PlaneApproach)
     assert len(known.lines) == 1
-    drawn = [line.get_ydata() for line in imaged.lines]
+    *drawn, median = [line.get_ydata() for line in imaged.lines]
     expected = [a.height_mm for a in small_steering.imaged[10.0]["its own simulation"]]
     assert all(np.array_equal(a, b) for a, b in zip(drawn, expected, strict=True))
+    np.testing.assert_allclose(median, np.median(expected, axis=0))
     assert "10 mm/s" in imaged.get_title()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from validation.logs.roughness.recording import record
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 
 @pytest.fixture

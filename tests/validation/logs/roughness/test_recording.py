@@ -7,7 +7,7 @@ from validation.logs.motions import draw_motions, draw_plan
 from validation.logs.roughness.recording import INCOMPATIBLE, PAIRS, ROUGHNESSES
 from validation.logs.roughness.roughness import Roughness
 from validation.logs.sensors import BASE, TIP, TORQUE, measure
-from validation.rig.unmodelled import IdealSignals
+from validation.rig.unmodelled.effect import IdealSignals
 
 
 def test_there_are_ten_roughnesses_and_all_their_pairs_but_one():

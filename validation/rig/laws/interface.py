@@ -1,62 +1,21 @@
-"""What acts on a piece of shaft: the parameters of all laws, and the torque of the interface.
+"""What acts on a piece of shaft: the torque of the interface.
 
 Dry friction is elastic-plastic: a presliding angle z follows the slip up to +-limit, the torque is
 level z / limit. If the level is shared with the axial motion, z is a vector (turning angle, axial
-travel / radius), returned radially to a disc. Viscous torque is beta w |w|^(exponent - 1).
+travel / radius), returned radially to a disc. Viscous torque is beta w |w|^(exponent - 1), or
+beta w / (1 + |w| / saturation).
 
-Some parameters belong to effects that the diagnosis does not model: `validation.rig.unmodelled`.
 Units: N, mm, s, rad. Every law returns its torque and the slopes that Newton's method needs.
 """
 
 import math
-from typing import NamedTuple
 
 from numba import njit
 
+from validation.rig.laws.parameters import REFERENCE_DEPTH_MM, LawParameters
+
 SMALLEST_RATE = 1e-6
 """The power law is linear below this slip rate, rad/s."""
-
-
-class LawParameters(NamedTuple):
-    """All parameters of a rig, with the values that switch each effect off."""
-
-    rigidity: float
-    damping: float
-    radius: float
-    limit: float = math.radians(0.1)
-    exponent: float = 1.0
-    ratio: float = 1.0
-    boundary: float = 0.5
-    gradient: float = 0.0
-    """Damping is 1 - gradient at the entry, 1 + gradient at the tip, times its mean."""
-    worn_share: float = 0.0
-    worn_angle: float = 1.0
-    """Damping loses that share as the slip travels that angle (e-fold)."""
-    coulomb: float = 0.0
-    asymmetry: float = 0.0
-    """Dry level is 1 + asymmetry for positive slip, 1 - asymmetry for negative."""
-    kinetic: float = 0.0
-    static: float = 0.0
-    stribeck: float = 1.0
-    ageing: float = 0.0
-    ageing_time: float = 1.0
-    ageing_angle: float = 1.0
-    """Dry level grows by ageing log(1 + age / ageing_time); slip by ageing_angle renews contact."""
-    shared: float = 0.0
-    compliance: float = 0.0
-    retardation: float = 0.0
-    entry: float = 0.0
-    sheath: float = 0.0
-    load: float = 0.0
-    half_gap: float = 0.0
-    base_compliance: float = 0.0
-    hardening: float = 0.0
-    """Shaft torque is rigidity strain (1 + hardening strain^2), strain in rad/mm."""
-    grip: float = math.inf
-    """The chuck slips at this torque."""
-    tip_drag: float = 0.0
-    curvature: float = 0.0
-    phase: float = 0.0
 
 
 @njit(cache=True)
@@ -67,6 +26,35 @@ def viscous(exponent: float, damping: float, rate: float) -> tuple[float, float]
     size = rate * rate + SMALLEST_RATE * SMALLEST_RATE
     secant = damping * size ** ((exponent - 1.0) / 2.0)
     return secant * rate, secant * (exponent * rate * rate + SMALLEST_RATE**2) / size
+
+
+@njit(cache=True)
+def saturating(saturation: float, damping: float, rate: float) -> tuple[float, float]:
+    """Viscous torque per mm that tends to damping * saturation, and its slope with the slip rate."""
+    share = 1.0 / (1.0 + abs(rate) / saturation)
+    return damping * rate * share, damping * share * share
+
+
+@njit(cache=True)
+def damping_share(law: LawParameters, worn: float, time: float) -> float:
+    """What is left of the damping after that travelled slip, rad, and that time, s."""
+    share = 1.0
+    if law.worn_share > 0.0:
+        share = 1.0 - law.worn_share * (1.0 - math.exp(-worn / law.worn_angle))
+    if law.decay_share > 0.0:
+        share *= 1.0 - law.decay_share * (1.0 - math.exp(-time / law.decay_time))
+    return share
+
+
+@njit(cache=True)
+def dry_share(law: LawParameters, depth: float, speed: float) -> float:
+    """Dry level at that depth, mm, and axial speed, mm/s, over that at the reference and at rest."""
+    share = 1.0
+    if law.pressing > 0.0:
+        share = (depth / REFERENCE_DEPTH_MM) ** law.pressing
+    if law.relief_speed < math.inf:
+        share *= math.exp(-abs(speed) / law.relief_speed)
+    return share
 
 
 @njit(cache=True)
@@ -125,6 +113,7 @@ def interface(
     before: tuple[float, float, float, float],
     slip: tuple[float, float, float],
     level_rate: float,
+    level_share: float,
 ) -> tuple[float, float, float]:
     """Torque per mm and its slopes with the slip rate and the slip.
 
@@ -132,10 +121,16 @@ def interface(
       before: presliding, its turning and axial parts of shared friction, age.
       slip: rate, travel within the step, axial travel over radius.
       level_rate: where the dry level is taken; if not at the slip rate, its slope does not count.
+      level_share: of the dry level, as `dry_share`.
     """
     rate, travel, axial = slip
     torque, per_rate = viscous(law.exponent, damping, rate)
+    if law.saturation < math.inf:
+        torque, per_rate = saturating(law.saturation, damping, rate)
     more, more_per_rate, per_travel = dry(law, before[3], before[0], level_rate, travel)
+    more *= level_share
+    per_travel *= level_share
+    more_per_rate *= level_share
     if level_rate != rate:
         more_per_rate = 0.0
     if law.shared > 0.0:

@@ -5,7 +5,7 @@ import pytest
 
 from validation.logs.comparison import RigComparison
 from validation.logs.motions import LogPlan, draw_motions
-from validation.logs.strengths import (
+from validation.logs.strengths.families import (
     ALL_FAMILIES,
     FAMILIES,
     TWO_SIDED,
@@ -16,7 +16,7 @@ from validation.logs.strengths import (
     without,
 )
 from validation.rig.modelled import MODELLED, WRONG_CONSTANTS
-from validation.rig.unmodelled import UNLISTED, UNMODELLED
+from validation.rig.unmodelled.library import UNLISTED, UNMODELLED
 
 
 def test_every_effect_has_a_family():
