@@ -2,7 +2,7 @@
 
 import math
 
-from diagnosis.freeform.in_words import PLACES, VARIABLES, what_is_missing
+from diagnosis.freeform.in_words import PLACES, VARIABLES
 from diagnosis.freeform.missing import Missing
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
@@ -34,7 +34,6 @@ def missing_section(found: Diagnosis) -> list[str]:
     picture = [html.paragraph(_LAW), drawn(draw_law, describe_law, law)] if law else []
     return [
         html.heading("What is missing"),
-        html.paragraph(what_is_missing(missing, found.assessment.gap.before)),
         *picture,
         html.heading("Where it acts", level=3),
         html.paragraph(_PLACES),

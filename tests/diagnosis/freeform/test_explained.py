@@ -35,11 +35,12 @@ def told():
     family = next(f for f in families(ranges) if f.name == "torque reading over time")
     low, high = ranges.ends["time"]
     mean, slope = (RISE * x / 4.0 / ranges.missing["base_torque_n_mm"] for x in (high + low, high - low))
-    x = [0.5 * mean, 0.5 * slope, *[0.0] * 6]
+    size = len(family.effect.parameters)
+    x = [0.5 * mean, 0.5 * slope, *[0.0] * (size - 2)]
     rig = family.effect.apply(NOMINAL, *(v * ranges.missing["base_torque_n_mm"] for v in x))
     left = problem.residuals([rig])[0][0]
     fit = replace(
-        linear_fit(family, [np.zeros((left.size, 8))], [np.zeros(left.size)], x=x), by_trial=(left,)
+        linear_fit(family, [np.zeros((left.size, size))], [np.zeros(left.size)], x=x), by_trial=(left,)
     )
     best = FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
     before = nothing_told(next_experiment="look closer")
@@ -68,6 +69,6 @@ def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
     for sensor in SENSORS:
         assert found.breakdown_after.signal[sensor] == pytest.approx(1.0, abs=3.5 / np.sqrt(800))
     assert found.shape_after is not None
-    changed = {"gap", "explained", "breakdown_after", "shape_after"}
+    changed = {"gap", "explained", "breakdown_after", "shape_after", "next_experiment"}
     kept = {name for name in vars(before) if getattr(found, name) is getattr(before, name)}
     assert kept == set(vars(before)) - changed

@@ -54,7 +54,7 @@ def test_place_variable_course_and_gap_are_in_the_sentence():
     )
     assert "A free-form law of it brings 8.90 σ to 1.03 σ on trials that its fit has not seen" in said
     # What could not be simulated on an unseen trial has no gap to tell.
-    assert said.endswith("(2.50 σ with the time since a trial began).")
+    assert "of other variables the best laws leave 2.50 σ with the time since a trial began." in said
 
 
 def seen_fit():

@@ -11,6 +11,7 @@ from sim.schedule import Schedule
 TIME = np.arange(0, 10, 0.01)
 TIP, TORQUE = 20.0 * np.sin(TIME), 0.1 * np.cos(TIME)
 PLACES, VALUES = (0.0, 2.0, 3.0, 8.0), (1.0, 1.0, 4.0, 2.0)
+READ = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
 LAYER = Interface(viscous_n_mm_s_per_mm=0.02, kinetic_n_mm_per_mm=0.001)
 
 
@@ -56,7 +57,7 @@ def test_a_periodic_curve_repeats_without_a_jump():
 
 
 def test_a_reading_of_the_past_alone_is_late_by_it():
-    own = curve(variable=Variable.PAST, places=(0.5,), values=(1.0,))
+    own = curve(variable=Variable.PAST, places=(0.5, 1.0), values=(1.0, 0.0))
     shown = TIP + own.of_past(TIME, TIP)
     np.testing.assert_allclose(shown[50:], TIP[:-50], atol=1e-9)
     np.testing.assert_allclose(shown[:50], TIP[0])
@@ -81,21 +82,21 @@ def test_a_trial_sees_what_is_of_all_trials_and_of_itself():
 def test_the_needle_feels_tissue_and_drive_angle_alone():
     curves = {acts_on: curve(acts_on) for acts_on in ActsOn}
     felt = FreeLaw(curves=tuple(curves.values()), asymmetry=0.2).without_sensors()
-    assert felt == FreeLaw(curves=(curves[ActsOn.TISSUE], curves[ActsOn.DRIVE_ANGLE]), asymmetry=0.2)
+    assert felt == FreeLaw(curves=tuple(curves[own] for own in ActsOn if own not in READ), asymmetry=0.2)
 
 
 def test_what_is_done_to_the_needle_is_the_drive_and_the_curve():
-    shifted = FreeLaw(curves=(curve(ActsOn.DRIVE_ANGLE),)).driven(inputs(), 0.0)
+    shifted = FreeLaw(curves=(curve(ActsOn.DRIVE_ANGLE),)).driven(inputs(), 0.0, TORQUE)
     np.testing.assert_allclose(shifted.drive, inputs().drive + curve().at(TIME))
     np.testing.assert_array_equal(shifted.tissue_factor, 1.0)
 
 
 def test_factors_of_the_tissue_multiply_and_stay_positive():
     law = FreeLaw(curves=(curve(ActsOn.TISSUE), curve(ActsOn.TISSUE)), tissue_varies=True)
-    done = law.driven(inputs(), 0.0)
+    done = law.driven(inputs(), 0.0, TORQUE)
     np.testing.assert_allclose(done.tissue_factor, curve().at(TIME) ** 2)
     np.testing.assert_array_equal(done.drive, inputs().drive)
-    negative = FreeLaw(curves=(curve(ActsOn.TISSUE, values=(-1.0,) * 4),)).driven(inputs(), 0.0)
+    negative = FreeLaw(curves=(curve(ActsOn.TISSUE, values=(-1.0,) * 4),)).driven(inputs(), 0.0, TORQUE)
     assert negative.tissue_factor.min() > 0
 
 
@@ -115,7 +116,7 @@ def test_sensors_read_their_own_curves():
 
 def test_a_law_of_nothing_changes_nothing():
     tissue = Tissue(layers=(Layer(interface=LAYER),), entry_friction_n_mm=0.2)
-    done = FreeLaw().driven(inputs(), 0.0)
+    done = FreeLaw().driven(inputs(), 0.0, TORQUE)
     np.testing.assert_array_equal(done.drive, inputs().drive)
     assert not any(read.any() for read in FreeLaw().sensed(inputs(), 0.0, TIP, TORQUE))
     assert FreeLaw().tissue(tissue) == tissue

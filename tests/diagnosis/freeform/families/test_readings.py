@@ -96,4 +96,5 @@ def test_an_offset_over_the_torque_is_more_likely_a_twist_of_the_needle():
     units = {name: family.unit for name, family in FAMILIES.items()}
     assert units["torque reading over torque"] == "N mm"
     assert units["tip reading over past"] == "-"
-    assert np.isfinite(FAMILIES["tip reading over time"].curve(*[0.0] * 8)[1]).all()
+    over_time = FAMILIES["tip reading over time"]
+    assert np.isfinite(over_time.curve(*[0.0] * len(over_time.effect.parameters))[1]).all()

@@ -19,8 +19,12 @@ FLAT = [0.0] * 8
 @pytest.mark.parametrize("name", list(FAMILIES))
 def test_a_constant_curve_is_elastic_tissue_of_the_library(name):
     effect = FAMILIES[name].effect
-    assert same_readings(ANGLE, effect.apply(NOMINAL, 0.01, 0.4, *FLAT), ELASTIC)
-    assert not same_readings(ANGLE, effect.apply(NOMINAL, 0.01, 0.4, 0.2, *FLAT[1:]), ELASTIC)
+    flat = [0.0] * (len(effect.parameters) - 2)
+    # Parts of the shaft meet in places of their own: another mesh, second order in its elements.
+    within = 1e-3 if name.endswith("position") else 1e-6
+    constant, stiffer = (effect.apply(NOMINAL, 0.01, 0.4, c, *flat[1:]) for c in (0.0, 0.2))
+    assert same_readings(ANGLE, constant, ELASTIC, within=within)
+    assert not same_readings(ANGLE, stiffer, ELASTIC, within=within)
 
 
 def test_the_curve_is_the_stiffness():
@@ -29,5 +33,5 @@ def test_the_curve_is_the_stiffness():
 
 
 def test_it_is_of_what_the_log_has():
-    assert {family.says for family in FAMILIES.values()} == {"time", "history"}
+    assert {family.says for family in FAMILIES.values()} == {"time", "history", "position"}
     assert all(family.place is Place.TISSUE for family in FAMILIES.values())
