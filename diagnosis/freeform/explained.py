@@ -7,6 +7,7 @@ from diagnosis.assessment.assess import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.in_words import next_step
 from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
@@ -48,4 +49,5 @@ def explained_by(
         explained=explained,
         breakdown_after=residual_breakdown(left),
         shape_after=residual_shape(left),
+        next_experiment=next_step(missing),
     )

@@ -25,6 +25,21 @@ VARIABLES = {
     "position": "the place along the shaft",
     "history": "what went before",
 }
+CHECKS = {
+    "time": "repeat one slow turn at the beginning of a trial and some minutes later",
+    "event": "look up what was done at that time, and repeat the trial: the jump should not come back",
+    "base_angle": "turn slowly by whole turns with the needle out of the tissue: what is of the drive "
+    "stays",
+    "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
+    "rate": "turn at four steady rates, a few turns each, at one depth",
+    "direction": "turn at one steady rate, a few turns forwards, then as many backwards",
+    "axial_speed": "slide the needle in and out at three speeds without turning it",
+    "depth": "repeat one turn at four depths",
+    "torque": "load the needle by known torques at rest, and read angle and torque",
+    "position": "repeat one turn at depths that grow in equal steps: what a step adds is of that part",
+    "history": "repeat one turn after rests of different length, and after different numbers of turns",
+}
+"""What shows a law of each variable by itself, as an order."""
 DOUBT = (
     "Doubt first what all of these laws take for granted: lengths, diameter and clocks of the rig, one "
     "zero for all trials, and that one thing at a time is missing"
@@ -61,6 +76,18 @@ def _likeness(law: Law) -> str:
     return f" The law looks like a {like.shape}{library}: {like.says}."
 
 
+def next_step(missing: Missing) -> str:
+    """What to do next, as an order; empty: there is no law to check."""
+    if missing.law is None:
+        return ""
+    check = CHECKS[missing.law.variable]
+    if not missing.closed:
+        return f"{check}; what the law leaves is more than noise, so look at that next"
+    if missing.law.variable == "event":
+        return check
+    return f"{check}; if it comes out the same, save the law as an effect (--save-effect NAME)"
+
+
 def course_of(law: Law) -> str:
     """How a law runs, in words."""
     low, high = min(law.y), max(law.y)
@@ -87,4 +114,4 @@ def _beside(missing: Missing) -> str:
     """What laws of other variables leave."""
     others = [d for d in missing.depends_on[1:] if d.gap_after < float("inf")][:_OTHERS]
     told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
-    return f"; other variables leave more or explain no better ({told})" if told else ""
+    return f"; of other variables the best laws leave {told}" if told else ""

@@ -15,6 +15,7 @@ from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_ne
 
 Array = NDArray[np.float64]
 
+_OF_READINGS = (Variable.PAST, Variable.TURNED_BY)
 LEAST_PAST_S, LONGEST_PAST_S = 0.03, 3.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
 LEAST_RANGE = {
@@ -28,9 +29,11 @@ LEAST_RANGE = {
     Variable.REST: 0.5,
     Variable.TIP_ANGLE: 20.0,
     Variable.TIP_RATE: 0.05,
+    Variable.TIP_DIRECTION: 1.5,
     Variable.TORQUE: 0.0,
     Variable.TORQUE_RATE: 0.0,
     Variable.PAST: 0.0,
+    Variable.TURNED_BY: 0.0,
 }
 """Below which nothing can depend on a variable visibly."""
 
@@ -68,9 +71,10 @@ class LogRanges:
 def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
     """Ranges of a log, given readings of the nominal rig by trial."""
     trials = problem.log.trials
-    moving = (v for v in Variable if v is not Variable.PAST)
+    moving = (v for v in Variable if v not in _OF_READINGS)
     found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
     found[Variable.PAST] = (LEAST_PAST_S, LONGEST_PAST_S)
+    found[Variable.TURNED_BY] = (0.0, 1.0)
     left = {
         sensor: tuple(
             trial.readings[sensor] - own[sensor]

@@ -33,7 +33,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "free-form laws beside an effect",
     "finalists, free-form laws",
 )
-FIRST_ITERATIONS, ITERATIONS = 2, 8
+FIRST_ITERATIONS, ITERATIONS = 3, 8
 CONTENDERS, COMPANIONS, FINALISTS = 8, 2, 4
 
 

@@ -6,10 +6,11 @@ from diagnosis.assessment.assess import Assessment
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.missing import Missing, missing_of
-from diagnosis.freeform.search import free_form_fits
+from diagnosis.freeform.search import FreeFit, free_form_fits
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.stopping import StoppedEarly
 from diagnosis.workers import Workers
 from sim.simulation import SimulationFailed
 
@@ -34,17 +35,20 @@ def with_what_is_missing(
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return None, told
-    if workers.stop.due:
-        workers.stop.leave_out(FREE_FORM)
-        return None, told
-    try:
-        fits = free_form_fits(problem, coarse, companions, workers)
-    except SimulationFailed:
-        return None, told
-    if not fits or workers.stop.due:
-        workers.stop.leave_out(FREE_FORM)
+    fits = workers.stop.unless_due(FREE_FORM, lambda: _fits(problem, coarse, companions, workers))
+    if not fits or not any(fit.final for fit in fits):
         return None, told
     missing = missing_of(fits, told.nearest.gap_after)
     if missing.law is None:
         return missing, told
     return missing, explained_by(missing, log, problem, nominal, told)
+
+
+def _fits(
+    problem: FitProblem, coarse: FitProblem, companions: Sequence[str], workers: Workers
+) -> tuple[FreeFit, ...]:
+    """None where the nominal rig cannot be simulated, or there was no time."""
+    try:
+        return free_form_fits(problem, coarse, companions, workers)
+    except (SimulationFailed, StoppedEarly):
+        return ()

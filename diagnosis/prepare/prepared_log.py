@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
@@ -20,6 +21,7 @@ from diagnosis.prepare.start.late_start import LateStart, late_start_warning
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
+SMOOTH_TORQUE_S = 0.15
 Mask = NDArray[np.bool_]
 
 
@@ -74,6 +76,16 @@ class PreparedTrial:
             speed_mm_s=at(self.speed_mm_s),
             tip_torque_n_mm=np.zeros(0) if torque is None else at(np.nan_to_num(torque)),
         )
+
+    @cached_property
+    def smooth_torque_n_mm(self) -> Array:
+        """Measured base torque without most of its noise, across gaps; 0 where there is none, (N,)."""
+        read = np.isfinite(self.readings.get("base_torque_n_mm", np.zeros(0)))
+        if not read.any():
+            return np.zeros(self.time_s.size)
+        torque = np.interp(self.time_s, self.time_s[read], self.readings["base_torque_n_mm"][read])
+        size = max(1, round(SMOOTH_TORQUE_S / self.sample_s))
+        return np.asarray(uniform_filter1d(torque, size, mode="nearest"))
 
     @cached_property
     def sample_s(self) -> float:

@@ -19,11 +19,11 @@ PRESLIDING_DEG: float = Discretisation.model_fields["presliding_deg"].default
 
 def bearing_torque_n_mm(shaft_deg: Array, level_n_mm: float) -> Array:
     """Torque that the bearing takes of a shaft that starts free of it, N mm, (N,)."""
-    return level_n_mm / PRESLIDING_DEG * _presliding(shaft_deg, PRESLIDING_DEG)
+    return level_n_mm / PRESLIDING_DEG * stopped_at(shaft_deg, PRESLIDING_DEG)
 
 
 @njit(cache=True)
-def _presliding(angle: Array, limit: float) -> Array:
+def stopped_at(angle: Array, limit: float) -> Array:
     """z at each sample of an angle that runs straight between samples, (N,)."""
     z = np.zeros(angle.size)
     for i in range(1, angle.size):

@@ -5,6 +5,7 @@ on what its name says:
 
     tissue          the torque of tissue that varies is times the curve
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
+    drive_slip      the needle is left behind by the curve, deg/s, at the chuck
     drive_torque    the torque sensor reads the curve beside what the needle takes, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
@@ -13,17 +14,24 @@ A curve over the past says how much a reading shows of what was so long ago in p
 
     reading += sum over places of value (what was, then - what is).
 
+A curve over what was turned by since turning back adds hysteresis (Prandtl-Ishlinskii),
+
+    += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
+
 What depends on the rate, angle or place of each piece of the shaft by itself is a law of the tissue.
 """
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import PchipInterpolator
 
+from diagnosis.replay.bearing import stopped_at
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
 from models.errors import InvalidValue
 from models.tissue import Interface, Layer, Tissue
@@ -41,6 +49,7 @@ class ActsOn(StrEnum):
 
     TISSUE = "tissue"
     DRIVE_ANGLE = "drive_angle"
+    DRIVE_SLIP = "drive_slip"
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"
     TORQUE_READING = "torque_reading"
@@ -95,6 +104,11 @@ class Curve:
         within = np.clip(x, self.places[0], self.places[-1])
         return np.asarray(PchipInterpolator(self.places, self.values)(within))
 
+    def with_hysteresis(self, values: Array) -> Array:
+        """What hysteresis adds to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
+        each = zip(self.places, self.values, strict=True)
+        return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
+
     def times(self, strength: float) -> "Curve":
         """The curve so many times as strong; of a factor, raised to that power."""
         if self.acts_on is ActsOn.TISSUE:
@@ -119,6 +133,7 @@ class FreeLaw:
       rate_curve: factors of its viscous torque (models.tissue).
       rate_range_rad_s: that they span.
       damping_along_depth: factors of its viscous torque in equal parts of the inserted length.
+      stiffness_along_depth: of its stiffness, where it is elastic, in as many parts.
       throughout, at_tip: further laws (models.tissue).
 
     Raises:
@@ -131,6 +146,7 @@ class FreeLaw:
     rate_curve: tuple[float, ...] = ()
     rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
     damping_along_depth: tuple[float, ...] = ()
+    stiffness_along_depth: tuple[float, ...] = ()
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
 
@@ -146,7 +162,8 @@ class FreeLaw:
     @property
     def more_rows(self) -> int:
         """Of the law table, beside those of any rig."""
-        return len(self.throughout) + len(self.at_tip) + len(self.damping_along_depth)
+        parts = max(len(self.damping_along_depth), len(self.stiffness_along_depth))
+        return len(self.throughout) + len(self.at_tip) + parts
 
     def times(self, strength: float) -> "FreeLaw":
         """The law so many times as strong; 0 is none of it, 1 the law itself.
@@ -160,6 +177,7 @@ class FreeLaw:
             rate_curve=tuple(factor**strength for factor in self.rate_curve),
             rate_range_rad_s=self.rate_range_rad_s,
             damping_along_depth=tuple(factor**strength for factor in self.damping_along_depth),
+            stiffness_along_depth=tuple(factor**strength for factor in self.stiffness_along_depth),
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
         )
@@ -178,7 +196,7 @@ class FreeLaw:
         Where damping changes along the depth, the layers are those of the first.
         """
         layers = tissue.layers
-        if self.damping_along_depth:
+        if self.damping_along_depth or self.stiffness_along_depth:
             layers = self._along_depth(layers[0].interface)
         changes: dict[str, Any] = {"varies": self.tissue_varies, "asymmetry": self.asymmetry}
         if self.rate_curve:
@@ -188,21 +206,39 @@ class FreeLaw:
         return whole
 
     def _along_depth(self, law: Interface) -> tuple[Layer, ...]:
-        share = 1.0 / len(self.damping_along_depth)
+        each = zip_longest(self.damping_along_depth, self.stiffness_along_depth, fillvalue=1.0)
+        stiffness = law.stiffness_n_mm_per_rad_per_mm
         laws = [
-            law.but(viscous_n_mm_s_per_mm=factor * law.viscous_n_mm_s_per_mm)
-            for factor in self.damping_along_depth
+            law.but(
+                viscous_n_mm_s_per_mm=damping * law.viscous_n_mm_s_per_mm,
+                stiffness_n_mm_per_rad_per_mm=None if stiffness is None else factor * stiffness,
+            )
+            for damping, factor in each
         ]
+        share = 1.0 / len(laws)
         return (*(Layer(interface=own, fraction=share) for own in laws[:-1]), Layer(interface=laws[-1]))
 
-    def driven(self, inputs: Schedule, start_s: float) -> Schedule:
-        """What is done to the needle, and how its tissue varies."""
+    def driven(self, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Schedule:
+        """What is done to the needle, and how its tissue varies.
+
+        Args:
+          torque_n_mm: as measured, without its noise; what the chuck carries is not known before.
+        """
         factor, drive = np.ones(inputs.time_s.size), inputs.drive
         for curve in self.curves:
+            if curve.acts_on in _SENSORS:
+                continue
+            if curve.variable is Variable.TURNED_BY:
+                drive = drive + curve.with_hysteresis(inputs.drive)
+                continue
+            of_torque = curve.variable is Variable.TORQUE
+            own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on is ActsOn.TISSUE:
-                factor = factor * curve.at(of_inputs(curve.variable, inputs, start_s))
-            elif curve.acts_on is ActsOn.DRIVE_ANGLE:
-                drive = drive + curve.at(of_inputs(curve.variable, inputs, start_s))
+                factor = factor * own
+            elif curve.acts_on is ActsOn.DRIVE_SLIP:
+                drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
+            else:
+                drive = drive + own
         return replace(inputs, drive=drive, tissue_factor=np.maximum(factor, _LEAST_FACTOR))
 
     def sensed(
@@ -213,8 +249,11 @@ class FreeLaw:
         for curve in self.curves:
             if curve.acts_on in _SENSORS:
                 of_tip = curve.acts_on is ActsOn.TIP_READING
+                own = tip_deg if of_tip else torque_n_mm
                 if curve.variable is Variable.PAST:
-                    more = curve.of_past(inputs.time_s, tip_deg if of_tip else torque_n_mm)
+                    more = curve.of_past(inputs.time_s, own)
+                elif curve.variable is Variable.TURNED_BY:
+                    more = curve.with_hysteresis(own)
                 elif curve.variable in OF_THE_NEEDLE:
                     more = curve.at(of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm))
                 else:

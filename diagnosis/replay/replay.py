@@ -111,7 +111,11 @@ def _run(
 ) -> list[Run]:
     step_s, elements = resolution.step_of(trial), resolution.elements
     start_s = float(trial.time_s[0])
-    inputs = [driven(rig, schedule_with_past(rig, trial), start_s) for rig in rigs]
+    inputs = []
+    for rig in rigs:
+        logged = schedule_with_past(rig, trial)
+        torque = np.interp(logged.time_s, trial.time_s, trial.smooth_torque_n_mm) if rig.free else None
+        inputs.append(driven(rig, logged, start_s, torque))
     setups = [
         rig.setup(nominal, own, elements=elements, step_s=step_s)
         for rig, own in zip(rigs, inputs, strict=True)

@@ -24,17 +24,21 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 
-def driven(rig: RigParameters, logged: Schedule, start_s: float = 0.0) -> Schedule:
+def driven(
+    rig: RigParameters, logged: Schedule, start_s: float = 0.0, torque_n_mm: Array | None = None
+) -> Schedule:
     """What is done to the needle; a tip outside of the tissue has the depth 0.
 
     Args:
       start_s: of the trial.
+      torque_n_mm: measured, without its noise, at the times of the schedule; None: not at all.
 
     Raises:
       SimulationFailed: the needle never reaches the tissue.
     """
     if rig.free is not None:
-        logged = rig.free.driven(logged, start_s)
+        torque = np.zeros(logged.time_s.size) if torque_n_mm is None else torque_n_mm
+        logged = rig.free.driven(logged, start_s, torque)
     if rig.base_scale == 1.0 and rig.inserted_offset_mm == 0.0:
         return logged
     inserted_mm = np.maximum(logged.inserted_mm + rig.inserted_offset_mm, 0.0)

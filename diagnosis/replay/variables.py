@@ -1,18 +1,20 @@
 """What a free law may depend on, from the inputs of a trial and what its needle does.
 
-time        since the trial began, s
-base_angle  of the drive shaft, deg
-rate        at which the drive shaft turns, rad/s
-direction   in which it last turned: 1 forwards, -1 backwards, straight between over a short time
-axial_speed of the needle into the tissue, mm/s
-depth       inserted length, mm
-history     angle that the drive shaft has turned by so far, to and fro, turns
-rest        time since it last turned, s, as log(1 + time)
-tip_angle   deg
-tip_rate    rad/s
-torque      that the needle takes at the chuck, N mm
-    torque_rate N mm / s
-    past        how long ago, s, of a reading that shows what was
+time           since the trial began, s
+base_angle     of the drive shaft, deg
+rate           at which the drive shaft turns, rad/s
+direction      in which it last turned: 1 forwards, -1 backwards, straight between over a short time
+axial_speed    of the needle into the tissue, mm/s
+depth          inserted length, mm
+history        angle that the drive shaft has turned by so far, to and fro, turns
+rest           time since it last turned, s, as log(1 + time)
+tip_angle      deg
+tip_rate       rad/s
+tip_direction  in which the tip last turned, as direction
+torque         that the needle takes at the chuck, N mm
+torque_rate    N mm / s
+past           how long ago, s, of a reading that shows what was
+turned_by      since it turned back, of a reading with hysteresis, in its own unit
 """
 
 from collections.abc import Callable
@@ -44,9 +46,11 @@ class Variable(StrEnum):
     REST = "rest"
     TIP_ANGLE = "tip_angle"
     TIP_RATE = "tip_rate"
+    TIP_DIRECTION = "tip_direction"
     TORQUE = "torque"
     TORQUE_RATE = "torque_rate"
     PAST = "past"
+    TURNED_BY = "turned_by"
 
 
 UNITS = {
@@ -60,11 +64,19 @@ UNITS = {
     Variable.REST: "log(1 + s)",
     Variable.TIP_ANGLE: "deg",
     Variable.TIP_RATE: "rad/s",
+    Variable.TIP_DIRECTION: "-",
     Variable.TORQUE: "N mm",
     Variable.TORQUE_RATE: "N mm / s",
     Variable.PAST: "s",
+    Variable.TURNED_BY: "of its unit",
 }
-OF_THE_NEEDLE = (Variable.TIP_ANGLE, Variable.TIP_RATE, Variable.TORQUE, Variable.TORQUE_RATE)
+OF_THE_NEEDLE = (
+    Variable.TIP_ANGLE,
+    Variable.TIP_RATE,
+    Variable.TIP_DIRECTION,
+    Variable.TORQUE,
+    Variable.TORQUE_RATE,
+)
 """Variables that are known only once the needle was simulated."""
 
 
@@ -84,6 +96,8 @@ def of_needle(variable: Variable, time_s: Array, tip_deg: Array, torque_n_mm: Ar
             return tip_deg
         case Variable.TIP_RATE:
             return _rate(np.radians(tip_deg), time_s)
+        case Variable.TIP_DIRECTION:
+            return _last_direction(np.degrees(_rate(np.radians(tip_deg), time_s)), time_s)
         case Variable.TORQUE:
             return torque_n_mm
     return _rate(torque_n_mm, time_s)
@@ -103,13 +117,16 @@ def _base_rate_deg_s(inputs: Schedule) -> Array:
 
 
 def _direction(inputs: Schedule, _: float) -> Array:
+    return _last_direction(_base_rate_deg_s(inputs), inputs.time_s)
+
+
+def _last_direction(rate: Array, time_s: Array) -> Array:
     """Held at rest; before the first turn as in it."""
-    rate = _base_rate_deg_s(inputs)
     turning = np.flatnonzero(np.abs(rate) > STILL_DEG_S)
     if turning.size == 0:
         return np.zeros(rate.size)
     last = turning[np.maximum(np.searchsorted(turning, np.arange(rate.size), side="right") - 1, 0)]
-    return _smooth(np.sign(rate[last]), inputs.time_s, _TURN_S)
+    return _smooth(np.sign(rate[last]), time_s, _TURN_S)
 
 
 def _rest(inputs: Schedule, start_s: float) -> Array:

@@ -32,7 +32,6 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _tip_rate(ranges: LogRanges) -> Family:
-    drag = ranges.library["tip_drag"].parameters[0]
     dry = _dry(ranges)
 
     return Family(
@@ -41,7 +40,7 @@ def _tip_rate(ranges: LogRanges) -> Family:
             title="drag and dry friction in one place, at the tip",
             place=Place.NEEDLE,
             parameters=(
-                replace(drag, start=(drag.start[0],) * len(dry.start)),
+                _drag(ranges, len(dry.start)),
                 dry,
                 Parameter(
                     name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0,) * len(dry.start)
@@ -62,6 +61,14 @@ def _tip_rate(ranges: LogRanges) -> Family:
 def _at_rates(damping: float, level: float, side: float) -> Points:
     own = damping * _SHOWN_RAD_S + level * np.sign(_SHOWN_RAD_S)
     return _SHOWN_RAD_S, own * (1 + side * np.sign(_SHOWN_RAD_S))
+
+
+def _drag(ranges: LogRanges, starts: int) -> Parameter:
+    """Drag at the tip, which may be none."""
+    own = ranges.library["tip_drag"].parameters[0]
+    return Parameter(
+        name=own.name, unit=own.unit, low=0.0, high=own.high, start=(0.0,) * starts, scale=own.start[0]
+    )
 
 
 def _dry(ranges: LogRanges) -> Parameter:

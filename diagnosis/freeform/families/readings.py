@@ -31,11 +31,14 @@ from diagnosis.replay.variables import UNITS, Variable
 
 TURN_DEG = 360.0
 RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
-PAST_PLACES, RIPPLE_PLACES = 6, 5
+PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 6, 5
+TURNED_BY = np.geomspace(0.25, 8.0, 6)  # of the rms of what is missing
 _SAYS = {
     Variable.TIP_RATE: "rate",
+    Variable.TIP_DIRECTION: "direction",
     Variable.TORQUE_RATE: "history",
     Variable.PAST: "history",
+    Variable.TURNED_BY: "history",
 }
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
 
@@ -85,6 +88,7 @@ def _added(
 
 
 _SHAFT = (ActsOn.DRIVE_ANGLE, TIP, "error of the drive's angle")
+_SLIP = (ActsOn.DRIVE_SLIP, TIP, "slip of the needle in its chuck")
 _BEARING = (ActsOn.DRIVE_TORQUE, TORQUE, "torque of the drive that the needle does not feel")
 _TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
 _TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
@@ -92,15 +96,20 @@ _V = Variable
 ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TIME, _V.BASE_ANGLE, _V.DIRECTION),
     *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
+    *_added(*_SLIP, DRIVE, _V.TORQUE),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
+    *_added(*_TIP, SENSOR, _V.TURNED_BY),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, SENSOR, _V.TIP_DIRECTION),
     *_added(*_TIP, {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, _V.DIRECTION),
     *_added(*_TIP, {Place.NEEDLE: 0.6, Place.SENSOR: 0.4}, _V.TORQUE),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
     *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
+    *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
 )
 
 
@@ -118,17 +127,21 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         )
     if added.period_deg:
         return periodic_curve(added.period_deg)
-    if added.variable is Variable.DIRECTION:
+    if added.variable in (Variable.DIRECTION, Variable.TIP_DIRECTION):
         return two_values()
     if added.variable is Variable.PAST:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
-    return smooth_curve(*ranges.ends[added.variable])
+    if added.variable is Variable.TURNED_BY:
+        return separate_values(ranges.missing[added.sensor] * TURNED_BY)
+    return smooth_curve(*ranges.ends[added.variable], PLACES)
 
 
 def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     """The family of one addition."""
     period = f", every {curve.period:.3g} deg" if curve.period else ""
-    scale = 1.0 if added.variable is Variable.PAST else ranges.missing[added.sensor]
+    scale = (
+        1.0 if added.variable in (Variable.PAST, Variable.TURNED_BY) else ranges.missing[added.sensor]
+    )
     name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}"
 
     return Family(
@@ -149,8 +162,10 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
 
 
 def _unit(added: Added) -> str:
-    if added.variable is Variable.PAST:
+    if added.variable in (Variable.PAST, Variable.TURNED_BY):
         return "-"
+    if added.acts_on is ActsOn.DRIVE_SLIP:
+        return "deg/s"
     return "N mm" if added.sensor == TORQUE else "deg"
 
 

@@ -1,4 +1,4 @@
-"""Free laws of the tissue: elastic (Kelvin-Voigt) tissue as stiff as a curve of time or depth says."""
+"""Free laws of the tissue: elastic (Kelvin-Voigt), as stiff as a curve of time, depth or place says."""
 
 from dataclasses import replace
 from functools import partial
@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.families.interface import FADING, tissue_curve
+from diagnosis.freeform.families.interface import FADING, PARTS, tissue_curve
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
@@ -19,7 +19,8 @@ OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY)
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """What may be missing in the tissue."""
-    return tuple(_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
+    over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
+    return (*over, _elastic_along_depth(ranges))
 
 
 def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
@@ -44,6 +45,40 @@ def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
         curve=partial(_stiffness, curve),
         x_unit=UNITS[variable],
         unit="N mm / rad / mm",
+    )
+
+
+def _elastic_along_depth(ranges: LogRanges) -> Family:
+    curve, elastic = smooth_curve(0.0, 1.0, PARTS), ranges.library["tissue_viscoelasticity"]
+    neutral = (0.0,) * len(elastic.parameters[0].start)
+    return Family(
+        effect=Effect(
+            name="elastic tissue over position",
+            title="elastic tissue that changes along the inserted shaft",
+            place=Place.TISSUE,
+            parameters=(
+                *elastic.parameters,
+                *(replace(p, start=neutral) for p in coordinates_of(curve)),
+            ),
+            apply=partial(_apply_along_depth, curve),
+        ),
+        places={Place.TISSUE: 1.0},
+        says="position",
+        title="stiffness of the tissue",
+        curve=partial(_stiffness, curve),
+        x_unit="of the inserted length",
+        unit="N mm / rad / mm",
+    )
+
+
+def _apply_along_depth(
+    curve: SmoothCurve, rig: RigParameters, stiffness: float, time_constant: float, *c: float
+) -> RigParameters:
+    return replace(
+        rig,
+        tissue_stiffness_n_mm_per_rad_per_mm=stiffness,
+        tissue_time_constant_s=time_constant,
+        free=FreeLaw(stiffness_along_depth=tuple(float(v) for v in np.exp(curve.values(c)))),
     )
 
 

@@ -32,7 +32,7 @@ def agreement_section(found: Diagnosis) -> list[str]:
     trials = range(len(found.log.trials))
     unknown = found.verdict.kind is VerdictKind.UNKNOWN
     return [
-        html.heading("How near the nearest comes" if unknown else "Why to believe it"),
+        html.heading("How near it comes" if unknown else "Why to believe it"),
         html.paragraph(reduction(found)),
         html.heading(f"Measured, nominal and {label_of(found, 'explained')}", level=3),
         html.paragraph(_TRIALS.format(best=best_in_words(found))),

@@ -1,6 +1,6 @@
 """What is not in the library: where it acts, what it depends on, and as what law."""
 
-from diagnosis.freeform.in_words import PLACES, VARIABLES, what_is_missing
+from diagnosis.freeform.in_words import PLACES, VARIABLES
 from diagnosis.freeform.missing import Missing
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
@@ -28,12 +28,10 @@ def missing_section(found: Diagnosis) -> list[str]:
     missing = found.missing
     if missing is None:
         return []
-    told = what_is_missing(missing, found.assessment.gap.before)
     law = missing.law
     picture = [html.paragraph(_LAW), drawn(draw_law, describe_law, law)] if law else []
     return [
         html.heading("What is missing"),
-        html.paragraph(told),
         *picture,
         html.heading("Where it acts", level=3),
         html.paragraph(_PLACES),
