@@ -7,20 +7,23 @@ length eta = rho J (Section II-A and below (4) of Reed, Okamura and Cowan 2009).
 import math
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from models import units
-from models.errors import UnknownName
+from models.errors import InvalidValue, UnknownName
 from models.record import Record
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 
+STIFFNESS_POINTS = 5
+"""Of a curve of the stiffness over the torque."""
+
 
 class Needle(Record):
     """Material and shape of a needle, and the torques that are its own.
 
-    The last five fields are zero for the straight, bare shaft of the paper.
+    What follows the length is nothing for the straight, bare shaft of the paper.
     """
 
     name: str = "custom"
@@ -38,6 +41,21 @@ class Needle(Record):
     """Dry torque at the tip over the torque that the tip carries."""
     tip_inertia_kg_m2: NonNegative = 0.0
     """Of what is fixed to the tip, about the axis."""
+    stiffness_curve: tuple[Positive, ...] = ()
+    """Factors of the torsional stiffness at `STIFFNESS_POINTS` even torques from 0; none: it is 1."""
+    stiffness_torque_n_mm: NonNegative = 0.0
+    """At the last of these. Torques are what the nominal stiffness would carry at the same twist; the
+    curve is level beyond them."""
+
+    @model_validator(mode="after")
+    def _curve_is_complete(self) -> "Needle":
+        if len(self.stiffness_curve) not in (0, STIFFNESS_POINTS):
+            raise InvalidValue(
+                "stiffness_curve", len(self.stiffness_curve), f"{STIFFNESS_POINTS} factors, or none"
+            )
+        if self.stiffness_curve and self.stiffness_torque_n_mm == 0.0:
+            raise InvalidValue("stiffness_torque_n_mm", 0.0, "a torque above 0 where there is a curve")
+        return self
 
     @property
     def polar_moment_mm4(self) -> float:

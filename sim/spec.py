@@ -200,6 +200,9 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_ADVECTION] = _advection_coefficient(setup)
     head[memory_map.H_STRETCHING] = setup.stretching
     head[memory_map.H_FREE_REF] = setup.free_mm * units.MM
+    if setup.needle.stiffness_curve:
+        head[memory_map.H_STIFFNESS_TORQUE] = setup.needle.stiffness_torque_n_mm * units.N_MM
+        head[memory_map.H_STIFFNESS_0 :] = np.log(setup.needle.stiffness_curve)
     head[memory_map.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
     return head
 

@@ -34,6 +34,7 @@ from scipy.interpolate import PchipInterpolator
 from diagnosis.replay.bearing import stopped_at
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
 from models.errors import InvalidValue
+from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
 from sim.schedule import Schedule
 
@@ -134,6 +135,8 @@ class FreeLaw:
       rate_range_rad_s: that they span.
       damping_along_depth: factors of its viscous torque in equal parts of the inserted length.
       stiffness_along_depth: of its stiffness, where it is elastic, in as many parts.
+      stiffness_over_torque: factors of the shaft's stiffness (models.needle).
+      stiffness_torque_n_mm: at the last of them.
       throughout, at_tip: further laws (models.tissue).
 
     Raises:
@@ -147,6 +150,8 @@ class FreeLaw:
     rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
     damping_along_depth: tuple[float, ...] = ()
     stiffness_along_depth: tuple[float, ...] = ()
+    stiffness_over_torque: tuple[float, ...] = ()
+    stiffness_torque_n_mm: float = 0.0
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
 
@@ -178,6 +183,8 @@ class FreeLaw:
             rate_range_rad_s=self.rate_range_rad_s,
             damping_along_depth=tuple(factor**strength for factor in self.damping_along_depth),
             stiffness_along_depth=tuple(factor**strength for factor in self.stiffness_along_depth),
+            stiffness_over_torque=tuple(factor**strength for factor in self.stiffness_over_torque),
+            stiffness_torque_n_mm=self.stiffness_torque_n_mm,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
         )
@@ -189,6 +196,14 @@ class FreeLaw:
     def without_sensors(self) -> "FreeLaw":
         """What the needle feels."""
         return replace(self, curves=tuple(c for c in self.curves if c.acts_on not in _SENSORS))
+
+    def needle(self, needle: Needle) -> Needle:
+        """The needle with the law in it."""
+        changed: Needle = needle.but(
+            stiffness_curve=self.stiffness_over_torque,
+            stiffness_torque_n_mm=self.stiffness_torque_n_mm,
+        )
+        return changed
 
     def tissue(self, tissue: Tissue) -> Tissue:
         """The tissue with the law in it.

@@ -72,7 +72,8 @@ def predict(
     Raises:
       SimulationFailed: one of them cannot be simulated.
     """
-    seen = [rig.on_trial(trial.name).without_sensors() for rig in rigs]
+    rigs = [rig.on_trial(trial.name) for rig in rigs]
+    seen = [rig.without_sensors() for rig in rigs]
     needles = list(dict.fromkeys(seen))
     done = _run(nominal, trial, needles, resolution, callback_alone=callback_alone)
     runs = dict(zip(needles, done, strict=True))

@@ -96,7 +96,7 @@ class RigParameters:
         """The needle, of the length that a trial needs."""
         nominal = dict(rig.needle)
         nominal["shear_modulus_gpa"] *= self.stiffness_scale
-        return Needle(
+        needle = Needle(
             **nominal,
             length_mm=length_mm,
             tip_drag_n_mm_s_per_rad=self.tip_drag_n_mm_s_per_rad,
@@ -105,6 +105,7 @@ class RigParameters:
             load_coefficient=self.load_coefficient,
             tip_inertia_kg_m2=rig.inertia.tip_kg_m2,
         )
+        return self.free.needle(needle) if self.free else needle
 
     def tissue(self, rig: NominalRig) -> Tissue:
         """The tissue; two layers keep the total damping nominal."""

@@ -26,8 +26,15 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_STRETCHING,  # elements that share the free length (0: all are fixed to the needle)
     H_FREE_REF,  # free length at carriage position 0, m
     H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
+    H_STIFFNESS_TORQUE,  # nominal torque at the last place of the curve of stiffness; 0: no curve
+    H_STIFFNESS_0,  # log factors of the stiffness at even places of the torque, from 0
+    H_STIFFNESS_1,
+    H_STIFFNESS_2,
+    H_STIFFNESS_3,
+    H_STIFFNESS_4,
     HEADER,
-) = range(12)
+) = range(18)
+STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
 

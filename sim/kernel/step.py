@@ -63,6 +63,8 @@ def _prepare(
         springs[i] = spring[i]
         if i < stretching:  # torsion falls as the length of the element grows
             springs[i] *= head[memory_map.H_FREE_REF] / free
+        if head[memory_map.H_STIFFNESS_TORQUE] > 0.0:
+            springs[i] *= _stiffness_factor(head, abs(springs[i] * (theta[i + 1] - theta[i])))
     for i in range(n + 1):
         inertias[i] = inertia[i] / frame.g
         angles[i] = theta[i]
@@ -80,6 +82,18 @@ def _prepare(
             start[r] = before[r]
             end[r] = before[r]
     return nonlinear
+
+
+@inlined
+def _stiffness_factor(head: Array, torque: float) -> float:
+    """Of an element at the twist that it starts with, as torque of the nominal stiffness, N m."""
+    last = memory_map.STIFFNESS_POINTS - 1
+    at = last * torque / head[memory_map.H_STIFFNESS_TORQUE]
+    if at >= last:
+        return math.exp(head[memory_map.H_STIFFNESS_0 + last])
+    i = int(at)
+    below, above = head[memory_map.H_STIFFNESS_0 + i], head[memory_map.H_STIFFNESS_0 + i + 1]
+    return math.exp(below + (at - i) * (above - below))
 
 
 @inlined

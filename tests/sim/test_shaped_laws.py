@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from models.errors import InvalidValue
 from models.needle import Needle
@@ -23,15 +24,22 @@ DAMPING, LENGTH_MM, RATE = 0.017, 60.0, 0.8
 NEEDLE = Needle(diameter_mm=0.59, shear_modulus_gpa=27.2, density_g_cm3=6.45)
 
 
-def turned(tissue: Tissue, *, rate: float = RATE, factor: float = 1.0, end_s: float = 6.0) -> Run:
+def turned(tissue: Tissue, *, rate: float = RATE, factor: float = 1.0, needle: Needle = NEEDLE) -> Run:
     """A run at a constant rate; to a constant angle at rate 0."""
-    time_s = np.linspace(0.0, end_s, 601)
-    return run_of(tissue, time_s, np.degrees(rate) * time_s, np.full(time_s.shape, factor))
+    time_s = np.linspace(0.0, 6.0, 601)
+    drive_deg = np.degrees(rate) * time_s
+    return run_of(tissue, time_s, drive_deg, np.full(time_s.shape, factor), needle)
 
 
-def run_of(tissue: Tissue, time_s: np.ndarray, drive_deg: np.ndarray, factor: np.ndarray) -> Run:
+def run_of(
+    tissue: Tissue,
+    time_s: np.ndarray,
+    drive_deg: np.ndarray,
+    factor: np.ndarray,
+    needle: Needle = NEEDLE,
+) -> Run:
     setup = Setup(
-        needle=NEEDLE,
+        needle=needle,
         tissue=tissue,
         free_mm=10.0,
         inserted_mm=LENGTH_MM,
@@ -113,3 +121,22 @@ def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
     assert RATE_POINTS == memory_map.CURVE_POINTS
     with pytest.raises(InvalidValue, match=r"rate_curve.*7 factors"):
         Interface(rate_curve=(1.0, 2.0))
+
+
+def test_a_shaft_may_be_as_stiff_as_the_torque_says() -> None:
+    """Dry friction at the tip holds a torque that the whole shaft carries.
+
+    Twist = torque l / (factor kappa), with the factor at kappa twist / l = torque / factor.
+    """
+    needle = NEEDLE.but(stiffness_curve=(1.0, 1.2, 1.5, 1.9, 2.4), stiffness_torque_n_mm=4.0)
+    tissue = Tissue(layers=(Layer(interface=Interface()),), at_tip=(Interface(kinetic_n_mm_per_mm=2.5),))
+
+    def factor_at(nominal: float) -> float:
+        return math.exp(np.interp(nominal, np.arange(5.0), np.log(needle.stiffness_curve)))
+
+    factor = factor_at(brentq(lambda nominal: nominal * factor_at(nominal) - 2.5, 0.0, 4.0))
+    run = turned(tissue, needle=needle)
+    lag_deg = math.degrees(2.5 * (10.0 + LENGTH_MM) / (factor * NEEDLE.rigidity_n_mm2))
+    assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-3)
+    with pytest.raises(InvalidValue, match=r"stiffness_torque_n_mm"):
+        NEEDLE.but(stiffness_curve=(1.0, 1.2, 1.5, 1.9, 2.4))

@@ -86,7 +86,7 @@ def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float
             place=place,
             parameters=(when, step),
             apply=partial(_apply, acts_on, moment.trial),
-            differences=(3e-2, 1e-2),
+            differences=(0.3, 0.1, 3e-2),
             trial=moment.trial,
         ),
         places={place: 1.0},

@@ -1,5 +1,6 @@
 """Free laws of the needle itself.
 
+the stiffness of the shaft as a curve of the torque that it carries
 at the tip, in one place: drag and dry friction, stronger one way than the other
 at the tip, or along the inserted shaft: a torque of the angle, as waves once and twice a turn
 """
@@ -11,11 +12,13 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
+from models.needle import STIFFNESS_POINTS
 from models.tissue import Interface
 
 WAVES = (1, 2)  # in a turn
@@ -28,7 +31,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """What may be missing of the needle."""
     turned = Variable.BASE_ANGLE in ranges.ends
     angles = (_angle(ranges, tip=True), _angle(ranges, tip=False)) if turned else ()
-    return (_tip_rate(ranges), *angles)
+    stiffness = (_stiffness(ranges),) if Variable.TORQUE in ranges.ends else ()
+    return (_tip_rate(ranges), *stiffness, *angles)
 
 
 def _tip_rate(ranges: LogRanges) -> Family:
@@ -61,6 +65,37 @@ def _tip_rate(ranges: LogRanges) -> Family:
 def _at_rates(damping: float, level: float, side: float) -> Points:
     own = damping * _SHOWN_RAD_S + level * np.sign(_SHOWN_RAD_S)
     return _SHOWN_RAD_S, own * (1 + side * np.sign(_SHOWN_RAD_S))
+
+
+def _stiffness(ranges: LogRanges) -> Family:
+    most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
+    curve = smooth_curve(0.0, most_n_mm, STIFFNESS_POINTS)
+    return Family(
+        effect=Effect(
+            name="stiffness over torque",
+            title="a shaft whose stiffness changes with the torque that it carries",
+            place=Place.NEEDLE,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_stiffness, curve, most_n_mm),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="torque",
+        title="stiffness of the shaft over the nominal, over the torque that this would carry",
+        curve=partial(_factors, curve),
+        x_unit="N mm",
+        unit="-",
+    )
+
+
+def _factors(curve: SmoothCurve, *c: float) -> Points:
+    return curve.places, np.exp(curve.values(c))
+
+
+def _apply_stiffness(
+    curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
+) -> RigParameters:
+    factors = tuple(float(v) for v in np.exp(curve.values(c)))
+    return replace(rig, free=FreeLaw(stiffness_over_torque=factors, stiffness_torque_n_mm=most_n_mm))
 
 
 def _drag(ranges: LogRanges, starts: int) -> Parameter:
