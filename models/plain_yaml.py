@@ -86,7 +86,7 @@ def _refuse_yes_for_a_number(path: Path, given: Any, built: Any, field: str) -> 
     if isinstance(given, bool) and isinstance(built, float):
         raise InvalidValue(f"{path}: {field}", given, "a number")
     if isinstance(given, Mapping):
-        inner = dict(built) if isinstance(built, Record | Mapping) else {}
+        inner = dict(built) if isinstance(built, Record | Mapping) else getattr(built, "__dict__", {})
         pairs = [(name, given[name], inner[name]) for name in given if name in inner]
     elif isinstance(given, list) and isinstance(built, tuple):
         pairs = [(str(i), *pair) for i, pair in enumerate(zip(given, built, strict=True))]

@@ -45,6 +45,8 @@ def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
         known = sorted(record.model_fields)
         fix = did_you_mean(first["loc"][-1], known) or "remove it"
         return InvalidValue(field, first["input"], "one of the fields " + ", ".join(known), fix)
+    if first["type"] == "unexpected_keyword_argument":
+        return InvalidValue(field, first["input"], "a field that is known here", "remove it")
     if first["type"] == "missing":
         return InvalidValue(field, None, "a value", "this field has no default")
     message = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")

@@ -7,6 +7,7 @@ import pytest
 
 os.environ.setdefault("CI", "1")  # rerun collects nothing
 os.environ.setdefault("MPLBACKEND", "Agg")
+os.environ["NEEDLE_EFFECTS"] = os.devnull  # the library is ours alone, whatever its user has saved
 for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(
         f"{library}_NUM_THREADS", "1"

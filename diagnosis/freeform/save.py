@@ -1,10 +1,9 @@
 """A free-form law that closed a gap, as an effect that later diagnoses know."""
 
-import re
 from pathlib import Path
 
-from diagnosis.effects import LIBRARY
-from diagnosis.effects.saved.effect_file import NAME, SavedEffect, effect_as_text
+from diagnosis.effects import FITTED
+from diagnosis.effects.saved.effect_file import SavedEffect, effect_as_text, refuse_no_effect_name
 from diagnosis.effects.saved.folder import OWN_FOLDER, effects_folder
 from diagnosis.freeform.missing import Missing
 from models.errors import InvalidValue
@@ -16,10 +15,8 @@ def file_of(name: str) -> Path:
     Raises:
       InvalidValue: it may not have the name, or the user has no folder for it.
     """
-    expected = "3 to 41 small letters, digits and underscores, the first a letter"
-    if not re.fullmatch(NAME, name):
-        raise InvalidValue("--save-effect", name, expected)
-    if name in LIBRARY:
+    refuse_no_effect_name("--save-effect", name)
+    if name in FITTED:
         raise InvalidValue("--save-effect", name, "a name that no effect has yet", "take another name")
     folder = effects_folder()
     if folder is None:

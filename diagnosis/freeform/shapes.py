@@ -25,6 +25,10 @@ Array = NDArray[np.float64]
 _LEAST_BAND = 0.01  # of the range of a curve: no band is taken to be narrower
 _WITHIN = 1.0  # half widths of the band, root mean square
 _MOST_EVALUATIONS = 4000
+_STEP_WIDTH = (
+    0.03  # of the range: less than from one point to the next, not so steep that no fit finds it
+)
+_MOST_CYCLES = 4  # of a wave in one turn, from which a fit starts
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,12 +74,12 @@ def _decay(x: Array, a: float, b: float, tau: float) -> Array:
 
 
 def _step(x: Array, a: float, b: float, at: float) -> Array:
-    width = 0.05 * (x[-1] - x[0])
+    width = _STEP_WIDTH * (x[-1] - x[0])
     return np.asarray(a + 0.5 * b * (1.0 + np.tanh((x - at) / width)))
 
 
 def _wave(x: Array, a: float, b: float, phase: float, cycles: float) -> Array:
-    return np.asarray(a + b * np.sin(np.radians(cycles * x) - phase))
+    return np.asarray(a + b * np.sin(np.radians(cycles * x) + phase))
 
 
 def _power(x: Array, a: float, p: float) -> Array:
@@ -92,6 +96,22 @@ def _stribeck(x: Array, kinetic: float, excess: float, rate: float, damping: flo
 
 def _slope(x: Array, y: Array) -> float:
     return float((y[-1] - y[0]) / (x[-1] - x[0]))
+
+
+def _largest_jump(x: Array, y: Array) -> float:
+    """Where y changes most from one point to the next."""
+    i = int(np.argmax(np.abs(np.diff(y))))
+    return float(0.5 * (x[i] + x[i + 1]))
+
+
+def _waves(x: Array, y: Array, cycles: int) -> tuple[float, tuple[float, ...]]:
+    """What is left beside the best wave of so many cycles in a turn, a sum of squares, and that wave."""
+    angle = np.radians(cycles * x)
+    columns = np.stack([np.ones(x.size), np.sin(angle), np.cos(angle)], axis=1)
+    mean, sine, cosine = np.linalg.lstsq(columns, y)[0]
+    left = y - columns @ (mean, sine, cosine)
+    wave = (float(mean), float(np.hypot(sine, cosine)), float(np.arctan2(cosine, sine)), float(cycles))
+    return float(left @ left), wave
 
 
 _DRY_AND_VISCOUS = Shape(
@@ -136,15 +156,15 @@ _OF_ANY = (
         name="step",
         says="{0:.3g}, and {1:+.3g} beyond {2:.3g}",
         law=_step,
-        start=lambda x, y: (float(y[0]), float(y[-1] - y[0]), float(0.5 * (x[0] + x[-1]))),
+        start=lambda x, y: (float(y[0]), float(y[-1] - y[0]), _largest_jump(x, y)),
     ),
 )
 _OF_ANGLE = (
     Shape(
         name="sine wave",
-        says="{0:.3g} + {1:.3g} sin({3:.3g} angle - {2:.3g} rad)",
+        says="{0:.3g} + {1:.3g} sin({3:.3g} angle {2:+.3g} rad)",
         law=_wave,
-        start=lambda x, y: (float(y.mean()), float(np.ptp(y)) / 2, 0.0, 360.0 / max(np.ptp(x), 1.0)),
+        start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
     ),
 )
 _ANGLES = ("base_angle", "tip_angle")

@@ -70,7 +70,8 @@ class Curve:
       trial: the only trial that it is in; empty: all.
 
     Raises:
-      InvalidValue: places do not increase, or values are not as many.
+      InvalidValue: places do not increase or are farther apart than the period, values are not as many,
+        or a factor of the tissue's torque is not positive.
     """
 
     acts_on: ActsOn
@@ -88,6 +89,12 @@ class Curve:
             raise InvalidValue(
                 "values", self.values, f"{places.size} finite numbers, one for each place"
             )
+        if self.acts_on is ActsOn.TISSUE and min(self.values) <= 0:
+            raise InvalidValue(
+                "values", self.values, "factors above 0, where the curve is of the tissue"
+            )
+        if self.period and self.period <= places[-1] - places[0]:
+            raise InvalidValue("period", self.period, "0, or more than the places span")
 
     def at(self, x: Array) -> Array:
         """The curve at values of its variable, (N,)."""
@@ -131,6 +138,9 @@ class FreeLaw:
       stiffness_over_torque: factors of the shaft's stiffness (models.needle).
       stiffness_torque_n_mm: at the last of them.
       throughout, at_tip: further laws (models.tissue).
+
+    Raises:
+      InvalidValue: a field is none of an `Interface`, or a factor of the damping is not positive.
     """
 
     curves: tuple[Curve, ...] = ()
@@ -144,6 +154,15 @@ class FreeLaw:
     stiffness_torque_n_mm: float = 0.0
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
+
+    def __post_init__(self) -> None:
+        Interface(
+            asymmetry=self.asymmetry,
+            rate_curve=self.rate_curve,
+            rate_range_rad_s=self.rate_range_rad_s,
+        )
+        if min(self.damping_along_depth, default=1.0) <= 0:
+            raise InvalidValue("damping_along_depth", self.damping_along_depth, "factors above 0")
 
     @property
     def more_rows(self) -> int:

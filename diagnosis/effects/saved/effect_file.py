@@ -12,23 +12,26 @@ The fields of `law` are those of diagnosis.replay.free_law. Its one parameter is
 law as it was saved.
 """
 
+import re
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
 import yaml
-from pydantic import Field
+from pydantic import Field, model_validator
 from pydantic_core import to_jsonable_python
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
+from models.errors import InvalidValue
 from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 from sim.simulation import SimulationFailed
 
-NAME = r"^[a-z][a-z0-9_]{2,40}$"
+_NAME = r"[a-z][a-z0-9_]{2,40}"
+_VERDICTS = ("none", "unknown")  # which a ranking has beside effects
 _STRENGTH = Parameter(
     name="strength", unit="-", low=0.02, high=20.0, start=(1.0, 0.3, 3.0), logarithmic=True
 )
@@ -38,13 +41,20 @@ class SavedEffect(Record):
     """What a file holds."""
 
     format: Literal["effect/1"] = "effect/1"
-    name: str = Field(pattern=NAME)
+    name: str
     """Small letters, digits and underscores."""
     title: str
     place: Place
     stiffness_n_mm_per_rad_per_mm: float = Field(default=0.0, ge=0)
     time_constant_s: float = Field(default=0.0, ge=0)
     law: FreeLaw
+
+    @model_validator(mode="after")
+    def _can_be_an_effect(self) -> "SavedEffect":
+        refuse_no_effect_name("name", self.name)
+        if self.law == FreeLaw():
+            raise InvalidValue("law", {}, "a law that changes something")
+        return self
 
     @property
     def effect(self) -> Effect:
@@ -58,6 +68,19 @@ class SavedEffect(Record):
             remedy=f"add the saved law {self.name} to the model, {{strength}} times as strong",
             check="repeat the motion in which the law shows most, and nothing else",
         )
+
+
+def refuse_no_effect_name(field: str, name: str) -> None:
+    """Check that a name is one that an effect may have.
+
+    Raises:
+      InvalidValue: names the field, and what is expected.
+    """
+    if not re.fullmatch(_NAME, name):
+        expected = "3 to 41 small letters, digits and underscores, the first a letter"
+        raise InvalidValue(field, name, expected)
+    if name in _VERDICTS:
+        raise InvalidValue(field, name, "a name that is no verdict", "take another name")
 
 
 def read_effect(path: Path) -> Effect:

@@ -16,7 +16,7 @@ def run_of(time_s, tip_deg, torque, drive):
         time_s=time_s,
         tip_deg=tip_deg,
         base_torque_n_mm=torque,
-        inputs=SimpleNamespace(drive=drive),
+        inputs=SimpleNamespace(time_s=time_s, drive=drive),
     )
 
 

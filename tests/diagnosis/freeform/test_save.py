@@ -1,0 +1,64 @@
+"""Which free-form laws are saved, and under which names."""
+
+import pytest
+import yaml
+from saved_laws import EVERYTHING, STICKY, missing_with, saved
+
+from diagnosis.effects import FITTED
+from diagnosis.effects.effect import Place
+from diagnosis.effects.saved.effect_file import effect_as_text, read_effect
+from diagnosis.effects.saved.folder import OWN_FOLDER
+from diagnosis.freeform.save import as_file, file_of
+from diagnosis.replay.rig_parameters import NOMINAL
+from models.errors import InvalidValue
+
+
+@pytest.mark.parametrize("law", [STICKY, EVERYTHING], ids=["sticky", "every field"])
+def test_a_law_that_closes_the_gap_is_saved_as_it_was_fitted(tmp_path, law):
+    path = tmp_path / "sticky_membrane.yaml"
+    path.write_text(as_file(missing_with(law), path.stem))
+    assert read_effect(path).apply(NOMINAL, 1.0).free == law
+    assert path.read_text() == effect_as_text(saved(law))
+
+
+def test_of_elastic_tissue_stiffness_and_time_constant_are_saved_with_it():
+    elastic = {"tissue_stiffness_n_mm_per_rad_per_mm": 0.4, "tissue_time_constant_s": 0.7}
+    content = yaml.safe_load(as_file(missing_with(place=Place.TISSUE, **elastic), "soft"))
+    assert content["stiffness_n_mm_per_rad_per_mm"] == 0.4
+    assert content["time_constant_s"] == 0.7
+
+
+UNSAVED = {
+    "nothing was looked for": None,
+    "no law explains more": missing_with(curve=False),
+    "the gap stays open": missing_with(closed=False),
+    "it happened once": missing_with(variable="event"),
+    "it is of an effect of the library": missing_with(free=None),
+}
+
+
+@pytest.mark.parametrize("missing", UNSAVED.values(), ids=UNSAVED)
+def test_what_no_library_could_have_is_not_saved(missing):
+    assert as_file(missing, "sticky_membrane") == ""
+
+
+def test_an_effect_goes_to_the_file_of_its_name(tmp_path, monkeypatch):
+    monkeypatch.setenv(OWN_FOLDER, str(tmp_path))
+    assert file_of("sticky_membrane") == tmp_path / "sticky_membrane.yaml"
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["", "ab", "Sticky", "a-b-c", "../mine", "1st", "a" * 42, "none", "unknown", *list(FITTED)[:2]],
+)
+def test_a_name_that_is_none_or_taken_is_refused_before_anything_is_done(tmp_path, monkeypatch, name):
+    monkeypatch.setenv(OWN_FOLDER, str(tmp_path))
+    with pytest.raises(InvalidValue) as caught:
+        file_of(name)
+    assert caught.value.field == "--save-effect"
+
+
+def test_who_has_no_home_is_told_of_the_variable(monkeypatch):
+    monkeypatch.setattr("diagnosis.freeform.save.effects_folder", lambda: None)
+    with pytest.raises(InvalidValue, match=f"set {OWN_FOLDER} to a folder"):
+        file_of("sticky_membrane")

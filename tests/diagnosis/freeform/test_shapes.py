@@ -1,0 +1,151 @@
+"""Which plain law a curve looks like: recovered from points that scatter as their bands say."""
+
+import re
+
+import numpy as np
+import pytest
+
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.missing import Law
+from diagnosis.freeform.shapes import LIBRARY_LAWS, likeness_of
+
+RATES = np.geomspace(0.006, 3.0, 7)
+TIMES = np.linspace(0.0, 10.0, 8)
+PLACES = (np.arange(6) + 0.5) / 6
+ANGLES = 30.0 * np.arange(12)
+BAND = 0.03  # half of it, of the range of the curve
+SEEDS = range(10)
+
+
+def curve(x, y, half, *, variable, place=Place.INTERFACE):
+    """A law by points with a band."""
+    low, high = (tuple(y + side * half) for side in (-1, 1))
+    return Law(
+        place=place,
+        variable=variable,
+        title="friction",
+        x_unit="-",
+        unit="-",
+        x=tuple(x),
+        y=tuple(y),
+        low=low,
+        high=high,
+    )
+
+
+def sine(x, mean, size, cycles, phase):
+    return mean + size * np.sin(np.radians(cycles * x) + phase)
+
+
+# Shape, variable, places, law, its parameters in the order in which they are told.
+LAWS = [
+    ("constant", "time", TIMES, lambda x, a: 0 * x + a, (2.0,)),
+    ("straight line", "time", TIMES, lambda x, a, b: a + b * x, (1.0, 0.5)),
+    ("exponential approach", "time", TIMES, lambda x, a, b, t: a + b * np.exp(-x / t), (1, 3, 2.5)),
+    ("exponential approach", "depth", TIMES, lambda x, a, b, t: a + b * np.exp(-x / t), (4, -3, 1.5)),
+    ("sine wave", "tip_angle", ANGLES, sine, (1.0, 0.5, 1.0, -0.8)),
+    ("sine wave", "base_angle", ANGLES, sine, (1.0, 0.5, 2.0, 2.3)),
+    ("sine wave", "tip_angle", ANGLES, sine, (-1.0, 0.2, 3.0, -2.8)),
+    ("dry and viscous friction", "rate", RATES, lambda x, a, b: a + b * x, (1.0, 0.5)),
+    ("power law", "rate", RATES, lambda x, a, p: a * x**p, (1.0, 0.6)),
+    (
+        "Stribeck friction",
+        "rate",
+        RATES,
+        lambda x, dry, more, rate: dry + more * np.exp(-((x / rate) ** 2)),
+        (1.0, 0.8, 0.1),
+    ),
+]
+
+
+def errors_of(law, x, parameters, sigma):
+    """Standard errors of least squares at the true parameters, by Cramer and Rao."""
+    own = np.array(parameters, float)
+    steps = 1e-6 * np.eye(own.size)
+    slopes = [(law(x, *(own + step)) - law(x, *(own - step))) / 2e-6 for step in steps]
+    return np.sqrt(np.diag(np.linalg.inv(np.array(slopes) @ np.array(slopes).T))) * sigma
+
+
+@pytest.mark.parametrize(("shape", "variable", "x", "law", "parameters"), LAWS)
+def test_a_plain_law_is_recognised_with_its_parameters(shape, variable, x, law, parameters):
+    clean = law(x, *parameters)
+    half = BAND * max(np.ptp(clean), 1.0)
+    sigma = half / 1.96  # the band is of 95 %
+    errors = errors_of(law, x, parameters, sigma)
+    told = []
+    for seed in SEEDS:
+        noise = np.random.default_rng(seed).normal(0, sigma, x.size)
+        like = likeness_of(curve(x, clean + noise, half, variable=variable))
+        assert like is not None
+        assert like.shape == shape
+        says = re.sub("37 %|at 0,|1 rad", "", like.says)  # numbers of the words
+        numbers = re.findall(r"[-+]?\d+\.?\d*(?:e[-+]\d+)?", says)
+        told.append([float(n) for n in numbers[: len(parameters)]])
+    # Three digits are told; Stribeck's damping is fitted too, so that the others are less certain.
+    away = np.abs(np.array(told) - parameters) - 0.005 * np.abs(parameters)
+    assert (away < 5 * errors).all()
+    assert not (np.abs(np.array(told) - 1.3 * np.array(parameters)) < 5 * errors).all()
+
+
+@pytest.mark.parametrize(("x", "at"), [(PLACES, 0.5), (TIMES, 2.2), (TIMES, 8.0)])
+def test_a_step_is_found_between_the_points_where_it_is(x, at):
+    variable = "position" if x is PLACES else "time"
+    clean = np.where(x > at, 3.0, 1.0)
+    for seed in SEEDS:
+        noise = np.random.default_rng(seed).normal(0, 0.06 / 1.96, x.size)
+        like = likeness_of(curve(x, clean + noise, 0.06, variable=variable))
+        level, more, place = (float(n) for n in re.findall(r"[-+]?\d+\.?\d*", like.says))
+        assert like.shape == "step"
+        assert level == pytest.approx(1.0, abs=0.1)
+        assert more == pytest.approx(2.0, abs=0.15)
+        assert x[x < at].max() < place < x[x > at].min()
+
+
+@pytest.mark.parametrize(("x", "variable"), [(TIMES, "time"), (RATES, "rate"), (ANGLES, "tip_angle")])
+def test_points_without_any_law_look_like_none(x, variable):
+    """By chance a law of four parameters may still run through seven points, but rarely."""
+    found = [
+        likeness_of(curve(x, np.random.default_rng(seed).normal(size=x.size), 0.1, variable=variable))
+        for seed in range(20)
+    ]
+    assert sum(like is not None for like in found) <= 1
+
+
+def test_a_law_that_is_none_of_these_has_no_name():
+    bump = 1.0 + np.exp(-(((TIMES - 5.0) / 1.5) ** 2))
+    assert likeness_of(curve(TIMES, bump, 0.03, variable="time")) is None
+    assert likeness_of(curve(TIMES, bump, 1.0, variable="time")).shape == "constant"  # the band hides it
+
+
+@pytest.mark.parametrize("variable", ["direction", "event"])
+def test_two_values_are_no_curve(variable):
+    assert (
+        likeness_of(curve(np.array([-1.0, 1.0]), np.array([1.0, 2.0]), 0.1, variable=variable)) is None
+    )
+
+
+@pytest.mark.parametrize(
+    ("variable", "place", "law", "x", "effects"),
+    [
+        ("rate", Place.INTERFACE, lambda x: 1 + 0.5 * x, RATES, ("coulomb_friction",)),
+        ("rate", Place.INTERFACE, lambda x: x**0.5, RATES, ("shear_thinning",)),
+        ("rate", Place.INTERFACE, lambda x: 1 + np.exp(-((x / 0.1) ** 2)), RATES, ("stiction",)),
+        ("rate", Place.DRIVE, lambda x: x**0.5, RATES, ()),
+        ("position", Place.INTERFACE, lambda x: 1 + 1.0 * (x > 0.5), PLACES, ("layered_tissue",)),
+        ("tip_angle", Place.NEEDLE, lambda x: np.sin(np.radians(x)), ANGLES, ("needle_curvature",)),
+        (
+            "tip_angle",
+            Place.SENSOR,
+            lambda x: 1 + 0.01 * x,
+            ANGLES,
+            ("tip_angle_scale", "tip_angle_bias"),
+        ),
+    ],
+)
+def test_where_the_library_has_the_law_its_effect_is_named(variable, place, law, x, effects):
+    assert likeness_of(curve(x, law(x), 0.02, variable=variable, place=place)).library == effects
+
+
+def test_every_effect_that_is_named_is_in_the_library():
+    assert {name for names in LIBRARY_LAWS.values() for name in names} <= set(LIBRARY)

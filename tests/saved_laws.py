@@ -1,0 +1,86 @@
+"""Free-form laws to save, and a diagnosis that found one."""
+
+from dataclasses import replace
+
+import numpy as np
+from diagnosis_fixtures import fit_of
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.effects.saved.effect_file import SavedEffect
+from diagnosis.fitting.parameterization import Parameterization
+from diagnosis.freeform.family import Family
+from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.freeform.search import FreeFit
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.variables import Variable
+from models.tissue import Interface
+
+OVER_DEPTH = Curve(
+    acts_on=ActsOn.TISSUE, variable=Variable.DEPTH, places=(0.0, 40.0, 80.0), values=(0.5, 1.0, 3.0)
+)
+STICKY = FreeLaw(throughout=(Interface(kinetic_n_mm_per_mm=0.001, varies=True),), curves=(OVER_DEPTH,))
+"""Dry friction that grows with the inserted length."""
+EVERYTHING = replace(
+    STICKY,
+    tissue_varies=True,
+    asymmetry=-0.2,
+    rate_curve=(0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0),
+    rate_range_rad_s=(0.1, 2.0),
+    damping_along_depth=(1.0, 2.0),
+    at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
+)
+"""A law that uses every field."""
+
+
+def saved(law=STICKY, name="sticky_membrane", **changes):
+    """What a file would hold of a law."""
+    title = "dry friction that changes with depth"
+    return SavedEffect(
+        **({"name": name, "title": title, "place": Place.INTERFACE, "law": law} | changes)
+    )
+
+
+def missing_with(
+    free=STICKY, *, place=Place.INTERFACE, variable="depth", closed=True, curve=True, **rig
+):
+    """What is missing of a log, if the best of all free laws is this one.
+
+    Args:
+      curve: whether it leaves less than the library does.
+      rig: what else of a rig the law changes.
+    """
+    effect = Effect(
+        name="a free law",
+        title="dry friction that changes with depth",
+        place=place,
+        parameters=(Parameter(name="straight 0", unit="-", low=-1.0, high=1.0, start=(0.0,)),),
+        apply=lambda own, _: replace(own, free=free, **rig),
+    )
+    fit = replace(
+        fit_of(()), x=np.zeros(1), parameterization=Parameterization(effects=(effect,), nuisance=())
+    )
+    family = Family(
+        effect=effect,
+        places={place: 1.0},
+        says=variable,
+        title="dry friction along the shaft",
+        curve=lambda _: ((0.0, 1.0), (0.0, 1.0)),
+        x_unit="mm",
+        unit="N mm / mm",
+    )
+    points = {
+        "x": (0.0, 40.0, 80.0),
+        "y": (0.5, 1.0, 3.0),
+        "low": (0.4, 0.9, 2.9),
+        "high": (0.6, 1.1, 3.1),
+    }
+    told = Law(
+        place=place, variable=variable, title=family.title, x_unit="mm", unit="N mm / mm", **points
+    )
+    return Missing(
+        place={own: 1.0 if own is place else 0.0 for own in Place},
+        depends_on=(Dependence(variable=variable, gap_after=1.01, title=family.title, place=place),),
+        law=told if curve else None,
+        best=FreeFit(family=family, fit=fit, gap_after=1.01, final=True),
+        closed=closed,
+    )
