@@ -23,7 +23,7 @@ from diagnosis.freeform.search import FreeFit
 
 Array = NDArray[np.float64]
 
-PATIENCE, FREEDOM = 0.1, 10.0
+PATIENCE, FREEDOM = 0.1, 4.0
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
 

@@ -33,8 +33,8 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "free-form laws beside an effect",
     "finalists, free-form laws",
 )
-FIRST_ITERATIONS, ITERATIONS = 3, 8
-CONTENDERS, COMPANIONS, FINALISTS = 8, 2, 4
+FIRST_ITERATIONS, ITERATIONS = 4, 10
+CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
