@@ -24,6 +24,7 @@ ROOMS = (
     "nominal_replay",
     "selection",
     "assessment",
+    "freeform",
     "result",
     "report",
     "pipeline",
@@ -48,7 +49,7 @@ UNITS = (
 PER = ("_per_",)
 DIMENSIONLESS = (
     *("scale", "share", "ratio", "fraction", "exponent", "coefficient", "probability", "factor"),
-    *("likeness", "period"),
+    *("likeness", "period", "asymmetry"),
     *(
         "score",
         "cost",

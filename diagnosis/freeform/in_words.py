@@ -44,6 +44,8 @@ DOUBT = (
     "Doubt first what all of these laws take for granted: lengths, diameter and clocks of the rig, one "
     "zero for all trials, and that one thing at a time is missing"
 )
+SEEN = "on the trials of its fit"
+UNSEEN = "on trials that its fit has not seen"
 _OTHERS = 3
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
@@ -59,10 +61,12 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     law, first = missing.law, missing.depends_on[0]
     probability = missing.place[law.place]
     beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
+    once = bool(missing.best.family.effect.trial)  # in one trial, which no other tells of
+    where = UNSEEN if missing.best.held_out and not once else SEEN
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
         f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of it{beside} brings "
-        f"{gap_before:.2f} σ to {first.gap_after:.2f} σ on trials that its fit has not seen"
+        f"{gap_before:.2f} σ to {first.gap_after:.2f} σ {where}"
     )
     return f"{told}{_beside(missing)}.{_likeness(law)}"
 

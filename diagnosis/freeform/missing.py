@@ -90,7 +90,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
     """
     ranked = sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
     best = ranked[0]
-    helps = best.gap_after < FREE_LAW_GAIN * nearest_gap
+    helps = best.final and best.gap_after < FREE_LAW_GAIN * nearest_gap
     return Missing(
         place=_places(fits),
         depends_on=_dependences(ranked),
@@ -117,6 +117,7 @@ def _log_weight(one: FreeFit) -> float:
 
 
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
+    """The best fit's variable, then the others by what is left."""
     found: dict[str, Dependence] = {}
     for one in ranked:
         family = one.family
@@ -126,7 +127,8 @@ def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
                 variable=family.says, gap_after=one.gap_after, title=family.title, place=family.place
             ),
         )
-    return tuple(found.values())
+    first, *others = found.values()
+    return (first, *sorted(others, key=lambda one: one.gap_after))
 
 
 def _law(one: FreeFit) -> Law:

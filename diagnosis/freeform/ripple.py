@@ -28,7 +28,7 @@ def waves_in_a_turn(ranges: LogRanges, sensor: str, variable: Variable) -> int:
         angles = np.radians(_at_samples(variable, trial, nominal)[finite])
         for waves in range(2, MOST_WAVES + 1):
             taken[waves] += abs(np.vdot(own, np.exp(1j * waves * angles))) ** 2 / own.size
-    return int(np.argmax(taken))
+    return 2 + int(np.argmax(taken[2:]))
 
 
 def _at_samples(variable: Variable, trial: PreparedTrial, nominal: Prediction) -> Array:

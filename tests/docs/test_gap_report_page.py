@@ -9,6 +9,7 @@ from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.intervals import Interval
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.freeform.missing import Law
 from diagnosis.report import json_report
 from diagnosis.residuals.autocorrelation import Autocorrelation
 from diagnosis.residuals.lead import Lead
@@ -21,7 +22,7 @@ from diagnosis.selection.verdict import VerdictKind
 PAGE = (Path(__file__).parents[2] / "docs" / "gap-report.md").read_text()
 WRITTEN_AS_THEY_ARE = (
     *(GapReduction, Interval, ResidualBreakdown, NoiseFloor, RecordEntry),
-    *(ResidualShape, Autocorrelation, Spectrum, Lead),
+    *(ResidualShape, Autocorrelation, Spectrum, Lead, Law),
 )
 
 

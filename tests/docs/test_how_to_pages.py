@@ -6,7 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from diagnosis_fixtures import turns
+from free_forms import covered, same_readings
 
+from diagnosis.effects import LIBRARY
+from diagnosis.replay.rig_parameters import NOMINAL
 from scripts.arguments import parser
 from scripts.main import main
 from sim.recording.recording import read
@@ -58,3 +62,17 @@ def test_a_new_controller_settles_and_keeps_its_bound(monkeypatch):
 def test_the_commands_for_a_new_effect_are_commands():
     for line in "".join(blocks("new-effect.md", "sh")).splitlines():
         assert parser().parse_args(line.split("#")[0].split()[1:]).command in ("blind", "diagnose")
+
+
+def test_a_new_family_at_a_constant_curve_is_an_effect_of_the_library():
+    names = {}
+    exec("".join(blocks("new-family.md", "python")), names)
+    angle = turns(4.0)
+    ranges = covered(angle, tip=angle)
+    (family,) = names["families"](ranges)
+    drag = LIBRARY["tip_drag"].apply(NOMINAL, 0.1)
+    half = family.effect.apply(NOMINAL, 0.05, np.log(2.0), *[0.0] * 7)
+    assert same_readings(angle, half, drag)
+    assert not same_readings(angle, family.effect.apply(NOMINAL, 0.05, *[0.0] * 8), drag)
+    assert family.curve(0.05, *[0.0] * 8)[1] == pytest.approx(0.05)
+    assert len({len(p.start) for p in family.effect.parameters}) == 1

@@ -26,6 +26,7 @@ FRICTION_OVER = (*DAMPING_OVER, Variable.REST, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SAYS = {Variable.REST: "history"}
 SLOW_RAD_S = 0.03
+LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 _PLACES = {Place.INTERFACE: 1.0}
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
@@ -217,9 +218,13 @@ def _position(ranges: LogRanges) -> Family:
 
 
 def _along_depth(curve: SmoothCurve, beta: float, *c: float) -> Points:
-    return (np.arange(PARTS) + 0.5) / PARTS, beta * np.exp(curve.values(c))
+    return (np.arange(PARTS) + 0.5) / PARTS, beta * np.array(_parts(curve, c))
+
+
+def _parts(curve: SmoothCurve, c: Sequence[float]) -> tuple[float, ...]:
+    """Factors of equal parts of the inserted length: 1 + curve, so that an even gradient is straight."""
+    return tuple(max(1.0 + v, LEAST_PART) for v in curve.values(c))
 
 
 def _apply_position(curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
-    factors = tuple(float(v) for v in np.exp(curve.values(c)))
-    return replace(rig, free=FreeLaw(damping_along_depth=factors))
+    return replace(rig, free=FreeLaw(damping_along_depth=_parts(curve, c)))

@@ -1,5 +1,7 @@
 """What is not in the library: where it acts, what it depends on, and as what law."""
 
+import math
+
 from diagnosis.freeform.in_words import PLACES, VARIABLES
 from diagnosis.freeform.missing import Missing
 from diagnosis.report import html_parts as html
@@ -19,7 +21,7 @@ _PLACES = (
 _GAPS = (
     "For each variable the law that leaves least, on trials that its fit has not seen, over the noise "
     "and what the other trials leave open of the curve; 1 is the noise floor. Only the first few are "
-    "fitted to the whole log, the others to a decimated one."
+    "fitted to the whole log, the others to a decimated one, and their gap is that of the fit."
 )
 
 
@@ -50,8 +52,13 @@ def _place_table(missing: Missing) -> str:
 
 def _variable_table(missing: Missing) -> str:
     rows = [
-        (VARIABLES[one.variable], one.title, PLACES[one.place], f"{one.gap_after:.2f}")
+        (VARIABLES[one.variable], one.title, PLACES[one.place], _gap(one.gap_after))
         for one in missing.depends_on
     ]
     head = ("depends on", "law of", "acts", "gap after / σ")
     return html.table(head, rows, "What it depends on")
+
+
+def _gap(gap_sigma: float) -> str:
+    """Infinite where an unseen trial could not be simulated with what the others say."""
+    return f"{gap_sigma:.2f}" if math.isfinite(gap_sigma) else "not simulated"

@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 import pytest
+from free_forms import missing_with
 
+from diagnosis.freeform.in_words import what_is_missing
 from diagnosis.report.answer import answer
 from diagnosis.report.sentences import headline, titles
 from diagnosis.selection.verdict import VerdictKind
@@ -60,6 +62,12 @@ def test_every_verdict_has_its_sentences(dry, verdict, sure, then):
     assert found[1].startswith(sure)
     assert found[2].startswith(then)
     assert all(sentence.endswith(".") and ".." not in sentence for sentence in found)
+
+
+@pytest.mark.parametrize("missing", [missing_with(), missing_with(law=None)])
+def test_of_an_unknown_log_the_second_sentence_is_what_is_missing(dry, missing):
+    found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), missing=missing)
+    assert answer(found)[1] == what_is_missing(missing, found.assessment.gap.before)
 
 
 def test_a_search_that_was_cut_short_is_not_sure(dry):

@@ -5,8 +5,10 @@ from dataclasses import asdict, replace
 
 import pytest
 from diagnosis_fixtures import scored
+from free_forms import LAW, VOCABULARY, missing_with
 
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
 from diagnosis.report.json_report import FORMAT, as_json
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision
@@ -168,3 +170,26 @@ def test_a_rig_with_nothing_unmodelled_gives_no_alarm(nothing):
     assert nothing.report["where"]["place"] == ""
     assert nothing.report["warnings"] == []
     assert set(nothing.report) == KEYS
+
+
+def test_what_is_missing_is_told_where_it_was_looked_for_alone(dry):
+    assert dry.found.missing is None
+    report = as_json(replace(dry.found, missing=missing_with()))
+    assert set(report) == KEYS | {"missing"}
+    missing = json.loads(json.dumps(report, allow_nan=False), parse_constant=pytest.fail)["missing"]
+    assert set(missing) == {"place", "depends_on", "law", "closed"}
+    assert set(missing["place"]) == {place.value for place in Place}
+    assert {one["variable"] for one in missing["depends_on"]} <= VOCABULARY
+    # What could not be simulated on an unseen trial has no gap: JSON knows no infinity.
+    assert [one["gap_after"] for one in missing["depends_on"]] == [1.03, 2.5, None]
+    law = missing["law"]
+    assert {"place", "variable", "unit", "x", "y", "low", "high"} <= set(law)
+    assert (law["place"], law["variable"], law["unit"]) == ("interface", "rate", "N mm / mm")
+    for column in ("x", "y", "low", "high"):
+        assert law[column] == list(getattr(LAW, column))
+
+
+def test_where_no_law_helps_there_is_none(dry):
+    report = as_json(replace(dry.found, missing=missing_with(law=None)))
+    assert report["missing"]["law"] is None
+    assert report["missing"]["closed"] is False

@@ -4,12 +4,14 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from free_forms import missing_with
 
 from diagnosis.assessment.advice import advise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
     alike,
     best_in_words,
+    by_free_law,
     explanation_name,
     explanations,
     headline,
@@ -162,6 +164,26 @@ def test_the_best_of_an_unknown_log_is_called_no_explanation(dry):
     assert label_of(unknown, "nominal") == "nominal"
     assert best_in_words(dry.found) == "the best explanation"
     assert "; of what comes nearest: largest in" in largest_parts(unknown)
+
+
+def test_what_is_with_a_free_form_law_is_called_that(dry):
+    unknown = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
+    found, without = (replace(unknown, missing=m) for m in (missing_with(), missing_with(law=None)))
+    assert [by_free_law(one) for one in (found, without, dry.found)] == [True, False, False]
+    assert label_of(found, "explained") == "free-form law"
+    assert label_of(without, "explained") == "nearest"
+    assert label_of(found, "nominal") == "nominal"
+    assert "; of the free-form law: largest in" in largest_parts(found)
+    # The parts of the residual that is left are those of the law, not of what comes nearest.
+    assert "what is left is" not in nearest(found)
+    assert "what is left is" in nearest(without)
+
+
+def test_an_unknown_log_is_told_with_the_gap_of_the_nearest_not_of_the_law(dry):
+    told = replace(dry.found.assessment, gap=replace(dry.found.assessment.gap, after=0.5))
+    found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), assessment=told)
+    near = found.assessment.nearest.gap_after
+    assert f"at best {near:.2f} σ" in headline(replace(found, missing=missing_with()))
 
 
 def test_one_more_effect_that_changes_nothing_is_said_to(dry):

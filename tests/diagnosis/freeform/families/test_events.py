@@ -1,0 +1,65 @@
+"""Something that happened once."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import covered
+
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.families.events import families, largest_step
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE = turns(8.0)
+TIME = 0.01 * np.arange(ANGLE.size)
+NOISE = np.random.default_rng(9).normal(0, 0.25, ANGLE.size)
+AT_REST = (ANGLE, np.zeros(ANGLE.size))
+
+
+def stepping(at_s, size):
+    """Ranges of a log whose tip sensor jumps, by a nominal rig that reads the base."""
+    return covered(ANGLE, tip=ANGLE + NOISE + size * (at_s < TIME), seen=AT_REST)
+
+
+@pytest.mark.parametrize(("at_s", "size"), [(2.0, 1.0), (5.5, -0.8), (7.0, 3.0)])
+def test_a_step_in_noise_is_found_where_it_is(at_s, size):
+    found = largest_step(stepping(at_s, size), "tip_angle_deg")
+    assert found.trial == "trial_01.csv"
+    # Of 3 sigma and more, a sample on the wrong side is told from one on the right one within a few.
+    assert found.time_s == pytest.approx(at_s, abs=0.1)
+
+
+def test_gaps_of_a_sensor_do_not_move_the_time():
+    tip = ANGLE + NOISE + 2.0 * (TIME > 5.0)
+    tip[100:300] = np.nan
+    assert largest_step(covered(ANGLE, tip=tip, seen=AT_REST), "tip_angle_deg").time_s == pytest.approx(
+        5.0, abs=0.1
+    )
+
+
+def test_a_trial_that_is_too_short_has_no_middle_to_step_in():
+    short = np.linspace(0, 90, 80)
+    assert largest_step(covered(short, tip=short), "tip_angle_deg") is None
+    assert families(covered(short, tip=short)) == ()
+
+
+def test_the_step_may_be_of_the_drive_or_of_each_sensor_that_was_read():
+    both = covered(ANGLE, tip=ANGLE + NOISE, torque=NOISE, seen=AT_REST)
+    assert [(f.place, f.unit) for f in families(both)] == [
+        (Place.DRIVE, "deg"),
+        (Place.SENSOR, "deg"),
+        (Place.SENSOR, "N mm"),
+    ]
+    assert len(families(stepping(5.0, 1.0))) == 2
+
+
+def test_a_step_is_in_its_own_trial_from_its_time_on():
+    (_, jump) = families(stepping(5.0, 1.0))
+    assert (jump.says, jump.effect.trial) == ("event", "trial_01.csv")
+    when, step = jump.effect.parameters
+    assert when.start[0] == pytest.approx(5.0, abs=0.1)
+    assert step.prior_sigma == np.inf
+    (curve,) = jump.effect.apply(NOMINAL, 5.0, 1.5).free.curves
+    assert curve.trial == "trial_01.csv"
+    np.testing.assert_allclose(curve.at(np.array([0.0, 5.0, 5.1, 8.0])), [0, 0, 1.5, 1.5])
+    x, y = jump.curve(5.0, 1.5)
+    assert (x[1], y[0], y[-1]) == (5.0, 0.0, 1.5)

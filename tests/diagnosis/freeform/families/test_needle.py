@@ -1,0 +1,60 @@
+"""Free laws of the needle: where they become effects of the library, they are these."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import covered, same_readings
+
+from diagnosis.effects import LIBRARY
+from diagnosis.freeform.families.needle import families
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE = turns(6.0)
+FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
+RATE, TIP_ANGLE, ALONG = (
+    "tip torque over rate",
+    "tip torque over tip_angle",
+    "torque along the shaft over tip_angle",
+)
+
+
+def rig_of(name, *values):
+    return FAMILIES[name].effect.apply(NOMINAL, *values)
+
+
+def test_drag_in_one_place_at_the_tip_is_that_of_the_library():
+    drag = LIBRARY["tip_drag"].apply(NOMINAL, 0.05)
+    assert same_readings(ANGLE, rig_of(RATE, 0.05, 1e-12, 0.0), drag)
+    assert not same_readings(ANGLE, rig_of(RATE, 0.05, 0.1, 0.0), drag)
+
+
+def test_once_a_turn_along_the_shaft_is_a_bent_needle():
+    """a sin x + b cos x = hypot sin(x + atan2(b, a)): the phase of the library has the other sign."""
+    bent = LIBRARY["needle_curvature"].apply(NOMINAL, 0.002, 40.0)
+    phase = np.radians(40.0)
+    sine, cosine = 0.002 * np.cos(phase), -0.002 * np.sin(phase)
+    assert same_readings(ANGLE, rig_of(ALONG, sine, cosine, 0.0, 0.0), bent)
+    assert not same_readings(ANGLE, rig_of(ALONG, sine, -cosine, 0.0, 0.0), bent)
+
+
+# Whatever acts at the tip has an end of the mesh of its own.
+@pytest.mark.parametrize(
+    ("name", "without"), [(TIP_ANGLE, LIBRARY["tip_drag"].apply(NOMINAL, 1e-12)), (ALONG, NOMINAL)]
+)
+def test_no_waves_are_the_rig_without(name, without):
+    assert same_readings(ANGLE, rig_of(name, *[0.0] * 4), without)
+
+
+def test_curves_are_told_as_torques():
+    rates, torque = FAMILIES[RATE].curve(0.2, 0.1, 0.5)
+    np.testing.assert_allclose(torque[-1], (0.2 * rates[-1] + 0.1) * 1.5)
+    np.testing.assert_allclose(torque[0], -(0.2 * -rates[0] + 0.1) * 0.5)
+    angles, waves = FAMILIES[ALONG].curve(1.0, 2.0, 3.0, 4.0)
+    x = np.radians(angles)
+    exact = np.sin(x) + 2 * np.cos(x) + 3 * np.sin(2 * x) + 4 * np.cos(2 * x)
+    np.testing.assert_allclose(waves, exact)
+
+
+def test_a_needle_that_hardly_turns_has_no_law_of_its_angle():
+    still = families(covered(0.1 * ANGLE, tip=ANGLE))
+    assert [family.name for family in still] == [RATE]

@@ -1,0 +1,100 @@
+"""Free laws that add to an angle or a reading."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import covered, same_readings
+
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.families.readings import PAST_PLACES, families
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE = turns(6.0)
+LATE, TORQUE = 0.8 * ANGLE, 0.01 * ANGLE
+RANGES = covered(ANGLE, tip=LATE + 2.0, torque=TORQUE + 0.3, seen=(LATE, TORQUE))
+FAMILIES = {family.name: family for family in families(RANGES)}
+CONSTANT = {"tip reading": ("tip_angle_bias", 1.5), "torque reading": ("torque_bias", 0.2)}
+
+
+def rig_of(name, *values):
+    family = FAMILIES[name]
+    flat = [0.0] * (len(family.effect.parameters) - len(values))
+    return family.effect.apply(NOMINAL, *values, *flat)
+
+
+@pytest.mark.parametrize("name", list(FAMILIES))
+def test_a_curve_of_nothing_is_the_nominal_rig(name):
+    assert rig_of(name).free is not None
+    assert same_readings(ANGLE, rig_of(name), NOMINAL)
+
+
+@pytest.mark.parametrize("variable", ["time", "tip_angle", "direction"])
+def test_a_constant_error_of_the_tip_sensor_is_its_bias(variable):
+    bias = LIBRARY["tip_angle_bias"].apply(NOMINAL, 1.5)
+    assert same_readings(ANGLE, rig_of(f"tip reading over {variable}", 1.5), bias)
+
+
+@pytest.mark.parametrize("name", ["torque reading over time", "drive torque over rate"])
+def test_a_constant_error_of_the_torque_is_its_bias(name):
+    bias = LIBRARY["torque_bias"].apply(NOMINAL, 0.2)
+    assert same_readings(ANGLE, rig_of(name, 0.2), bias)
+
+
+def test_an_error_that_rises_with_the_reading_is_a_gain():
+    """From end to end of the range of the nominal tip, a straight line through 0 with slope 0.1."""
+    low, high = RANGES.ends["tip_angle"]
+    middle, half = 0.05 * (high + low), 0.05 * (high - low)
+    gained = LIBRARY["tip_angle_scale"].apply(NOMINAL, 1.1)
+    found = rig_of("tip reading over tip_angle", middle, half)
+    # Beyond the range of the nominal tip the curve is level: the simulated tip stays within it here.
+    assert same_readings(0.5 * ANGLE, found, gained)
+
+
+def test_all_of_a_reading_from_so_long_ago_is_a_delay():
+    places, _ = FAMILIES["tip reading over past"].curve(*[0.0] * PAST_PLACES)
+    late = LIBRARY["tip_sensor_delay"].apply(NOMINAL, float(places[2]))
+    assert same_readings(ANGLE, rig_of("tip reading over past", 0.0, 0.0, 1.0), late)
+    assert not same_readings(ANGLE, rig_of("tip reading over past", 0.0, 1.0), late)
+
+
+def test_an_offset_of_the_drive_turns_the_whole_needle():
+    """Held off by as much throughout, it starts untwisted there: the tip is off by as much."""
+    bias = LIBRARY["tip_angle_bias"].apply(NOMINAL, 3.0)
+    assert same_readings(ANGLE, rig_of("drive angle over time", 3.0), bias)
+
+
+def test_what_repeats_says_after_how_much():
+    names = [name for name in FAMILIES if ", every 360 deg" in name]
+    assert sorted(names) == [
+        f"{what}, every 360 deg"
+        for what in (
+            "drive angle over base_angle",
+            "drive torque over base_angle",
+            "tip reading over tip_angle",
+        )
+    ]
+
+
+def test_coordinates_are_as_large_as_what_is_missing():
+    assert RANGES.missing == pytest.approx({"tip_angle_deg": 2.0, "base_torque_n_mm": 0.3})
+    scale = {name: family.effect.parameters[0].scale for name, family in FAMILIES.items()}
+    assert scale["tip reading over time"] == pytest.approx(2.0)
+    assert scale["torque reading over time"] == pytest.approx(0.3)
+    assert scale["tip reading over past"] == 1.0  # a share
+
+
+def test_a_sensor_that_was_not_read_has_no_law():
+    names = {family.name for family in families(covered(ANGLE, tip=ANGLE))}
+    assert names
+    assert not any("torque reading" in name or "drive torque" in name for name in names)
+
+
+def test_an_offset_over_the_torque_is_more_likely_a_twist_of_the_needle():
+    assert FAMILIES["tip reading over torque"].place is Place.NEEDLE
+    assert FAMILIES["torque reading over torque"].place is Place.SENSOR
+    units = {name: family.unit for name, family in FAMILIES.items()}
+    assert units["torque reading over torque"] == "N mm"
+    assert units["tip reading over past"] == "-"
+    over_time = FAMILIES["tip reading over time"]
+    assert np.isfinite(over_time.curve(*[0.0] * len(over_time.effect.parameters))[1]).all()

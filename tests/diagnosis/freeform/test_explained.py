@@ -1,0 +1,74 @@
+"""An assessment whose explanation is a free-form law."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import TORQUE, log_of, problem_of
+from free_forms import linear_fit, missing_with, nothing_told
+
+from diagnosis.freeform.explained import explained_by
+from diagnosis.freeform.families.readings import families
+from diagnosis.freeform.ranges import ranges_of
+from diagnosis.freeform.search import FreeFit
+from diagnosis.log.trial import SENSORS
+from diagnosis.replay.replay import replay
+from diagnosis.replay.rig_parameters import NOMINAL
+
+RISE = 0.1  # of the torque reading within the trial, N mm: 10 sigma
+
+
+@pytest.fixture(scope="module")
+def told():
+    """A torque sensor that drifts, explained by a straight drift, and the same without its law."""
+    size = 400
+    clean = log_of(NOMINAL, seconds=4.0)
+    table = clean.trials[0].table
+    drift = np.linspace(0.0, RISE, size)
+    table = table.assign(base_torque_n_mm=table["base_torque_n_mm"] + drift)
+    log = replace(clean, trials=(replace(clean.trials[0], table=table),))
+    problem = problem_of(
+        log, sigma={"tip_angle_deg": 0.25, "base_torque_n_mm": TORQUE, "base_angle_deg": 0.02}
+    )
+    nominal = replay(problem.log)
+    ranges = ranges_of(problem, nominal)
+    family = next(f for f in families(ranges) if f.name == "torque reading over time")
+    low, high = ranges.ends["time"]
+    mean, slope = (RISE * x / 4.0 / ranges.missing["base_torque_n_mm"] for x in (high + low, high - low))
+    size = len(family.effect.parameters)
+    x = [0.5 * mean, 0.5 * slope, *[0.0] * (size - 2)]
+    rig = family.effect.apply(NOMINAL, *(v * ranges.missing["base_torque_n_mm"] for v in x))
+    left = problem.residuals([rig])[0][0]
+    fit = replace(
+        linear_fit(family, [np.zeros((left.size, size))], [np.zeros(left.size)], x=x), by_trial=(left,)
+    )
+    best = FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
+    before = nothing_told(next_experiment="look closer")
+    return log, nominal, before, explained_by(missing_with(best=best), log, problem, nominal, before)
+
+
+def test_the_gap_is_that_before_and_with_the_law(told):
+    *_, found = told
+    # Half of the readings are off by 10 sigma u, u even in 0 ... 1: mean square 1 + 100 / 6.
+    assert found.gap.before == pytest.approx(np.sqrt(1 + 100 / 6), rel=0.05)
+    # 800 samples: the root mean square of noise is known to 1 / sqrt(1600).
+    assert found.gap.after == pytest.approx(1.0, abs=3.5 / 40)
+
+
+def test_explained_readings_are_with_the_law(told):
+    log, nominal, _, found = told
+    (law,), (without,) = found.explained, nominal
+    np.testing.assert_allclose(law["tip_angle_deg"], without["tip_angle_deg"])
+    drift = law["base_torque_n_mm"] - without["base_torque_n_mm"]
+    np.testing.assert_allclose(drift, np.linspace(0.0, RISE, drift.size), atol=0.01 * RISE)
+    assert law["tip_angle_deg"].size == len(log.trials[0].table)
+
+
+def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
+    *_, before, found = told
+    for sensor in SENSORS:
+        assert found.breakdown_after.signal[sensor] == pytest.approx(1.0, abs=3.5 / np.sqrt(800))
+    assert found.shape_after is not None
+    changed = {"gap", "explained", "breakdown_after", "shape_after", "next_experiment"}
+    kept = {name for name in vars(before) if getattr(found, name) is getattr(before, name)}
+    assert kept == set(vars(before)) - changed

@@ -1,0 +1,87 @@
+"""What is missing, in plain words."""
+
+from dataclasses import replace
+
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import LAW, VOCABULARY, covered, free_fit, missing_with
+
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.families import families_of
+from diagnosis.freeform.in_words import DOUBT, PLACES, VARIABLES, course_of, what_is_missing
+
+
+def test_every_place_and_variable_has_words():
+    assert set(PLACES) == set(Place)
+    assert set(VARIABLES) == VOCABULARY
+
+
+def test_every_family_says_a_variable_of_the_vocabulary():
+    angle = turns()
+    slow = angle - 0.2 * angle**2 / 90
+    ranges = covered(angle, tip=slow, torque=0.01 * angle, speed=-1.0, seen=(slow, 0.02 * angle))
+    families = families_of(ranges)
+    assert {family.says for family in families} <= VOCABULARY
+    # Every place but the constants of the rig, which no law is free of, has a family of its own.
+    assert {family.place for family in families} == set(Place) - {Place.PARAMETERS}
+    assert len({family.name for family in families}) == len(families)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({}, "friction along the shaft rises from 0.001 to 0.004 N mm / mm between 0.01 and 1 rad/s"),
+        ({"y": (0.004, 0.002, 0.001)}, "friction along the shaft falls from 0.004 to 0.001 N mm"),
+        ({"y": (0.001, 0.004, 0.0015)}, "friction along the shaft varies between 0.001 and 0.004"),
+        ({"variable": "direction", "y": (0.001, 0.002)}, "is 2 times as strong forwards"),
+        ({"variable": "direction", "y": (0.003, 0.002)}, "is 1.5 times as strong backwards"),
+        ({"variable": "direction", "y": (-0.1, 0.2)}, "is 0.2 N mm / mm forwards, -0.1 N mm / mm back"),
+        (
+            {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
+            "by 3 N mm / mm at 2.50 s",
+        ),
+    ],
+)
+def test_the_course_of_a_law_is_told(changes, said):
+    assert said in course_of(replace(LAW, **changes))
+
+
+def test_place_variable_course_and_gap_are_in_the_sentence():
+    said = what_is_missing(missing_with(best=seen_fit()), 8.9)
+    assert said.startswith(
+        "What is missing acts along the shaft, between it and the tissue (probability 0.90) and depends "
+        "on the rate of turning: friction along the shaft rises from"
+    )
+    assert "A free-form law of it brings 8.90 σ to 1.03 σ on trials that its fit has not seen" in said
+    # What could not be simulated on an unseen trial has no gap to tell.
+    assert "of other variables the best laws leave 2.50 σ with the time since a trial began." in said
+
+
+def seen_fit():
+    """A fit that was checked on unseen trials."""
+    return replace(free_fit(1.03, says="rate"), held_out=(LAW.x,))
+
+
+def test_effects_beside_a_law_are_named():
+    said = what_is_missing(missing_with(replace(LAW, beside=("tip_drag", "torque_bias"))), 8.9)
+    assert "A free-form law of it, beside tip_drag and torque_bias, brings" in said
+
+
+def test_of_a_single_trial_nothing_is_called_unseen():
+    said = what_is_missing(missing_with(), 8.9)
+    assert "not seen" not in said
+    assert "1.03 σ on the trials of its fit" in said
+
+
+def test_of_what_happened_once_nothing_is_called_unseen():
+    best = seen_fit()
+    effect = replace(best.family.effect, trial="trial_02.csv")
+    once = replace(best, family=replace(best.family, effect=effect))
+    assert "not seen" not in what_is_missing(missing_with(best=once), 8.9)
+
+
+def test_where_no_law_helps_the_sentence_says_what_to_doubt():
+    said = what_is_missing(missing_with(law=None), 8.9)
+    assert said.startswith("No free-form law that was tried leaves less than the library does.")
+    assert DOUBT in said
+    assert "probability" not in said

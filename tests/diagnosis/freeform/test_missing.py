@@ -1,0 +1,171 @@
+"""What free-form fits say of what is missing."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
+
+from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.missing import FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
+from diagnosis.freeform.search import FreeFit
+
+TIP = {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}
+
+
+def fits():
+    return [
+        free_fit(1.02, name="direction", says="direction", places={Place.INTERFACE: 1.0}),
+        free_fit(1.2, name="tip", says="torque", places=TIP),
+        free_fit(3.0, name="time", says="time", places={Place.TISSUE: 1.0}),
+        free_fit(3.5, name="other time", says="time", places={Place.INTERFACE: 1.0}),
+    ]
+
+
+def test_places_are_probabilities_of_all_six():
+    place = missing_of(fits(), 5.0).place
+    assert set(place) == set(Place)
+    assert sum(place.values()) == pytest.approx(1.0)
+    assert min(place.values()) > 0
+    assert max(place, key=place.get) is Place.INTERFACE
+
+
+def test_a_gap_that_is_larger_weighs_less_by_its_power():
+    """Weights are 1 and (1.2 / 1.02)^(-2 / PATIENCE), shared as the family says; a little for each."""
+    place = missing_of(fits(), 5.0).place
+    weight = (1.2 / 1.02) ** (-2 / PATIENCE)
+    assert place[Place.SENSOR] / place[Place.INTERFACE] == pytest.approx(
+        (LEAST_WEIGHT + 0.6 * weight) / (LEAST_WEIGHT + 1.0)
+    )
+    assert place[Place.NEEDLE] / place[Place.INTERFACE] == pytest.approx(
+        (LEAST_WEIGHT + 0.4 * weight) / (LEAST_WEIGHT + 1.0)
+    )
+    assert place[Place.DRIVE] == pytest.approx(place[Place.PARAMETERS])
+
+
+def test_freedom_that_the_data_determine_costs():
+    alike = {"says": "time", "places": {Place.TISSUE: 1.0}}
+    simple, free = free_fit(1.1, **alike), free_fit(1.1, freedom=6, name="free")
+    place = missing_of([simple, free], 5.0).place
+    assert place[Place.INTERFACE] / place[Place.TISSUE] == pytest.approx(
+        (LEAST_WEIGHT + math.exp(-5 / FREEDOM)) / (LEAST_WEIGHT + 1.0)
+    )
+
+
+def test_variables_are_told_once_the_one_that_leaves_least_first():
+    told = missing_of(fits(), 5.0).depends_on
+    assert [(d.variable, d.gap_after) for d in told] == [
+        ("direction", 1.02),
+        ("torque", 1.2),
+        ("time", 3.0),
+    ]
+    assert [d.place for d in told] == [Place.INTERFACE, Place.SENSOR, Place.TISSUE]
+
+
+def test_after_the_best_variables_are_in_the_order_of_what_is_left():
+    """Whether or not their laws were fitted to the log itself, and where there is no gap to tell."""
+    more = [
+        free_fit(math.inf, name="lost", says="rate"),
+        free_fit(2.0, final=False, name="rough", says="depth"),
+    ]
+    told = missing_of([*fits(), *more], 5.0).depends_on
+    assert [d.variable for d in told] == ["direction", "torque", "depth", "time", "rate"]
+
+
+def test_what_was_fitted_to_the_log_itself_comes_before_what_was_not():
+    rough = free_fit(0.9, final=False, name="rough", says="time", places={Place.TISSUE: 1.0})
+    found = missing_of([rough, *fits()[:1]], 5.0)
+    assert found.best.family.name == "direction"
+    assert [d.variable for d in found.depends_on] == ["direction", "time"]
+
+
+def test_of_laws_that_were_fitted_to_the_decimated_log_alone_none_is_told():
+    found = missing_of([free_fit(1.0, final=False)], 5.0)
+    assert (found.law, found.closed) == (None, False)
+
+
+@pytest.mark.parametrize(
+    ("gap", "nearest", "helps", "closed"),
+    [
+        (1.02, 5.0, True, True),
+        (CLOSED_GAP + 0.01, 5.0, True, False),
+        (1.02, 1.02 / FREE_LAW_GAIN - 1e-6, False, False),
+        (5.1, 5.0, False, False),
+        (math.inf, 5.0, False, False),
+    ],
+)
+def test_a_law_is_told_only_if_it_leaves_less_than_the_library(gap, nearest, helps, closed):
+    curve = fitted_curve(np.zeros(CURVE.size), np.random.default_rng(0))
+    rough = free_fit(3.0, final=False)
+    found = missing_of([replace(curve, gap_after=gap), rough], nearest)
+    assert ((found.law is not None), found.closed) == (helps, closed)
+    assert found.best.gap_after == gap
+
+
+def fitted_curve(truth, rng, noise=1.0):
+    """A curve fitted to 60 readings at random places of it, and noise."""
+    family = family_of(name="curve", says="depth", places={Place.SENSOR: 1.0})
+    at = rng.uniform(0, 1, 60)
+    slopes = np.stack([np.interp(at, CURVE.places, column) for column in CURVE.basis.T], axis=1)
+    readings = slopes @ truth + rng.normal(0, noise, at.size)
+    fit = linear_fit(family, [slopes], [readings])
+    return FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
+
+
+def law_of(fit):
+    return missing_of([fit], 5.0).law
+
+
+def test_a_law_is_the_curve_of_its_fit_between_the_ends_of_its_band():
+    rng = np.random.default_rng(3)
+    one = fitted_curve(rng.normal(size=CURVE.size), rng)
+    law = law_of(one)
+    assert (law.place, law.variable, law.unit, law.x_unit) == (Place.SENSOR, "depth", "-", "s")
+    np.testing.assert_allclose(law.x, CURVE.places)
+    np.testing.assert_allclose(law.y, CURVE.basis @ one.fit.x)
+    assert all(low < y < high for low, y, high in zip(law.low, law.y, law.high, strict=True))
+
+
+def test_the_band_has_the_width_of_the_covariance():
+    """1.96 standard deviations; quantiles of 400 draws are known to 0.13 of one."""
+    rng = np.random.default_rng(8)
+    one = fitted_curve(np.zeros(CURVE.size), rng)
+    (slopes,) = one.fit.jacobian
+    loud = max(1.0, one.fit.gap) ** 2
+    covariance = np.linalg.inv(slopes.T @ slopes / loud + np.eye(CURVE.size))
+    sigma = np.sqrt(np.diag(CURVE.basis @ covariance @ CURVE.basis.T))
+    law = law_of(one)
+    np.testing.assert_allclose((np.array(law.high) - law.y) / sigma, 1.96, atol=4 * 0.13)
+    np.testing.assert_allclose((law.y - np.array(law.low)) / sigma, 1.96, atol=4 * 0.13)
+
+
+def test_a_band_holds_the_truth_in_95_of_100():
+    """Of truths that are as likely as the prior says; one place of each of 120 fits."""
+    rng = np.random.default_rng(11)
+    held, shifted, count = 0, 0, 120
+    for i in range(count):
+        truth = rng.normal(size=CURVE.size)
+        law, at = law_of(fitted_curve(truth, rng)), i % CURVE.size
+        real = float(CURVE.basis[at] @ truth)
+        held += law.low[at] <= real <= law.high[at]
+        shifted += law.low[at] <= real + (law.high[at] - law.low[at]) <= law.high[at]
+    assert held / count >= 0.95 - 3.5 * math.sqrt(0.95 * 0.05 / count)
+    assert shifted / count < 0.2  # a law off by the width of its band is out of most
+
+
+def test_a_band_stays_within_the_bounds_of_its_parameters():
+    bounded = replace(LEVEL, low=0.0, high=0.2)
+    family = family_of(parameters=[bounded], curve=lambda level: ((0.0, 1.0), (level, level)))
+    fit = linear_fit(family, [np.eye(1)], [np.zeros(1)], x=[0.1])
+    law = law_of(FreeFit(family=family, fit=fit, gap_after=1.0, final=True))
+    assert (law.low[0], law.high[0]) == (0.0, 0.2)
+
+
+def test_the_curve_is_of_its_own_parameters_and_names_what_is_beside_it():
+    other = replace(family_of().effect, name="tip_drag", parameters=(LEVEL,))
+    family = family_of(parameters=[LEVEL], curve=lambda level: ((0.0,), (level,)))
+    fit = linear_fit(family, [np.eye(2)], [np.zeros(2)], x=[2.0, 7.0], beside=(other,))
+    law = law_of(FreeFit(family=family, fit=fit, beside=("tip_drag",), gap_after=1.0, final=True))
+    assert (law.y, law.beside) == ((2.0,), ("tip_drag",))

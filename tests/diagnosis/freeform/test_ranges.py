@@ -1,0 +1,51 @@
+"""What a log covers, and what is missing of it."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import DAMPING, covered, one_trial
+
+from diagnosis.freeform.ranges import LEAST_PAST_S, LONGEST_PAST_S, ranges_of, values_of
+from diagnosis.replay.variables import Variable
+
+ANGLE = turns()
+
+
+def test_what_never_changes_is_no_variable():
+    ends = covered(ANGLE, tip=ANGLE).ends
+    assert {Variable.TIME, Variable.BASE_ANGLE, Variable.RATE, Variable.DIRECTION} <= set(ends)
+    # At rest at one depth, and a nominal rig that reads 0 throughout.
+    absent = {Variable.AXIAL_SPEED, Variable.DEPTH, Variable.TIP_ANGLE, Variable.TORQUE}
+    assert not absent & set(ends)
+
+
+def test_what_a_variable_covers_is_all_but_a_few_samples():
+    slow = np.linspace(0.0, 50.0, 1000)
+    ends = covered(slow, tip=slow).ends
+    assert ends[Variable.BASE_ANGLE] == pytest.approx((0.002 * 50, 0.998 * 50), abs=0.1)
+    assert ends[Variable.TIME] == pytest.approx((0.02, 9.97), abs=0.02)
+    assert ends[Variable.PAST] == (LEAST_PAST_S, LONGEST_PAST_S)
+
+
+def test_a_base_that_turns_too_little_is_no_variable():
+    assert Variable.BASE_ANGLE not in covered(0.1 * ANGLE, tip=ANGLE).ends
+
+
+def test_what_is_missing_is_the_residual_of_each_sensor_that_was_read():
+    off = np.random.default_rng(7).normal(0, 3.0, ANGLE.size)
+    off[100:200] = np.nan
+    ranges = covered(ANGLE, tip=ANGLE + off, seen=(ANGLE, np.zeros(ANGLE.size)))
+    assert ranges.missing == pytest.approx({"tip_angle_deg": np.sqrt(np.nanmean(off**2))})
+    np.testing.assert_allclose(ranges.left["tip_angle_deg"][0], off, atol=1e-9)
+    assert "base_torque_n_mm" not in ranges.left
+
+
+def test_what_the_needle_does_is_that_of_the_nominal_rig():
+    problem, nominal = one_trial(ANGLE, tip=ANGLE, seen=(0.5 * ANGLE, 0.01 * ANGLE))
+    one = problem.log.trials[0]
+    np.testing.assert_array_equal(values_of(Variable.TIP_ANGLE, one, nominal[0]), 0.5 * ANGLE)
+    assert values_of(Variable.BASE_ANGLE, one, nominal[0]).size == one.schedule.time_s.size
+    ranges = ranges_of(problem, nominal)
+    assert ranges.ends[Variable.TORQUE] == pytest.approx((-0.3, 0.9), abs=0.01)
+    assert ranges.library is problem.library
+    assert ranges.damping_n_mm_s_per_mm == DAMPING

@@ -1,0 +1,71 @@
+"""Smooth curves by coordinates that are a priori independent."""
+
+import numpy as np
+import pytest
+
+from diagnosis.freeform.smooth_curve import (
+    periodic_curve,
+    separate_values,
+    smooth_curve,
+    two_values,
+)
+
+COUNT = 8
+
+
+def beside_lines(u, covariance):
+    """What of a covariance is not on straight lines, by their orthonormal basis."""
+    line = np.linalg.qr(np.stack([np.ones(u.size), u], axis=1))[0]
+    off = np.eye(u.size) - line @ line.T
+    return off @ covariance @ off
+
+
+def test_the_first_two_coordinates_are_a_straight_line():
+    curve = smooth_curve(2.0, 10.0, COUNT)
+    assert (curve.size, curve.straight) == (COUNT, 2)
+    values = curve.values([3.0, 0.5, *np.zeros(COUNT - 2)])
+    np.testing.assert_allclose(values, np.linspace(2.5, 3.5, COUNT))
+    np.testing.assert_allclose(curve.places, np.linspace(2.0, 10.0, COUNT))
+
+
+def test_the_rest_has_the_covariance_of_a_gaussian_process_beside_lines():
+    """exp(-(u - u')^2 / (2 0.4^2)), written out once more."""
+    curve, u = smooth_curve(-5.0, 7.0, COUNT), np.linspace(-1, 1, COUNT)
+    rest = curve.basis[:, curve.straight :]
+    kernel = np.array([[np.exp(-((a - b) ** 2) / (2 * 0.16)) for b in u] for a in u])
+    np.testing.assert_allclose(rest @ rest.T, beside_lines(u, kernel), atol=1e-12)
+    np.testing.assert_allclose(curve.basis[:, :2].T @ rest, 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("curve", [smooth_curve(0.0, 1.0, COUNT), periodic_curve(360.0)])
+def test_any_values_are_some_coordinates(curve):
+    wanted = np.random.default_rng(2).normal(size=curve.places.size)
+    found = np.linalg.solve(curve.basis, wanted)
+    np.testing.assert_allclose(curve.values(found), wanted, atol=1e-9)
+
+
+def test_what_fades_has_its_places_where_it_is_fast():
+    even, fading = smooth_curve(1.0, 5.0, COUNT), smooth_curve(1.0, 5.0, COUNT, fading=True)
+    assert (fading.places[0], fading.places[-1]) == (1.0, 5.0)
+    np.testing.assert_allclose(np.sqrt((fading.places - 1.0) / 4.0), (even.places - 1.0) / 4.0)
+
+
+def test_a_periodic_curve_prefers_no_phase():
+    """Covariances of its rest depend on how far places are from each other around the period alone."""
+    curve = periodic_curve(90.0, 5)
+    assert (curve.straight, curve.period) == (1, 90.0)
+    assert curve.places[-1] == pytest.approx(90.0 * 4 / 5)  # the last place is not the first again
+    rest = curve.basis[:, 1:] @ curve.basis[:, 1:].T
+    for i in range(5):
+        np.testing.assert_allclose(np.roll(rest[i], -i), rest[0], atol=1e-12)
+    np.testing.assert_allclose(rest.sum(axis=0), 0.0, atol=1e-12)
+
+
+def test_two_values_are_a_mean_and_a_difference():
+    assert two_values().values([3.0, 0.5]) == (2.5, 3.5)
+
+
+def test_separate_values_are_their_coordinates():
+    curve = separate_values(np.array([0.1, 1.0, 3.0]))
+    assert curve.straight == 0
+    assert curve.values([4.0, 5.0, 6.0]) == (4.0, 5.0, 6.0)

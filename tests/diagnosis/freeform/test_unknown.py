@@ -1,0 +1,121 @@
+"""What is told of an unknown log beside the nearest explanation."""
+
+from types import SimpleNamespace
+
+import pytest
+from diagnosis_fixtures import RIG
+from free_forms import free_fit, nothing_told
+from rig_outside import log_outside
+
+from diagnosis.criteria import CLOSED_GAP
+from diagnosis.effects.effect import Place
+from diagnosis.fitting.decimation import decimated
+from diagnosis.freeform import unknown
+from diagnosis.freeform.in_words import DOUBT, what_is_missing
+from diagnosis.freeform.unknown import FREE_FORM, with_what_is_missing
+from diagnosis.nominal_replay import replay_nominal
+from diagnosis.selection.verdict import VerdictKind
+from diagnosis.stopping import StopReason, StopSignal
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+TOLD = nothing_told(nearest=SimpleNamespace(gap_after=1.01))
+
+
+def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None):
+    """What is told where the search for laws comes to these fits, and the signal."""
+    stop = StopSignal() if stop is None else stop
+    monkeypatch.setattr(unknown, "free_form_fits", fits)
+    verdict, workers = SimpleNamespace(kind=kind), Workers(stop=stop)
+    found = with_what_is_missing(None, None, None, (), verdict, TOLD, (), workers)
+    return *found, stop
+
+
+@pytest.mark.parametrize("kind", [k for k in VerdictKind if k is not VerdictKind.UNKNOWN])
+def test_of_a_log_that_is_not_unknown_nothing_is_looked_for(kind, monkeypatch):
+    missing, told, _ = missing_from(pytest.fail, monkeypatch, kind)
+    assert (missing, told) == (None, TOLD)
+
+
+def test_a_law_that_does_not_help_leaves_the_assessment_as_it_is(monkeypatch):
+    missing, told, _ = missing_from(lambda *_: (free_fit(1.0),), monkeypatch)
+    assert missing.law is None
+    assert told is TOLD
+
+
+def test_a_law_that_helps_takes_the_place_of_the_nearest_explanation(monkeypatch):
+    monkeypatch.setattr(unknown, "explained_by", lambda missing, *_: missing.law.title)
+    missing, told, _ = missing_from(lambda *_: (free_fit(0.5, title="gap"),), monkeypatch)
+    assert missing.law.title == told == "gap"
+
+
+def test_after_a_stop_it_is_noted_as_left_out(monkeypatch):
+    late, ended = StopSignal(), StopSignal()
+    late.request(StopReason.INTERRUPTED)
+    assert missing_from(pytest.fail, monkeypatch, stop=late)[:2] == (None, TOLD)
+
+    def stopped_meanwhile(*_):
+        ended.request(StopReason.INTERRUPTED)
+        return (free_fit(0.5),)
+
+    assert missing_from(stopped_meanwhile, monkeypatch, stop=ended)[:2] == (None, TOLD)
+    assert late.left_out == ended.left_out == [FREE_FORM]
+
+
+def test_laws_of_which_none_can_be_simulated_are_no_stop(monkeypatch):
+    def failing(*_):
+        raise SimulationFailed("the simulation lost its numbers")
+
+    for fits in (failing, lambda *_: ()):
+        missing, told, stop = missing_from(fits, monkeypatch)
+        assert (missing, told, stop.left_out) == (None, TOLD, [])
+
+
+def told_of(log, nearest_gap):
+    """What is told of a log whose verdict is unknown, by all families and through the simulation."""
+    nominal = replay_nominal(log)
+    coarse = decimated(nominal.problem, nominal.predictions)
+    verdict = SimpleNamespace(kind=VerdictKind.UNKNOWN)
+    told = nothing_told(nearest=SimpleNamespace(gap_after=nearest_gap))
+    found = (nominal.log, nominal.problem, coarse, nominal.predictions, verdict, told, (), Workers())
+    return with_what_is_missing(*found)
+
+
+@pytest.mark.slow
+def test_friction_that_is_stronger_one_way_is_found_without_a_name():
+    """Of the independent rig: dry, of 0.002 (1 +- 0.6), beside the nominal damping."""
+    log = log_outside({"one_way_friction": {"level": 0.002, "asymmetry": 0.6}})
+    missing, told = told_of(log, 5.0)
+    assert max(missing.place, key=missing.place.get) is Place.INTERFACE
+    assert missing.place[Place.INTERFACE] > 0.8
+    assert missing.depends_on[0].variable == "direction"
+    assert missing.depends_on[1].gap_after > 2.0
+    assert missing.closed
+    slow = 0.03 * RIG.tissue.damping_n_mm_s_per_mm  # at the rate of which the law is told
+    for truth, value, low, high in zip(
+        (0.0008 + slow, 0.0032 + slow), missing.law.y, missing.law.low, missing.law.high, strict=True
+    ):
+        # Half the band is 1.96 standard deviations, of which the values are within 3.5.
+        assert abs(value - truth) < 3.5 / 1.96 * 0.5 * (high - low)
+    assert told.gap.before > 10.0
+    assert told.gap.after < 1.1
+    assert "acts along the shaft" in what_is_missing(missing, told.gap.before)
+
+
+@pytest.mark.slow
+def test_cogging_of_the_drive_is_found_with_its_waves():
+    ripple = {"amplitude": 0.06, "teeth": 16.0, "phase": 30.0}
+    missing, told = told_of(log_outside({"torque_ripple": ripple}), 3.0)
+    assert max(missing.place, key=missing.place.get) is Place.DRIVE
+    assert missing.depends_on[0].variable == "base_angle"
+    assert missing.best.family.name.endswith(f"every {360 / 16:.3g} deg")
+    assert max(missing.law.y) - min(missing.law.y) == pytest.approx(2 * 0.06, rel=0.2)
+    assert told.gap.after < CLOSED_GAP < told.gap.before
+
+
+@pytest.mark.slow
+def test_of_a_rig_with_nothing_missing_no_law_is_told():
+    missing, told = told_of(log_outside({}), 1.0)
+    assert missing.law is None
+    assert told.gap is None  # the assessment is as it was
+    assert DOUBT in what_is_missing(missing, 1.0)

@@ -1,0 +1,85 @@
+"""What a free law may depend on, against motions whose variables are known."""
+
+import numpy as np
+import pytest
+
+from diagnosis.replay.variables import OF_THE_NEEDLE, UNITS, Variable, of_inputs, of_needle
+from sim.schedule import Schedule
+
+STEP_S = 0.01
+TIME = np.arange(0, 8, STEP_S)
+ANGLE = np.interp(TIME, [0, 1, 2, 4, 5], [0, 0, 90, 90, 30])  # forwards, a rest, backwards
+RATES_DEG_S = {0.5: 0.0, 1.5: 90.0, 3.0: 0.0, 4.5: -60.0, 7.0: 0.0}
+
+
+def inputs(angle=ANGLE, before_s=0.0):
+    """Inserted at 2 mm/s from 40 mm on."""
+    return Schedule(
+        time_s=TIME - before_s,
+        drive=angle,
+        free_mm=60.0 - 2.0 * TIME,
+        inserted_mm=40.0 + 2.0 * TIME,
+        speed_mm_s=np.full(TIME.size, 2.0),
+    )
+
+
+def at(variable, when_s, **changed):
+    return np.interp(when_s, TIME, of_inputs(variable, inputs(**changed), 0.0))
+
+
+def test_every_variable_has_a_unit_and_is_known_before_or_after_the_simulation():
+    assert set(UNITS) == set(Variable)
+    before = set(Variable) - {*OF_THE_NEEDLE, Variable.PAST, Variable.TURNED_BY}
+    assert all(of_inputs(v, inputs(), 0.0).shape == TIME.shape for v in before)
+
+
+def test_time_begins_with_the_trial():
+    late = of_inputs(Variable.TIME, inputs(before_s=3.0), 1.0)
+    np.testing.assert_allclose(late, TIME - 4.0)
+
+
+def test_what_is_logged_is_as_logged():
+    for variable, own in (
+        (Variable.BASE_ANGLE, ANGLE),
+        (Variable.AXIAL_SPEED, np.full(TIME.size, 2.0)),
+        (Variable.DEPTH, 40.0 + 2.0 * TIME),
+    ):
+        np.testing.assert_array_equal(of_inputs(variable, inputs(), 0.0), own)
+
+
+@pytest.mark.parametrize(("when_s", "deg_s"), RATES_DEG_S.items())
+def test_the_rate_is_that_of_the_drive_shaft(when_s, deg_s):
+    assert at(Variable.RATE, when_s) == pytest.approx(np.radians(deg_s), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("when_s", "direction"), [(0.1, 1.0), (1.5, 1.0), (3.0, 1.0), (4.5, -1.0), (7.5, -1.0)]
+)
+def test_the_direction_is_that_of_the_last_turn_and_before_the_first_of_that(when_s, direction):
+    assert at(Variable.DIRECTION, when_s) == pytest.approx(direction)
+
+
+def test_a_base_that_never_turns_has_no_direction():
+    assert not of_inputs(Variable.DIRECTION, inputs(angle=np.zeros(TIME.size)), 0.0).any()
+
+
+def test_history_is_what_was_turned_to_and_fro():
+    for when_s, turned_deg in ((0.5, 0), (1.5, 45), (3.0, 90), (4.5, 120), (7.0, 150)):
+        assert at(Variable.HISTORY, when_s) == pytest.approx(turned_deg / 360, abs=0.5 / 360)
+
+
+def test_rest_is_the_time_since_it_last_turned():
+    # Rates are means over 0.05 s: it turns for up to half of that longer.
+    for when_s, rested_s in ((0.5, 0.5), (1.5, 0.0), (3.0, 1.0), (4.5, 0.0), (7.0, 2.0)):
+        assert np.expm1(at(Variable.REST, when_s)) == pytest.approx(rested_s, abs=0.04)
+
+
+def test_what_the_needle_does_is_known_of_its_readings():
+    tip, torque = 0.5 * ANGLE, 0.01 * ANGLE
+    given = (TIME, tip, torque)
+    assert of_needle(Variable.TIP_ANGLE, *given) is tip
+    assert of_needle(Variable.TORQUE, *given) is torque
+    tip_rate, torque_rate = (of_needle(v, *given) for v in (Variable.TIP_RATE, Variable.TORQUE_RATE))
+    for when_s, deg_s in RATES_DEG_S.items():
+        assert np.interp(when_s, TIME, tip_rate) == pytest.approx(np.radians(0.5 * deg_s), abs=1e-9)
+        assert np.interp(when_s, TIME, torque_rate) == pytest.approx(0.01 * deg_s, abs=1e-9)

@@ -1,0 +1,62 @@
+"""A free-form law as a curve with its band."""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from free_forms import LAW
+
+from diagnosis.report.figures.law import describe_law, draw_law
+
+WAYS = replace(
+    LAW, variable="direction", x=(-1.0, 1.0), y=(0.1, 0.2), low=(0.08, 0.17), high=(0.12, 0.21)
+)
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    yield
+    plt.close("all")
+
+
+def test_the_curve_and_its_band_are_those_of_the_law():
+    axis = draw_law(LAW).axes[0]
+    (line,) = axis.lines
+    np.testing.assert_allclose(line.get_xydata(), np.transpose([LAW.x, LAW.y]))
+    (band,) = axis.collections
+    outline = band.get_paths()[0].vertices[:, 1]
+    assert (outline.min(), outline.max()) == pytest.approx((min(LAW.low), max(LAW.high)))
+    labels = [text.get_text() for text in axis.get_legend().get_texts()]
+    assert labels == ["95 % band", "free-form law"]
+
+
+def test_axes_say_what_and_in_which_unit():
+    axis = draw_law(LAW).axes[0]
+    assert axis.get_xlabel() == "the rate of turning, rad/s"
+    assert axis.get_ylabel() == "friction along the shaft\nN mm / mm"
+    bare = draw_law(replace(LAW, unit="-", x_unit="-")).axes[0]
+    assert (bare.get_xlabel(), bare.get_ylabel()) == ("the rate of turning", "friction along the shaft")
+
+
+@pytest.mark.parametrize(
+    ("x", "scale"),
+    [((0.01, 0.1, 1.0), "log"), ((0.1, 0.5, 1.0), "linear"), ((-0.01, 0.5, 1.0), "linear")],
+)
+def test_what_spans_decades_is_drawn_over_its_logarithm(x, scale):
+    assert draw_law(replace(LAW, x=x)).axes[0].get_xscale() == scale
+
+
+def test_a_law_of_two_directions_is_a_bar_for_each_with_its_interval():
+    axis = draw_law(WAYS).axes[0]
+    assert [bar.get_height() for bar in axis.patches] == [0.1, 0.2]
+    assert [label.get_text() for label in axis.get_xticklabels()] == ["backwards", "forwards"]
+    ends = np.array([segment[:, 1] for segment in axis.collections[0].get_segments()])
+    np.testing.assert_allclose(ends, [[0.08, 0.12], [0.17, 0.21]])
+
+
+def test_the_picture_is_told_in_words():
+    said = describe_law(WAYS)
+    assert said == (
+        "Free-form law with its 95 % band: friction along the shaft is 2 times as strong forwards."
+    )

@@ -1,0 +1,55 @@
+"""docs/diagnosis.md tells the families of free-form laws that there are, and no other."""
+
+import re
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import covered
+
+from diagnosis.freeform import families as folder
+from diagnosis.freeform.missing import FREEDOM, PATIENCE
+from diagnosis.freeform.search import CONTENDERS, FINALISTS
+from diagnosis.replay.variables import Variable
+
+PAGE = (Path(__file__).parents[2] / "docs" / "diagnosis.md").read_text()
+SECTION = PAGE.split("## When nothing explains the log")[1].split("\n## ")[0]
+FILES = sorted(path.stem for path in Path(folder.__file__).parent.glob("[a-z]*.py"))
+
+
+def told():
+    """Variables by file; a row without a file belongs to that of the row before."""
+    found, file = {}, ""
+    for row in re.findall(r"^\| (.*) \|$", SECTION, flags=re.MULTILINE)[1:]:
+        first, _, third = row.split(" | ") if not row.startswith("| ") else ("", *row[2:].split(" | "))
+        file = first.strip("`").removesuffix(".py") or file
+        found.setdefault(file, set()).update(re.findall(r"`([a-z_]+)`", third))
+    return found
+
+
+def test_every_file_of_families_is_in_the_table_and_no_other():
+    assert sorted(told()) == FILES
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
+    angle = turns()
+    ranges = covered(angle, tip=angle + 1.0, torque=0.01 * angle, seen=(angle, np.zeros(angle.size)))
+    every = replace(ranges, ends=dict.fromkeys(Variable, (0.1, 1.0)))
+    own = import_module(f"diagnosis.freeform.families.{file}").families(every)
+    assert own
+    found = {match[1] for f in own if (match := re.search(r" over ([a-z_]+)", f.name))}
+    assert found == told()[file]
+
+
+def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
+    words = {4: "four", 8: "eight"}
+    for said in (
+        f"g^(−{2 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
+        f"the best {words[CONTENDERS]} to their",
+        f"the best {words[FINALISTS]} on the log itself",
+    ):
+        assert said in SECTION
