@@ -5,6 +5,7 @@ import pytest
 
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.variables import Variable
+from models.errors import InvalidValue
 from models.tissue import Interface, Layer, Tissue
 from sim.schedule import Schedule
 
@@ -96,8 +97,10 @@ def test_factors_of_the_tissue_multiply_and_stay_positive():
     done = law.driven(inputs(), 0.0, TORQUE)
     np.testing.assert_allclose(done.tissue_factor, curve().at(TIME) ** 2)
     np.testing.assert_array_equal(done.drive, inputs().drive)
-    negative = FreeLaw(curves=(curve(ActsOn.TISSUE, values=(-1.0,) * 4),)).driven(inputs(), 0.0, TORQUE)
-    assert negative.tissue_factor.min() > 0
+    faint = FreeLaw(curves=(curve(ActsOn.TISSUE, values=(1e-9,) * 4),)).driven(inputs(), 0.0, TORQUE)
+    assert faint.tissue_factor.min() > 1e-6
+    with pytest.raises(InvalidValue, match="factors above 0"):
+        curve(ActsOn.TISSUE, values=(-1.0,) * 4)
 
 
 def test_sensors_read_their_own_curves():
