@@ -35,7 +35,7 @@ def test_without_time_for_the_twist_it_is_left_out(dry):
 def test_the_nearest_to_an_unknown_log_is_not_to_be_believed(dry):
     unknown = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN))
     said = "".join(agreement_section(unknown))
-    assert "How near the nearest comes" in said
+    assert "How near it comes" in said
     assert "Solid red: what comes nearest" in said
     assert "Why to believe it" not in said
     assert "explained" not in said
