@@ -29,9 +29,9 @@ def rig_of(name, *first, straight=0.0):
 def test_damping_times_a_constant_is_damping_of_another_size(name):
     # Parts of the shaft meet in places of their own: another mesh, second order in its elements.
     within = 1e-3 if name == "damping over position" else 1e-6
-    more = SCALE - 1 if name == "damping over position" else np.log(SCALE)
     assert same_readings(ANGLE, rig_of(name), NOMINAL, within=within)
-    assert same_readings(ANGLE, rig_of(name, straight=more), THICK, within=within)
+    constant = SCALE - 1.0 if name == "damping over position" else np.log(SCALE)
+    assert same_readings(ANGLE, rig_of(name, straight=constant), THICK, within=within)
     assert not same_readings(ANGLE, rig_of(name, straight=0.1), NOMINAL, within=within)
 
 
