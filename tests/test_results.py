@@ -126,7 +126,8 @@ def test_a_picture_that_fails_is_told_with_its_own_exit_code(tmp_path, capsys):
     assert "b.png could not be made (KeyError: 'title')" in said
 
 
-def test_a_page_that_lacks_a_picture_is_told_with_the_same_exit_code(tmp_path, capsys):
+def test_a_page_that_lacks_a_picture_is_told_with_the_same_exit_code(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "500")  # however long the path is
     page = tmp_path / "report.html"
     with publishing(Destination(folder=tmp_path), [page]) as results:
         results.at(page).write_text("whole but for a picture")

@@ -6,10 +6,13 @@ import pytest
 from reference_fits import fit_with
 from rich.console import Console
 
+from diagnosis.report.fallible import Page
 from models.errors import OutputExists
 from scripts import published_figures
 from studies.published import study as study_module
 from studies.published.report import files
+
+PAGE = Page(text="a page", lacks=())  # its pictures take a second
 
 
 def test_the_study_has_both_materials_and_says_how_far_it_is(study, progress):
@@ -34,7 +37,7 @@ def test_the_command_prints_the_json_that_it_writes_and_overwrites_nothing(
     study, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.setattr(published_figures, "run_published_study", lambda progress: study)
-    monkeypatch.setattr(files, "page", lambda study: "")
+    monkeypatch.setattr(files, "page", lambda study: PAGE)
     folder = tmp_path / "out"
     assert published_figures.run(folder, json_only=True, force=False, console=Console()) == 0
     printed = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
@@ -45,7 +48,7 @@ def test_the_command_prints_the_json_that_it_writes_and_overwrites_nothing(
 
 def test_the_command_prints_a_summary_for_people(study, monkeypatch, capsys, tmp_path):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(files, "page", lambda study: "")
+    monkeypatch.setattr(files, "page", lambda study: PAGE)
     monkeypatch.setattr(published_figures, "run_published_study", lambda progress: study)
     assert published_figures.run(None, json_only=False, force=False, console=Console(width=200)) == 0
     printed = capsys.readouterr().out
