@@ -46,7 +46,7 @@ def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
 
 
 def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
-    words = {4: "four", 8: "eight"}
+    words = {4: "four", 10: "ten"}
     for said in (
         f"g^(−{2 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
         f"the best {words[CONTENDERS]} to their",
