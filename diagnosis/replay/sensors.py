@@ -1,10 +1,10 @@
 """What sensors and constants of a rig make of what it does.
 
-On the way in, the encoder of the drive shaft and the logged depth say what is done to the needle:
+What goes in: the encoder of the drive shaft and the logged depth say what is done to the needle:
 
     drive shaft = reading / base_scale,    inserted length = logged + inserted_offset
 
-On the way out, the sensors of tip and torque say what it does, a delay ago, by clocks of their own; that
+What comes out: the sensors of tip and torque say what it does, a delay ago, by clocks of their own; that
 of the torque may have a low pass of first order:
 
     reading = bias + scale * (tip angle),    reading = bias + scale * (torque at chuck + of bearing)
