@@ -100,7 +100,8 @@ def course_of(law: Law) -> str:
     if law.variable == "direction":
         back, forth = law.y[0], law.y[-1]
         if back * forth > 0:
-            way, ratio = ("forwards", forth / back) if forth > back else ("backwards", back / forth)
+            stronger = abs(forth) > abs(back)
+            way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
             return f"{law.title} is {ratio:.2g} times as strong {way}"
         return f"{law.title} is {forth:.3g} {law.unit} forwards, {back:.3g} {law.unit} backwards"
     rises = law.y[-1] - law.y[0]
