@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP
+from diagnosis.criteria import CLOSED_GAP, FAR_STEP
 from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
@@ -35,8 +35,6 @@ SCREENING, FITTING, BESIDE, FINALS = (
 )
 FIRST_ITERATIONS, ITERATIONS = 4, 10
 REFIT_ITERATIONS = 3
-FAR_STEP = 1.5
-"""Gap on held-out trials over that of the fit, from which the step that it rests on is doubted."""
 CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
 
 
