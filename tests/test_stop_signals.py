@@ -1,5 +1,6 @@
 """Signals to the command: once asks for the best so far, twice ends it."""
 
+import multiprocessing
 import signal
 import threading
 
@@ -59,3 +60,16 @@ def test_another_thread_hears_of_no_signals():
 
 def test_without_a_signal_the_exit_code_is_0():
     assert EXIT_CODES[StopSignal().requested] == 0
+
+
+def test_a_process_that_was_just_made_leaves_signals_to_its_parent():
+    """It has the parent's handlers until it sets its own; both share what was asked for."""
+    stop = StopSignal()
+    with stops_on_signals(stop):
+        child = multiprocessing.get_context("fork").Process(
+            target=signal.raise_signal, args=(signal.SIGTERM,)
+        )
+        child.start()
+        child.join()
+    assert child.exitcode == 0
+    assert stop.requested is StopReason.NOBODY
