@@ -121,7 +121,7 @@ def _add_import(importer: Parser) -> None:
         "--map", type=Path, metavar="FILE", help="a mapping.yaml; without it one is drafted"
     )
     importer.add_argument(
-        "--accept-guesses", action="store_true", help="take the guesses of the mapping for confirmed"
+        "--accept-guesses", action="store_true", help="treat all guesses of the mapping as confirmed"
     )
     _add_output(importer, "import")
 

@@ -78,4 +78,6 @@ def _show_failed(failed: pd.DataFrame, console: Console) -> None:
     for _, row in failed.head(_ERRORS_SHOWN).iterrows():
         console.print(f"failed: case {row['case']}: {row['error']}", highlight=False, markup=False)
     if len(failed) > _ERRORS_SHOWN:
-        console.print(f"and {len(failed) - _ERRORS_SHOWN} more: column error of the results")
+        console.print(
+            f"and {len(failed) - _ERRORS_SHOWN} more failed cases: see the column 'error' of the results"
+        )

@@ -41,7 +41,7 @@ def test_failed_cases_are_shown_with_their_reason(tmp_path, capsys):
     assert needle_campaign(path, tmp_path / "out") == 0
     shown = capsys.readouterr().out
     assert "failed: case" in shown
-    assert "more: column error" in shown
+    assert "more failed cases: see the column" in shown
 
 
 @pytest.mark.parametrize(

@@ -48,8 +48,8 @@ class ResultFolder:
             self._refuse_another(described)
         elif (described.exists() or self.dataset.exists()) and not force:
             raise OutputExists(
-                f"{self.folder} has results of a campaign; --resume goes on with it, --force replaces"
-                " it, or give another folder"
+                f"{self.folder} has results of a campaign; continue it with --resume, replace it with"
+                " --force, or give another folder with --out"
             )
         elif force:
             for path in self._files:
@@ -61,14 +61,16 @@ class ResultFolder:
         if text.partition("\n")[0].split(" ")[-1] != self.campaign.fingerprint:
             raise InvalidValue(
                 str(described),
-                "another campaign",
-                f"the campaign {self.campaign.name!r} as it is now, on the same MuJoCo",
-                "give another folder for results, or --force to replace these",
+                "results of another campaign",
+                f"results of {self.campaign.name!r} with the same fields and the same MuJoCo",
+                "give another folder with --out, or replace these results with --force",
             )
         samples = yaml.safe_load(text)["samples"]
         if samples > self.campaign.samples:
             raise InvalidValue(
-                "samples", self.campaign.samples, f"at least the {samples} of {described}"
+                "samples",
+                self.campaign.samples,
+                f"at least {samples}, as in {described}: they may only grow",
             )
 
     @property
