@@ -127,7 +127,9 @@ def _nominal_in_time(log: RigLog, stop: StopSignal) -> NominalReplay:
     began_s = time.monotonic()
     nominal = replay_nominal(log)
     if stop.over:
-        raise StoppedEarly(f"{stop.why}: stopped before the nominal rig was replayed; nothing to tell")
+        raise StoppedEarly(
+            f"{stop.why}: stopped before the nominal rig was replayed; there is no result yet"
+        )
     stop.reserve(REPLAYS_AFTER_STOP * (time.monotonic() - began_s))
     return nominal
 

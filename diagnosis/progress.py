@@ -67,13 +67,13 @@ _STAGES = {
     "finalists, imperfections of sensors": _Usual(
         words="fitting the best imperfections of sensors to the whole log"
     ),
-    "best to its end": _Usual(words="fitting the best to its end"),
+    "best to its end": _Usual(words="completing the fit of the best"),
     "effects of the best alone": _Usual(words="fitting the effects of the best pair alone"),
-    "scatter of the best": _Usual(words="fitting the scatter of the best"),
+    "scatter of the best": _Usual(words="fitting stiffness and damping of the best freely"),
     "mesh refinement": _Usual(words="fitting with a finer mesh"),
     "finer mesh near the floor": _Usual(words="fitting with a finer mesh"),
     "finer mesh": _Usual(words="fitting with a finer mesh"),
-    "what cannot be told apart": _Usual(words="looking for what cannot be told apart"),
+    "what cannot be told apart": _Usual(words="looking for equivalent explanations"),
     CHECKING: _Usual(words="checking on held-out trials", share_percent=1.0),
     ASSESSING: _Usual(words="assessing the best explanation", share_percent=2.0),
     "adding another effect": _Usual(words="adding another effect", share_percent=5.0),
@@ -81,7 +81,7 @@ _STAGES = {
     "free-form laws": _Usual(words="fitting free-form laws"),
     "free-form laws beside an effect": _Usual(words="fitting free-form laws beside an effect"),
     "finalists, free-form laws": _Usual(words="fitting the best free-form laws to the whole log"),
-    "detection limits": _Usual(words="looking for detection limits", share_percent=10.0),
+    "detection limits": _Usual(words="computing detection limits", share_percent=10.0),
 }
 """In their order. Shares are means of four logs, three with one effect and one with two; nothing depends
 on them but the estimate of the time that is left. A stage without a share may come at any place, or not

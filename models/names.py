@@ -15,13 +15,13 @@ def refuse_no_file_name(field: str, name: str) -> None:
     Raises:
       InvalidValue: names the field, what was found and how to fix it.
     """
-    expected = "a name that a file may have"
+    expected = "a valid file name"
     if not name.strip() or name in (".", ".."):
         raise InvalidValue(field, name, expected, "give it a name of letters and digits")
     if "/" in name or "\\" in name:
-        raise InvalidValue(field, name, expected, "take the slashes out: a name is no path")
+        raise InvalidValue(field, name, expected, "remove the slashes: this is a name, not a path")
     if unprintable(name) or "\n" in name or "\t" in name:
-        raise InvalidValue(field, name, expected, "take the control characters out")
+        raise InvalidValue(field, name, expected, "remove the control characters")
     size = len(name.encode("utf-8"))
     if size > MOST_BYTES:
         raise InvalidValue(

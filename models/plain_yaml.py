@@ -36,7 +36,7 @@ class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[mi
             return super().construct_object(node, deep=deep)
         except _WRONG_TEXT as error:
             kind = node.tag.rpartition(":")[2]
-            problem = f"no {kind}: {str(node.value)[:40]}"
+            problem = f"not a valid {kind}: {str(node.value)[:40]}"
             raise yaml.constructor.ConstructorError(None, None, problem, node.start_mark) from error
 
 

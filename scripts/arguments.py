@@ -57,7 +57,8 @@ def parser() -> Parser:
         return _subcommand(commands, name, words)
 
     _add_output(
-        command("demo", "the main job: simulate, cross-check, replay a log, diagnose another"), "demo"
+        command("demo", "the main steps once: simulate, cross-check, replay a log, diagnose another"),
+        "demo",
     )
     _add_insert(command("insert", "simulate a protocol"))
     command("protocols", "list the protocols that are known by name")
@@ -69,7 +70,7 @@ def parser() -> Parser:
     replay.add_argument("log", type=Path, metavar="LOG", help="a rig-log/1 folder")
     _add_output(replay, "replay")
     _add_diagnose(command("diagnose", "say what a rig has that its model lacks"))
-    _add_blind(command("blind", "validate the diagnosis on rigs that it has not met"))
+    _add_blind(command("blind", "validate the diagnosis on rigs that it has not seen"))
     _add_campaign(command("campaign", "many runs from one file: sweeps, Monte-Carlo"))
     inspect = command("inspect", "open a recording, or list its content")
     inspect.add_argument("file", type=Path, metavar="FILE.rrd")
@@ -138,7 +139,7 @@ def _add_diagnose(diagnose: Parser) -> None:
         "--limit",
         type=float,
         metavar="SECONDS",
-        help="time for all of it: what explains the log best by then is told, marked as such",
+        help="time limit for everything: the best explanation by then is reported, marked as such",
     )
     diagnose.add_argument(
         "--save-effect",
@@ -192,7 +193,9 @@ def _add_blind(blind: Parser) -> None:
 
 def _add_campaign(campaign: Parser) -> None:
     campaign.add_argument("file", type=Path, metavar="FILE.yaml", help="see docs/campaigns.md")
-    campaign.add_argument("--samples", type=int, metavar="N", help="draws, in place of the file's")
+    campaign.add_argument(
+        "--samples", type=int, metavar="N", help="draws, instead of the number in the file"
+    )
     campaign.add_argument(
         "--resume",
         action="store_true",

@@ -101,10 +101,10 @@ def _save(found: Diagnosis, name: str, path: Path, *, force: bool) -> None:
     """Save the law, or say why there is none."""
     text = as_file(found.missing, name)
     if not text:
-        complain(f"{name} is not saved: no free-form law closes a gap that the library leaves here")
+        complain(f"{name} is not saved: no free-form law closes the gap that the library leaves")
         return
     write_text(path, text, force=force)
-    complain(f"saved      {path}: later diagnoses know {name}")
+    complain(f"saved      {path}: later diagnoses will try {name}")
 
 
 def _summary(found: Diagnosis, console: Console) -> None:

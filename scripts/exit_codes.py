@@ -18,9 +18,9 @@ class ExitCode(IntEnum):
     DONE = 0, "done"
     BOUND_FAILS = 1, "a bound of validate or demo fails"
     REFUSED = 2, "wrong arguments or input, or a result exists; or files or output cannot be written"
-    WITHOUT_ALL = 3, "done, but for a picture, page or recording that could not be made"
-    INTERRUPTED = 130, "stopped by Ctrl-C; diagnose tells the best so far"
-    TERMINATED = 143, "stopped by SIGTERM; diagnose tells the best so far"
+    WITHOUT_ALL = 3, "done, except for a picture, page or recording that could not be made"
+    INTERRUPTED = 130, "stopped by Ctrl-C; diagnose reports the best so far"
+    TERMINATED = 143, "stopped by SIGTERM; diagnose reports the best so far"
 
 
 def in_words() -> str:

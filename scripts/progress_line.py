@@ -103,7 +103,7 @@ def _lines(console: Console, stop: StopSignal) -> Shown:
 
 def in_one_line(news: Progress, stop: StopSignal) -> str:
     """Stage, tasks, and an estimate of the time that is left, called one."""
-    stopping = "stopping (again: at once), " if stop.requested else ""
+    stopping = "stopping (once more: at once), " if stop.requested else ""
     tasks = f", {news.done} of {news.tasks}" if news.tasks > 1 else ""
     left = "" if news.left_s is None else f"; about {news.left_s:.0f} s left"
     return f"{stopping}{news.stage}{tasks}{left}"

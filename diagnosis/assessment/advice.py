@@ -51,10 +51,10 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
     if verdict.confusable:
         first, *others = (_together(names) for names in verdict.confusable)
         return (
-            f"{check_that_tells(verdict.confusable)}: that tells {first} from {', or '.join(others)}; "
-            f"if it is the former, {remedy}"
+            f"{check_that_tells(verdict.confusable)}: that distinguishes {first} from "
+            f"{', or '.join(others)}; if it is the former, {remedy}"
         )
-    again = "then record and diagnose once more"
+    again = "then record and diagnose again"
     return "; ".join(filter(None, (remedy, again, _narrowed(problem, verdict))))
 
 
@@ -75,7 +75,7 @@ def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
         return f"no single run that this rig can do would narrow the interval of {name} by a tenth"
     return (
         f"to know {name} better, {found.experiment.words}: that would narrow its interval to about "
-        f"{100 * found.factor:.0f} % of what it is"
+        f"{100 * found.factor:.0f} % of its width"
     )
 
 
@@ -92,7 +92,7 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
     return _only_sliding(problem, one.fit, other.fit, names) or (
         f"no run that this rig can do would tell {names[0]} from {names[1]}: in the best, "
         f"{found.experiment.words}, they would lie {found.separation:.2f} standard deviations apart; "
-        f"measure by itself: {check_that_tells([one.named, other.named])}"
+        f"measure separately: {check_that_tells([one.named, other.named])}"
     )
 
 
@@ -115,6 +115,6 @@ def _look_closer(problem: FitProblem, nominal: ResidualBreakdown, left: Residual
     return (
         "no effect of the library explains the residual. "
         f"That of the nominal model is {nominal.largest}; "
-        f"what comes nearest leaves one that is {left.largest}: "
+        f"that of the nearest explanation is {left.largest}: "
         f"repeat that phase alone, {varied}, to see what it depends on"
     )

@@ -39,8 +39,8 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 ONE_TRIAL = (
-    "the log has one trial, and none can be held out: the gap after is that on the trial of the fit, "
-    "and nothing tells whether its parameters hold elsewhere; add a second trial"
+    "the log has one trial, so none can be held out: the gap after is that of the fitted trial "
+    "itself, and nothing shows whether its parameters hold for other trials; add a second trial"
 )
 
 TO_ITS_END = "diagnose this log to its end first: what was not tried may explain it as well, or better"
@@ -225,8 +225,8 @@ def _alone(problem: FitProblem, near: Candidate, name: str, effects: Sequence[st
 def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
     """A warning for every parameter that the data would take beyond its bound."""
     return tuple(
-        f"{parameter} stopped at a bound of its range: the data ask for more, and its value and "
-        "interval mean little"
+        f"{parameter} stopped at a bound of its range: the data call for a value beyond it, so its "
+        "value and interval mean little"
         for parameter in at_bound
     )
 
@@ -265,7 +265,7 @@ def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], 
         return held_out_residuals(problem, best.fit), ()
     except SimulationFailed as failed:
         warning = (
-            "the gap after is that on the trials of the fit: what the others say of a trial that is "
-            f"left out cannot be simulated ({failed})"
+            "the gap after is that on the trials of the fit: a held-out trial cannot be simulated with "
+            f"the parameters from the others ({failed})"
         )
         return best.fit.by_trial, (warning,)

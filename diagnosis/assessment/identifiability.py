@@ -40,7 +40,7 @@ def _alike(log: RigLog) -> Iterator[str]:
     if not any(trial.has("tip_angle_deg") for trial in log.trials):
         yield (
             "Without tip_angle_deg the base feels only the nearest part of the shaft: "
-            "what happens deep in the tissue or at the tip is seen late and faintly"
+            "what happens deep in the tissue or at the tip appears late and weakly"
         )
     if not any(abs(trial["speed_mm_s"]).max() > SLIDING_MM_S for trial in log.trials):
         yield "The needle never slides: speed_dependent_friction and coulomb_friction are the same here"

@@ -22,6 +22,6 @@ EFFECT = Effect(
     apply=_apply,
     remedy="divide the readings of the base's encoder by {scale}, or correct its gear ratio",
     check=(
-        "turn the shaft of the drive by one full turn, seen by a mark, and compare it with the encoder"
+        "turn the drive shaft by one full turn, judged by a mark on it, and compare with the encoder"
     ),
 )

@@ -28,7 +28,7 @@ EFFECT = Effect(
     ),
     apply=_apply,
     remedy=(
-        "put a torsion spring of {stiffness} between drive shaft and needle into the model, or "
+        "add to the model a torsion spring of {stiffness} between drive shaft and needle, or "
         "stiffen the coupling"
     ),
     check="hold the needle right behind the chuck, turn the base, and take torque over angle",

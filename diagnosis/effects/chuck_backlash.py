@@ -18,9 +18,9 @@ EFFECT = Effect(
         Parameter(name="gap", unit="deg", low=0.02, high=30.0, start=(0.5, 2.0, 8.0), logarithmic=True),
     ),
     apply=_apply,
-    remedy="put play of {gap} between drive shaft and needle into the model, or tighten the chuck",
+    remedy="add to the model play of {gap} between drive shaft and needle, or tighten the chuck",
     check=(
-        "hold the needle right behind the chuck and turn the base to and fro: what it turns "
-        "without torque is the play"
+        "hold the needle right behind the chuck and turn the base back and forth: the angle that it "
+        "turns without torque is the play"
     ),
 )

@@ -12,7 +12,7 @@ def _apply(rig: RigParameters, ratio: float, boundary: float) -> RigParameters:
 
 EFFECT = Effect(
     name="layered_tissue",
-    title="two tissue layers of different damping",
+    title="tissue in two layers of different damping",
     place=Place.TISSUE,
     parameters=(
         Parameter(

@@ -5,7 +5,7 @@ from diagnosis.freeform.missing import Law, Missing
 from diagnosis.freeform.shapes import likeness_of
 
 PLACES = {
-    Place.INTERFACE: "along the shaft, between it and the tissue",
+    Place.INTERFACE: "between shaft and tissue",
     Place.TISSUE: "in the tissue",
     Place.DRIVE: "at the drive",
     Place.NEEDLE: "in the needle or at its tip",
@@ -23,26 +23,26 @@ VARIABLES = {
     "depth": "the inserted length",
     "torque": "the torque",
     "position": "the place along the shaft",
-    "history": "what went before",
+    "history": "what happened before",
 }
 CHECKS = {
     "time": "repeat one slow turn at the beginning of a trial and some minutes later",
     "event": "look up what was done at that time, and repeat the trial: the jump should not come back",
-    "base_angle": "turn slowly by whole turns with the needle out of the tissue: what is of the drive "
-    "stays",
+    "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
+    "the drive remains",
     "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
     "rate": "turn at four steady rates, a few turns each, at one depth",
     "direction": "turn at one steady rate, a few turns forwards, then as many backwards",
     "axial_speed": "slide the needle in and out at three speeds without turning it",
     "depth": "repeat one turn at four depths",
     "torque": "load the needle by known torques at rest, and read angle and torque",
-    "position": "repeat one turn at depths that grow in equal steps: what a step adds is of that part",
+    "position": "repeat one turn at depths that grow in equal steps: each step adds a part of the shaft",
     "history": "repeat one turn after rests of different length, and after different numbers of turns",
 }
 """What shows a law of each variable by itself, as an order."""
 DOUBT = (
-    "Doubt first what all of these laws take for granted: lengths, diameter and clocks of the rig, one "
-    "zero for all trials, and that one thing at a time is missing"
+    "First check what all of these laws assume: lengths, diameter and clocks of the rig, the same zero "
+    "in all trials, and that only one thing is missing"
 )
 SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
@@ -57,7 +57,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
       gap_before: that the nominal rig leaves, in sigma.
     """
     if missing.law is None:
-        return f"No free-form law that was tried leaves less than the library does. {DOUBT}."
+        return f"No free-form law that was tried does better than the library. {DOUBT}."
     law, first = missing.law, missing.depends_on[0]
     probability = missing.place[law.place]
     beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
@@ -65,8 +65,8 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     where = UNSEEN if missing.best.held_out and not once else SEEN
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
-        f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of it{beside} brings "
-        f"{gap_before:.2f} σ to {first.gap_after:.2f} σ {where}"
+        f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of this kind{beside} "
+        f"reduces the residual from {gap_before:.2f} σ to {first.gap_after:.2f} σ {where}"
     )
     return f"{told}{_beside(missing)}.{_likeness(law)}"
 
@@ -76,7 +76,7 @@ def _likeness(law: Law) -> str:
     like = likeness_of(law)
     if like is None:
         return ""
-    library = f", a law that {' and '.join(like.library)} of the library has" if like.library else ""
+    library = f", a law of {' and '.join(like.library)} in the library" if like.library else ""
     return f" The law looks like a {like.shape}{library}: {like.says}."
 
 
@@ -86,7 +86,7 @@ def next_step(missing: Missing) -> str:
         return ""
     check = CHECKS[missing.law.variable]
     if not missing.closed:
-        return f"{check}; what the law leaves is more than noise, so look at that next"
+        return f"{check}; the law leaves more than noise, so examine the remaining residual next"
     if missing.law.variable == "event":
         return check
     return f"{check}; if it comes out the same, save the law as an effect (--save-effect NAME)"
@@ -119,4 +119,4 @@ def _beside(missing: Missing) -> str:
     """What laws of other variables leave."""
     others = [d for d in missing.depends_on[1:] if d.gap_after < float("inf")][:_OTHERS]
     told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
-    return f"; of other variables the best laws leave {told}" if told else ""
+    return f"; the best laws of other variables leave {told}" if told else ""

@@ -35,7 +35,7 @@ Mask = NDArray[np.bool_]
 
 BASE = "base_angle_deg"
 _EMPTIED = "these samples are not used"
-_REPLACED = "replaced by what their neighbours say"
+_REPLACED = "replaced by values from their neighbours"
 _KEPT = "used as it is: correct or cut these rows"
 
 
@@ -57,9 +57,9 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
         saturated = _saturated(values, claim)
         frozen = _frozen(trial["time_s"], np.where(saturated, np.nan, values), claim)
         faults = {
-            "stands at an end of its range, or beside it (saturated)": (saturated, _KEPT),
+            "stands at an end of its range, or next to it (saturated)": (saturated, _KEPT),
             "repeats one value where it should scatter (frozen)": (frozen, _KEPT),
-            "is off what the samples on both sides say (outliers)": (off.rows, _REPLACED),
+            "disagrees with the samples on both sides (outliers)": (off.rows, _REPLACED),
         }
         for what, (rows, done) in faults.items():
             if rows.any():

@@ -132,7 +132,7 @@ def _cells(line: str) -> list[str]:
 def _check_names(place: str, names: Sequence[str]) -> None:
     double = [name for name in COLUMNS if names.count(name) > 1]
     if double:
-        raise UnusableLog(f"{place}: column {double[0]!r} is there twice; rename or remove one")
+        raise UnusableLog(f"{place}: column {double[0]!r} appears twice; rename or remove one")
     unknown = [name for name in names if name not in COLUMNS]
     for name in (name for name in COLUMNS if name not in names):
         alike = look_alike(unknown, name, COLUMNS)
@@ -198,8 +198,7 @@ def _check_time(path: Path, time_s: Array) -> None:
     if np.median(steps) < SHORTEST_SAMPLE_S:
         raise UnusableLog(
             f"{path}, column 'time_s': expected samples at least {SHORTEST_SAMPLE_S:g} s apart, found "
-            f"{np.median(steps):.3g} s; bring the times to seconds: multiply them by what their unit "
-            "is of one"
+            f"{np.median(steps):.3g} s; convert the times to seconds"
         )
     if np.median(steps) > LONGEST_SAMPLE_S:
         raise UnusableLog(

@@ -84,14 +84,14 @@ class Curve:
     def __post_init__(self) -> None:
         places = np.asarray(self.places, float)
         if places.size < 2 or not (np.diff(places) > 0).all() or not np.isfinite(places).all():
-            raise InvalidValue("places", self.places, "two finite numbers at least, increasing")
+            raise InvalidValue("places", self.places, "at least two finite numbers, increasing")
         if len(self.values) != places.size or not np.isfinite(self.values).all():
             raise InvalidValue(
                 "values", self.values, f"{places.size} finite numbers, one for each place"
             )
         if self.acts_on is ActsOn.TISSUE and min(self.values) <= 0:
             raise InvalidValue(
-                "values", self.values, "factors above 0, where the curve is of the tissue"
+                "values", self.values, "factors above 0, because the curve multiplies the tissue"
             )
         if self.period and self.period <= places[-1] - places[0]:
             raise InvalidValue("period", self.period, "0, or more than the places span")

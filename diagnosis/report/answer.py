@@ -9,7 +9,7 @@ from diagnosis.report.sentences import explanation_name, explanations, headline,
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
 
-_NOT_HELD_OUT = "on the one trial that there is, which is that of the fit"
+_NOT_HELD_OUT = "on the only trial, which is also the one that was fitted"
 _HELD_OUT = "on trials that the fit has not seen"
 
 
@@ -21,21 +21,21 @@ def answer(found: Diagnosis) -> tuple[str, str, str]:
 def _sure(found: Diagnosis) -> str:
     if found.stopped and found.stopped.search:
         best = _share(found, "the best so far")
-        return f"Not sure, as what was not tried may explain the log as well; {best}"
+        return f"Not sure, because what was not tried may explain the log as well; {best}"
     match found.verdict.kind:
         case VerdictKind.NONE:
             return _sure_of_nothing(found)
         case VerdictKind.EXPLAINED:
             return f"{_probability(found)}; {_share(found, 'it')}{_beside(found)}"
         case VerdictKind.UNDECIDED:
-            return f"Sure that it is one of these, not of which; {_share(found, 'the first')}"
+            return f"Sure that it is one of these, but not which one; {_share(found, 'the first')}"
     return _nearest(found)
 
 
 def _beside(found: Diagnosis) -> str:
     """What no reading of this log can tell from what is named."""
     others = [titles(names) for names in found.verdict.confusable[1:]]
-    return f"; no reading of this log tells it from {', or '.join(others)}" if others else ""
+    return f"; no reading of this log distinguishes it from {', or '.join(others)}" if others else ""
 
 
 def _nearest(found: Diagnosis) -> str:
@@ -44,17 +44,18 @@ def _nearest(found: Diagnosis) -> str:
         return what_is_missing(found.missing, found.assessment.gap.before).removesuffix(".")
     if not near.effects:
         return "Nothing that was tried improves on the nominal model"
-    share = _share(found, f"the nearest that was tried, {titles(near.effects)},")
-    return f"{share[0].upper()}{share[1:]}; what is left is {found.assessment.breakdown_after.largest}"
+    share = _share(found, f"the nearest explanation that was tried ({titles(near.effects)})")
+    left = found.assessment.breakdown_after.largest
+    return f"{share[0].upper()}{share[1:]}; the remaining residual is {left}"
 
 
 def _sure_of_nothing(found: Diagnosis) -> str:
     limits = found.assessment.detection_limits
     if not limits:
-        return "How strong an effect may be and go unseen was not looked at"
+        return "Detection limits were not computed"
     return (
-        f"Sure down to the detection limits: of {len(limits)} effects, one that is stronger than its "
-        "limit would have shown in 95 of 100 such logs"
+        f"Sure down to the detection limits: any of {len(limits)} effects that is stronger than "
+        "its limit would have been seen in 95 of 100 such logs"
     )
 
 
@@ -63,7 +64,7 @@ def _probability(found: Diagnosis) -> str:
     name = explanation_name(found.verdict.effects)
     own = dict(explanations(found)).get(name, 0.0)
     others = [one for one in explanations(found) if one[0] != name]
-    beside = f", the next is {others[0][0]} with {others[0][1]:.3f}" if others else ""
+    beside = f" (next: {others[0][0]} with {others[0][1]:.3f})" if others else ""
     told = f"above {CERTAIN_PROBABILITY}" if own > CERTAIN_PROBABILITY else f"{own:.3f}"
     return f"Probability {told} among all explanations that were tried{beside}"
 
@@ -82,7 +83,7 @@ def _next(found: Diagnosis) -> str:
         return f"Next: {advice}"
     if found.verdict.kind is VerdictKind.NONE:
         return (
-            "Next: nothing has to change; if an effect that stays below its detection limit would "
-            "matter to you, record trials that load it more"
+            "Next: nothing has to change; if an effect below its detection limit would matter to "
+            "you, record trials in which it acts more strongly"
         )
-    return "Next: diagnose this log to its end; what to do next was not looked for"
+    return "Next: run the diagnosis to its end; it was stopped before the next step was determined"

@@ -15,7 +15,7 @@ def imperfections(found: Diagnosis) -> str:
         )
     if not lines:
         return ""
-    return f"The sensors are not perfect, which was allowed for: {'; '.join(lines)}"
+    return f"The sensors are not perfect; the diagnosis allows for this: {'; '.join(lines)}"
 
 
 def _told(name: str, parameters: dict[str, Interval]) -> str:

@@ -27,7 +27,7 @@ def _best_so_far(found: Diagnosis) -> str:
     if verdict.kind is VerdictKind.UNKNOWN:
         return f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
     sets = "; or ".join(titles(names) or _NOTHING for names in verdict.confusable)
-    return f"{sets}: undecided, as others were not tried: {residual}"
+    return f"{sets}: undecided, because others were not tried: {residual}"
 
 
 def _verdict(found: Diagnosis) -> str:
@@ -65,11 +65,15 @@ def nearest(found: Diagnosis) -> str:
     verb = "explain" if len(near.effects) > 1 else "explains"
     bound = f"; stopped at a bound: {', '.join(near.at_bound)}" if near.at_bound else ""
     tried = "that was tried so far " if found.stopped and found.stopped.search else ""
-    left = "" if by_free_law(found) else f": what is left is {found.assessment.breakdown_after.largest}"
+    left = (
+        ""
+        if by_free_law(found)
+        else f": the remaining residual is {found.assessment.breakdown_after.largest}"
+    )
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise{left}{bound}"
+        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise floor{left}{bound}"
     )
 
 
@@ -81,7 +85,7 @@ def alike(found: Diagnosis) -> str:
     others = "; or ".join(titles(names) for names in verdict.confusable[1:])
     return (
         f"Cannot be told from: {others}. These change every reading of this log in the same way; "
-        "what is named is the likelier cause, not the only one"
+        "the named cause is the likeliest one, not the only one"
     )
 
 
@@ -111,7 +115,7 @@ def reduction(found: Diagnosis) -> str:
     gap = found.assessment.gap
     seen = "On held-out trials, which the fit has not seen,"
     if len(found.log.trials) == 1:
-        seen = "On the one trial that there is, which is that of the fit,"
+        seen = "On the only trial, which is also the one that was fitted,"
     return (
         f"{seen} the residual falls from {gap.before:.2f} σ to "
         f"{gap.after:.3f} σ: by {100 * gap.shrink:.1f} % "
@@ -137,11 +141,11 @@ def replay_quality(found: Diagnosis) -> list[str]:
     error = found.assessment.numerical_error
     lines = [
         f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: "
-        + (f"{error[sensor]:.3f} σ" if sensor in error else "not looked at")
+        + (f"{error[sensor]:.3f} σ" if sensor in error else "not computed")
         for sensor in found.assessment.breakdown.signal
     ]
     base = found.noise["base_angle_deg"]
-    return [*lines, f"base_angle_deg: σ = {base:.3g}, smoothed out as far as the motion allows"]
+    return [*lines, f"base_angle_deg: σ = {base:.3g}, smoothed as far as the motion allows"]
 
 
 def largest_residual(found: Diagnosis) -> str:
@@ -182,7 +186,9 @@ def leading(found: Diagnosis) -> str:
     """Which signal's residual leads the other's, or why that cannot be said."""
     own = found.assessment.shape.leads
     if own is None:
-        return "Which residual leads cannot be said: that takes both sensors, for eight seconds at least"
+        return (
+            "It cannot be said which residual leads: this needs both sensors, for at least eight seconds"
+        )
     interval = f"(95 % interval {1000 * own.low_s:.0f} to {1000 * own.high_s:.0f} ms)"
     if own.signal:
         other = next(sensor for sensor in SENSORS if sensor != own.signal)
@@ -192,12 +198,12 @@ def leading(found: Diagnosis) -> str:
         )
     if abs(own.correlation) <= own.chance_limit:
         return (
-            "Which residual leads cannot be said: their correlation of "
+            "It cannot be said which residual leads: their correlation of "
             f"{own.correlation:.2f} is within chance ({own.chance_limit:.2f})"
         )
     return (
-        f"Which residual leads cannot be said: that of {SENSORS[0]} is ahead of that of {SENSORS[1]} by "
-        f"{1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
+        f"It cannot be said which residual leads: that of {SENSORS[0]} is ahead of that of "
+        f"{SENSORS[1]} by {1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
     )
 
 

@@ -75,7 +75,7 @@ class Candidate:
                 return f"not the noise of {sensor}: {seen}"
         if self.shift > self.shift_limit:
             return f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
-        return "stiffness and damping are off, and which is open" if self.unidentifiable else ""
+        return "stiffness or damping is off, but it is open which" if self.unidentifiable else ""
 
     def allowing_base_noise(self, problem: FitProblem) -> "Candidate":
         """The same with limits that know what the noise of the encoder leaves in the base motion.

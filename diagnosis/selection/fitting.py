@@ -60,10 +60,10 @@ def fit_screened(
         inner = {i for c in at_floor for n in c.names for i in FITTED[n].contains}
         skipped += [s for s in waiting if not _still(s, floor, inner)]
         waiting = [s for s in waiting if _still(s, floor, inner)]
-    record += not_fitted(stage, _sets(skipped), "promises to stay far above what is at the noise floor")
+    record += not_fitted(stage, _sets(skipped), "expected to stay far above what is at the noise floor")
     best = _best_of_each_set(found)
     out = [c for c in found if c not in best]
-    return best, (*record, *dropped(stage, out, "another start of the same effects came to less"))
+    return best, (*record, *dropped(stage, out, "another start of the same effects fits better"))
 
 
 def fit_finalists(

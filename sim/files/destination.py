@@ -61,7 +61,7 @@ class Destination:
                 return
             if stat.S_ISLNK(found.st_mode):
                 raise UnsafeOutput(
-                    f"{place}: a link, and results are written through none; remove it, or give "
+                    f"{place}: is a link, and results are never written through one; remove it, or give "
                     "another folder"
                 )
             if place != path:
@@ -85,7 +85,7 @@ class Destination:
         if not self.force:
             raise OutputExists(f"{path} exists; give another path, or --force to replace it")
         if not stat.S_ISREG(found.st_mode):
-            raise UnsafeOutput(f"{path}: not a file, and --force replaces files alone; remove it")
+            raise UnsafeOutput(f"{path}: is not a file, and --force only replaces files; remove it")
 
 
 def _nearest_folder(folder: Path) -> Path:
@@ -95,7 +95,9 @@ def _nearest_folder(folder: Path) -> Path:
     for place in (folder, *folder.parents):
         if _status(place) is not None:
             if not place.exists():
-                raise UnwritableOutput(f"{place}: a link to what does not exist; give another folder")
+                raise UnwritableOutput(
+                    f"{place}: is a link to something that does not exist; give another folder"
+                )
             _refuse_unwritable(place)
             return place
     return Path()
@@ -103,9 +105,9 @@ def _nearest_folder(folder: Path) -> Path:
 
 def _refuse_unwritable(place: Path) -> None:
     if not place.is_dir():
-        raise UnwritableOutput(f"{place}: a file, where a folder is needed; give another folder")
+        raise UnwritableOutput(f"{place}: is a file, but a folder is needed; give another folder")
     if not os.access(place, os.W_OK | os.X_OK):
-        raise UnwritableOutput(f"{place}: may not be written to; give another folder")
+        raise UnwritableOutput(f"{place}: you may not write here; give another folder")
 
 
 def _refuse_long_names(path: Path, longest: int) -> None:

@@ -19,7 +19,7 @@ _ADVICE = {
     errno.ENOTDIR: "give a folder, not a file",
     errno.EISDIR: _ANOTHER,
     errno.ELOOP: "give a place without links that lead in a circle",
-    errno.EIO: "look after the disk, and give a place on another one",
+    errno.EIO: "check the disk, and give a place on another one",
     errno.ESTALE: "mount the disk again, or give a place on another one",
     errno.EXDEV: "give a folder that is on one disk",
 }

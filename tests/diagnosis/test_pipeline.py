@@ -125,5 +125,5 @@ def test_progress_is_told_by_stage():
     stages = list(dict.fromkeys(news.stage for news in told))
     begin = ["replaying the nominal rig", "fitting the nominal rig", "screening single effects"]
     assert stages[:3] == begin
-    assert stages[-1] == "looking for detection limits"
+    assert stages[-1] == "computing detection limits"
     assert all(0 <= news.done <= news.tasks for news in told)

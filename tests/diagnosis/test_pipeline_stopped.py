@@ -50,7 +50,7 @@ def test_a_search_that_is_cut_short_before_any_fit_tells_of_the_nominal_rig(stop
 def test_the_nominal_rig_at_the_floor_is_not_called_all_there_is(stopped_at):
     found = stopped_at("screening single effects", NOMINAL)
     assert (found.verdict.kind, found.verdict.confusable[0]) == (VerdictKind.UNDECIDED, ())
-    assert "the nominal model as it is: undecided, as others were not tried" in headline(found)
+    assert "the nominal model as it is: undecided, because others were not tried" in headline(found)
 
 
 def test_the_best_of_the_decimated_log_is_told_where_no_time_is_left_for_finalists(stopped_at):
@@ -85,7 +85,7 @@ def test_a_verdict_stands_where_the_assessment_alone_is_cut_short(stopped_at):
         "next experiment",
     }
     assert found.assessment.next_experiment.startswith("add dry friction of 0.00")
-    assert found.assessment.next_experiment.endswith("; then record and diagnose once more")
+    assert found.assessment.next_experiment.endswith("; then record and diagnose again")
     assert found.assessment.twist is None
     assert "best so far: Dry (Coulomb) friction along the shaft explains the gap" in headline(found)
 

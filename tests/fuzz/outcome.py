@@ -16,7 +16,7 @@ MOST_BYTES = 3_000_000_000
 """Of one input. A good one takes a fraction of a second and some megabytes."""
 
 
-_TELLING = ("expected", "is missing; ", "is there twice; ")
+_TELLING = ("expected", "is missing; ", "appears twice; ")
 """An error says what was expected, or what is missing or too much, and how to fix it."""
 
 

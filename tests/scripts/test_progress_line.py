@@ -42,7 +42,7 @@ def test_a_line_tells_nothing_that_is_not_known(told, line):
 def test_a_line_says_that_an_end_was_asked_for():
     stop = StopSignal()
     stop.request(StopReason.INTERRUPTED)
-    assert in_one_line(news(), stop).startswith("stopping (again: at once), fitting pairs")
+    assert in_one_line(news(), stop).startswith("stopping (once more: at once), fitting pairs")
 
 
 def test_off_a_terminal_there_is_a_line_for_each_stage_and_for_five_seconds():

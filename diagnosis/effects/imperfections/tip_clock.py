@@ -12,7 +12,7 @@ def _apply(rig: RigParameters, rate: float) -> RigParameters:
 
 EFFECT = Effect(
     name="tip_clock",
-    title="a clock of the tip sensor that runs off",
+    title="a clock of the tip sensor that drifts",
     place=Place.SENSOR,
     parameters=(
         Parameter(name="rate", unit="-", low=-0.015, high=0.015, start=(0.002, -0.002), scale=0.003),

@@ -12,7 +12,7 @@ def _apply(rig: RigParameters, rate: float) -> RigParameters:
 
 EFFECT = Effect(
     name="torque_clock",
-    title="a clock of the torque sensor that runs off",
+    title="a clock of the torque sensor that drifts",
     place=Place.SENSOR,
     parameters=(
         Parameter(name="rate", unit="-", low=-0.015, high=0.015, start=(0.002, -0.002), scale=0.003),

@@ -12,7 +12,7 @@ def _apply(rig: RigParameters, time_constant: float) -> RigParameters:
 
 EFFECT = Effect(
     name="torque_low_pass",
-    title="a low pass of the torque sensor",
+    title="a low-pass filter in the torque sensor",
     place=Place.SENSOR,
     parameters=(
         Parameter(name="time_constant", unit="s", low=0.0, high=0.15, start=(0.01, 0.04), scale=0.02),

@@ -80,7 +80,7 @@ def _stiffness(ranges: LogRanges) -> Family:
         ),
         places={Place.NEEDLE: 1.0},
         says="torque",
-        title="stiffness of the shaft over the nominal, over the torque that this would carry",
+        title="stiffness of the shaft over the nominal",
         curve=partial(_factors, curve),
         x_unit="N mm",
         unit="-",

@@ -69,7 +69,7 @@ def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) 
         if 1 / DISTINCT_NOISES < noise[one] / noise[other] < DISTINCT_NOISES:
             continue
         if _agrees(trial[one], noise[other]) and _agrees(trial[other], noise[one]):
-            _swapped(path, one, other, "each scatters as rig.yaml claims of the other")
+            _swapped(path, one, other, "each scatters as rig.yaml claims for the other")
 
 
 def _refuse_swapped_lengths(path: Path, trial: Trial) -> None:
@@ -96,7 +96,7 @@ def _refuse_swapped_torque(path: Path, turning: BinnedTrial, stiffness_n_mm_per_
             continue  # angles in radians, not places
         plausible = torque_over_twist(base, tip, torque, stiffness_n_mm_per_rad) < TORQUE_OVER_TWIST / 2
         if plausible and _correlation(torque, base - tip) > TWIST_CORRELATION:
-            _swapped(path, name, "base_torque_n_mm", "only then does the twist give the torque")
+            _swapped(path, name, "base_torque_n_mm", "only then does the torque follow from the twist")
 
 
 def _refuse_swapped_angles(path: Path, turning: BinnedTrial) -> None:

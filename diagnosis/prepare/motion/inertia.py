@@ -77,8 +77,9 @@ def inertia_warning(name: str, torque: InertiaTorque) -> str:
     if not torque.counts or torque.lost_sigma <= INERTIA_LOST_SIGMA:
         return ""
     return (
-        f"{name}: the torque of inertia is {torque.rms_sigma:.1f} sigma, and the samples of "
-        f"base_angle_deg carry it to {torque.lost_sigma:.1f} sigma only; log faster, or move more slowly"
+        f"{name}: the torque of inertia is {torque.rms_sigma:.1f} sigma, but the samples "
+        f"of base_angle_deg resolve it only to {torque.lost_sigma:.1f} sigma; log faster, or "
+        "turn more slowly"
     )
 
 

@@ -89,7 +89,7 @@ class Noise:
         """What was odd about it, and what is not white."""
         each = (
             f"{sensor}: {colour.share:.0%} of the noise's variance is correlated over "
-            f"{1000 * colour.correlation_time_s:.0f} ms; it is whitened for"
+            f"{1000 * colour.correlation_time_s:.0f} ms; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
         return (*self.warnings, *each)
@@ -148,8 +148,8 @@ def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
     if gap >= LEAST_GAP:
         return ""
     return (
-        f"{sensor}: the nominal rig misses the readings by {gap:.2g} of their noise ({sigma:.3g}), and "
-        f"noise alone makes 1; check the units of {sensor} and {BASE} (rad: multiply by 57.2958; N m: "
+        f"{sensor}: the residual of the nominal rig is {gap:.2g} of the noise ({sigma:.3g}), but "
+        f"noise alone gives 1; check the units of {sensor} and {BASE} (rad: multiply by 57.2958; N m: "
         "by 1000), and the claimed noise in rig.yaml"
     )
 

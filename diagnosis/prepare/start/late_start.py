@@ -34,6 +34,6 @@ def late_start_warning(starts: Mapping[str, LateStart]) -> str:
         return ""
     each = "; ".join(f"{trial} {start.words}" for trial, start in starts.items())
     return (
-        f"begins wound up: {each}: what the base turned by before is fitted, and what the sensors read "
-        "in the time in brackets is not used"
+        f"begins twisted or moving: {each}; the earlier turn of the base is fitted, and readings "
+        "within the time in brackets are not used"
     )

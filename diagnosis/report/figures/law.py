@@ -1,5 +1,7 @@
 """A free-form law as a curve with its 95 % band."""
 
+from textwrap import fill
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
@@ -8,12 +10,14 @@ from diagnosis.freeform.in_words import VARIABLES, course_of
 from diagnosis.freeform.missing import Law
 from diagnosis.report.figures.style import PREDICTIONS
 
+_SIZE = (4.4, 3.0)  # inches: on a phone hardly smaller, so that its letters are read
+_LETTERS = 60  # in a line of the title
 _DECADES = 30.0  # between the lowest and the highest x of a logarithmic axis, at least
 
 
 def draw_law(law: Law) -> Figure:
     """The curve; of a law of two directions, a bar for each."""
-    figure, axis = plt.subplots(figsize=(6.0, 3.2), layout="constrained")
+    figure, axis = plt.subplots(figsize=_SIZE, layout="constrained")
     x, y = np.array(law.x), np.array(law.y)
     off = np.abs(np.array([y - law.low, law.high - y]))
     colour = PREDICTIONS["explained"]
@@ -27,7 +31,9 @@ def draw_law(law: Law) -> Figure:
         axis.legend(fontsize=8)
         if x[0] > 0 and x[-1] > _DECADES * x[0]:
             axis.set_xscale("log")
-    axis.set_ylabel(f"{law.title}\n{law.unit}".removesuffix("\n-"), fontsize=9)
+    axis.set_title(
+        fill(f"{law.title}, {law.unit}".removesuffix(", -"), _LETTERS), loc="left", fontsize=9
+    )
     axis.grid(alpha=0.3)
     return figure
 

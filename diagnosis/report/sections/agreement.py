@@ -11,19 +11,21 @@ from diagnosis.selection.verdict import VerdictKind
 
 _TRIALS = (
     "Grey: measured. Dashed blue: the nominal model. Solid red: {best}. Below each signal: measured "
-    "minus predicted, in σ (one standard deviation of the sensor's noise), each sample as a thin line "
-    "and means as a thick one; in the grey band lie 95 % of the samples if nothing but noise is left."
+    "minus predicted, in σ (one standard deviation of the sensor's noise), with each sample as a "
+    "thin line and means as a thick one. If only noise is left, 95 % of the samples lie in the grey "
+    "band."
 )
 _LOOPS = (
-    "Trials whose loops differ most from those of the nominal model. A loop of torque against base "
-    "angle that is as wide at any rate is dry friction, one that widens with the rate is damping; a "
-    "flat part after each reversal is play; lag against torque is a line for an elastic shaft."
+    "The trials whose loops differ most from those of the nominal model. A loop of torque against "
+    "base angle that is equally wide at all rates means dry friction; one that widens with the rate "
+    "means damping; a flat part after each reversal means play. For an elastic shaft, lag against "
+    "torque is a line."
 )
 _TWIST = (
-    "How far each place of the shaft has turned, at the moment when the nominal model is off most. "
-    "Friction and damping along the shaft bend the line within the tissue, what happens at the entry "
-    "or at the tip breaks or tilts it there, drive and play shift all of it; what a sensor does "
-    "alone leaves it as it is."
+    "How far each point of the shaft has turned, at the moment when the nominal model is furthest "
+    "off. Friction and damping along the shaft bend the line within the tissue. Effects at the entry "
+    "or at the tip put a kink into the line there, or tilt it. Drive and play shift the whole line. "
+    "An error of a sensor does not change it."
 )
 
 

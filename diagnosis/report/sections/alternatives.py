@@ -13,17 +13,16 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
 
 _RANKING = (
-    "Probability of each explanation, given the library, the noise and these trials; effects that "
+    "Probability of each explanation, given the library, the noise and these trials. Effects that "
     f"explain a log together are one explanation. Odds below {math.exp(SIMPLE_LEAD / 2):.0f} to 1 "
-    "decide nothing: a second effect, or more parameters, have to lead by more before they are "
-    "named. An effect that contains a simpler one has to lead that by "
-    f"{math.exp(NESTED_LEAD / 2):.0f} to 1."
+    "decide nothing: a second effect, or more parameters, must lead by more than that to be named. "
+    f"An effect that contains a simpler one must lead it by {math.exp(NESTED_LEAD / 2):.0f} to 1."
 )
 
 
 _NONE_PROBABLE = (
-    "Nothing that was tried, single effects or sets of them, reaches the noise of the sensors; so "
-    "no explanation has a probability."
+    "Nothing that was tried, neither single effects nor sets of them, reaches the noise of the "
+    "sensors, so no explanation has a probability."
 )
 
 

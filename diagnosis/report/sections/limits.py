@@ -7,9 +7,9 @@ from diagnosis.report.tables import limits_table
 from diagnosis.result import Diagnosis
 
 _LIMITS = (
-    "How strong each further effect may be and go unseen in these trials: of one that is stronger, "
-    "95 in 100 logs like this would show it. The picture sets each beside something that this rig has. "
-    "Limits on factors apply both ways."
+    "How strong each further effect may be without being seen in these trials: an effect that is "
+    "stronger would be seen in 95 of 100 such logs. The picture compares each limit with a property "
+    "of this rig. Limits on factors apply both ways."
 )
 
 

@@ -10,18 +10,20 @@ from diagnosis.report.figures.law import describe_law, draw_law
 from diagnosis.result import Diagnosis
 
 _LAW = (
-    "A free-form law assumes a place and what it depends on, and of its course that it is smooth, no "
-    "more. It is fitted through the simulation, as effects are; the readings called free-form in this "
-    "report are with it. It names no cause: other laws of the same place and variable may do as well."
+    "A free-form law assumes a place and a variable; of its curve it assumes only that it is smooth. "
+    "It is fitted through the simulation, as effects are. What this report calls free-form is "
+    "predicted with this law. The law does not name a cause: other laws of the same place and "
+    "variable may fit as well."
 )
 _PLACES = (
-    "Probability of each place, from the best law that may live there: how much of the gap it leaves on "
-    "trials that its fit has not seen, and with how much freedom."
+    "The probability of each place follows from the best law that may act there: from the gap that "
+    "it leaves on trials that its fit has not seen, and from its number of free parameters."
 )
 _GAPS = (
-    "For each variable the law that leaves least, on trials that its fit has not seen, over the noise "
-    "and what the other trials leave open of the curve; 1 is the noise floor. Only the first few are "
-    "fitted to the whole log, the others to a decimated one, and their gap is that of the fit."
+    "For each variable, the law that leaves the smallest gap on trials that its fit has not seen, "
+    "relative to the noise and to the uncertainty of the curve; 1 is the noise floor. Only the first "
+    "few laws are fitted to the full log. The others are fitted to a decimated log, and their gap is "
+    "that of the fit."
 )
 
 

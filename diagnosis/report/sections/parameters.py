@@ -11,14 +11,15 @@ from diagnosis.report.tables import parameter_table
 from diagnosis.result import Diagnosis
 
 _INTERVALS = (
-    "Each interval holds the true value in 95 of 100 logs, if the explanation is right and the "
-    "constants of rig.yaml are. The ellipses say it of two parameters at once: one "
-    "that leans says that one may be larger if the other is too, or smaller. Stiffness and damping "
-    "of the rig are left open in every fit, as a share of their nominal values."
+    "If the explanation and the constants of rig.yaml are right, each interval contains the true "
+    "value in 95 of 100 logs. The ellipses show this for two parameters at once: if an ellipse is "
+    "tilted, a larger value of one parameter goes with a larger value of the other, or with a "
+    "smaller one. Stiffness and damping of the rig are left open in every fit, as a share of their "
+    "nominal values."
 )
 _NEAREST = (
-    "This is not an explanation: something else is at work as well, or instead. Its intervals are wide "
-    "enough for what it leaves, but they assume that the rest is like noise."
+    "This is not an explanation: something else is at work as well, or instead. The intervals are "
+    "widened by the residual that remains, but they treat it as noise."
 )
 
 

@@ -9,7 +9,7 @@ from diagnosis.report import html_parts as html
 from diagnosis.result import Diagnosis
 from models.record import Record
 
-_RIG = "What rig.yaml believes of the rig: the nominal model."
+_RIG = "The constants of the rig in rig.yaml, which make the nominal model."
 
 
 def rig_section(found: Diagnosis) -> list[str]:

@@ -8,7 +8,7 @@ from diagnosis.result import Diagnosis
 
 def sensors_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
-    beside = imperfections(found) or "The sensors show noise alone; nothing else had to be allowed for"
+    beside = imperfections(found) or "The sensors show noise alone; no other fault had to be allowed for"
     return [
         html.heading("Sensors and numerical error"),
         html.paragraph(f"{beside}."),

@@ -9,23 +9,25 @@ from diagnosis.report.sentences import best_in_words, largest_parts, largest_res
 from diagnosis.result import Diagnosis
 
 _BREAKDOWN = (
-    "Root mean square of measured minus predicted, in units of each sensor's noise (σ), of the nominal "
-    "model and of {best}."
+    "Root mean square of measured minus predicted, in units of each sensor's noise (σ), for the "
+    "nominal model and for {best}."
 )
 _ALONG = (
-    "A mean residual that steps with the sign of the rate is dry friction, one that grows with the rate "
-    "is damping; one that varies along the stroke, either way alike, is a matter of the angle (a bent "
-    "shaft, a sensor); one that is largest just after a reversal is play or stiction."
+    "A mean residual that changes sign with the rate means dry friction; one that grows with the "
+    "rate means damping. One that depends on the base angle, and is the same in both directions, "
+    "comes from the angle itself (a bent shaft, a sensor). One that is largest just after a reversal "
+    "means play or stiction."
 )
 _MEMORY = (
-    "Noise is as strong at all frequencies (black line) and correlated with itself at none of the lags "
-    "(grey band: 95 of 100). What rises at low frequency, or stays out of the band for seconds, is "
-    "something slow that the model lacks; a peak is a resonance or a disturbance."
+    "White noise is equally strong at all frequencies (black line) and has no autocorrelation (grey "
+    "band, which holds 95 of 100 lags). A rise at low frequencies, or an autocorrelation that stays "
+    "outside the band for seconds, means that the model lacks something slow. A peak means a "
+    "resonance or a disturbance."
 )
 _LEADS = (
-    "What happens at the drive, or a shaft that is too stiff or too soft, shows in the torque first; "
-    "what happens at the tip shows there first; friction and damping all along the shaft show in both "
-    "at once; what one sensor does alone does not show in the other."
+    "Effects at the drive, and a shaft that is too stiff or too soft, appear first in the torque. "
+    "Effects at the tip appear first in the tip angle. Friction and damping along the whole shaft "
+    "appear in both at once. An error of one sensor does not appear in the other."
 )
 
 

@@ -50,7 +50,7 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
         return state.noting(_dropped("no explanation reaches the noise with it"))
     most = _range_sigma(again.problem, again.best.fit)
     if most > DRIFT_RANGE_SIGMA:
-        return state.noting(_dropped(f"{most:.1f} sigma within a trial are more than a sensor's drift"))
+        return state.noting(_dropped(f"{most:.1f} sigma within a trial is more than a sensor's drift"))
     return again
 
 
@@ -95,7 +95,7 @@ def _drifting(state: SearchState) -> SearchState:
         coarse=state.coarse.drifting(size_n_mm),
         effects=state.effects,
         nominal=replace(state.nominal, by_trial=left, cost=sum(float(own @ own) for own in left)),
-        record=(*state.record, _entry(Decision.KEPT, "it would take off most of what is left")),
+        record=(*state.record, _entry(Decision.KEPT, "it would remove most of the remaining residual")),
     )
 
 

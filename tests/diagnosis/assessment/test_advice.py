@@ -68,7 +68,7 @@ def test_what_is_unknown_is_to_be_looked_at_where_it_is_largest():
     slides = PreparedLog(rig=RIG, trials=(prepared(trial(turns(2.0), speed=-1.0)),))
     said = advise(SimpleNamespace(log=slides), unknown, NOMINAL, LEFT, {})
     assert f"of the nominal model is {NOMINAL.largest}" in said
-    assert f"what comes nearest leaves one that is {LEFT.largest}: repeat that phase alone" in said
+    assert f"that of the nearest explanation is {LEFT.largest}: repeat that phase alone" in said
     assert "at two depths and two rates" in said
 
 
@@ -82,7 +82,7 @@ def test_where_no_run_tells_the_measurement_that_does_by_itself_is_named(monkeyp
     proposal = Proposal(experiment=Experiment(words="turn slowly", trial=READY), separation=0.1)
     monkeypatch.setattr(advice, "best_experiment", lambda *_: proposal)
     said = advise(PROBLEM, UNDECIDED, NOMINAL, LEFT, {})
-    assert said.endswith(f"measure by itself: {LIBRARY['tip_drag'].check}")
+    assert said.endswith(f"measure separately: {LIBRARY['tip_drag'].check}")
 
 
 DRAG = {"tip_drag": {"damping": Interval(value=0.2, low=0.1, high=0.3, unit="N mm s / rad")}}
@@ -104,13 +104,13 @@ def test_an_explanation_is_told_with_what_to_change_and_what_would_narrow_it(mon
     run = Narrowing(experiment=Experiment(words="turn slowly", trial=READY), factor=factor)
     monkeypatch.setattr(advice, "narrowest", lambda *_: run)
     found = advise(PROBLEM, SETTLED, NOMINAL, LEFT, DRAG)
-    assert found.startswith(f"{CHANGE}; then record and diagnose once more; {said}")
+    assert found.startswith(f"{CHANGE}; then record and diagnose again; {said}")
 
 
 def test_without_time_what_to_change_is_told_alone(monkeypatch):
     monkeypatch.setattr(advice, "narrowest", pytest.fail)
     monkeypatch.setattr(advice, "stopping", lambda: True)
-    assert advise(PROBLEM, SETTLED, NOMINAL, LEFT, DRAG).endswith("diagnose once more")
+    assert advise(PROBLEM, SETTLED, NOMINAL, LEFT, DRAG).endswith("diagnose again")
 
 
 def test_what_has_a_rival_that_looks_the_same_is_to_be_calibrated(monkeypatch):
@@ -119,8 +119,9 @@ def test_what_has_a_rival_that_looks_the_same_is_to_be_calibrated(monkeypatch):
     gain = replace(SETTLED, effects=("torque_scale",), confusable=alike)
     values = {"torque_scale": {"scale": Interval(value=1.1, low=1.0, high=1.2, unit="-")}}
     assert advise(PROBLEM, gain, NOMINAL, LEFT, values) == (
-        "calibrate the torque sensor with a known weight on a lever: that tells a wrong gain of the "
-        "torque sensor from a wrong damping of the tissue together with a wrong torsional stiffness; "
+        "calibrate the torque sensor with a known weight on a lever: that distinguishes a wrong gain of "
+        "the torque sensor from a wrong damping of the tissue together with a wrong torsional "
+        "stiffness; "
         "if it is the former, calibrate the torque sensor: divide its readings by 1.1"
     )
 

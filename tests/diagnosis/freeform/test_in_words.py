@@ -49,12 +49,12 @@ def test_the_course_of_a_law_is_told(changes, said):
 def test_place_variable_course_and_gap_are_in_the_sentence():
     said = what_is_missing(missing_with(best=seen_fit()), 8.9)
     assert said.startswith(
-        "What is missing acts along the shaft, between it and the tissue (probability 0.90) and depends "
+        "What is missing acts between shaft and tissue (probability 0.90) and depends "
         "on the rate of turning: friction along the shaft rises from"
     )
-    assert "A free-form law of it brings 8.90 σ to 1.03 σ on trials that its fit has not seen" in said
+    assert "A free-form law of this kind reduces the residual from 8.90 σ to 1.03 σ on trials" in said
     # What could not be simulated on an unseen trial has no gap to tell.
-    assert "of other variables the best laws leave 2.50 σ with the time since a trial began." in said
+    assert "the best laws of other variables leave 2.50 σ with the time since a trial began." in said
 
 
 def seen_fit():
@@ -64,7 +64,7 @@ def seen_fit():
 
 def test_effects_beside_a_law_are_named():
     said = what_is_missing(missing_with(replace(LAW, beside=("tip_drag", "torque_bias"))), 8.9)
-    assert "A free-form law of it, beside tip_drag and torque_bias, brings" in said
+    assert "A free-form law of this kind, beside tip_drag and torque_bias, reduces" in said
 
 
 def test_of_a_single_trial_nothing_is_called_unseen():
@@ -82,6 +82,6 @@ def test_of_what_happened_once_nothing_is_called_unseen():
 
 def test_where_no_law_helps_the_sentence_says_what_to_doubt():
     said = what_is_missing(missing_with(law=None), 8.9)
-    assert said.startswith("No free-form law that was tried leaves less than the library does.")
+    assert said.startswith("No free-form law that was tried does better than the library.")
     assert DOUBT in said
     assert "probability" not in said

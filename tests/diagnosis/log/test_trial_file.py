@@ -46,7 +46,7 @@ TEXTS = [
     (lambda s: s.replace("\n0.0,", "\n0,0,", 1), r"line 2: expected 7 cells.*found 8.*decimal point"),
     (lambda s: s.replace("\n0.05,", "\n0,05,", 1), r"line 7.*decimal point"),
     (lambda s: s.replace("\n0.05,", "\n\n0.05,", 1), r"line 7, column 'time_s'.*an empty cell"),
-    (lambda s: s.replace("tip_angle_deg", "free_mm", 1), r"line 1.*'free_mm' is there twice"),
+    (lambda s: s.replace("tip_angle_deg", "free_mm", 1), r"line 1.*'free_mm' appears twice"),
     (lambda s: s[: s.rindex("70.0")], r"line 1201, column 'free_mm'.*an empty cell"),
     (lambda s: "time_s\0,b\n" + s, r"UTF-8 text.*binary"),
 ]

@@ -47,12 +47,12 @@ def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
         ),
         (
             {"kind": VerdictKind.UNDECIDED, "confusable": ALIKE, "advice": "turn slowly"},
-            "Sure that it is one of these, not of which; the first explains 100.0 %",
+            "Sure that it is one of these, but not which one; the first explains 100.0 %",
             "Next: turn slowly.",
         ),
         (
             {"kind": VerdictKind.UNKNOWN, "effects": (), "advice": "look closer"},
-            "The nearest that was tried, dry (Coulomb) friction along the shaft, explains",
+            "The nearest explanation that was tried (dry (Coulomb) friction along the shaft) explains",
             "Next: look closer.",
         ),
     ],
@@ -74,8 +74,12 @@ def test_a_search_that_was_cut_short_is_not_sure(dry):
     found = replace(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=ALIKE), stopped=STOPPED)
     what, sure, then = answer(found)
     assert what.startswith("Stopped early")
-    assert sure.startswith("Not sure, as what was not tried may explain the log as well; the best so")
-    assert then == "Next: diagnose this log to its end; what to do next was not looked for."
+    assert sure.startswith(
+        "Not sure, because what was not tried may explain the log as well; the best so"
+    )
+    assert (
+        then == "Next: run the diagnosis to its end; it was stopped before the next step was determined."
+    )
 
 
 def test_one_trial_is_not_called_unseen(dry):
@@ -87,7 +91,7 @@ def test_one_trial_is_not_called_unseen(dry):
 def test_without_limits_nothing_is_sure_and_without_an_effect_nothing_is_near(dry):
     told = replace(dry.found.assessment, detection_limits={})
     nothing = concluding(replace(dry.found, assessment=told), kind=VerdictKind.NONE, effects=())
-    assert answer(nothing)[1] == "How strong an effect may be and go unseen was not looked at."
+    assert answer(nothing)[1] == "Detection limits were not computed."
     bare = replace(dry.found.assessment, nearest=replace(dry.found.assessment.nearest, effects=()))
     unknown = concluding(replace(dry.found, assessment=bare), kind=VerdictKind.UNKNOWN, effects=())
     assert answer(unknown)[1] == "Nothing that was tried improves on the nominal model."

@@ -19,8 +19,8 @@ def test_of_perfect_sensors_nothing_is_said(dry):
 def test_each_imperfection_is_told_with_its_value(dry):
     found = having(dry.found, imperfections={"torque_clock": {"rate": RATE}})
     assert imperfections(found) == (
-        "The sensors are not perfect, which was allowed for: a clock of the torque sensor that runs "
-        "off, rate 0.00183 (95 % interval 0.0018 to 0.0019)"
+        "The sensors are not perfect; the diagnosis allows for this: a clock of the torque sensor that "
+        "drifts, rate 0.00183 (95 % interval 0.0018 to 0.0019)"
     )
 
 

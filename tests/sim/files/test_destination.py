@@ -77,10 +77,10 @@ def test_what_is_no_file_is_not_replaced(tmp_path):
 @pytest.mark.parametrize(
     ("folder", "said"),
     [
-        ("file", "a file, where a folder is needed"),
+        ("file", "is a file, but a folder is needed"),
         ("file/below", "Not a directory; give a folder, not a file"),
-        ("dangling", "a link to what does not exist"),
-        ("dangling/below", "a link to what does not exist"),
+        ("dangling", "is a link to something that does not exist"),
+        ("dangling/below", "is a link to something that does not exist"),
         ("n" * 300, "File name too long; give a shorter name"),
         ("new/" + "n" * 300, "a name of more than 255 bytes"),
         ("nul\0", "cannot hold the character NUL"),
@@ -106,11 +106,11 @@ def test_a_name_that_no_file_can_have_is_refused_before_its_folder_exists(tmp_pa
 def test_a_folder_without_permission_is_named(tmp_path, closed):
     (tmp_path / "out" / "predictions").mkdir(parents=True)
     (tmp_path / closed).chmod(0o500)
-    with pytest.raises(UnwritableOutput, match="may not be written to"):
+    with pytest.raises(UnwritableOutput, match="you may not write here"):
         forced(tmp_path / "out").check([tmp_path / "out" / "predictions" / "trial_01.csv"])
 
 
 def test_a_folder_without_permission_is_named_to_the_superuser_too(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda path, mode: False)
-    with pytest.raises(UnwritableOutput, match="may not be written to"):
+    with pytest.raises(UnwritableOutput, match="you may not write here"):
         forced(tmp_path).check([tmp_path / "report.json"])

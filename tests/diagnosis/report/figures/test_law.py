@@ -34,9 +34,15 @@ def test_the_curve_and_its_band_are_those_of_the_law():
 def test_axes_say_what_and_in_which_unit():
     axis = draw_law(LAW).axes[0]
     assert axis.get_xlabel() == "the rate of turning, rad/s"
-    assert axis.get_ylabel() == "friction along the shaft\nN mm / mm"
+    assert axis.get_title("left") == "friction along the shaft, N mm / mm"
     bare = draw_law(replace(LAW, unit="-", x_unit="-")).axes[0]
-    assert (bare.get_xlabel(), bare.get_ylabel()) == ("the rate of turning", "friction along the shaft")
+    bare_labels = (bare.get_xlabel(), bare.get_title("left"))
+    assert bare_labels == ("the rate of turning", "friction along the shaft")
+
+
+def test_a_long_title_has_several_lines():
+    axis = draw_law(replace(LAW, title="friction along the shaft " * 4)).axes[0]
+    assert max(map(len, axis.get_title("left").splitlines())) <= 60
 
 
 @pytest.mark.parametrize(
