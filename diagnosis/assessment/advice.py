@@ -52,7 +52,7 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
         first, *others = (_together(names) for names in verdict.confusable)
         return (
             f"{check_that_tells(verdict.confusable)}: that distinguishes {first} from "
-            f"{', or '.join(others)}; if it is the former, {remedy}"
+            f"{', or from '.join(others)}; if it is the former, {remedy}"
         )
     again = "then record and diagnose again"
     return "; ".join(filter(None, (remedy, again, _narrowed(problem, verdict))))
@@ -60,7 +60,8 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
 
 def _together(names: Sequence[str]) -> str:
     """A set of effects in plain words."""
-    return " together with ".join(LIBRARY[name].title for name in names) or "the nominal rig"
+    *others, last = [LIBRARY[name].title for name in names] or ["the nominal rig"]
+    return f"{', '.join(others)} and {last} at once" if others else last
 
 
 def _narrowed(problem: FitProblem, verdict: Verdict) -> str:

@@ -120,8 +120,8 @@ def test_what_has_a_rival_that_looks_the_same_is_to_be_calibrated(monkeypatch):
     values = {"torque_scale": {"scale": Interval(value=1.1, low=1.0, high=1.2, unit="-")}}
     assert advise(PROBLEM, gain, NOMINAL, LEFT, values) == (
         "calibrate the torque sensor with a known weight on a lever: that distinguishes a wrong gain of "
-        "the torque sensor from a wrong damping of the tissue together with a wrong torsional "
-        "stiffness; "
+        "the torque sensor from a wrong damping of the tissue and a wrong torsional stiffness "
+        "at once; "
         "if it is the former, calibrate the torque sensor: divide its readings by 1.1"
     )
 

@@ -68,9 +68,7 @@ def test_a_residual_far_below_its_noise_names_the_units():
     assert noise["base_torque_n_mm"] == TORQUE
     (warning,) = noise.warnings
     # rms of 0, 1, 0, 2 in 1e-4 N mm, over 0.01.
-    assert warning.startswith(
-        "base_torque_n_mm: the residual of the nominal rig is 0.011 of the noise"
-    )
+    assert warning.startswith("base_torque_n_mm: the residual of the nominal rig is 0.011 of the noise")
     assert "check the units of base_torque_n_mm and base_angle_deg" in warning
 
 
