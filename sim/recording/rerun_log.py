@@ -33,7 +33,7 @@ TIMELINE = "time"
 _FRAMES_PER_S = 20  # of the 3-D needle; the plots show every sample
 _MODES = 4
 _PATH_FRAMES = 400
-_ALONG = ", along the shaft: mm from the entry"
+_ALONG = ", over depth in mm"
 # The twist is shown by arrows across the shaft, longer than the shaft is thick.
 _ARROW_MM, _ARROW_RADIUS_MM, _SHAFT_RADIUS_MM = 9.0, 0.5, 0.6
 _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
@@ -332,12 +332,21 @@ def _log_profiles(
       places_mm, values: (frames, bars).
     """
     stamps = np.round(time_s * 1e9).astype("timedelta64[ns]")
-    widths_mm = np.gradient(places_mm, axis=1)
+    widths_mm = _bar_widths_mm(places_mm)
     each = zip(stamps, places_mm, widths_mm, values.astype(np.float32), strict=True)
     for stamp, at_mm, width_mm, heights in each:
         stream.set_time(TIMELINE, duration=stamp)
         stream.log(f"profile/{name}", rr.BarChart(heights, abscissa=at_mm, widths=width_mm))
     stream.reset_time()
+
+
+def _bar_widths_mm(places_mm: Array) -> Array:
+    """Bars that do not overlap: as wide as the nearer neighbour is far; the ends as their neighbours."""
+    steps = np.diff(places_mm, axis=1)
+    if steps.shape[1] < 2:
+        return np.repeat(steps, 2, axis=1)
+    inner = np.minimum(steps[:, :-1], steps[:, 1:])
+    return np.pad(inner, ((0, 0), (1, 1)), "edge")
 
 
 def _site_places_mm(nodes_mm: Array) -> Array:

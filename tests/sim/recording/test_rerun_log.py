@@ -32,15 +32,34 @@ def test_the_rerun_file_holds_the_signals_to_the_last_bit(recording, tmp_path):
     assert "nitinol-0.59" in text
 
 
-def test_bars_are_at_their_places_along_the_shaft(recording, tmp_path):
-    path = tmp_path / "run.rrd"
-    log_recording(recording, path)
-    last = {}
+def last_bars(path):
+    """Places and widths of the last bars, by entity."""
+    places, widths = {}, {}
     for chunk in RrdReader(str(path)).stream():
         batch, entity = chunk.to_record_batch(), str(chunk.entity_path)
         if "BarChart:abscissa" in batch.schema.names:
             buffer = batch.column("BarChart:abscissa")[-1].as_py()[0]["buffer"]
-            last[entity] = np.asarray(buffer)
+            places[entity] = np.asarray(buffer)
+            widths[entity] = np.asarray(batch.column("BarChart:widths")[-1].as_py())
+    return places, widths
+
+
+def test_bars_touch_at_most(recording, tmp_path):
+    path = tmp_path / "run.rrd"
+    log_recording(recording, path)
+    places, widths = last_bars(path)
+    for entity, at in places.items():
+        half = widths[entity] / 2
+        gaps = (at[1:] - half[1:]) - (at[:-1] + half[:-1])
+        assert (half > 0).all()
+        assert gaps.min() > -1e-3  # mm, in single precision
+        assert gaps.min() < 1e-3
+
+
+def test_bars_are_at_their_places_along_the_shaft(recording, tmp_path):
+    path = tmp_path / "run.rrd"
+    log_recording(recording, path)
+    last, _ = last_bars(path)
     places = node_places_mm(recording)[-1]
     np.testing.assert_allclose(last["/profile/shaft"], places, atol=1e-4)
     sites = last["/profile/tissue"].reshape(-1, 2)
