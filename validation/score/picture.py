@@ -32,7 +32,7 @@ def draw(scores: pd.DataFrame, path: Path) -> None:
     """Write the figure as a PNG; `scores` as `read_scores` returns them."""
     figure, axes = plt.subplots(2, 2, figsize=(15, 13), layout="constrained", width_ratios=(2, 1))
     wrong = int(confidently_wrong(scores).sum())
-    figure.suptitle(f"Confidently wrong (explained or none, and not so): {wrong} of {len(scores)} logs")
+    figure.suptitle(f"Confidently wrong (explained or none, but wrong): {wrong} of {len(scores)} logs")
     _confusion(axes[0, 0], scores)
     _reliability(axes[0, 1], scores)
     _detection(axes[1, 0], scores)
