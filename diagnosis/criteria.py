@@ -395,6 +395,8 @@ NEAR_FLOOR = 3.0
 floor, and no finer mesh and no search with drift is spent on it."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
+MOST_TRIPLES, TRIPLE_BASES = 12, 4
+"""Sets of three that are fitted, and leading pairs that they build on. Choices, for time."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_CONTENDERS = 12

@@ -24,6 +24,7 @@ from diagnosis.selection.stages.richer_effects import richer_effects
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
 from diagnosis.selection.stages.torque_drift import with_drift
+from diagnosis.selection.stages.triples import triples
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -36,6 +37,7 @@ STAGES: tuple[Stage, ...] = (
     pairs,
     richer_effects,
     one_more_imperfection,
+    triples,
     best_to_its_end,
     effects_of_the_best_alone,
     scatter_of_the_best,
