@@ -1,9 +1,10 @@
-"""Which effect, or which pair of them, explains a log: the stages of the search, in order.
+"""Which effect, or which two or three of them, explain a log: the stages of the search, in order.
 
 Every effect of the vocabulary is screened, and the most promising are fitted, on the decimated
 log; the best of these are then fitted on the log itself. If none of them brings the residual to the
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
-does, but a second effect promises to take more off than noise could, that pair is fitted as well.
+does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
+no pair does, every effect beside each of the leading pairs is.
 What the scatter of the rig's own constants explains is `none`.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
