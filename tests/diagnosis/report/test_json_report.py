@@ -152,7 +152,7 @@ def test_how_the_fit_ended_is_told(dry):
     fit = dry.report["fit"]
     assert set(fit) == {"status", "message", "at_bound"}
     assert fit["status"] == "converged: relative offset"
-    assert fit["message"].startswith("Terminated after ")
+    assert fit["message"].startswith("converged after ")
     assert fit["at_bound"] == []
 
 
