@@ -7,8 +7,6 @@ of the place to which it moved, phi(x) <- phi(x + d), by quadratic interpolation
 tip enters is untwisted; at the entry the twist goes on as it runs.
 """
 
-import numpy as np
-
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, compiled, inlined
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
@@ -54,10 +52,13 @@ def _interpolate(places: Array, twist: Array, count: int, middle: int, target: f
 
 
 @compiled
-def advect_tissue(d: float, x: Array, loads: Array, state: Array) -> None:
-    """Shift the twist of the tissue by d, m (positive: needle into the tissue)."""
+def advect_tissue(d: float, x: Array, loads: Array, state: Array, places: Array, twist: Array) -> None:
+    """Shift the twist of the tissue by d, m (positive: needle into the tissue).
+
+    Args:
+      places, twist: working memory, (2 n + 1,) each.
+    """
     n = loads.shape[0]
-    places, twist = np.empty(2 * n + 1), np.empty(2 * n + 1)
     count, first, last = 0, -1, -1
     for site in range(2 * n):
         if _covered(loads, site):

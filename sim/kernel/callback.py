@@ -67,11 +67,13 @@ def _userdata(n: int, rows: int) -> int:
 def _prime(shaft: Shaft, theta: Array, ctrl: Array, now: Array) -> None:
     """Before the first step: everything at rest, as the inputs and angles stand."""
     now[:] = 0.0
-    now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS] = ctrl
+    for j in range(memory_map.INPUTS):
+        now[memory_map.B_INPUTS + j] = ctrl[j]
     gain = shaft.motor.gear * shaft.motor.gain
     if shaft.servo > 0.0 and gain != 0.0:  # the drive shaft starts where the needle is
         now[memory_map.B_INPUTS + memory_map.U_DRIVE] = theta[0] * shaft.servo / gain
-    now[memory_map.B_ANGLES : memory_map.B_ANGLES + theta.size] = theta
+    for i in range(theta.size):
+        now[memory_map.B_ANGLES + i] = theta[i]
 
 
 @inlined
@@ -101,7 +103,8 @@ def _begin(
     elif time > clock[memory_map.D_TIME]:
         # Rows that are viscous alone remember nothing at their sites.
         kept = now.size if _remembers(law) else memory_map.B_ANGLES + 2 * (n + 1)
-        now[:kept] = nxt[:kept]
+        for i in range(kept):
+            now[i] = nxt[i]
         for i in range(n + 1):
             now[memory_map.O_LANDING] = max(
                 now[memory_map.O_LANDING], abs(theta[i] - now[memory_map.B_ANGLES + i])
@@ -278,7 +281,8 @@ def _compile() -> tuple[Any, Any]:
         size = _block(int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS]))
         user = carray(_numbers(_addresses(data + user_at)[0]), memory_map.CLOCK + 2 * size)
         shown = carray(_numbers(_addresses(data + sensors_at)[0]), memory_map.OUTPUTS)
-        shown[:] = user[memory_map.CLOCK + size : memory_map.CLOCK + size + memory_map.OUTPUTS]
+        for i in range(memory_map.OUTPUTS):
+            shown[i] = user[memory_map.CLOCK + size + i]
 
     return passive, sensor
 

@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 # No reordering of sums (results do not depend on the machine's vector width).
-_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "arcp", "nsz"}}
+# No counting of references: nothing here allocates, and the counters' calls cost more than the sums.
+_OPTIONS: dict[str, Any] = {
+    "error_model": "numpy",
+    "fastmath": {"contract", "arcp", "nsz"},
+    "_nrt": False,
+}
 
 
 def inlined(function: Callable[..., Any]) -> Any:

@@ -79,8 +79,7 @@ def _prepare(
             add_viscous(w, loads[r], law[r, memory_map.L_VISCOUS])
         else:
             nonlinear = True
-            start[r] = before[r]
-            end[r] = before[r]
+            _hold_sites(before[r], start[r], end[r])
     return nonlinear
 
 
@@ -111,6 +110,15 @@ def _second_stage(
     for r in range(law.shape[0]):
         if not is_linear(law[r]):
             _carry_sites(before[r], start[r], end[r], frame.yield_angle)
+
+
+@compiled
+def _hold_sites(before: Array, start: Array, end: Array) -> None:
+    """The first stage starts from the memory of a row's sites, (n, 2, SITE) each."""
+    for e in range(before.shape[0]):
+        for k in range(2):
+            for j in range(memory_map.SITE):
+                start[e, k, j] = end[e, k, j] = before[e, k, j]
 
 
 @compiled
@@ -251,7 +259,7 @@ def advance(
             and speed != 0.0
             and head[memory_map.H_STRETCHING] == 0.0
         ):
-            advect_tissue(h * speed, w.x, w.loads[r], w.end[r])
+            advect_tissue(h * speed, w.x, w.loads[r], w.end[r], w.places, w.twist)
     chain = head[memory_map.H_CHAIN] != 0.0
     taken_up = slack(drive - end[0], frame.backlash)
     set_other(chain, shaft, w.spring, taken_up, end, torques[memory_map.T_OTHER])

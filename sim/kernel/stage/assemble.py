@@ -4,9 +4,6 @@
 
 What is linear (inertia, torsion, viscous rows) is assembled once per step; the
 sites of every other row add their torque and slope at each iteration.
-
-Arrays of the workspace are named once, outside of loops: each access through the tuple
-would count references, which costs as much as the arithmetic.
 """
 
 import math

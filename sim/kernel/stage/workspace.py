@@ -28,6 +28,8 @@ class Workspace(NamedTuple):
     step: np.ndarray  # Newton's step, rad/s
     loads: np.ndarray  # (rows, n, 4): what sites load the nodes with, m
     point: np.ndarray  # (rows, 2): element of a point row, and place in it
+    places: np.ndarray  # (2 n + 1): where covered sites are, m
+    twist: np.ndarray  # of the tissue there, rad
     start: np.ndarray  # (rows, n, 2, SITE): site states at the start of the stage
     end: np.ndarray  # the same at its end
 
@@ -48,11 +50,12 @@ class Frame(NamedTuple):
 def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
     """Working memory cut into its arrays; `end` is the caller's site states.
 
-    The memory is the model's own (`userdata`), so that no step allocates: numba would
-    count references to memory of its own at every access.
+    The memory is the model's own (`userdata`), so that no step allocates.
     """
     m, s = n + 1, 2 * n * rows
-    sites = 15 * m + 2 * s
+    points = 15 * m + 2 * s
+    advected = points + 2 * rows
+    sites = advected + 4 * n + 2
     return Workspace(
         memory[:m],
         memory[m : 2 * m],
@@ -69,10 +72,10 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
         memory[12 * m : 13 * m],
         memory[13 * m : 14 * m],
         memory[14 * m : 15 * m],
-        memory[15 * m : sites].reshape(rows, n, 4),
-        memory[sites : sites + 2 * rows].reshape(rows, 2),
-        memory[sites + 2 * rows : sites + 2 * rows + memory_map.SITE * s].reshape(
-            rows, n, 2, memory_map.SITE
-        ),
+        memory[15 * m : points].reshape(rows, n, 4),
+        memory[points:advected].reshape(rows, 2),
+        memory[advected : advected + 2 * n + 1],
+        memory[advected + 2 * n + 1 : sites],
+        memory[sites : sites + memory_map.SITE * s].reshape(rows, n, 2, memory_map.SITE),
         end,
     )
