@@ -31,6 +31,7 @@ from sim.kernel.stage.assemble import (
 from sim.kernel.stage.newton import newton
 from sim.kernel.stage.workspace import Frame, Workspace, divide
 from sim.kernel.torques import set_other
+from sim.kernel.view import view
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
@@ -192,9 +193,10 @@ def advance(
     """
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     first = memory_map.B_ANGLES + 2 * (n + 1)
-    before = now[first:].reshape(rows, n, 2, memory_map.SITE)
-    w = divide(scratch, n, rows, nxt[first:].reshape(rows, n, 2, memory_map.SITE))
-    past = now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS]
+    sites = (rows, n, 2, memory_map.SITE)
+    before = view(now, first, sites)
+    w = divide(scratch, n, rows, view(nxt, first, sites))
+    past = view(now, memory_map.B_INPUTS, (memory_map.INPUTS,))
     free = head[memory_map.H_FREE_REF] - 0.5 * (
         past[memory_map.U_CARRIAGE] + ctrl[memory_map.U_CARRIAGE]
     )
@@ -246,7 +248,7 @@ def advance(
         dissipated += share * (power - recoverable)
         failed += 0 if solved else 1
         iterations += count
-    end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
+    end = view(nxt, memory_map.B_ANGLES, (n + 1,))
     for i in range(n + 1):
         end[i] = w.theta[i] + frame.g * w.omega[i]
         nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]

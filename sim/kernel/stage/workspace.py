@@ -6,6 +6,7 @@ import numpy as np
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, inlined
+from sim.kernel.view import view
 
 
 class Workspace(NamedTuple):
@@ -52,30 +53,32 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
 
     The memory is the model's own (`userdata`), so that no step allocates.
     """
-    m, s = n + 1, 2 * n * rows
-    points = 15 * m + 2 * s
-    advected = points + 2 * rows
-    sites = advected + 4 * n + 2
+    m = n + 1
+    loads = 15 * m
+    point = loads + 4 * n * rows
+    places = point + 2 * rows
+    twist = places + 2 * n + 1
+    start = twist + 2 * n + 1
     return Workspace(
-        memory[:m],
-        memory[m : 2 * m],
-        memory[2 * m : 3 * m],
-        memory[3 * m : 4 * m],
-        memory[4 * m : 5 * m],
-        memory[5 * m : 6 * m],
-        memory[6 * m : 7 * m],
-        memory[7 * m : 8 * m],
-        memory[8 * m : 9 * m],
-        memory[9 * m : 10 * m],
-        memory[10 * m : 11 * m],
-        memory[11 * m : 12 * m],
-        memory[12 * m : 13 * m],
-        memory[13 * m : 14 * m],
-        memory[14 * m : 15 * m],
-        memory[15 * m : points].reshape(rows, n, 4),
-        memory[points:advected].reshape(rows, 2),
-        memory[advected : advected + 2 * n + 1],
-        memory[advected + 2 * n + 1 : sites],
-        memory[sites : sites + memory_map.SITE * s].reshape(rows, n, 2, memory_map.SITE),
+        view(memory, 0, (m,)),
+        view(memory, m, (m,)),
+        view(memory, 2 * m, (m,)),
+        view(memory, 3 * m, (m,)),
+        view(memory, 4 * m, (m,)),
+        view(memory, 5 * m, (m,)),
+        view(memory, 6 * m, (m,)),
+        view(memory, 7 * m, (m,)),
+        view(memory, 8 * m, (m,)),
+        view(memory, 9 * m, (m,)),
+        view(memory, 10 * m, (m,)),
+        view(memory, 11 * m, (m,)),
+        view(memory, 12 * m, (m,)),
+        view(memory, 13 * m, (m,)),
+        view(memory, 14 * m, (m,)),
+        view(memory, loads, (rows, n, 4)),
+        view(memory, point, (rows, 2)),
+        view(memory, places, (2 * n + 1,)),
+        view(memory, twist, (2 * n + 1,)),
+        view(memory, start, (rows, n, 2, memory_map.SITE)),
         end,
     )
