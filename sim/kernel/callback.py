@@ -25,7 +25,7 @@ from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
 from sim.kernel import memory_map
-from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.shaft import ModelArrays, Shaft, motor_of, read_nodes, read_springs
 from sim.kernel.stage.assemble import is_linear
 from sim.kernel.step import advance
@@ -85,7 +85,7 @@ def _remembers(law: Array) -> bool:
     return found
 
 
-@compiled
+@embedded
 def _begin(
     law: Array,
     shaft: Shaft,
@@ -113,7 +113,7 @@ def _begin(
     clock[memory_map.D_TIME] = time
 
 
-@compiled
+@embedded
 def _add_torques(
     head: Array,
     shaft: Shaft,
@@ -160,7 +160,7 @@ def _absolute(chain: bool, joints: Array, out: Array) -> None:
         out[i] = total
 
 
-@compiled
+@embedded
 def step_needle(
     numeric: Array,
     needle: ModelArrays,

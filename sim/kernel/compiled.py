@@ -1,4 +1,4 @@
-"""How kernel functions are compiled: inlined, with C's arithmetic on division."""
+"""How kernel functions are compiled: into one, with C's arithmetic on division."""
 
 from collections.abc import Callable
 from typing import Any
@@ -21,11 +21,6 @@ _OPTIONS: dict[str, Any] = {
 def inlined(function: Callable[..., Any]) -> Any:
     """Compile a function that becomes part of its caller."""
     return njit(inline="always", **_OPTIONS)(function)
-
-
-def compiled(function: Callable[..., Any]) -> Any:
-    """Compile a function that keeps a call of its own."""
-    return njit(**_OPTIONS)(function)
 
 
 def embedded(function: Callable[..., Any]) -> Any:

@@ -17,7 +17,7 @@ import math
 
 from sim.kernel import memory_map
 from sim.kernel.advection import advect_tissue, forget_uncovered
-from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
@@ -113,7 +113,7 @@ def _second_stage(
             _carry_sites(before[r], start[r], end[r], frame.yield_angle)
 
 
-@compiled
+@embedded
 def _hold_sites(before: Array, start: Array, end: Array) -> None:
     """The first stage starts from the memory of a row's sites, (n, 2, SITE) each."""
     for e in range(before.shape[0]):
@@ -122,7 +122,7 @@ def _hold_sites(before: Array, start: Array, end: Array) -> None:
                 start[e, k, j] = end[e, k, j] = before[e, k, j]
 
 
-@compiled
+@embedded
 def _carry_sites(before: Array, start: Array, end: Array, limit: float) -> None:
     """The memory of a row's sites, (n, 2, SITE) each."""
     for e in range(before.shape[0]):
@@ -163,7 +163,7 @@ def _friction(
     return torque, friction, power
 
 
-@compiled
+@embedded
 def advance(
     head: Array,
     mesh: Array,
