@@ -472,8 +472,9 @@ FREE_LAW_GAIN = 0.95
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told. Choices: no verdict rests on them."""
 FAR_STEP = 1.5
-"""Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and the law
-is fitted to the other trials instead. A choice: no verdict rests on it."""
+"""Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and what
+comes nearest, or a free-form law, is fitted to the other trials instead. A choice: no verdict rests on
+it."""
 
 # Stopping early (pipeline.py)
 
