@@ -40,4 +40,4 @@ def _interpreted_view(memory: Array, start: int, shape: tuple[int, ...]) -> Arra
 
 
 view: Any = _interpreted_view if numba.config.DISABLE_JIT else _compiled_view
-"""view(memory, start, shape): values of a flat array from `start` on, as a contiguous array of a shape."""
+"""view(memory, start, shape): values of a flat array from `start` on, as a contiguous array."""
