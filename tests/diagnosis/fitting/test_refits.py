@@ -24,7 +24,7 @@ def fitted():
 
 
 def test_each_trial_is_predicted_with_what_the_others_ask_for(fitted):
-    """The second is predicted with the bias of the first, and the other way round; torques come first."""
+    """The second is predicted with the bias of the first, and the other way round; torques first."""
     problem, _ = fitted
     for left, trial, sign in zip(refitted_without(*fitted), problem.log.trials, (-1, 1), strict=True):
         torque = left[: np.isfinite(trial.readings[SENSORS[0]]).sum()]
