@@ -438,7 +438,7 @@ NUMERICAL_ERROR_WARNED = 0.14
 
 # What is told beside the verdict (assessment/)
 
-MOST_OF_NEAREST = 4
+MOST_OF_NEAREST = 3
 STEP_LEAVES = 0.8
 """Effects of the nearest explanation at most, and the share of the cost that one more may leave: a tenth
 of the residual. A choice: they decide on what is told of an unknown log, and on no verdict."""
