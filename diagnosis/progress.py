@@ -67,8 +67,11 @@ _STAGES = {
     "finalists, imperfections of sensors": _Usual(
         words="fitting the best imperfections of sensors to the whole log"
     ),
+    "screening three effects": _Usual(words="screening sets of three effects"),
+    "three effects": _Usual(words="fitting sets of three effects"),
+    "finalists, three effects": _Usual(words="fitting the best sets of three to the whole log"),
     "best to its end": _Usual(words="completing the fit of the best"),
-    "effects of the best alone": _Usual(words="fitting the effects of the best pair alone"),
+    "best without each effect": _Usual(words="fitting the best without each of its effects"),
     "scatter of the best": _Usual(words="fitting stiffness and damping of the best freely"),
     "mesh refinement": _Usual(words="fitting with a finer mesh"),
     "finer mesh near the floor": _Usual(words="fitting with a finer mesh"),

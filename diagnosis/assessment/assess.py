@@ -14,7 +14,7 @@ from diagnosis.assessment.intervals import Interval, covariance, intervals
 from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.held_out.refits import held_out_or_refitted, root_mean_square
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
@@ -262,7 +262,7 @@ def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], 
     if best.held_out is not None:
         return best.held_out, ()
     try:
-        return held_out_residuals(problem, best.fit), ()
+        return held_out_or_refitted(problem, best.fit, root_mean_square), ()
     except SimulationFailed as failed:
         warning = (
             "the gap after is that on the trials of the fit: a held-out trial cannot be simulated with "

@@ -7,10 +7,8 @@ of the place to which it moved, phi(x) <- phi(x + d), by quadratic interpolation
 tip enters is untwisted; at the entry the twist goes on as it runs.
 """
 
-import numpy as np
-
 from sim.kernel import memory_map
-from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 
 
@@ -26,7 +24,7 @@ def _place(x: Array, site: int) -> float:
     return x[e] + (XI_RIGHT if site % 2 == 1 else XI_LEFT) * (x[e + 1] - x[e])
 
 
-@compiled
+@embedded
 def forget_uncovered(loads: Array, state: Array) -> None:
     """A site that no tissue touches remembers nothing."""
     for site in range(2 * loads.shape[0]):
@@ -35,7 +33,7 @@ def forget_uncovered(loads: Array, state: Array) -> None:
                 state[site // 2, site % 2, j] = 0.0
 
 
-@compiled
+@embedded
 def _interpolate(places: Array, twist: Array, count: int, middle: int, target: float) -> float:
     """The parabola through three sites around `middle`; straight at two or at an end."""
     if count == 1:
@@ -53,11 +51,14 @@ def _interpolate(places: Array, twist: Array, count: int, middle: int, target: f
     )
 
 
-@compiled
-def advect_tissue(d: float, x: Array, loads: Array, state: Array) -> None:
-    """Shift the twist of the tissue by d, m (positive: needle into the tissue)."""
+@embedded
+def advect_tissue(d: float, x: Array, loads: Array, state: Array, places: Array, twist: Array) -> None:
+    """Shift the twist of the tissue by d, m (positive: needle into the tissue).
+
+    Args:
+      places, twist: working memory, (2 n + 1,) each.
+    """
     n = loads.shape[0]
-    places, twist = np.empty(2 * n + 1), np.empty(2 * n + 1)
     count, first, last = 0, -1, -1
     for site in range(2 * n):
         if _covered(loads, site):

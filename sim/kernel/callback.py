@@ -25,12 +25,13 @@ from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
 
 from sim.kernel import memory_map
-from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.shaft import ModelArrays, Shaft, motor_of, read_nodes, read_springs
 from sim.kernel.stage.assemble import is_linear
 from sim.kernel.step import advance
 from sim.kernel.struct_offsets import read_struct_offsets
 from sim.kernel.torques import inertia_torque, landing_force, landing_torque, to_joints
+from sim.kernel.view import view
 
 _SOURCES = Path(__file__).parent
 _STAGE = int(mujoco.mjtStage.mjSTAGE_VEL)
@@ -67,11 +68,13 @@ def _userdata(n: int, rows: int) -> int:
 def _prime(shaft: Shaft, theta: Array, ctrl: Array, now: Array) -> None:
     """Before the first step: everything at rest, as the inputs and angles stand."""
     now[:] = 0.0
-    now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS] = ctrl
+    for j in range(memory_map.INPUTS):
+        now[memory_map.B_INPUTS + j] = ctrl[j]
     gain = shaft.motor.gear * shaft.motor.gain
     if shaft.servo > 0.0 and gain != 0.0:  # the drive shaft starts where the needle is
         now[memory_map.B_INPUTS + memory_map.U_DRIVE] = theta[0] * shaft.servo / gain
-    now[memory_map.B_ANGLES : memory_map.B_ANGLES + theta.size] = theta
+    for i in range(theta.size):
+        now[memory_map.B_ANGLES + i] = theta[i]
 
 
 @inlined
@@ -82,7 +85,7 @@ def _remembers(law: Array) -> bool:
     return found
 
 
-@compiled
+@embedded
 def _begin(
     law: Array,
     shaft: Shaft,
@@ -101,7 +104,8 @@ def _begin(
     elif time > clock[memory_map.D_TIME]:
         # Rows that are viscous alone remember nothing at their sites.
         kept = now.size if _remembers(law) else memory_map.B_ANGLES + 2 * (n + 1)
-        now[:kept] = nxt[:kept]
+        for i in range(kept):
+            now[i] = nxt[i]
         for i in range(n + 1):
             now[memory_map.O_LANDING] = max(
                 now[memory_map.O_LANDING], abs(theta[i] - now[memory_map.B_ANGLES + i])
@@ -109,7 +113,7 @@ def _begin(
     clock[memory_map.D_TIME] = time
 
 
-@compiled
+@embedded
 def _add_torques(
     head: Array,
     shaft: Shaft,
@@ -137,7 +141,7 @@ def _add_torques(
             nxt[memory_map.O_BASE_TORQUE] = (
                 nxt[memory_map.O_FRICTION] + nxt[memory_map.O_TIP_TORQUE] + nxt[memory_map.O_INERTIA]
             )
-        end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
+        end = view(nxt, memory_map.B_ANGLES, (n + 1,))
         landing_torque(chain, shaft, h, theta, rates, end, ctrl, correction)
         for i in range(n + 1):
             correction[i] -= tissue[i] + other[i]
@@ -156,7 +160,7 @@ def _absolute(chain: bool, joints: Array, out: Array) -> None:
         out[i] = total
 
 
-@compiled
+@embedded
 def step_needle(
     numeric: Array,
     needle: ModelArrays,
@@ -169,23 +173,23 @@ def step_needle(
     passive: Array,
 ) -> None:
     """What the passive callback does, on arrays."""
-    head = numeric[: memory_map.HEADER]
+    head = view(numeric, 0, (memory_map.HEADER,))
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     chain = head[memory_map.H_CHAIN] != 0.0
-    mesh = numeric[memory_map.HEADER : memory_map.HEADER + n + 1]
-    beyond = memory_map.HEADER + n + 1 + rows * memory_map.COLUMNS
-    law = numeric[memory_map.HEADER + n + 1 : beyond].reshape(rows, memory_map.COLUMNS)
     size, m = _block(n, rows), n + 1
-    now = userdata[memory_map.CLOCK : memory_map.CLOCK + size]
-    nxt = userdata[memory_map.CLOCK + size : memory_map.CLOCK + 2 * size]
+    mesh = view(numeric, memory_map.HEADER, (m,))
+    law = view(numeric, memory_map.HEADER + m, (rows, memory_map.COLUMNS))
+    springs = memory_map.HEADER + m + rows * memory_map.COLUMNS
+    now = view(userdata, memory_map.CLOCK, (size,))
+    nxt = view(userdata, memory_map.CLOCK + size, (size,))
     at = memory_map.CLOCK + 2 * size
-    torques = userdata[at : at + _torques(n)].reshape(memory_map.TORQUES, m)
+    torques = view(userdata, at, (memory_map.TORQUES, m))
     at += _torques(n)
-    theta, rates = userdata[at : at + m], userdata[at + m : at + 2 * m]
-    inertia, spring = userdata[at + 2 * m : at + 3 * m], userdata[at + 3 * m : at + 4 * m - 1]
-    scratch = userdata[at + 4 * m :]
+    theta, rates = view(userdata, at, (m,)), view(userdata, at + m, (m,))
+    inertia, spring = view(userdata, at + 2 * m, (m,)), view(userdata, at + 3 * m, (n,))
+    scratch = view(userdata, at + 4 * m, (_scratch(n, rows) - 4 * m,))
     read_nodes(needle.body_inertia, needle.body_iquat, inertia)
-    read_springs(chain, needle.jnt_stiffness, numeric[beyond:], spring)
+    read_springs(chain, needle.jnt_stiffness, view(numeric, springs, (n,)), spring)
     shaft = Shaft(
         inertia,
         spring,
@@ -198,10 +202,10 @@ def step_needle(
     )
     _absolute(chain, qpos, theta)
     _absolute(chain, qvel, rates)
-    _begin(law, shaft, time, theta, ctrl, userdata[: memory_map.CLOCK], now, nxt)
+    _begin(law, shaft, time, theta, ctrl, view(userdata, 0, (memory_map.CLOCK,)), now, nxt)
     second_order = head[memory_map.H_ORDER] != 1.0
     # MuJoCo's rates are means over a step; the method's own are those at its end.
-    own = now[memory_map.B_ANGLES + m : memory_map.B_ANGLES + 2 * m] if second_order else rates
+    own = view(now, memory_map.B_ANGLES + m, (m,)) if second_order else rates
     advance(head, mesh, law, shaft, h, theta, own, now, nxt, ctrl, torques, scratch)
     nxt[memory_map.O_LANDING] = now[memory_map.O_LANDING]
     _add_torques(head, shaft, h, theta, rates, nxt, ctrl, torques, passive)
@@ -278,7 +282,8 @@ def _compile() -> tuple[Any, Any]:
         size = _block(int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS]))
         user = carray(_numbers(_addresses(data + user_at)[0]), memory_map.CLOCK + 2 * size)
         shown = carray(_numbers(_addresses(data + sensors_at)[0]), memory_map.OUTPUTS)
-        shown[:] = user[memory_map.CLOCK + size : memory_map.CLOCK + size + memory_map.OUTPUTS]
+        for i in range(memory_map.OUTPUTS):
+            shown[i] = user[memory_map.CLOCK + size + i]
 
     return passive, sensor
 

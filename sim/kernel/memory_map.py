@@ -128,7 +128,7 @@ def torques(elements: int) -> int:
 def scratch(elements: int, rows: int) -> int:
     """Values of working memory that one step needs: angles, rates, inertia and springs of the
     shaft, then `sim.kernel.stage.workspace`."""
-    return 19 * (elements + 1) + 2 * rows + (4 + 2 * SITE) * elements * rows
+    return 23 * (elements + 1) - 2 + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 
 def userdata(elements: int, rows: int) -> int:

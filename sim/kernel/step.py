@@ -17,7 +17,7 @@ import math
 
 from sim.kernel import memory_map
 from sim.kernel.advection import advect_tissue, forget_uncovered
-from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
@@ -31,6 +31,7 @@ from sim.kernel.stage.assemble import (
 from sim.kernel.stage.newton import newton
 from sim.kernel.stage.workspace import Frame, Workspace, divide
 from sim.kernel.torques import set_other
+from sim.kernel.view import view
 
 GAMMA = 1.0 - math.sqrt(0.5)
 _CARRY = 1.0 / GAMMA - 1.0
@@ -79,8 +80,7 @@ def _prepare(
             add_viscous(w, loads[r], law[r, memory_map.L_VISCOUS])
         else:
             nonlinear = True
-            start[r] = before[r]
-            end[r] = before[r]
+            _hold_sites(before[r], start[r], end[r])
     return nonlinear
 
 
@@ -113,7 +113,16 @@ def _second_stage(
             _carry_sites(before[r], start[r], end[r], frame.yield_angle)
 
 
-@compiled
+@embedded
+def _hold_sites(before: Array, start: Array, end: Array) -> None:
+    """The first stage starts from the memory of a row's sites, (n, 2, SITE) each."""
+    for e in range(before.shape[0]):
+        for k in range(2):
+            for j in range(memory_map.SITE):
+                start[e, k, j] = end[e, k, j] = before[e, k, j]
+
+
+@embedded
 def _carry_sites(before: Array, start: Array, end: Array, limit: float) -> None:
     """The memory of a row's sites, (n, 2, SITE) each."""
     for e in range(before.shape[0]):
@@ -154,7 +163,7 @@ def _friction(
     return torque, friction, power
 
 
-@compiled
+@embedded
 def advance(
     head: Array,
     mesh: Array,
@@ -184,9 +193,10 @@ def advance(
     """
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     first = memory_map.B_ANGLES + 2 * (n + 1)
-    before = now[first:].reshape(rows, n, 2, memory_map.SITE)
-    w = divide(scratch, n, rows, nxt[first:].reshape(rows, n, 2, memory_map.SITE))
-    past = now[memory_map.B_INPUTS : memory_map.B_INPUTS + memory_map.INPUTS]
+    sites = (rows, n, 2, memory_map.SITE)
+    before = view(now, first, sites)
+    w = divide(scratch, n, rows, view(nxt, first, sites))
+    past = view(now, memory_map.B_INPUTS, (memory_map.INPUTS,))
     free = head[memory_map.H_FREE_REF] - 0.5 * (
         past[memory_map.U_CARRIAGE] + ctrl[memory_map.U_CARRIAGE]
     )
@@ -238,7 +248,7 @@ def advance(
         dissipated += share * (power - recoverable)
         failed += 0 if solved else 1
         iterations += count
-    end = nxt[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1]
+    end = view(nxt, memory_map.B_ANGLES, (n + 1,))
     for i in range(n + 1):
         end[i] = w.theta[i] + frame.g * w.omega[i]
         nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]
@@ -251,7 +261,7 @@ def advance(
             and speed != 0.0
             and head[memory_map.H_STRETCHING] == 0.0
         ):
-            advect_tissue(h * speed, w.x, w.loads[r], w.end[r])
+            advect_tissue(h * speed, w.x, w.loads[r], w.end[r], w.places, w.twist)
     chain = head[memory_map.H_CHAIN] != 0.0
     taken_up = slack(drive - end[0], frame.backlash)
     set_other(chain, shaft, w.spring, taken_up, end, torques[memory_map.T_OTHER])

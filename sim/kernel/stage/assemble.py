@@ -4,15 +4,12 @@
 
 What is linear (inertia, torsion, viscous rows) is assembled once per step; the
 sites of every other row add their torque and slope at each iteration.
-
-Arrays of the workspace are named once, outside of loops: each access through the tuple
-would count references, which costs as much as the arithmetic.
 """
 
 import math
 
 from sim.kernel import memory_map
-from sim.kernel.compiled import Array, compiled, inlined
+from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.kernel.stage.workspace import Frame, Workspace
@@ -126,7 +123,7 @@ def slack(miss: float, backlash: float) -> float:
     return min(max(miss, -backlash), backlash)
 
 
-@compiled
+@embedded
 def add_row(
     w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float, cautious: bool
 ) -> tuple[float, float]:

@@ -1,7 +1,8 @@
 """Newton's method on one stage, with a line search: dry friction has corners.
 
 The residual is, up to sign, the gradient of a convex potential wherever friction
-does not weaken with speed. A full step that meets a good part of the force that it
+does not weaken with speed. Most stages need a few steps. If more are taken, Newton's
+method may be going round in a circle: a step that meets a good part of the force that it
 set out with has overshot the minimum along it, which regula falsi then finds. After
 many iterations slopes are replaced by secants, which majorise that potential.
 """
@@ -23,6 +24,7 @@ from sim.kernel.stage.workspace import Frame, Workspace
 
 _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
 _BALANCE = 1e-12  # force over stiffness that is as good as none, as a rate
+_FREE = 4  # steps that are not searched: a drive crosses its play in three
 _OVERSHOOT = 0.3  # a step is shortened where it meets this much of its own force again
 _PLAIN = 40  # iterations of plain Newton; after them slopes are made safe
 _ITERATIONS = 160
@@ -84,7 +86,7 @@ def newton(
         if not factored:
             diagonal[0] += slope
             recoverable, stored = _add_other_rows(law, w, frame, tip_torque, iteration >= _PLAIN)
-        if iteration > 0:
+        if iteration > _FREE:
             searching, search = _search(w, search)
             if searching:
                 continue

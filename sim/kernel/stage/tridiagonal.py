@@ -8,7 +8,7 @@ from sim.kernel.compiled import Array, inlined
 
 @inlined
 def factorise(lower: Array, diagonal: Array, upper: Array) -> None:
-    """Factors in place: `lower` becomes multipliers, `diagonal` inverse pivots.
+    """Factors in place: `diagonal` becomes inverse pivots; `lower` and `upper` are times these.
 
     Row i reads lower[i], diagonal[i], upper[i]; lower[0] and upper[-1] are unused.
     """
@@ -16,7 +16,9 @@ def factorise(lower: Array, diagonal: Array, upper: Array) -> None:
     diagonal[0] = inverse
     for i in range(1, diagonal.size):
         lower[i] *= inverse
-        inverse = 1.0 / (diagonal[i] - lower[i] * upper[i - 1])
+        pivot = diagonal[i] - lower[i] * upper[i - 1]
+        upper[i - 1] *= inverse
+        inverse = 1.0 / pivot
         diagonal[i] = inverse
 
 
@@ -31,5 +33,5 @@ def substitute(lower: Array, diagonal: Array, upper: Array, rhs: Array) -> None:
     value *= diagonal[n - 1]
     rhs[n - 1] = value
     for i in range(n - 2, -1, -1):
-        value = (rhs[i] - upper[i] * value) * diagonal[i]
+        value = rhs[i] * diagonal[i] - upper[i] * value
         rhs[i] = value

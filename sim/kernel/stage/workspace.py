@@ -6,6 +6,7 @@ import numpy as np
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, inlined
+from sim.kernel.view import view
 
 
 class Workspace(NamedTuple):
@@ -28,6 +29,8 @@ class Workspace(NamedTuple):
     step: np.ndarray  # Newton's step, rad/s
     loads: np.ndarray  # (rows, n, 4): what sites load the nodes with, m
     point: np.ndarray  # (rows, 2): element of a point row, and place in it
+    places: np.ndarray  # (2 n + 1): where covered sites are, m
+    twist: np.ndarray  # of the tissue there, rad
     start: np.ndarray  # (rows, n, 2, SITE): site states at the start of the stage
     end: np.ndarray  # the same at its end
 
@@ -48,31 +51,34 @@ class Frame(NamedTuple):
 def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
     """Working memory cut into its arrays; `end` is the caller's site states.
 
-    The memory is the model's own (`userdata`), so that no step allocates: numba would
-    count references to memory of its own at every access.
+    The memory is the model's own (`userdata`), so that no step allocates.
     """
-    m, s = n + 1, 2 * n * rows
-    sites = 15 * m + 2 * s
+    m = n + 1
+    loads = 15 * m
+    point = loads + 4 * n * rows
+    places = point + 2 * rows
+    twist = places + 2 * n + 1
+    start = twist + 2 * n + 1
     return Workspace(
-        memory[:m],
-        memory[m : 2 * m],
-        memory[2 * m : 3 * m],
-        memory[3 * m : 4 * m],
-        memory[4 * m : 5 * m],
-        memory[5 * m : 6 * m],
-        memory[6 * m : 7 * m],
-        memory[7 * m : 8 * m],
-        memory[8 * m : 9 * m],
-        memory[9 * m : 10 * m],
-        memory[10 * m : 11 * m],
-        memory[11 * m : 12 * m],
-        memory[12 * m : 13 * m],
-        memory[13 * m : 14 * m],
-        memory[14 * m : 15 * m],
-        memory[15 * m : sites].reshape(rows, n, 4),
-        memory[sites : sites + 2 * rows].reshape(rows, 2),
-        memory[sites + 2 * rows : sites + 2 * rows + memory_map.SITE * s].reshape(
-            rows, n, 2, memory_map.SITE
-        ),
+        view(memory, 0, (m,)),
+        view(memory, m, (m,)),
+        view(memory, 2 * m, (m,)),
+        view(memory, 3 * m, (m,)),
+        view(memory, 4 * m, (m,)),
+        view(memory, 5 * m, (m,)),
+        view(memory, 6 * m, (m,)),
+        view(memory, 7 * m, (m,)),
+        view(memory, 8 * m, (m,)),
+        view(memory, 9 * m, (m,)),
+        view(memory, 10 * m, (m,)),
+        view(memory, 11 * m, (m,)),
+        view(memory, 12 * m, (m,)),
+        view(memory, 13 * m, (m,)),
+        view(memory, 14 * m, (m,)),
+        view(memory, loads, (rows, n, 4)),
+        view(memory, point, (rows, 2)),
+        view(memory, places, (2 * n + 1,)),
+        view(memory, twist, (2 * n + 1,)),
+        view(memory, start, (rows, n, 2, memory_map.SITE)),
         end,
     )

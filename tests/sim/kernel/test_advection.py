@@ -23,7 +23,8 @@ def advected(interpreted, twist, d, covered=slice(None)):
     state = np.zeros((N, 2, interpreted.memory_map.SITE))
     phi = state[:, :, interpreted.memory_map.PHI]
     phi[:] = twist.reshape(N, 2)
-    interpreted.advection.advect_tissue(d, np.linspace(0, 1, N + 1), loads, state)
+    places, values = np.empty(2 * N + 1), np.empty(2 * N + 1)
+    interpreted.advection.advect_tissue(d, np.linspace(0, 1, N + 1), loads, state, places, values)
     return phi.ravel()
 
 
