@@ -130,7 +130,7 @@ def _add_import(importer: Parser) -> None:
 def _add_diagnose(diagnose: Parser) -> None:
     diagnose.add_argument("log", type=Path, metavar="LOG", nargs="?", help="a rig-log/1 folder")
     diagnose.add_argument(
-        "--paper", action="store_true", help="the published tables and figures instead"
+        "--paper", action="store_true", help="diagnose the published tables and figures instead"
     )
     diagnose.add_argument(
         "--json", action="store_true", help="print the report as JSON; files only with --out"
@@ -144,8 +144,8 @@ def _add_diagnose(diagnose: Parser) -> None:
     diagnose.add_argument(
         "--save-effect",
         metavar="NAME",
-        help="save the free-form law that closes the gap of an unknown log as an effect, which later "
-        "diagnoses know (in $NEEDLE_EFFECTS, else ~/.local/share/needle-torsion/effects)",
+        help="save the free-form law that closes the gap of an unknown log as an effect for later "
+        "diagnoses (in $NEEDLE_EFFECTS, else ~/.local/share/needle-torsion/effects)",
     )
     _add_output(diagnose, "diagnose", "; out/paper with --paper")
 
@@ -163,7 +163,7 @@ def _add_blind(blind: Parser) -> None:
         nargs="+",
         metavar="KIND",
         help="some of: none single pair off_nominal outside (default: these five), rough_none"
-        " rough_single wrong_constant wrong_outside, or all",
+        " rough_single wrong_constant wrong_outside triple, or all",
     )
     make.add_argument("--effects", nargs="+", metavar="EFFECT", help="only these effects")
     make.add_argument(
@@ -182,7 +182,7 @@ def _add_blind(blind: Parser) -> None:
     )
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
     score = _subcommand(actions, "score", "diagnose the logs, then compare with the ground truth")
-    score.add_argument("folder", type=Path, metavar="DIR", help="with logs/ and answers/")
+    score.add_argument("folder", type=Path, metavar="DIR", help="a folder with logs/ and answers/")
     score.add_argument("--limit", type=float, metavar="SECONDS", help="time for each diagnosis")
     score.add_argument(
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
@@ -192,14 +192,16 @@ def _add_blind(blind: Parser) -> None:
 
 
 def _add_campaign(campaign: Parser) -> None:
-    campaign.add_argument("file", type=Path, metavar="FILE.yaml", help="see docs/campaigns.md")
     campaign.add_argument(
-        "--samples", type=int, metavar="N", help="draws, instead of the number in the file"
+        "file", type=Path, metavar="FILE.yaml", help="the campaign: see docs/campaigns.md"
+    )
+    campaign.add_argument(
+        "--samples", type=int, metavar="N", help="number of draws, instead of that in the file"
     )
     campaign.add_argument(
         "--resume",
         action="store_true",
-        help="compute only what is missing, without --out in the folder that was begun last",
+        help="compute only what is missing; without --out, in the folder that was begun last",
     )
     _add_engine(campaign)
     campaign.add_argument(

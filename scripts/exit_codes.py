@@ -16,7 +16,7 @@ class ExitCode(IntEnum):
         return member
 
     DONE = 0, "done"
-    BOUND_FAILS = 1, "a bound of validate or demo fails"
+    BOUND_FAILS = 1, "a check of validate or demo failed"
     REFUSED = 2, "wrong arguments or input, or a result exists; or files or output cannot be written"
     WITHOUT_ALL = 3, "done, except for a picture, page or recording that could not be made"
     INTERRUPTED = 130, "stopped by Ctrl-C; diagnose reports the best so far"
