@@ -36,7 +36,7 @@ def test_a_law_that_closes_the_gap_becomes_an_effect(diagnosed, tmp_path):
     code, said = diagnosed(missing_with())
     path = tmp_path / "effects" / "sticky_membrane.yaml"
     assert code == 0
-    assert f"{path}: later diagnoses know sticky_membrane" in said
+    assert f"{path}: later diagnoses will try sticky_membrane" in said
     assert read_effect(path).apply(NOMINAL, 1.0).free == STICKY
 
 
@@ -44,7 +44,7 @@ def test_a_law_that_closes_the_gap_becomes_an_effect(diagnosed, tmp_path):
 def test_where_there_is_none_that_is_said_and_nothing_is_written(diagnosed, tmp_path, missing):
     code, said = diagnosed(missing)
     assert code == 0
-    assert "sticky_membrane is not saved: no free-form law closes a gap" in said
+    assert "sticky_membrane is not saved: no free-form law closes the gap" in said
     assert not (tmp_path / "effects").exists()
 
 

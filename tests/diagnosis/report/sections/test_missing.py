@@ -36,7 +36,7 @@ def test_where_no_law_helps_nothing_is_drawn(monkeypatch):
 
 def test_places_and_variables_are_ranked():
     page = "".join(missing_section(telling(missing_with())))
-    order = ("between it and the tissue</th><td>0.90", "at the drive</th><td>0.02")
+    order = ("between shaft and tissue</th><td>0.90", "at the drive</th><td>0.02")
     assert 0 < page.index(order[0]) < page.index(order[1])
     rows = page[page.index("What it depends on") :]
     assert rows.index("1.03") < rows.index("2.50")
