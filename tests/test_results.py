@@ -49,7 +49,7 @@ def test_no_measurement_is_written_over_by_its_prediction(log, capsys, command):
 def test_no_measurement_is_written_over_through_a_link(log, capsys, command):
     Path("o").mkdir()
     Path("o/predictions").symlink_to(log)
-    refused([command, log, "--out", "o"], capsys, "o/predictions: a link")
+    refused([command, log, "--out", "o"], capsys, "o/predictions: is a link")
 
 
 def test_no_measurement_is_written_over_by_its_second_name(log, capsys):
@@ -72,7 +72,7 @@ def test_no_model_is_written_over_the_protocol_that_is_read(protocol, capsys):
 
 def test_no_model_is_written_through_a_link(protocol, capsys):
     Path("m.xml").symlink_to(protocol)
-    refused(["insert", "--protocol", "p.yaml", "--out", "o", "--mjcf", "m.xml"], capsys, "m.xml: a link")
+    refused(["insert", "--protocol", "p.yaml", "--out", "o", "--mjcf", "m.xml"], capsys, "m.xml: is a link")
 
 
 def test_no_recording_is_written_over_a_protocol_that_is_named_like_it(protocol, capsys):
@@ -108,7 +108,7 @@ def test_no_ground_truth_is_written_over(tmp_path, monkeypatch, capsys):
 def test_results_replace_no_folder_and_no_file_on_the_way(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("o/validate.json").mkdir(parents=True)
-    refused(["validate", "--out", "o"], capsys, "o/validate.json: not a file")
+    refused(["validate", "--out", "o"], capsys, "o/validate.json: is not a file")
     Path("file").write_text("mine")
     for out in ("file", "file/below"):
         refused(["control", "--out", out], capsys, "give", "folder")
