@@ -72,7 +72,9 @@ def test_no_model_is_written_over_the_protocol_that_is_read(protocol, capsys):
 
 def test_no_model_is_written_through_a_link(protocol, capsys):
     Path("m.xml").symlink_to(protocol)
-    refused(["insert", "--protocol", "p.yaml", "--out", "o", "--mjcf", "m.xml"], capsys, "m.xml: is a link")
+    refused(
+        ["insert", "--protocol", "p.yaml", "--out", "o", "--mjcf", "m.xml"], capsys, "m.xml: is a link"
+    )
 
 
 def test_no_recording_is_written_over_a_protocol_that_is_named_like_it(protocol, capsys):

@@ -104,7 +104,7 @@ def test_where_held_out_trials_cannot_be_simulated_the_gap_is_that_of_the_fit(lo
     told = assessed(log, nominal, exact)
     assert told.gap.after == told.gap.before == pytest.approx(exact.floor.gap)
     (warning,) = told.warnings
-    assert "cannot be simulated (lost its numbers)" in warning
+    assert "with the parameters from the others (lost its numbers)" in warning
 
 
 def test_where_the_best_cannot_be_simulated_coarsely_nothing_further_is_told(

@@ -100,7 +100,7 @@ def test_the_colour_is_found_again_in_what_the_best_leaves(long):
     assert "base_torque_n_mm" not in noise.colour
     (line,) = noise.notes
     assert line.startswith("tip_angle_deg: ")
-    assert line.endswith("ms; it is whitened for")
+    assert line.endswith("ms; the diagnosis allows for it")
 
 
 def test_a_colour_that_the_best_does_not_leave_was_none(long):

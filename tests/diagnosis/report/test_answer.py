@@ -33,7 +33,7 @@ def test_what_is_explained_is_told_with_probability_share_and_what_to_change(dry
 def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
     _, sure, _ = answer(concluding(dry.found, confusable=ALIKE))
     assert sure.endswith(
-        f"tells it from {titles(('tip_drag', 'torque_bias'))}, or {titles(('stiction',))}."
+        f"distinguishes it from {titles(('tip_drag', 'torque_bias'))}, or {titles(('stiction',))}."
     )
 
 
@@ -42,7 +42,7 @@ def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
     [
         (
             {"kind": VerdictKind.NONE, "effects": ()},
-            "Sure down to the detection limits: of ",
+            "Sure down to the detection limits: any of ",
             "Next: nothing has to change",
         ),
         (
@@ -85,7 +85,7 @@ def test_a_search_that_was_cut_short_is_not_sure(dry):
 def test_one_trial_is_not_called_unseen(dry):
     alone = replace(dry.found, log=replace(dry.log, trials=dry.log.trials[:1]))
     assert "not seen" not in answer(alone)[1]
-    assert "which is that of the fit" in answer(alone)[1]
+    assert "which is also the one that was fitted" in answer(alone)[1]
 
 
 def test_without_limits_nothing_is_sure_and_without_an_effect_nothing_is_near(dry):

@@ -72,7 +72,7 @@ BEGINNING = "Stopped early (limit of 30 s, while fitting pairs): best so far: "
     [
         (
             {"kind": VerdictKind.UNDECIDED, "confusable": (("tip_drag",), ())},
-            f"{titles(['tip_drag'])}; or the nominal model as it is: undecided, as others were",
+            f"{titles(['tip_drag'])}; or the nominal model as it is: undecided, because others were",
         ),
         (
             {"kind": VerdictKind.UNKNOWN, "effects": ()},
@@ -107,7 +107,7 @@ def test_of_a_search_that_was_cut_short_the_nearest_is_that_of_what_was_tried(dr
 def test_a_numerical_error_that_was_not_looked_at_is_told_as_that(dry):
     told = replace(dry.found.assessment, numerical_error={})
     lines = replay_quality(replace(dry.found, assessment=told))
-    assert [line.endswith("numerical error: not looked at") for line in lines] == [True, True, False]
+    assert [line.endswith("numerical error: not computed") for line in lines] == [True, True, False]
 
 
 def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
@@ -117,7 +117,7 @@ def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
         "Nearest: dry (Coulomb) friction along the shaft (coulomb_friction level 0.00"
     )
     assert "% of the power of the gap" in said
-    assert "what is left is largest in " in said
+    assert "the remaining residual is largest in " in said
 
 
 def test_sets_that_fit_alike_are_told_in_words(dry):
@@ -147,7 +147,7 @@ def test_one_trial_is_not_called_held_out(dry):
     alone = replace(dry.found, log=replace(dry.found.log, trials=dry.found.log.trials[:1]))
     assert "held-out" in reduction(dry.found)
     assert "held-out" not in reduction(alone)
-    assert "which is that of the fit" in reduction(alone)
+    assert "which is also the one that was fitted" in reduction(alone)
 
 
 def test_the_reduction_is_told_with_its_interval(dry):
@@ -175,8 +175,8 @@ def test_what_is_with_a_free_form_law_is_called_that(dry):
     assert label_of(found, "nominal") == "nominal"
     assert "; of the free-form law: largest in" in largest_parts(found)
     # The parts of the residual that is left are those of the law, not of what comes nearest.
-    assert "what is left is" not in nearest(found)
-    assert "what is left is" in nearest(without)
+    assert "the remaining residual is" not in nearest(found)
+    assert "the remaining residual is" in nearest(without)
 
 
 def test_an_unknown_log_is_told_with_the_gap_of_the_nearest_not_of_the_law(dry):
@@ -237,7 +237,7 @@ LEAD = Lead(signal="tip_angle_deg", by_s=0.1, low_s=0.05, high_s=0.2, correlatio
         (LEAD, "The residual of tip_angle_deg leads that of base_torque_n_mm by 100 ms (95 % interval"),
         (replace(LEAD, signal="", low_s=-0.05), "base_torque_n_mm is ahead of that of tip_angle_deg"),
         (replace(LEAD, signal="", correlation=0.1), "correlation of 0.10 is within chance (0.20)"),
-        (None, "takes both sensors"),
+        (None, "needs both sensors"),
     ],
 )
 def test_which_signal_leads_is_said_or_why_it_cannot_be(dry, lead, said):
