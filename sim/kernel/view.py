@@ -39,5 +39,5 @@ def _interpreted_view(memory: Array, start: int, shape: tuple[int, ...]) -> Arra
     return memory[start : start + int(np.prod(shape))].reshape(shape)
 
 
-view: Any = _interpreted_view if numba.config.DISABLE_JIT else _compiled_view
+view: Any = _interpreted_view if numba.config.DISABLE_JIT else _compiled_view  # type: ignore[attr-defined]
 """view(memory, start, shape): values of a flat array from `start` on, as a contiguous array."""
