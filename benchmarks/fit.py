@@ -1,7 +1,7 @@
 """What a Jacobian of a fit costs: columns that MuJoCo steps, and columns of the callback alone.
 
-A fit's values are MuJoCo's. Its slopes are differences between runs, and the callback's own steps are
-those on which MuJoCo's land (`sim.needles.callback_loop`), so that the columns may leave MuJoCo out.
+Where a fit ends its values are MuJoCo's. On its way, and for its slopes, the callback's own steps do, on
+which MuJoCo's land (`sim.needles.callback_loop`), so that these may leave MuJoCo out.
 For effects that change the needle: one Jacobian of each with all that every fit leaves open, both
 ways, on the decimated log and on the log itself; the ratio of times, and how far the columns are
 apart, over their own norm. Both take turns in one run: the ratio is what counts.

@@ -395,6 +395,8 @@ NEAR_FLOOR = 3.0
 floor, and no finer mesh and no search with drift is spent on it."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
+MOST_TRIPLES, TRIPLE_BASES = 12, 4
+"""Sets of three that are fitted, and leading pairs that they build on. Choices, for time."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_CONTENDERS = 12
@@ -470,8 +472,9 @@ FREE_LAW_GAIN = 0.95
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told. Choices: no verdict rests on them."""
 FAR_STEP = 1.5
-"""Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and the law
-is fitted to the other trials instead. A choice: no verdict rests on it."""
+"""Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and what
+comes nearest, or a free-form law, is fitted to the other trials instead. A choice: no verdict rests on
+it."""
 
 # Stopping early (pipeline.py)
 

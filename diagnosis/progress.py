@@ -67,6 +67,9 @@ _STAGES = {
     "finalists, imperfections of sensors": _Usual(
         words="fitting the best imperfections of sensors to the whole log"
     ),
+    "screening three effects": _Usual(words="screening sets of three effects"),
+    "three effects": _Usual(words="fitting sets of three effects"),
+    "finalists, three effects": _Usual(words="fitting the best sets of three to the whole log"),
     "best to its end": _Usual(words="fitting the best to its end"),
     "effects of the best alone": _Usual(words="fitting the effects of the best pair alone"),
     "scatter of the best": _Usual(words="fitting the scatter of the best"),

@@ -121,7 +121,7 @@ def _add_import(importer: Parser) -> None:
         "--map", type=Path, metavar="FILE", help="a mapping.yaml; without it one is drafted"
     )
     importer.add_argument(
-        "--accept-guesses", action="store_true", help="take the guesses of the mapping for confirmed"
+        "--accept-guesses", action="store_true", help="treat all guesses of the mapping as confirmed"
     )
     _add_output(importer, "import")
 
@@ -193,13 +193,17 @@ def _add_blind(blind: Parser) -> None:
 def _add_campaign(campaign: Parser) -> None:
     campaign.add_argument("file", type=Path, metavar="FILE.yaml", help="see docs/campaigns.md")
     campaign.add_argument("--samples", type=int, metavar="N", help="draws, in place of the file's")
-    campaign.add_argument("--resume", action="store_true", help="compute only what is missing")
+    campaign.add_argument(
+        "--resume",
+        action="store_true",
+        help="compute only what is missing, without --out in the folder that was begun last",
+    )
     _add_engine(campaign)
     campaign.add_argument(
         "--out",
         type=Path,
         metavar="DIR",
-        help="where results go (default: out/ and the campaign's name)",
+        help="where results go (default: out/ and the campaign's name; numbered where it has results)",
     )
     campaign.add_argument("--force", action="store_true", help="replace results that exist")
 

@@ -9,10 +9,11 @@ from rich.text import Text
 
 from diagnosis.stopping import NEVER
 from scripts.engine import engine_of
+from scripts.output_folder import first_free, latest
 from scripts.progress_line import progress_line
 from scripts.tables import print_table
 from scripts.terminal import terminal
-from studies.campaign.campaign import read_campaign
+from studies.campaign.campaign import Campaign, read_campaign
 from studies.campaign.columns import FAILED
 from studies.campaign.posterior.bands import QUANTILES
 from studies.campaign.results import ResultFolder
@@ -40,7 +41,8 @@ def run(
       NeedleError: the campaign is not possible, or the folder is another one's.
     """
     campaign = read_campaign(path, samples=samples)
-    results = ResultFolder(folder=out or Path("out") / campaign.name, campaign=campaign)
+    folder = out or _default_folder(campaign, resume=resume, force=force)
+    results = ResultFolder(folder=folder, campaign=campaign)
     shown = terminal(stderr=True)
     with progress_line(shown, NEVER) as show:
         done = run_campaign(
@@ -51,6 +53,18 @@ def run(
     for written in (results.folder / "campaign.yaml", results.dataset, *summarise(results)):
         console.print(f"wrote      {written}", highlight=False)
     return 0
+
+
+def _default_folder(campaign: Campaign, *, resume: bool, force: bool) -> Path:
+    """Named after the campaign; numbered, if another run has or had it, but that which is continued."""
+
+    def there(folder: Path) -> ResultFolder:
+        return ResultFolder(folder=folder, campaign=campaign)
+
+    default = Path("out") / campaign.name
+    if resume:
+        return latest(default, lambda folder: there(folder).begun_at_s)
+    return default if force else first_free(default, lambda folder: there(folder).outputs)
 
 
 def _show(results: ResultFolder, console: Console) -> None:
@@ -78,4 +92,6 @@ def _show_failed(failed: pd.DataFrame, console: Console) -> None:
     for _, row in failed.head(_ERRORS_SHOWN).iterrows():
         console.print(f"failed: case {row['case']}: {row['error']}", highlight=False, markup=False)
     if len(failed) > _ERRORS_SHOWN:
-        console.print(f"and {len(failed) - _ERRORS_SHOWN} more: column error of the results")
+        console.print(
+            f"and {len(failed) - _ERRORS_SHOWN} more failed cases: see the column 'error' of the results"
+        )

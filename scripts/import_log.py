@@ -72,7 +72,7 @@ def _draft_paths(folder: Path) -> list[Path]:
 
 def table(draft: Draft) -> Table:
     """Every guess with its reason."""
-    shown = Table("column", "field", "guess", "because", title="Guesses: check each of them")
+    shown = Table("column", "field", "guess", "because", title="Guesses: please check each one")
     for time in draft.times:
         shown.add_row("time_s", "column", time.source.column, "by its name; it rises")
         shown.add_row("", "unit", str(time.source.unit), time.reason, end_section=True)
@@ -113,6 +113,9 @@ def _write(
     log = read_rig_log(destination.folder)
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False)
-    said = "no warnings" if not log.warnings else f"{len(log.warnings)} warnings"
-    console.print(f"read back: {len(log.trials)} trials, {said}", highlight=False)
+    count, trials_read = len(log.warnings), len(log.trials)
+    said = "no warnings" if not count else f"{count} warning{'s' if count > 1 else ''}"
+    console.print(
+        f"read back: {trials_read} trial{'s' if trials_read > 1 else ''}, {said}", highlight=False
+    )
     return code

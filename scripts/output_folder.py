@@ -1,10 +1,12 @@
 """Where results go: the folder that was asked for, or a default one in which nothing is overwritten."""
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from itertools import count
 from pathlib import Path
 
+from models.errors import OutputExists
 from sim.files import Destination, claiming, finish_interrupted
 
 Outputs = Callable[[Path], list[Path]]
@@ -45,6 +47,26 @@ def first_free(default: Path, outputs: Outputs) -> Path:
     return next(folder for folder in _numbered(default) if _is_free(folder, outputs))
 
 
+def latest(default: Path, begun_at: Callable[[Path], float | None]) -> Path:
+    """The default or numbered folder in which a run was begun last; the default if none was.
+
+    It is this run's until `release_folders`.
+
+    Args:
+      begun_at: when the run was begun in a folder, in any unit of time; None: it was not.
+
+    Raises:
+      OutputExists: another run works in it.
+      UnwritableOutput: nothing can be written there.
+    """
+    begun = {folder: begun_at(folder) for folder in _existing(default)}
+    times = {folder: time for folder, time in begun.items() if time is not None}
+    folder = max(times, key=lambda one: times[one], default=default)
+    if not _CLAIMS.enter_context(claiming(folder)):
+        raise OutputExists(f"{folder}: another run works in it; wait until it has ended")
+    return folder
+
+
 def release_folders() -> None:
     """Let other runs choose what this process has chosen; to be called when it is done."""
     _CLAIMS.close()
@@ -61,6 +83,13 @@ def _is_free(folder: Path, outputs: Outputs) -> bool:
 def _has_results(folder: Path, outputs: Outputs) -> bool:
     finish_interrupted(folder)
     return any(path.exists() for path in outputs(folder))
+
+
+def _existing(default: Path) -> list[Path]:
+    """The default and all numbered folders that are there."""
+    named = re.compile(re.escape(default.name) + r"(-\d+)?")
+    there = default.parent.iterdir() if default.parent.is_dir() else ()
+    return [path for path in there if named.fullmatch(path.name)]
 
 
 def _numbered(default: Path) -> Iterator[Path]:

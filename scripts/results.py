@@ -19,9 +19,9 @@ def tell(results: ResultSet, console: Console, *, shown: Iterable[Path | str] | 
     for path in results.made if shown is None else shown:
         console.print(f"wrote      {path}", highlight=False, markup=False, soft_wrap=True)
     for path, why in results.left_out.items():
-        complain(f"warning: {path} could not be made ({why}); the other results stand without it")
+        complain(f"warning: {path} could not be made ({why}); the other results are complete")
     for path, parts in results.lacks.items():
         for part in parts:
-            complain(f"warning: {path} lacks {part}; the rest stands without it")
+            complain(f"warning: {path} lacks {part}; the rest of it is complete")
     all_there = not results.left_out and not any(results.lacks.values())
     return ExitCode.DONE if all_there else ExitCode.WITHOUT_ALL

@@ -188,7 +188,7 @@ def simulate(
         stiffness, inertia, servos and time step are what is simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
       threads: of MuJoCo's batch; results do not depend on it.
-      callback_alone: without MuJoCo's steps, as differences between runs may be
+      callback_alone: without MuJoCo's steps, as fits on their way may be
         (sim.needles.callback_loop); no shape is kept.
 
     Raises:

@@ -44,7 +44,7 @@ RIG = NominalRig(
     trials=(TrialEntry(file="trial_01.csv"),),
 )
 NOISE = Noise(sigma={"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE})
-ENDED = FitStatus(termination=Termination.GRADIENT, message="Terminated after 1 iterations")
+ENDED = FitStatus(termination=Termination.GRADIENT, message="converged after 1 iteration")
 AT_FLOOR = NoiseFloor(gap=1.0, slow=1.0)
 
 

@@ -33,10 +33,12 @@ class SimulatorSpy(AbstractContextManager):
             nominal_replay, "replay", self._watched(nominal_replay.replay, self._nominal)
         )
         self._patch.setattr(pipeline, "assess", self._watched(pipeline.assess, self._assessed))
-        for stage, module in (("search", candidate), ("assessment", assess)):
+        for stage, module, name in (
+            ("search", candidate, "held_out_residuals"),
+            ("assessment", assess, "held_out_or_refitted"),
+        ):
             count = self._counter(self.held_out[stage])
-            watched = self._watched(module.held_out_residuals, count)
-            self._patch.setattr(module, "held_out_residuals", watched)
+            self._patch.setattr(module, name, self._watched(getattr(module, name), count))
         return self
 
     def __exit__(self, *_):
@@ -59,4 +61,4 @@ class SimulatorSpy(AbstractContextManager):
         self.assessed = (problem, coarse)
 
     def _counter(self, counts):
-        return lambda _, fit: counts.update([fit.names])
+        return lambda _, fit, *__: counts.update([fit.names])

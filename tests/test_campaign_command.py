@@ -6,6 +6,7 @@ import yaml
 from campaigns import ROOT, content
 
 from scripts.main import main
+from sim.files import claiming
 
 
 @pytest.fixture
@@ -41,7 +42,7 @@ def test_failed_cases_are_shown_with_their_reason(tmp_path, capsys):
     assert needle_campaign(path, tmp_path / "out") == 0
     shown = capsys.readouterr().out
     assert "failed: case" in shown
-    assert "more: column error" in shown
+    assert "more failed cases: see the column" in shown
 
 
 @pytest.mark.parametrize(
@@ -75,3 +76,50 @@ def test_the_example_is_a_campaign(tmp_path):
     example = ROOT / "examples" / "campaign.yaml"
     assert needle_campaign(example, tmp_path / "out", "--samples", "1") == 0
     assert len(pd.read_parquet(tmp_path / "out" / "results")) == 1
+
+
+def in_this_folder(path, *more):
+    return main(["campaign", str(path), "--workers", "1", *more])
+
+
+def pieces(folder):
+    return {p.name: p.stat().st_mtime_ns for p in (folder / "results").iterdir()}
+
+
+def test_without_a_folder_each_run_gets_its_own(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    out = tmp_path / "out"
+    name = yaml.safe_load(path.read_text())["name"]
+    first, second = out / name, out / f"{name}-2"
+    assert in_this_folder(path) == 0
+    before = pieces(first)
+    assert in_this_folder(path) == 0
+    assert pieces(first) == before
+    assert set(pieces(second)) == set(before)
+    assert sorted(out.iterdir()) == [first, second]
+
+
+def test_resume_without_a_folder_goes_on_where_the_campaign_was_begun_last(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name = yaml.safe_load(path.read_text())["name"]
+    first, second = tmp_path / "out" / name, tmp_path / "out" / f"{name}-2"
+    assert in_this_folder(path) == 0
+    assert in_this_folder(path) == 0
+    kept, lost = pieces(first), min((second / "results").iterdir())
+    whole = lost.read_bytes()
+    lost.unlink()
+    path.write_text(yaml.safe_dump(content(seed=5)))
+    assert in_this_folder(path) == 0  # another campaign of the same name has out/NAME-3
+    path.write_text(yaml.safe_dump(content()))
+    assert in_this_folder(path, "--resume") == 0
+    assert lost.read_bytes() == whole
+    assert pieces(first) == kept
+
+
+def test_resume_refuses_a_folder_in_which_another_run_works(path, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert in_this_folder(path) == 0
+    name = yaml.safe_load(path.read_text())["name"]
+    with claiming(tmp_path / "out" / name):
+        assert in_this_folder(path, "--resume") == 2
+    assert "another run works in it" in capsys.readouterr().err.replace("\n", " ")

@@ -14,10 +14,10 @@ from diagnosis.assessment.intervals import Interval, covariance, intervals
 from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.fitting.refits import held_out_or_refitted, root_mean_square
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.replay.drift import drift_range_sigma, with_drift
@@ -262,7 +262,7 @@ def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], 
     if best.held_out is not None:
         return best.held_out, ()
     try:
-        return held_out_residuals(problem, best.fit), ()
+        return held_out_or_refitted(problem, best.fit, root_mean_square), ()
     except SimulationFailed as failed:
         warning = (
             "the gap after is that on the trials of the fit: what the others say of a trial that is "

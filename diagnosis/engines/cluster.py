@@ -75,9 +75,9 @@ def _connected(address: str, patience_s: float) -> Any:
         except OSError as error:
             if time.monotonic() > deadline:
                 raise EngineFailed(
-                    f"expected a scheduler at {address}, found none for {patience_s:g} s; what is "
-                    "complete is kept: start the scheduler and its workers, then the command goes "
-                    "on from there (a campaign with --resume)"
+                    f"expected a scheduler at {address}, found none for {patience_s:g} s; completed "
+                    "work is kept: start the scheduler and its workers, then run the command again "
+                    "(a campaign with --resume)"
                 ) from error
             time.sleep(min(1.0, patience_s))
 
@@ -133,6 +133,7 @@ def _result(call: Any, job: Job, task: Task) -> Any:
         return call.result()
     except KilledWorker as killed:
         raise EngineFailed(
-            f"{job.about(task)} has cost several workers: look for a lack of memory there, or take "
-            "smaller pieces (cases_per_piece of a campaign); the command goes on from what is complete"
+            f"several workers died while computing {job.about(task)}: check whether they ran out of "
+            "memory, or use smaller pieces (cases_per_piece of a campaign); completed work is kept: run "
+            "the command again (a campaign with --resume)"
         ) from killed

@@ -59,8 +59,8 @@ class Job:
         """
         if self.versions != _versions():
             raise EnvironmentMismatch(
-                f"expected {', '.join(self.versions)} as where the job was made, found "
-                f"{', '.join(_versions())}: install the same versions on the worker as here"
+                f"expected {', '.join(self.versions)}, as on the machine of the command, found "
+                f"{', '.join(_versions())} on the worker: install the same versions on both"
             )
         module, _, name = self.function.rpartition(".")
         return getattr(import_module(module), name)(*self.arguments, task)
@@ -87,8 +87,8 @@ def refuse_more_losses(job: Job, losses: int, missing: Sequence[Task]) -> None:
     """
     if losses >= MOST_LOSSES:
         raise EngineFailed(
-            f"workers ended {losses} times without completing anything; {job.about(missing[0])} is among"
-            " what is missing: look for a lack of memory there, take smaller pieces (cases_per_piece of"
-            " a campaign) or fewer workers; what is complete is kept, and the command goes on from there"
-            " (a campaign with --resume)"
+            f"workers died {losses} times without completing anything, among them with"
+            f" {job.about(missing[0])}: check whether they ran out of memory, or use smaller pieces"
+            " (cases_per_piece of a campaign) or fewer workers; completed work is kept: run the command"
+            " again (a campaign with --resume)"
         )

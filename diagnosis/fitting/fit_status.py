@@ -15,6 +15,7 @@ Where a model leaves much, a gradient that is small beside noise cannot be reach
 error grows with what is left. The relative offset is measured against just that.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -50,13 +51,32 @@ class Termination(StrEnum):
 
 
 # What the messages of mujoco.minimize contain.
-_WORDS = {
+_MUJOCO = {
     "norm(gradient) < tol": Termination.GRADIENT,
     "norm(dx) < tol": Termination.STEP,
     "insufficient reduction": Termination.STALLED,
     "maximum iterations": Termination.ITERATIONS,
     "factorization failed": Termination.FACTORIZATION,
 }
+_COUNT = re.compile(r"Terminated after (\d+)")
+
+_MEANING = {
+    Termination.GRADIENT: "converged after {}: the residual has no slope left along any parameter",
+    Termination.STEP: "converged after {}: the next step is too small to matter",
+    Termination.OFFSET: "converged after {}: a further step would change no parameter by more than a "
+    "small part of its uncertainty",
+    Termination.STALLED: "ended after {}: no further step lowers the residual; the values are the best "
+    "that were found, and others close by may fit as well",
+    Termination.ITERATIONS: "ended after {}, the most that are allowed: more might lower the residual",
+    Termination.BEHIND: "given up after {}: it cannot come near the best explanations",
+    Termination.FACTORIZATION: "failed after {}: no next step can be computed; do not use the values",
+}
+
+
+def in_words(termination: Termination, iterations: int) -> str:
+    """How a fit ended, and what that means for its values."""
+    count = f"{iterations} iteration{'' if iterations == 1 else 's'}"
+    return _MEANING[termination].format(count)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +84,7 @@ class FitStatus:
     """The end of a fit.
 
     Attributes:
-      message: of the optimiser.
+      message: the same in words, and what it means for the values.
       at_bound: parameters that stopped at a bound, as effect.parameter.
     """
 
@@ -85,24 +105,19 @@ class FitStatus:
     @classmethod
     def of_message(cls, said: str, at_bound: tuple[str, ...] = ()) -> "FitStatus":
         """From what the optimiser printed at its end."""
-        ended = next((line for line in said.splitlines() if line.startswith("Terminated")), said.strip())
-        message = ended.split(" y: ")[0]
-        meant = (end for words, end in _WORDS.items() if words in message)
-        return cls(termination=next(meant, Termination.OTHER), message=message, at_bound=at_bound)
-
-
-_OWN_WORDS = {
-    Termination.OFFSET: "relative offset < tol.",
-    Termination.STALLED: "insufficient reduction.",
-    Termination.BEHIND: "cannot come near the best.",
-}
+        count = _COUNT.search(said)
+        termination = next((end for words, end in _MUJOCO.items() if words in said), Termination.OTHER)
+        if count is None or termination is Termination.OTHER:
+            return cls(termination=Termination.OTHER, message=said.strip(), at_bound=at_bound)
+        message = in_words(termination, int(count[1]))
+        return cls(termination=termination, message=message, at_bound=at_bound)
 
 
 class Ended(Exception):
     """The end of a fit: where, and why."""
 
     def __init__(self, x: Array, termination: Termination, iterations: int) -> None:
-        super().__init__(f"Terminated after {iterations} iterations: {_OWN_WORDS[termination]}")
+        super().__init__(in_words(termination, iterations))
         self.x, self.termination = x, termination
 
 

@@ -2,7 +2,7 @@
 
 The nuisance moves by a few per cent at the most: its slopes are taken again only where the
 effects have moved far. What came before a late trial moves as far as effects do, and costs one trial.
-A fit ends at a vector that it has been at: what was simulated there is kept.
+On its way a fit runs the callback alone, which lands where MuJoCo does; its end is simulated by MuJoCo.
 """
 
 from collections.abc import Sequence
@@ -44,17 +44,25 @@ class Objective:
         self._known: dict[bytes, tuple[Array, ...]] = {}
 
     def by_trial(self, x: Array) -> tuple[Array, ...]:
-        """Residuals / sigma at one vector, (n,), one array per trial.
+        """Residuals / sigma at one vector, (n,), one array per trial, on the way of a fit.
 
         Raises:
           SimulationFailed: the rig cannot be simulated.
         """
         key = x.tobytes()
         if key not in self._known:
-            trials = self.problem.residuals([self.parameterization.rig(x)])
+            trials = self.problem.residuals([self.parameterization.rig(x)], callback_alone=True)
             self._known = dict(list(self._known.items())[1 - _KEPT :])
             self._known[key] = tuple(trial[0] for trial in trials)
         return self._known[key]
+
+    def at_the_end(self, x: Array) -> tuple[Array, ...]:
+        """The same where a fit ends: of MuJoCo's run.
+
+        Raises:
+          SimulationFailed: the rig cannot be simulated.
+        """
+        return tuple(trial[0] for trial in self.problem.residuals([self.parameterization.rig(x)]))
 
     def __call__(self, x: Array) -> Array:
         """(n,) or (n, 1) to residuals with the prior, (N,) or (N, 1).

@@ -53,7 +53,7 @@ class FitProblem:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
 
         Args:
-          callback_alone: for differences between residuals alone (sim.needles.callback_loop).
+          callback_alone: for fits on their way, and differences (sim.needles.callback_loop).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP, FAR_STEP
-from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.criteria import CLOSED_GAP
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.fitting.refits import held_out_or_refitted
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.prior import free_covariance, well_determined, with_estimated_prior
@@ -34,7 +34,6 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "finalists, free-form laws",
 )
 FIRST_ITERATIONS, ITERATIONS = 4, 10
-REFIT_ITERATIONS = 3
 CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
 
 
@@ -133,32 +132,11 @@ def _on_the_log(problem: FitProblem, contender: FreeFit) -> FreeFit:
     if len(problem.log.trials) == 1:
         return replace(contender, fit=fit, gap_after=fit.gap, final=True)
     try:
-        held_out = held_out_residuals(own, fit)
-        if predictive_gap(fit, held_out) > FAR_STEP * fit.gap:
-            held_out = refitted_without(own, fit)
+        held_out = held_out_or_refitted(own, fit, predictive_gap)
     except SimulationFailed:
         return replace(contender, fit=fit, gap_after=np.inf, final=True)
     gap = max(predictive_gap(fit, held_out), fit.gap)
     return replace(contender, fit=fit, held_out=held_out, gap_after=gap, final=True)
-
-
-def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
-    """Residuals / sigma of each trial, simulated with a fit to the others.
-
-    Where a law bends sharply, one step from the fit to all trials leads too far.
-
-    Raises:
-      SimulationFailed: the others lead to where the needle cannot be simulated.
-    """
-    left = []
-    for i in range(len(problem.log.trials)):
-        others = tuple(trial for j, trial in enumerate(problem.log.trials) if j != i)
-        rest = replace(problem, log=replace(problem.log, trials=others))
-        again = fit_effects(rest, fit.names, fit.x, most_iterations=REFIT_ITERATIONS)
-        rig = again.parameterization.rig(again.x)
-        own = replace(problem, log=replace(problem.log, trials=(problem.log.trials[i],)))
-        left.append(own.residuals([rig])[0][0])
-    return tuple(left)
 
 
 def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:

@@ -10,10 +10,10 @@ from diagnosis.log.nominal_rig import NominalNeedle, NominalTissue
 from diagnosis.log.trial import REQUIRED, SENSORS
 
 _HEAD = """\
-# Draft of a mapping by `needle import`: nothing in it is believed before you have looked.
+# Draft of a mapping by `needle import`. No guess in it is used before you have confirmed it.
 #   1. look at preview.png
-#   2. check each entry, then take its line 'guess: true' out
-#   3. fill every blank (all that end in ':')
+#   2. check each entry, then delete its line 'guess: true'
+#   3. fill every blank (each line that ends in ':')
 #   4. needle import FILE... --map THIS_FILE --out LOG
 # rig-log value = sign * factor * (value in the file - zero); docs/import.md has every field.
 """
@@ -51,7 +51,7 @@ def _times(draft: Draft) -> Iterator[str]:
     reason = (
         "rows per second; these columns have clocks of their own"
         if draft.resample_hz
-        else ("rows per second; left out: rows as they are")
+        else ("rows per second; without it, rows are written unchanged")
     )
     yield _line("resample_hz" if draft.resample_hz else "# resample_hz", draft.resample_hz, reason)
 
@@ -75,11 +75,9 @@ def _column(column: GuessedColumn) -> Iterator[str]:
         yield _line("    factor", None, f"{source.quantity(column.wanted)} per {source.unit}")
     if source.derive:
         yield _line("    derive", source.derive, reasons["derive"])
-    yield _line("    sign", source.sign, reasons.get("sign", "kept as it is"))
-    yield _line("    zero", source.zero, reasons.get("zero", "not looked for"))
-    yield _line(
-        "    time_offset_s", source.time_offset_s, reasons.get("time_offset_s", "not looked for")
-    )
+    yield _line("    sign", source.sign, reasons.get("sign", "unchanged"))
+    yield _line("    zero", source.zero, reasons.get("zero", "not estimated"))
+    yield _line("    time_offset_s", source.time_offset_s, reasons.get("time_offset_s", "not estimated"))
     yield "    guess: true\n"
 
 
@@ -99,9 +97,9 @@ def _rig(draft: Draft) -> Iterator[str]:
     have = {column.wanted for column in draft.columns}
     for name, value in draft.noise.items():
         if NOISES[name] not in have and NOISES[name] in SENSORS:
-            yield _line(f"  {name}", 1.0, "no such sensor: any number does")
+            yield _line(f"  {name}", 1.0, "this sensor is not there: any number will do")
         else:
-            reason = "scatter of the readings, at rest where there is one"
+            reason = "scatter of the readings, at rest if there is a rest"
             times = f"times the factor: {draft.noise_in_files.get(name)} is the scatter of the readings"
             yield _line(f"  {name}", value, times if name in draft.noise_in_files else reason)
     if draft.loops is not None:
@@ -118,10 +116,10 @@ def loop_lines(draft: Draft) -> list[str]:
     return [
         f"stiffness after a reversal: {shape.stiffness.told(f'{torque}/{angle}')}",
         f"play (flat part after a reversal): {shape.play.told(angle)}",
-        f"level (half of the width): {shape.level.told(torque)}, at "
+        f"level (half of the loop's width): {shape.level.told(torque)}, at "
         f"{shape.rates_per_s[0]:.3g} to {shape.rates_per_s[1]:.3g} {angle}/s, viscous torque included",
-        f"torque kept in rests after a turn (dry alone): {shape.kept.told(torque)}",
-        f"middle of the loops (an offset of the torque?): {shape.middle.told(torque)}",
+        f"torque that remains at rest after a turn (dry friction only): {shape.kept.told(torque)}",
+        f"middle of the loops (an offset of the torque sensor?): {shape.middle.told(torque)}",
     ]
 
 

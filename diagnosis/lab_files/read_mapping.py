@@ -35,7 +35,7 @@ def read_mapping(path: Path, *, accept_guesses: bool) -> ImportMapping:
     wrong = [*_blanks(mapping), *_impossible(mapping)]
     if not accept_guesses:
         wrong += [
-            f"{place}: take 'guess: true' out when you have checked it" for place in guesses(mapping)
+            f"{place}: delete 'guess: true' when you have checked it" for place in guesses(mapping)
         ]
     if wrong:
         some = "\n  ".join(wrong)
@@ -53,7 +53,9 @@ def _blanks(mapping: ImportMapping) -> list[str]:
             found.append(f"times.{time.column}: state 'unit', one of {_known(MeasuredQuantity.TIME)}")
     for name, source in mapping.columns.items():
         if source.column is None:
-            found.append(f"columns.{name}.column: state the column of the file, or remove the entry")
+            found.append(
+                f"columns.{name}.column: state the name of the column in the file, or remove the entry"
+            )
         elif source.unit is None and source.factor is None:
             quantity = source.quantity(name) or QUANTITIES.get(name, MeasuredQuantity.ANGLE)
             found.append(
@@ -78,7 +80,7 @@ def _impossible(mapping: ImportMapping) -> list[str]:
     for name, source in mapping.columns.items():
         if name not in MEASURED:
             found.append(
-                f"columns.{name}: expected one of {', '.join(MEASURED)}; times stand in 'times'"
+                f"columns.{name}: expected one of {', '.join(MEASURED)}; times belong in 'times'"
             )
             continue
         found += [f"columns.{name}{wrong}" for wrong in _wrong_unit(name, source)]
@@ -101,11 +103,13 @@ def _impossible(mapping: ImportMapping) -> list[str]:
             f"{place}.{n}: is under 'columns' too; remove one" for n in constants if n in mapping.columns
         ]
     files = [trial.file for trial in mapping.trials]
-    found += [f"trials.{f}: is there twice" for f in dict.fromkeys(files) if files.count(f) > 1]
+    found += [
+        f"trials.{f}: appears twice; rename one" for f in dict.fromkeys(files) if files.count(f) > 1
+    ]
     found += [f"trials.{f}: expected a name such as trial_01.csv" for f in files if not _plain_name(f)]
     if not any(name in mapping.columns for name in SENSORS):
         found.append(
-            f"columns: expected {' or '.join(SENSORS)}; without a reading nothing can be compared"
+            f"columns: expected {' or '.join(SENSORS)}; without readings there is nothing to compare"
         )
     if not mapping.times and mapping.sample_hz is None:
         found.append("times: state a column with times, or 'sample_hz', the samples per second")
@@ -119,21 +123,22 @@ def _impossible(mapping: ImportMapping) -> list[str]:
 def _wrong_unit(name: str, source: ColumnSource) -> list[str]:
     quantity = source.quantity(name)
     if quantity is None:
-        return [f".derive: {name} cannot be had by '{source.derive}'"]
+        return [f".derive: {name} cannot be obtained by '{source.derive}'"]
     if source.factor == 0:
         return [".factor: expected a number other than 0"]
     if source.unit is None:
         return []
     known = factor_of(source.unit, quantity)
     if known is None and source.factor is None:
+        measured = quantity.name.lower().replace("_", " ")
         return [
-            f".unit: {source.unit!r} is not known as {quantity.name.lower()} ({_known(quantity)}); "
+            f".unit: {source.unit!r} is not a known unit of {measured} ({_known(quantity)}); "
             f"state 'factor', {quantity} per {source.unit}"
         ]
     if known is not None and source.factor is not None:
         return [
-            f".factor: {source.unit!r} is a known unit ({known:.6g} {quantity}); take 'factor' out, "
-            "or name the unit otherwise"
+            f".factor: {source.unit!r} is a known unit ({known:.6g} {quantity}); remove "
+            "'factor', or use another label as the unit"
         ]
     return []
 

@@ -59,7 +59,9 @@ def _table_with(
     missing = [name for name in trial.lab_files if name not in by_name]
     if missing:
         raise InvalidValue(
-            f"trials.{trial.file}.lab_files", missing, f"some of the files given: {', '.join(by_name)}"
+            f"trials.{trial.file}.lab_files",
+            missing,
+            f"names among the files given: {', '.join(by_name)}",
         )
     if source.file is not None and not 1 <= source.file <= len(trial.lab_files):
         raise InvalidValue(f"columns.{wanted}.file", source.file, f"1 to {len(trial.lab_files)}")
@@ -86,7 +88,7 @@ def _times(mapping: ImportMapping, table: LabTable) -> Array:
         return np.arange(table.rows) / mapping.sample_hz
     stated = [time.column for time in mapping.times]
     raise InvalidValue(
-        f"{table.title}: times", stated, "a column of this file in 'times', or 'sample_hz'"
+        f"{table.title}: times", stated, "the column of times in this file, or 'sample_hz'"
     )
 
 
@@ -109,7 +111,7 @@ def refuse_unreadable(mapping: ImportMapping, files: Sequence[LabFile]) -> None:
         listed = "\n  ".join(found)
         raise InvalidValue(
             "mapping",
-            f"{len(found)} that are not",
+            f"{len(found)} problems",
             "columns that are in the files",
-            f"namely:\n  {listed}",
+            f"these are:\n  {listed}",
         )

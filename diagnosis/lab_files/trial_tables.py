@@ -49,7 +49,7 @@ def imported_trial(
         raise InvalidValue(
             f"{trial.file}: resample_hz",
             None,
-            "rows per second, since these columns do not share one clock: " + listed,
+            "a number of rows per second, because these columns have different clocks: " + listed,
             "e.g. resample_hz: 100; or remove 'time_offset_s' where there is none",
         )
     columns, notes = (
@@ -118,7 +118,7 @@ def _rows(trial: TrialSource, series: Mapping[str, Series]) -> tuple[dict[str, A
             )
     columns = {"time_s": time_s - time_s[0]}
     columns |= {name: one.values for name, one in series.items()}
-    return columns, [f"{trial.file}: {time_s.size} rows as they are"]
+    return columns, [f"{trial.file}: {time_s.size} rows, unchanged"]
 
 
 def _even(
@@ -134,7 +134,10 @@ def _even(
             f"{n} {_finite_times(s)[0]:.3f} to {_finite_times(s)[-1]:.3f} s" for n, s in series.items()
         ]
         raise InvalidValue(
-            f"{trial.file}: times", "; ".join(spans), "times that overlap", "state 'time_offset_s'"
+            f"{trial.file}: times",
+            "; ".join(spans),
+            "columns that overlap in time",
+            "state 'time_offset_s'",
         )
     wanted_s = first + np.arange(int((last - first) * hz * (1 + 1e-12)) + 1) / hz
     columns = {"time_s": wanted_s - wanted_s[0]}
@@ -153,5 +156,5 @@ def _even(
 def _finite_times(one: Series) -> Array:
     good = one.time_s[np.isfinite(one.values)]
     if good.size < 2:
-        raise InvalidValue(one.where, f"{good.size} numbers", "two numbers at least")
+        raise InvalidValue(one.where, f"{good.size} numbers", "at least two numbers")
     return good

@@ -11,12 +11,13 @@ from typing import TypeVarTuple
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from diagnosis.report.html_parts import document, paragraph, picture
+from diagnosis.report.html_parts import document, heading, paragraph, picture
 from sim.files import ResultSet, write_text
 
 Shown = TypeVarTuple("Shown")
 
 _HEADING = re.compile(r"<h\d[^>]*>(.*)</h\d>")
+_REST = "The rest of the page is complete without it."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,19 +37,21 @@ class MissingPart(str):
     """A sentence, as HTML, in place of a part.
 
     Attributes:
-      where: what is missing, and how its place lies to the heading before it.
+      what: is missing.
+      place: how it lies to the heading before it.
       why: it could not be made.
     """
 
-    where: str
+    what: str
+    place: str
     why: str
 
     def __new__(cls, what: str, place: str, error: Exception) -> "MissingPart":
         """The sentence."""
         why = f"{type(error).__name__}: {error}".removesuffix(": ")
-        sentence = f"A {what} belongs here, but could not be made ({why}). The rest stands without it."
+        sentence = f"The {what} for this place could not be made ({why}). {_REST}"
         part = super().__new__(cls, paragraph(sentence, "warning"))
-        part.where, part.why = f"{what} {place}", why
+        part.what, part.place, part.why = what, place, why
         return part
 
 
@@ -82,22 +85,28 @@ def drawn(draw: Callable[[*Shown], Figure], describe: Callable[[*Shown], str], *
             return MissingPart("picture", "under", error)
 
 
-def section(make: Callable[[*Shown], list[str]], *shown: *Shown) -> list[str]:
-    """The parts of a section; if it fails, a sentence in its place."""
+def section(make: Callable[[*Shown], list[str]], *shown: *Shown, title: str = "") -> list[str]:
+    """The parts of a section; if it fails, a sentence in its place.
+
+    Args:
+      title: of the page, if it is this section that has it: a page has one in any case.
+    """
     try:
         return make(*shown)
     except Exception as error:
-        return [MissingPart("section", "after", error)]
+        missing = MissingPart("section", "after", error)
+        return [heading(title, level=1), missing] if title else [missing]
 
 
 def _missing(parts: Iterable[str]) -> Iterator[str]:
     """What is missing, by the heading before it."""
-    heading = ""
+    above = ""
     for part in parts:
         if found := _HEADING.fullmatch(part):
-            heading = unescape(found[1])
+            above = unescape(found[1])
         if isinstance(part, MissingPart):
-            yield f"the {part.where} {heading!r} ({part.why})"
+            where = f"{part.place} {above!r}" if above else "at the top"
+            yield f"the {part.what} {where} ({part.why})"
 
 
 @contextmanager

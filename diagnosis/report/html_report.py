@@ -11,7 +11,7 @@ from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import Page, page_of, section
 from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sections.alternatives import alternatives_section
-from diagnosis.report.sections.front import front
+from diagnosis.report.sections.front import TITLE, front
 from diagnosis.report.sections.limits import limits_section
 from diagnosis.report.sections.missing import missing_section
 from diagnosis.report.sections.parameters import parameters_section
@@ -35,7 +35,7 @@ def page(found: Diagnosis, report: Mapping[str, Any]) -> Page:
         *section(sensors_section, found),
         *section(rig_section, found),
     ]
-    name = f"{found.log.name}: gap report" if found.log.name else "Gap report"
+    name = f"{found.log.name}: gap report" if found.log.name else TITLE
     return page_of(name, [*front(found), html.contents(_titles(body)), *body])
 
 

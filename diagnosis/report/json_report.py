@@ -15,6 +15,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.freeform.shapes import likeness_of
+from diagnosis.report.sentences import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
@@ -35,7 +36,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "stopped": _stopped(diagnosis.stopped),
         "effects": list(verdict.effects),
         "confusable": [list(names) for names in verdict.confusable],
-        "ranking": [{"effect": n, "probability": p} for n, p in verdict.ranking],
+        "ranking": [_ranked(names, probability) for names, probability in verdict.ranking],
         "parameters": _parameters(told.parameters),
         "covariance": _covariance(told.joint),
         "gap": {**asdict(told.gap), "noise": 1.0},
@@ -59,6 +60,12 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "search": [_entry(entry) for entry in diagnosis.record],
         "warnings": list(diagnosis.warnings),
     }
+
+
+def _ranked(names: tuple[str, ...], probability: float) -> dict[str, Any]:
+    """A row of the ranking: a set of effects is one, under a name of its own."""
+    effects = [name for name in names if name in LIBRARY]
+    return {"effect": explanation_name(names), "effects": effects, "probability": probability}
 
 
 def _stopped(early: EarlyStop | None) -> dict[str, Any] | None:

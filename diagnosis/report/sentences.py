@@ -45,7 +45,7 @@ def _verdict(found: Diagnosis) -> str:
         case _:
             nearest_gap = f"{found.assessment.nearest.gap_after:.2f} σ (σ = sensor noise)"
             return (
-                "Unknown: no effect of the library, nor any pair that was tried, explains the gap: "
+                "Unknown: no effect of the library, nor two or three together, explains the gap: "
                 f"residual {before}, at best {nearest_gap}"
             )
 
@@ -96,8 +96,7 @@ def explanations(found: Diagnosis) -> list[tuple[str, float]]:
 
     Those whose probability rounds to nothing are left out.
     """
-    sets = [(explanation_name(names), p) for names, p in found.verdict.explanations]
-    every = sets or found.verdict.ranking
+    every = [(explanation_name(names), p) for names, p in found.verdict.ranking]
     return [one for one in every if one[1] >= SHOWN_PROBABILITY]
 
 

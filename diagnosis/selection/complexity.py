@@ -1,8 +1,8 @@
 """Complexity penalty of an explanation: what it has to take off the cost to be worth its freedom.
 
 log(samples) for every parameter (BIC; Schwarz 1978), plus what the choice among many costs, so that
-nothing, one of all effects and one of all pairs are equally likely before the data: one of 351 pairs
-fits by chance more often than one of 27 effects.
+nothing, one of all effects, one of all pairs and one of all sets of three are equally likely before the
+data: one of 351 pairs fits by chance more often than one of 27 effects.
 """
 
 import math

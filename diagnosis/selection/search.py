@@ -1,9 +1,10 @@
-"""Which effect, or which pair of them, explains a log: the stages of the search, in order.
+"""Which effect, or which two or three of them, explain a log: the stages of the search, in order.
 
 Every effect of the vocabulary is screened, and the most promising are fitted, on the decimated
 log; the best of these are then fitted on the log itself. If none of them brings the residual to the
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
-does, but a second effect promises to take more off than noise could, that pair is fitted as well.
+does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
+no pair does, every effect beside each of the leading pairs is.
 What the scatter of the rig's own constants explains is `none`.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
@@ -24,6 +25,7 @@ from diagnosis.selection.stages.richer_effects import richer_effects
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
 from diagnosis.selection.stages.torque_drift import with_drift
+from diagnosis.selection.stages.triples import triples
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -36,6 +38,7 @@ STAGES: tuple[Stage, ...] = (
     pairs,
     richer_effects,
     one_more_imperfection,
+    triples,
     best_to_its_end,
     effects_of_the_best_alone,
     scatter_of_the_best,

@@ -17,6 +17,9 @@ from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
+NOTHING, UNEXPLAINED = "none", "unknown"
+"""What a ranking has beside effects: the nominal rig, and what the library does not hold."""
+
 
 class VerdictKind(StrEnum):
     """The four verdicts."""
@@ -36,9 +39,8 @@ class Verdict:
       confusable: sets of effects that fit alike, the accepted one first.
       best: the candidate that predictions and parameters are of.
       rivals: candidates that explain the log as well as the best.
-      ranking: single effects, none and unknown with probabilities that add up to 1.
-      explanations: sets of effects that were fitted, most probable first; an empty set is the nominal
-        rig. Probabilities add up to 1; there are none where nothing explains the log.
+      ranking: explanations with probabilities that add up to 1, most probable first: every effect of
+        the library alone, sets of several that were fitted, `NOTHING` and `UNEXPLAINED`.
     """
 
     kind: VerdictKind
@@ -46,8 +48,7 @@ class Verdict:
     confusable: tuple[tuple[str, ...], ...]
     best: Candidate
     rivals: tuple[Candidate, ...] = ()
-    ranking: tuple[tuple[str, float], ...]
-    explanations: tuple[tuple[tuple[str, ...], float], ...] = ()
+    ranking: tuple[tuple[tuple[str, ...], float], ...]
 
     @property
     def settled(self) -> bool:
@@ -79,7 +80,6 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         best=best,
         rivals=tuple(rivals),
         ranking=_ranking(candidates, known=True),
-        explanations=_explanations(candidates),
     )
 
 
@@ -166,28 +166,25 @@ def _says(one: Candidate) -> tuple[str, ...]:
     return (*one.named, *(name for name in one.names if name in IMPERFECTIONS))
 
 
-def _explanations(candidates: Sequence[Candidate]) -> tuple[tuple[tuple[str, ...], float], ...]:
-    """Probabilities of sets of effects: exp(-score / 2), normalised; fits of one set add up."""
-    least, weights = min(c.score for c in candidates), dict[frozenset[str], float]()
+def _probabilities(candidates: Sequence[Candidate]) -> dict[tuple[str, ...], float]:
+    """Of sets of effects: exp(-score / 2), normalised; fits of one set add up."""
+    least, weights = min(c.score for c in candidates), dict[tuple[str, ...], float]()
     for c in candidates:
-        named = frozenset(c.named)
+        named = tuple(sorted(c.named))
         weights[named] = weights.get(named, 0.0) + math.exp(-0.5 * min(c.score - least, 1400.0))
-    order = {frozenset(c.named): c.named for c in reversed(candidates)}
-    ranked = sorted(weights.items(), key=lambda item: -item[1])
-    return tuple((order[named], weight / sum(weights.values())) for named, weight in ranked)
+    return {named: weight / sum(weights.values()) for named, weight in weights.items()}
 
 
-def _ranking(candidates: Sequence[Candidate], *, known: bool) -> tuple[tuple[str, float], ...]:
-    """Probabilities of single effects, none and unknown: effects of a set share that of the set."""
-    weights = dict.fromkeys((*LIBRARY, "none", "unknown"), 0.0)
-    if not known:
-        weights["unknown"] = 1.0
+def _ranking(
+    candidates: Sequence[Candidate], *, known: bool
+) -> tuple[tuple[tuple[str, ...], float], ...]:
+    """Probabilities of all explanations, also of what was not worth a fit; a set of effects is one."""
+    found: dict[tuple[str, ...], float] = {(n,): 0.0 for n in (*LIBRARY, NOTHING, UNEXPLAINED)}
+    if known:
+        found |= {named or (NOTHING,): p for named, p in _probabilities(candidates).items()}
     else:
-        for named, probability in _explanations(candidates):
-            for name in named or ("none",):
-                weights[name] += probability / max(len(named), 1)
-    ranked = sorted(weights.items(), key=lambda item: -item[1])
-    return tuple((name, weight / sum(weights.values())) for name, weight in ranked)
+        found[UNEXPLAINED,] = 1.0
+    return tuple(sorted(found.items(), key=lambda item: -item[1]))
 
 
 def places(effects: Sequence[str]) -> str:

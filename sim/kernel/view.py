@@ -39,5 +39,6 @@ def _interpreted_view(memory: Array, start: int, shape: tuple[int, ...]) -> Arra
     return memory[start : start + int(np.prod(shape))].reshape(shape)
 
 
-view: Any = _interpreted_view if numba.config.DISABLE_JIT else _compiled_view  # type: ignore[attr-defined]
+_interpreted = bool(getattr(numba.config, "DISABLE_JIT", False))
+view: Any = _interpreted_view if _interpreted else _compiled_view
 """view(memory, start, shape): values of a flat array from `start` on, as a contiguous array."""

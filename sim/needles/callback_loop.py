@@ -1,9 +1,9 @@
-"""The steps of the tissue callback by itself, without MuJoCo: for differences between runs.
+"""The steps of the tissue callback by itself, without MuJoCo: for fits on their way.
 
 The callback finds the end of a step, and MuJoCo's step lands there: within 1e-8 rad, or the run is
 refused, and usually within 1e-13 rad. What a change of a parameter changes is therefore the same
-whether MuJoCo steps or nobody does, and a step costs a fraction. Values are MuJoCo's; differences
-between runs (slopes of a fit) may be the callback's.
+whether MuJoCo steps or nobody does, and a step costs a fraction. What is told is MuJoCo's; what leads
+there (the iterations of a fit, differences between runs) may be the callback's.
 """
 
 import ctypes

@@ -33,8 +33,8 @@ class Kind(StrEnum):
 
 
 _VARIES_ITSELF = {
-    Kind.DIAGNOSIS: "cases are its logs",
-    Kind.POSTERIOR: "cases are rigs that are drawn, all in one motion",
+    Kind.DIAGNOSIS: "its cases are the logs",
+    Kind.POSTERIOR: "its cases are drawn rigs, which all make the same motion",
 }
 
 
@@ -81,18 +81,22 @@ class Campaign(Record):
             why = f"nothing for kind {self.kind.value}: {_VARIES_ITSELF[self.kind]}"
             raise InvalidValue("vary", list(self.vary), why)
         if self.posterior and self.base and self.base.drive.kind is DriveKind.TORQUE:
-            raise InvalidValue("base.drive.kind", "torque", "angle: a posterior's rigs turn their base")
+            raise InvalidValue(
+                "base.drive.kind",
+                "torque",
+                "angle, because kind posterior prescribes the angle of the base",
+            )
         if self.controller and self.controller not in TIP_CONTROLLERS:
             raise InvalidValue("controller", self.controller, "one of " + ", ".join(TIP_CONTROLLERS))
         if self.limit_s and not diagnosed:
-            raise InvalidValue("limit_s", self.limit_s, "nothing but for kind diagnosis")
+            raise InvalidValue("limit_s", self.limit_s, "nothing, except for kind diagnosis")
         return self._draws_as_often_as_it_says()
 
     def _draws_as_often_as_it_says(self) -> "Campaign":
         drawn = [path for path, variation in self.vary.items() if variation.steps is None]
         if self.samples > 1 and not drawn and not self.posterior:
             raise InvalidValue(
-                "samples", self.samples, "1, because nothing is drawn: cases would repeat"
+                "samples", self.samples, "1, because nothing is drawn: all samples would be the same"
             )
         return self
 

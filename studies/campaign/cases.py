@@ -89,7 +89,9 @@ def check_values(campaign: Campaign) -> None:
     for path in paths:
         inside = [other for other in paths if other.startswith(f"{path}.")]
         if inside:
-            raise InvalidValue(f"vary.{path}", inside[0], "no path inside of another one that varies")
+            raise InvalidValue(
+                f"vary.{path}", inside[0], "no other path inside this one", "vary one of the two"
+            )
     base = _plain(campaign) if paths else {}
     for path, variation in campaign.vary.items():
         for value in variation.support:
@@ -101,9 +103,9 @@ def _check(base: dict[str, Any], path: str, value: Any) -> None:
     try:
         Protocol(**content).setup().nodes_mm  # noqa: B018 - a mesh may be impossible
     except NeedleError as refused:
-        fix = "leave it out, or take a base that it goes with"
+        fix = "remove it, or choose a base that accepts it"
         raise InvalidValue(
-            f"vary.{path}", value, f"a value that the base takes ({refused})", fix
+            f"vary.{path}", value, f"a value that the base accepts ({refused})", fix
         ) from None
 
 

@@ -34,5 +34,5 @@ def _nothing_there(content: Any, key: str, path: str) -> InvalidValue:
         fix = f"did you mean {close[0]!r}?" if close else ""
         return InvalidValue(field, key, "one of " + ", ".join(map(str, content)), fix)
     if isinstance(content, list | tuple):
-        return InvalidValue(field, key, f"a place from 0 to {len(content) - 1}")
-    return InvalidValue(field, key, f"the path to end here, at the value {content!r}")
+        return InvalidValue(field, key, f"a position from 0 to {len(content) - 1}")
+    return InvalidValue(field, key, f"the path to end before it, at the value {content!r}")

@@ -33,6 +33,21 @@ class ResultFolder:
         """Folder of the Parquet data set."""
         return self.folder / "results"
 
+    @property
+    def outputs(self) -> list[Path]:
+        """What a campaign writes."""
+        names = ("summary.csv", "summary.png", "bands.csv", "bands.png")
+        return [self._described, self.dataset, *(self.folder / name for name in names)]
+
+    @property
+    def begun_at_s(self) -> float | None:
+        """When this campaign was last begun or continued here, Unix time; None: never."""
+        return self._described.stat().st_mtime if self._is_this_campaign() else None
+
+    @property
+    def _described(self) -> Path:
+        return self.folder / "campaign.yaml"
+
     def begin(self, *, resume: bool = False, force: bool = False) -> None:
         """Make the folder this campaign's.
 
@@ -43,13 +58,13 @@ class ResultFolder:
           OutputExists: there are results, and neither is asked for.
           InvalidValue: they are of another campaign, or of more samples.
         """
-        described = self.folder / "campaign.yaml"
+        described = self._described
         if described.exists() and resume:
             self._refuse_another(described)
         elif (described.exists() or self.dataset.exists()) and not force:
             raise OutputExists(
-                f"{self.folder} has results of a campaign; --resume goes on with it, --force replaces"
-                " it, or give another folder"
+                f"{self.folder} has results of a campaign; continue it with --resume, replace it with"
+                " --force, or give another folder with --out"
             )
         elif force:
             for path in self._files:
@@ -57,19 +72,26 @@ class ResultFolder:
         write_text(described, self.campaign.as_yaml(), force=True)
 
     def _refuse_another(self, described: Path) -> None:
-        text = described.read_text(encoding="utf-8")
-        if text.partition("\n")[0].split(" ")[-1] != self.campaign.fingerprint:
+        if not self._is_this_campaign():
             raise InvalidValue(
                 str(described),
-                "another campaign",
-                f"the campaign {self.campaign.name!r} as it is now, on the same MuJoCo",
-                "give another folder for results, or --force to replace these",
+                "results of another campaign",
+                f"results of {self.campaign.name!r} with the same fields and the same MuJoCo",
+                "give another folder with --out, or replace these results with --force",
             )
-        samples = yaml.safe_load(text)["samples"]
+        samples = yaml.safe_load(described.read_text(encoding="utf-8"))["samples"]
         if samples > self.campaign.samples:
             raise InvalidValue(
-                "samples", self.campaign.samples, f"at least the {samples} of {described}"
+                "samples",
+                self.campaign.samples,
+                f"at least {samples}, as in {described}: they may only grow",
             )
+
+    def _is_this_campaign(self) -> bool:
+        if not self._described.is_file():
+            return False
+        first = self._described.read_text(encoding="utf-8", errors="replace").partition("\n")[0]
+        return first.split(" ")[-1] == self.campaign.fingerprint
 
     @property
     def _files(self) -> list[Path]:

@@ -48,7 +48,7 @@ def run_campaign(
     def tell() -> None:
         elapsed_s = time.monotonic() - began_s
         left_s = elapsed_s * (cases - done) / done if done else None
-        stage = f"cases of kind {results.campaign.kind.value} ({failed} failed)"
+        stage = f"{results.campaign.kind.value} cases ({failed} failed)"
         progress(Progress(stage=stage, done=done, tasks=cases, elapsed_s=elapsed_s, left_s=left_s))
 
     tell()
@@ -58,5 +58,7 @@ def run_campaign(
         failed += sum(row["status"] == FAILED for row in rows)
         tell()
     if left := results.missing():
-        raise InvalidValue(str(results.dataset), len(left), "no piece to be missing", "use --resume")
+        raise InvalidValue(
+            str(results.dataset), f"{len(left)} missing", "all pieces", "run it again with --resume"
+        )
     return Finished(computed=done, failed=failed, seconds_s=time.monotonic() - began_s)

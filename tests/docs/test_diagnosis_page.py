@@ -50,6 +50,6 @@ def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
     for said in (
         f"g^(−{2 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
         f"the best {words[CONTENDERS]} to their",
-        f"the best {words[FINALISTS]} on the log itself",
+        f"the best {words[FINALISTS]} are fitted to the full log",
     ):
         assert said in SECTION

@@ -1,12 +1,18 @@
 """Where results go: never over earlier ones, and decided before anything is computed."""
 
+import os
+import subprocess
+import sys
 from multiprocessing import get_context
+from pathlib import Path
 
 import pytest
+import yaml
 
 from models.errors import OutputExists, UnsafeOutput
 from scripts import output_folder as module
 from sim.files import Destination
+from sim.recording.recording import read
 
 
 @pytest.fixture(autouse=True)
@@ -111,3 +117,48 @@ def test_processes_that_choose_at_once_get_folders_of_their_own(default):
         process.join()
     assert found == {"control", "control-2", "control-3", "control-4"}
     assert list(default.parent.iterdir()) == []
+
+
+TURNS_DEG = (30.0, 60.0)
+
+
+def begun(folder, turn_deg):
+    """`needle insert` as a process of its own, whose files are named alike whatever its turn."""
+    protocol = {
+        "name": "short",
+        "tissue": "soft-plastisol",
+        "free_mm": 50.0,
+        "inserted_mm": 100.0,
+        "discretisation": {"elements": 8},
+        "segments": [{"duration_s": 0.2, "turn_deg": turn_deg}],
+    }
+    path = folder / f"turn-{turn_deg:g}.yaml"
+    path.write_text(yaml.safe_dump(protocol))
+    root = str(Path(__file__).parents[2])
+    return subprocess.Popen(
+        [sys.executable, "-m", "scripts.main", "insert", "--protocol", path.name],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": root, "PYTHONSAFEPATH": "1"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+def turned(path):
+    """Whose recording it is: the turn that is nearest to that of its base."""
+    end_deg = read(path)["base_angle_deg"][-1]
+    return min(TURNS_DEG, key=lambda turn_deg: abs(turn_deg - end_deg))
+
+
+@pytest.mark.slow
+def test_two_commands_at_once_in_one_folder_have_results_of_their_own(tmp_path):
+    both = [begun(tmp_path, turn_deg) for turn_deg in TURNS_DEG]
+    told = [process.communicate(timeout=120)[0] for process in both]
+    assert [process.returncode for process in both] == [0, 0], told
+    folders = sorted((tmp_path / "out").iterdir())
+    assert [folder.name for folder in folders] == ["insert", "insert-2"]
+    names = [{path.name for path in folder.iterdir()} for folder in folders]
+    assert names[0] == names[1] == {f"short{end}" for end in (".csv", ".parquet", ".png", ".rrd")}
+    turns = [[turned(folder / f"short{end}") for end in (".csv", ".parquet")] for folder in folders]
+    assert sorted(turns) == [[turn_deg, turn_deg] for turn_deg in TURNS_DEG]

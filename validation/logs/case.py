@@ -4,8 +4,9 @@ The signature of an effect is the root mean square of what it changes / sigma, o
 signals that the log has. For each effect one is drawn, and the strength that gives it is searched for.
 The gap is sqrt(1 + signature^2) of everything that is not nominal.
 
-An unmodelled effect that a modelled one, or a pair, would explain as well is no case of "unknown", and
-stiction that Coulomb friction would explain is none of stiction: such draws are rejected.
+An unmodelled effect that a modelled one, or a pair, would explain as well is no case of "unknown", three
+effects that a pair would explain are none of three, and stiction that Coulomb friction would explain is
+none of stiction: such draws are rejected.
 """
 
 from collections.abc import Sequence
@@ -152,8 +153,9 @@ def _alternatives(
             needed = LEAST_RESIDUAL_UNMODELLED if unexplained else least
             if min(near.pair_residual, *near.alone.values()) < needed:
                 return None
-    if not names or not (unexplained or all_of_them):
+    no_pair = unexplained or len(names) > 2
+    if not names or not (no_pair or all_of_them):
         return Alternatives(alone={})
-    among = (*FAMILIES, *WRONG_CONSTANT_FAMILIES) if {*names} & NEWER else ()
+    among = (*FAMILIES, *WRONG_CONSTANT_FAMILIES) if {*names} & NEWER or len(names) > 2 else ()
     found = find_alternatives(comparison, rig, names, among)
-    return None if unexplained and found.pair_residual < LEAST_RESIDUAL_UNMODELLED else found
+    return None if no_pair and found.pair_residual < LEAST_RESIDUAL_UNMODELLED else found

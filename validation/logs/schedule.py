@@ -18,7 +18,8 @@ KINDS = tuple(SHARES)
 """Drawn by default."""
 ROUGH_SHARES = {"rough_none": 0.2, "rough_single": 0.8}
 WRONG_SHARES = {"wrong_constant": 0.75, "wrong_outside": 0.25}
-SHARES_OF_ALL = SHARES | ROUGH_SHARES | WRONG_SHARES
+TRIPLE_SHARES = {"triple": 0.18}
+SHARES_OF_ALL = SHARES | ROUGH_SHARES | WRONG_SHARES | TRIPLE_SHARES
 PLAIN_KINDS = (*ROUGH_SHARES, *WRONG_SHARES)
 """Their sensors have no defect beside what they are named after."""
 ALL_KINDS = tuple(SHARES_OF_ALL)
@@ -52,8 +53,11 @@ LOCATIONS = {
     "inserted_offset": "parameters",
 }
 MUTUALLY_EXCLUSIVE = ({"coulomb_friction", "stiction", "speed_dependent_friction"},)
-"""Effects that explain the same data: two of a set never make a pair."""
+"""Effects that explain the same data: two of a set never act together."""
 SAME_LOCATION = 0.15
+EFFECTS_OF_KIND = {"pair": 2, "triple": 3}
+"""One in all other kinds that have any."""
+_STREAMS_OF_PARTNERS = (3, 5)
 
 
 def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, int]:
@@ -97,21 +101,24 @@ def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None
     if kind == "off_nominal":
         names = [n for n in names if n not in PARAMETER_ERRORS] or ["coulomb_friction"]
     first = name_in_turn(seed, earlier, names)
-    return (first, _partner(seed, earlier, first)) if kind == "pair" else (first,)
+    chosen = [first]
+    for stream in _STREAMS_OF_PARTNERS[: EFFECTS_OF_KIND.get(kind, 1) - 1]:
+        chosen.append(_partner(np.random.default_rng([seed, earlier, stream]), chosen))
+    return tuple(chosen)
 
 
-def _partner(seed: int, earlier: int, first: str) -> str:
-    """The second effect of a pair, mostly at another location in the machine."""
-    rng = np.random.default_rng([seed, earlier, 3])
+def _partner(rng: np.random.Generator, chosen: Sequence[str]) -> str:
+    """One effect more, mostly elsewhere in the machine than each of those that are there."""
     elsewhere = rng.random() >= SAME_LOCATION
+    taken = {LOCATIONS[name] for name in chosen}
     fit = [
         name
         for name in MODELLED
-        if name != first
-        and (LOCATIONS[name] != LOCATIONS[first]) == elsewhere
-        and not any({first, name} <= names for names in MUTUALLY_EXCLUSIVE)
+        if name not in chosen
+        and (LOCATIONS[name] not in taken) == elsewhere
+        and not any(names & {name} and names & {*chosen} for names in MUTUALLY_EXCLUSIVE)
     ]
-    fit = fit or [name for name in MODELLED if LOCATIONS[name] != LOCATIONS[first]]
+    fit = fit or [name for name in MODELLED if LOCATIONS[name] not in taken]
     return fit[int(rng.integers(len(fit)))]
 
 

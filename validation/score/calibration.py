@@ -45,7 +45,7 @@ def undetected_within_limit(scores: pd.DataFrame) -> tuple[float, int]:
 def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
     """By bin of probability: mean predicted and observed share of right first ranks, and logs.
 
-    Where two effects are true, the predicted share is the probability of both together.
+    Where several effects are true, the predicted share is the probability of all of them together.
     """
     scores = scores[scores["probability"].notna()]
     share = np.where(scores["top_right"], scores["probability_right"], scores["probability"])

@@ -14,6 +14,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
+from validation.logs.schedule import EFFECTS_OF_KIND
 from validation.score.calibration import (
     GAP_GOAL,
     calibration_error,
@@ -42,10 +43,10 @@ def draw(scores: pd.DataFrame, path: Path) -> None:
 
 
 def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
-    """Rows: true; columns: diagnosed. Pairs are left out: they are right or not."""
-    one = scores[scores["kind"] != "pair"]
+    """Rows: true; columns: diagnosed. Several effects at once are left out: they are right or not."""
+    one = scores[~scores["kind"].isin(EFFECTS_OF_KIND)]
     if one.empty:
-        axis.set(title="True vs diagnosed: all logs are pairs", xticks=[], yticks=[])
+        axis.set(title="True vs diagnosed: all logs have several effects", xticks=[], yticks=[])
         return
     said = one["said"].mask(one["verdict"] == "undecided", "undecided").mask(one["exact"], one["truth"])
     table = pd.crosstab(one["truth"], said.rename("said"))
@@ -59,7 +60,9 @@ def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
     axis.set_yticks(range(len(table.index)), list(table.index), fontsize=9)
     axis.set_xticks(range(len(names)), names, fontsize=9, rotation=60, ha="right")
     axis.set(
-        title="True vs diagnosed, number of logs (pairs left out)", xlabel="diagnosed", ylabel="true"
+        title="True vs diagnosed, number of logs (several effects left out)",
+        xlabel="diagnosed",
+        ylabel="true",
     )
 
 
@@ -78,7 +81,7 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
         )
     share, count = coverage(scores)
     axis.set(
-        xlabel="stated probability of the first effect in the ranking",
+        xlabel="stated probability of the first explanation in the ranking",
         ylabel="share of logs in which it is true",
         xlim=(-0.05, 1.05),
         ylim=(-0.05, 1.05),

@@ -47,12 +47,12 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
     compared = correctness(answer, report, trials)
     ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
     top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
-    right = true or ({"none"} if answer["verdict"] == "none" else {"unknown"})
+    right = " + ".join(sorted(true)) or answer["verdict"]
     inside = [_inside(answer, report, effect, name) for effect, name in _parameters(answer)]
     known = [x for x in inside if x is not None]
     return {
         "kind": answer.get("kind", _kind(answer)),
-        "truth": " + ".join(sorted(true)) or answer["verdict"],
+        "truth": right,
         "said": " + ".join(sorted(diagnosed)) or report["verdict"],
         "verdict": report["verdict"],
         "expected": answer["verdict"],
@@ -64,8 +64,8 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
         "over_hidden": _over_limit(answer, report),
         "top": top,
         "probability": ranking.get(top, np.nan),
-        "top_right": top in right,
-        "probability_right": sum(ranking.get(name, 0.0) for name in right),
+        "top_right": top == right,
+        "probability_right": ranking.get(right, 0.0),
         "inside": sum(known),
         "intervals": len(known),
         "gap_before": report.get("gap", {}).get("before", np.nan),

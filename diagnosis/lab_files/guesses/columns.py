@@ -51,7 +51,7 @@ def guessed_time_columns(files: Sequence[LabFile], open_: Open) -> list[GuessedT
                 numbers = ", ".join(f"{key} = {value:g}" for key, value in file.scalars.items())
                 beside = f" (single numbers in the file: {numbers})" if numbers else ""
                 open_.append(
-                    f"times: {table.title} has no rising column of times; state 'sample_hz'{beside}"
+                    f"times: {table.title} has no column of increasing times; state 'sample_hz'{beside}"
                 )
             elif name not in found:
                 found[name] = _guessed_time(table, name, open_)
@@ -66,7 +66,7 @@ def guessed_sources(
     guesses = guessed_columns(tables, taken)
     rates = _rates_of_the_base(guesses)
     for guess in rates:
-        open_.append(f"{guess.column!r} is the rate of the base's column, no axial speed: left out")
+        open_.append(f"{guess.column!r} is the rate of the base angle, not an axial speed: left out")
     guesses = guessed_columns(tables, taken | {guess.column for guess in rates})
     found = [_guessed_column(guess, None, open_) for guess in guesses]
     by_name = {guess.wanted: guess for guess in guesses}
@@ -81,7 +81,7 @@ def guessed_sources(
         found.append(_guessed_column(guess, "differentiate", open_))
     have = {column.wanted for column in found}
     open_ += [
-        f"{n}: no column looks like it; {_without(n)}"
+        f"{n}: no column with a matching name; {_without(n)}"
         for n in (*REQUIRED, *SENSORS)
         if n not in have and n != "time_s"
     ]
@@ -106,9 +106,9 @@ def _guessed_column(guess: NameGuess, derive: Any, open_: Open) -> GuessedColumn
     reasons = {"column": f"by its name{joint}", "unit": unit.reason}
     if guess.alike:
         others = ", ".join(map(repr, guess.alike))
-        reasons["column"] += f"; {others} would do as well: this one varies most"
+        reasons["column"] += f"; {others} match as well; this one varies most"
     if derive:
-        reasons["derive"] = f"no column of {wanted}: from this one"
+        reasons["derive"] = f"no column of {wanted}; computed from this one"
     if unit.asked:
         open_.append(f"{wanted}: unit of {name!r}: {unit.reason}")
     source = ColumnSource(column=name, unit=unit.unit, derive=derive, guess=True)

@@ -73,7 +73,7 @@ def drafted(files: Sequence[LabFile]) -> Draft:
     columns = guessed_sources(tables, times, open_)
     series = _series(trials, files, times, columns, open_)
     motions = _motions(series)
-    open_.append("needle, tissue: no file says what the rig is believed to be: fill the blanks")
+    open_.append("needle, tissue: the files do not state the constants of the rig; fill the blanks")
     columns = [with_offset(column, series) for column in columns]
     columns = [with_zero(column, series, motions) for column in columns]
     columns = [with_sign(column, series) for column in columns]

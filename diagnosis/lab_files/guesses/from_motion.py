@@ -55,7 +55,7 @@ def with_sign(column: GuessedColumn, trials: Trials) -> GuessedColumn:
     guesses = [guess for own in trials.values() if (guess := _sign_in(column, own))]
     told = [guess for guess in guesses if guess.sign is not None]
     if not told:
-        reason = f"kept: {guesses[0].reason}" if guesses else "kept: nothing to compare with"
+        reason = f"unchanged: {guesses[0].reason}" if guesses else "unchanged: nothing to compare with"
         return column.with_guess("sign", reason)
     sign = 1 if sum(int(guess.sign or 0) for guess in told) >= 0 else -1
     agree = [guess for guess in told if guess.sign == sign]
@@ -76,20 +76,22 @@ def with_offset(column: GuessedColumn, trials: Trials) -> GuessedColumn:
             found.append((offset, one.clock[0] != base.clock[0]))
     known = [pair for pair in found if pair[0].late_s is not None]
     if not known:
-        return column.with_guess("time_offset_s", found[0][0].reason if found else "not looked for")
+        return column.with_guess("time_offset_s", found[0][0].reason if found else "not estimated")
     offset, other_clock = min(known, key=lambda pair: pair[0].uncertainty_s or 0.0)
     late, uncertain = offset.late_s or 0.0, offset.uncertainty_s or 0.0
     reason = f"against the base: {offset.reason}"
     if column.wanted == "tip_angle_deg" and 0 <= late <= TIP_LAG_AT_MOST_S:
-        return column.with_guess("time_offset_s", f"{reason}; the needle lags by itself: 0 is kept")
+        return column.with_guess(
+            "time_offset_s", f"{reason}; the needle itself makes the tip lag: 0 is used"
+        )
     if not other_clock:
-        return column.with_guess("time_offset_s", f"{reason}; same clock: 0 is kept")
+        return column.with_guess("time_offset_s", f"{reason}; same clock: 0 is used")
     if abs(late) <= max(CLOCK_SIGMA * uncertain, CLOCK_LEAST_S):
         return column.with_guess(
-            "time_offset_s", f"{reason}; too little to be told from 0, which is kept"
+            "time_offset_s", f"{reason}; not significantly different from 0, which is used"
         )
     return column.with_guess(
-        "time_offset_s", f"{reason}; two clocks", time_offset_s=float(f"{-late:.6g}")
+        "time_offset_s", f"{reason}; the clocks differ", time_offset_s=float(f"{-late:.6g}")
     )
 
 

@@ -41,9 +41,10 @@ def torque_sign(torque: Array, angle: Array) -> SignGuess:
     share = float(np.nansum(work)) / whole if whole > 0 else 0.0
     if abs(share) < SIGN_LEAST_WORK:
         return SignGuess(
-            sign=None, reason=f"work is {share:+.0%} of what is moved to and fro: too little"
+            sign=None,
+            reason=f"net work is {share:+.0%} of the work that goes back and forth: too little",
         )
-    reason = f"the drive's work on the needle comes to {share:+.0%} of all that is moved"
+    reason = f"net work on the needle is {share:+.0%} of the work that goes back and forth"
     return SignGuess(sign=1 if share > 0 else -1, reason=reason)
 
 
@@ -55,7 +56,7 @@ def tip_sign(time_s: Array, tip: Array, base: Array) -> SignGuess:
     same, opposite = misfit(driving, following, float(even[1] - even[0]))
     if max(1 - same, 1 - opposite) < SIGN_LEAST_CORRELATION:
         return SignGuess(sign=None, reason="the tip does not follow the base either way")
-    left = f"a lagging copy of the base explains {1 - same:.0%} of it, with a minus {1 - opposite:.0%}"
+    left = f"a lagging copy of the base explains {1 - same:.0%}, with opposite sign {1 - opposite:.0%}"
     return SignGuess(sign=1 if same <= opposite else -1, reason=left)
 
 
@@ -67,7 +68,7 @@ def speed_sign(time_s: Array, speed: Array, depth: Array, *, depth_grows: bool) 
         return SignGuess(sign=None, reason="nothing moves along the axis")
     match = float(np.corrcoef(travel, moved)[0, 1])
     if abs(match) < SIGN_LEAST_CORRELATION:
-        return SignGuess(sign=None, reason=f"correlation with the axial motion is {match:+.2f} only")
+        return SignGuess(sign=None, reason=f"correlation with the axial motion is only {match:+.2f}")
     return SignGuess(
         sign=1 if match > 0 else -1, reason=f"correlation with the axial motion is {match:+.2f}"
     )

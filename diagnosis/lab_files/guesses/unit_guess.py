@@ -48,7 +48,7 @@ def guessed_unit(name: str, values: Array, quantity: MeasuredQuantity, *, ros_un
     if stated and factor_of(stated, quantity) is not None:
         return UnitGuess(unit=stated, known=True, asked=False, reason="from the name")
     if stated:
-        reason = f"the name says {stated!r}, no known {_in_words(quantity)}: how many {quantity} is one?"
+        reason = f"{stated!r} in the name is no known {_in_words(quantity)}: how many {quantity} is it?"
         return UnitGuess(unit=stated, known=False, asked=True, reason=reason)
     return _by_magnitude(values, quantity)
 
@@ -63,7 +63,7 @@ def _by_magnitude(values: Array, quantity: MeasuredQuantity) -> UnitGuess:
             unit, said = _time_unit(step), f"the step is {step:.4g}"
         case MeasuredQuantity.ANGLE:
             unit = "rad" if span <= RADIANS_AT_MOST else "deg"
-            said = f"it turns by {span:.4g}, which were {np.degrees(span):.4g} deg if in rad"
+            said = f"it turns by {span:.4g}, which would be {np.degrees(span):.4g} deg if it were in rad"
         case MeasuredQuantity.LENGTH:
             unit, said = "m" if most <= METRES_AT_MOST else "mm", f"it reaches {most:.4g}"
         case _:

@@ -34,7 +34,7 @@ def read_mat_file(path: Path) -> LabFile:
     notes = []
     for name, value in _leaves({k: v for k, v in content.items() if not k.startswith("__")}):
         if value is None:
-            notes.append(f"{path.name}: {name!r} holds no vector of numbers and is left out")
+            notes.append(f"{path.name}: {name!r} is not a vector of numbers and is left out")
         elif value.size == 1:
             scalars[name] = float(value)
         else:

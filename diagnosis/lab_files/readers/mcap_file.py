@@ -54,7 +54,7 @@ def read_mcap_file(path: Path) -> LabFile:
     tables = []
     for name, topic in topics.items():
         if any(len(seen) > 1 for text, seen in topic.texts.items() if ".name[" in text):
-            notes.append(f"{path.name}: {name} changes the order of its names and is left out")
+            notes.append(f"{path.name}: {name} lists its joints in changing order and is left out")
         else:
             tables.append(_table(path, name, topic))
     if not tables:

@@ -36,5 +36,5 @@ def read_parquet_file(path: Path) -> LabFile:
             left_out.append(str(name))
     if not columns:
         raise InvalidValue(str(path), list(map(str, table.columns)), "columns of numbers")
-    notes = tuple(f"{path.name}: {name!r} holds no numbers and is left out" for name in left_out)
+    notes = tuple(f"{path.name}: {name!r} has no numbers and is left out" for name in left_out)
     return LabFile(path=path, tables=(LabTable(title=path.name, columns=columns),), notes=notes)

@@ -36,9 +36,9 @@ def read_lab_files(paths: Sequence[Path]) -> tuple[LabFile, ...]:
     names = [path.name for path in paths]
     for path in paths:
         if not is_file(path):
-            raise InvalidValue("FILE", path, "files of measurements; there is none of this name")
+            raise InvalidValue("FILE", path, "the path of a file that exists")
         if names.count(path.name) > 1:
-            raise InvalidValue("FILE", path, "file names that differ", "rename one of the two")
+            raise InvalidValue("FILE", path, "different file names", "rename one of the two")
         if path.suffix.lower() in _OTHER:
             raise InvalidValue(
                 str(path),

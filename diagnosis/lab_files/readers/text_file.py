@@ -94,7 +94,7 @@ def _numbers(column: pd.Series, decimal: str) -> tuple[Array | None, str]:
     if 2 * other.size > (~empty).sum():
         return None, f"holds text ({first[:20]!r}) and is left out"
     found = text.iloc[int(other[0])][:20]
-    return values, f"holds text in {other.size} rows ({found!r} in row {other[0] + 1}): taken for empty"
+    return values, f"holds text in {other.size} rows ({found!r} in row {other[0] + 1}): read as empty"
 
 
 def _seconds(text: pd.Series) -> Array:

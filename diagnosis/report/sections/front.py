@@ -4,22 +4,33 @@ from importlib.metadata import PackageNotFoundError, version
 
 from diagnosis.report import html_parts as html
 from diagnosis.report.answer import answer
+from diagnosis.report.fallible import section
 from diagnosis.result import Diagnosis
 
+TITLE = "Gap report"
 _PACKAGE = "needle-torsion"
 
 
 def front(found: Diagnosis) -> list[str]:
-    """Origin, constants of the rig, answer, warnings."""
-    what, sure, then = answer(found)
+    """Origin, constants of the rig, answer, warnings; each may fail alone."""
     return [
-        html.paragraph(_origin(found), "origin"),
-        html.paragraph(_constants(found), "origin"),
-        html.heading(what, level=1),
-        html.paragraph(sure, "lead"),
-        html.paragraph(then, "lead"),
-        *html.warnings(found.warnings),
+        *section(_about, found),
+        *section(_answer, found, title=TITLE),
+        *section(_warnings, found),
     ]
+
+
+def _about(found: Diagnosis) -> list[str]:
+    return [html.paragraph(told(found), "origin") for told in (_origin, _constants)]
+
+
+def _answer(found: Diagnosis) -> list[str]:
+    what, sure, then = answer(found)
+    return [html.heading(what, level=1), html.paragraph(sure, "lead"), html.paragraph(then, "lead")]
+
+
+def _warnings(found: Diagnosis) -> list[str]:
+    return html.warnings(found.warnings)
 
 
 def tool_version() -> str:
@@ -33,7 +44,7 @@ def tool_version() -> str:
 def _origin(found: Diagnosis) -> str:
     named = f"log {found.log.name}" if found.log.name else "log"
     day = f", diagnosed on {found.diagnosed_on.isoformat()}" if found.diagnosed_on else ""
-    return f"Gap report: {named}{day}, {_PACKAGE} {tool_version()}"
+    return f"{TITLE}: {named}{day}, {_PACKAGE} {tool_version()}"
 
 
 def _constants(found: Diagnosis) -> str:

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 _TRIES = 10_000  # for one draw within the bounds
 _SYMMETRIC = 1e-6  # of the standard deviations
-_AGAIN = "diagnose the log again with this version, and take the report.json that it writes"
+_AGAIN = "diagnose the log again with this version, and use the report.json that it writes"
 
 
 class RigPosterior(Record):
@@ -43,7 +43,7 @@ class RigPosterior(Record):
     def _is_whole(self) -> "RigPosterior":
         n = len(self.parameters)
         if not n:
-            raise InvalidValue("parameters", [], "at least one parameter that the log leaves open")
+            raise InvalidValue("parameters", [], "at least one fitted parameter")
         for name in self.parameters:
             _parameter(name)
         sizes = {len(self.values), len(self.bounds), len(self.matrix), *map(len, self.matrix)}
@@ -89,7 +89,7 @@ class RigPosterior(Record):
             if ((low <= values) & (values <= high)).all():
                 return dict(zip(self.parameters, values.tolist(), strict=True))
         raise InvalidValue(
-            "posterior", self.parameters, f"bounds that one draw of {_TRIES} keeps", "see at_bound"
+            "posterior", self.parameters, f"one of {_TRIES} draws within the bounds", "see at_bound"
         )
 
     def rig_with(self, values: dict[str, float]) -> RigParameters:
@@ -123,6 +123,9 @@ def read_posterior(path: Path) -> RigPosterior:
         raise InvalidValue(str(path), str(error), "the report.json of a diagnosis") from error
     except (KeyError, TypeError) as error:
         raise InvalidValue(
-            str(path), "a file without them", "a report.json with rig and covariance", _AGAIN
+            str(path),
+            "a file without these fields",
+            "a report.json with the fields rig and covariance",
+            _AGAIN,
         ) from error
     return RigPosterior(**content)

@@ -90,7 +90,7 @@ def test_of_one_trial_none_is_held_out(log, nominal, fitted):
 
 
 def test_held_out_trials_are_not_simulated_again(log, nominal, fitted, monkeypatch):
-    monkeypatch.setattr(module, "held_out_residuals", pytest.fail)
+    monkeypatch.setattr(module, "held_out_or_refitted", pytest.fail)
     assert assessed(log, nominal, fitted).gap.after < 1.1
 
 
@@ -99,7 +99,7 @@ def failing(*_):
 
 
 def test_where_held_out_trials_cannot_be_simulated_the_gap_is_that_of_the_fit(log, nominal, monkeypatch):
-    monkeypatch.setattr(module, "held_out_residuals", failing)
+    monkeypatch.setattr(module, "held_out_or_refitted", failing)
     exact = candidate(nominal_fit(nominal_residuals(nominal.problem, nominal.predictions)))
     told = assessed(log, nominal, exact)
     assert told.gap.after == told.gap.before == pytest.approx(exact.floor.gap)

@@ -37,5 +37,5 @@ def test_tasks_are_named_as_people_say_them():
 
 def test_three_losses_without_a_result_are_no_accident():
     refuse_more_losses(DOUBLED, 2, ["one"])
-    with pytest.raises(EngineFailed, match=r"number one .*cases_per_piece"):
+    with pytest.raises(EngineFailed, match=r"number one: .*cases_per_piece"):
         refuse_more_losses(DOUBLED, 3, ["one"])

@@ -40,7 +40,7 @@ def test_a_worker_that_dies_loses_nothing(tmp_path):
 
 
 def test_a_task_that_kills_every_worker_is_an_error_that_says_what_to_do():
-    with pytest.raises(EngineFailed, match=r"cases 0 to 1 .*cases_per_piece"):
+    with pytest.raises(EngineFailed, match=r"cases 0 to 1: .*cases_per_piece"):
         list(on_this_machine(2)(job(die), TASKS))
 
 

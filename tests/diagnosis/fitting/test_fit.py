@@ -32,7 +32,7 @@ def test_a_fit_finds_what_the_log_has_and_converges(dry):
     assert fit.gap == pytest.approx(1.0, abs=4 / np.sqrt(2 * fit.samples) + 0.04)
     assert fit.status.converged
     assert fit.status.termination is Termination.OFFSET
-    assert fit.status.message.startswith("Terminated after ")
+    assert fit.status.message.startswith("converged after ")
     assert fit.status.at_bound == ()
     assert fit.size == 1
 
@@ -52,7 +52,7 @@ def test_a_fit_that_is_stopped_early_says_so(dry):
     start = start_of(dry, "coulomb_friction")
     fit = fit_effects(dry, ("coulomb_friction",), start, most_iterations=1)
     assert fit.status.termination is Termination.ITERATIONS
-    assert "maximum iterations" in fit.status.message
+    assert "the most that are allowed" in fit.status.message
     assert not fit.status.converged
 
 

@@ -19,10 +19,11 @@ class ClosedForm:
     """A problem whose two trials are known functions of a rig's tip drag and stiffness."""
 
     def __init__(self, most_drag=np.inf):
-        self.most_drag, self.rigs = most_drag, []
+        self.most_drag, self.rigs, self.by_callback = most_drag, [], []
 
     def residuals(self, rigs, *, callback_alone=False):
         self.rigs += rigs
+        self.by_callback.append(callback_alone)
         if any(rig.tip_drag_n_mm_s_per_rad > self.most_drag for rig in rigs):
             raise SimulationFailed("too much drag")
         drag = [rig.tip_drag_n_mm_s_per_rad for rig in rigs]
@@ -41,6 +42,15 @@ def test_residuals_are_trial_after_trial_and_then_the_prior():
     drag = DRAG.rig(x).tip_drag_n_mm_s_per_rad
     expected = [drag, drag**2, np.exp(0.01), 0.0, 0.01 / SCATTER["stiffness_error"]]
     np.testing.assert_allclose(Objective(ClosedForm(), DRAG)(x), expected)
+
+
+def test_a_fit_runs_the_callback_alone_and_its_end_is_a_run_of_mujoco():
+    objective, x = Objective(ClosedForm(), DRAG), middle()
+    objective.jacobian(x, objective(x))
+    assert objective.problem.by_callback == [True, True]
+    for end, way in zip(objective.at_the_end(x), objective.by_trial(x), strict=True):
+        np.testing.assert_array_equal(end, way)
+    assert objective.problem.by_callback == [True, True, False]
 
 
 def test_slopes_are_those_of_the_closed_form():

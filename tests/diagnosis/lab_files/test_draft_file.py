@@ -21,7 +21,7 @@ def test_a_draft_is_refused_until_it_is_edited(tmp_path):
     with pytest.raises(InvalidValue) as caught:
         read_mapping(path, accept_guesses=False)
     for place in (
-        "columns.base_angle_deg: take 'guess: true' out",
+        "columns.base_angle_deg: delete 'guess: true'",
         "needle.diameter_mm",
         "constants.speed",
     ):

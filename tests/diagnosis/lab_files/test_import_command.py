@@ -46,7 +46,7 @@ def test_from_a_file_to_a_log_by_way_of_an_edited_draft(tmp_path, capsys):
     log = tmp_path / "log"
     command = ["import", source, "--map", str(mapping), "--out", str(log)]
     assert main(command) == 2
-    assert "take 'guess: true' out" in capsys.readouterr().err
+    assert "delete 'guess: true'" in capsys.readouterr().err
     assert not log.exists()
     confirmed(mapping, **RIG)
     assert main(command) == 2
@@ -54,7 +54,7 @@ def test_from_a_file_to_a_log_by_way_of_an_edited_draft(tmp_path, capsys):
     confirmed(mapping, speed_mm_s=0)
     assert main(command) == 0
     said = capsys.readouterr().out
-    assert "read back: 1 trials, no warnings" in said
+    assert "read back: 1 trial, no warnings" in said
     trial = read_rig_log(log).trials[0]
     for name in ("base_torque_n_mm", "tip_angle_deg", "base_angle_deg"):
         # The zero was guessed from 80 samples at rest: good to a tenth of their noise, four of these.

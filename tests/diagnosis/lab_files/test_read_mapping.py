@@ -72,11 +72,11 @@ def test_all_that_is_blank_is_named_at_once_and_never_accepted(tmp_path):
         ({"columns": columns(angle={"column": "a", "unit": "deg"})}, "columns.angle"),
         (
             {"columns": columns(base_angle_deg={"column": "a", "unit": "in"})},
-            "'in' is not known as angle",
+            "'in' is not a known unit of angle",
         ),
         (
             {"columns": columns(base_angle_deg={"column": "a", "unit": "rad", "factor": 2.0})},
-            "take 'factor' out",
+            "remove 'factor'",
         ),
         ({"columns": columns(base_angle_deg={"column": "a", "factor": 0.0})}, "other than 0"),
         (

@@ -94,7 +94,7 @@ def test_without_limits_nothing_is_sure_and_without_an_effect_nothing_is_near(dr
 
 
 def test_a_probability_is_never_one(dry):
-    certain = concluding(dry.found, explanations=((("coulomb_friction",), 1.0),))
+    certain = concluding(dry.found, ranking=((("coulomb_friction",), 1.0),))
     assert answer(certain)[1].startswith(
         "Probability above 0.999 among all explanations that were tried;"
     )

@@ -37,8 +37,8 @@ def test_a_picture_that_fails_is_a_sentence_and_leaves_no_figure_open(draw, desc
     before = plt.get_fignums()
     part = drawn(draw, describe, "loops")
     assert part == (
-        '<p class="warning">A picture belongs here, but could not be made (ValueError: no '
-        "&lt;such&gt; column). The rest stands without it.</p>"
+        '<p class="warning">The picture for this place could not be made (ValueError: no '
+        "&lt;such&gt; column). The rest of the page is complete without it.</p>"
     )
     assert plt.get_fignums() == before
 
@@ -76,8 +76,20 @@ def test_a_page_tells_what_it_lacks_and_where():
         f"the picture under 'Loops & lag' {why}",
         f"the section after 'Loops & lag' {why}",
     )
-    assert page.text.count("The rest stands without it.") == 2
+    assert page.text.count("The rest of the page is complete without it.") == 2
     assert "<p>a needle</p>" in page.text
+    plt.close("all")
+
+
+def test_a_section_with_the_title_leaves_a_title_when_it_fails():
+    page = page_of("page", [*section(fails), *section(fails, title="Gap & report"), paragraph("rows")])
+    why = "(ValueError: no <such> column)"
+    assert page.lacks == (
+        f"the section at the top {why}",
+        f"the section after 'Gap & report' {why}",
+    )
+    assert page.text.count("<h1>Gap &amp; report</h1>") == 1
+    assert "<p>rows</p>" in page.text
     plt.close("all")
 
 

@@ -11,7 +11,7 @@ from html_outline import HtmlOutline
 from diagnosis.report import html_report
 from diagnosis.report.answer import answer
 from diagnosis.report.html_report import page
-from diagnosis.report.sections import agreement, alternatives, limits, parameters
+from diagnosis.report.sections import agreement, alternatives, front, limits, parameters
 
 SECTIONS = [
     "Why to believe it",
@@ -128,3 +128,26 @@ def test_the_page_stands_without_a_picture_and_a_section_that_fail(dry, undrawn,
     assert left.unbalanced == []
     told = [text for level, text in left.headings if level == 2]
     assert told == [s for s in SECTIONS if s not in ("Where the residual is", "How the search went")]
+
+
+@pytest.mark.parametrize(
+    ("part", "where", "left"),
+    [
+        ("answer", "after 'Gap report'", ["origin", "origin", "warning", "warning"]),
+        ("_constants", "at the top", ["warning", "lead", "lead", "warning"]),
+    ],
+)
+def test_the_page_stands_without_a_part_of_its_head(dry, undrawn, monkeypatch, part, where, left):
+    def fails(*_):
+        raise ValueError("no words")
+
+    monkeypatch.setattr(front, part, fails)
+    warned = replace(dry.found, log=replace(dry.log, warnings=("mind the gap",)))
+    made = page(warned, dry.report)
+    assert made.lacks == (f"the section {where} (ValueError: no words)",)
+    outline = HtmlOutline(made.text)
+    levels = [level for level, _ in outline.headings]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert [own["class"] for own in outline.attributes("p") if "class" in own][:4] == left
+    assert next(text for level, text in outline.headings if level == 2) == SECTIONS[0]

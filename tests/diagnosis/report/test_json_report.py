@@ -128,16 +128,31 @@ def test_the_gap_is_told_with_its_reduction(dry):
 
 def test_probabilities_are_of_everything_and_add_up(dry):
     ranking = dry.report["ranking"]
-    assert {r["effect"] for r in ranking} == {*LIBRARY, "none", "unknown"}
+    assert {r["effect"] for r in ranking} >= {*LIBRARY, "none", "unknown"}
+    sets = [r for r in ranking if r["effect"] not in {*LIBRARY, "none", "unknown"}]
+    assert all(r["effect"] == " + ".join(sorted(r["effects"])) for r in sets)
     assert sum(r["probability"] for r in ranking) == pytest.approx(1.0)
     assert ranking[0]["effect"] == "coulomb_friction"
+
+
+def test_a_set_of_effects_is_a_row_of_its_own(dry):
+    ranking = ((("tip_drag", "torque_bias"), 0.9), (("none",), 0.1))
+    found = replace(dry.found, verdict=replace(dry.found.verdict, ranking=ranking))
+    assert as_json(found)["ranking"] == [
+        {
+            "effect": "tip_drag + torque_bias",
+            "effects": ["tip_drag", "torque_bias"],
+            "probability": 0.9,
+        },
+        {"effect": "none", "effects": [], "probability": 0.1},
+    ]
 
 
 def test_how_the_fit_ended_is_told(dry):
     fit = dry.report["fit"]
     assert set(fit) == {"status", "message", "at_bound"}
     assert fit["status"] == "converged: relative offset"
-    assert fit["message"].startswith("Terminated after ")
+    assert fit["message"].startswith("converged after ")
     assert fit["at_bound"] == []
 
 

@@ -134,10 +134,10 @@ def test_what_the_named_effect_cannot_be_told_from_stands_beside_it(dry):
     assert alike(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",)))) == ""
 
 
-def test_explanations_are_sets_that_add_up_to_one_or_the_ranking_where_there_are_none(dry):
+def test_explanations_are_the_ranking_without_what_rounds_to_nothing(dry):
     assert explanations(dry.found)[0][0] == "coulomb_friction"
-    assert sum(p for _, p in dry.found.verdict.explanations) == pytest.approx(1.0)
-    unknown = concluding(dry.found, explanations=(), ranking=(("unknown", 1.0), ("none", 0.0)))
+    assert sum(p for _, p in dry.found.verdict.ranking) == pytest.approx(1.0)
+    unknown = concluding(dry.found, ranking=((("unknown",), 1.0), (("none",), 0.0)))
     assert explanations(unknown) == [("unknown", 1.0)]
     assert explanation_name(("torque_bias", "tip_drag")) == explanation_name(TWO)
     assert explanation_name(()) == "none"

@@ -52,7 +52,7 @@ def test_a_parameter_is_told_with_its_interval_and_unit():
 
 def test_a_pair_is_one_row_at_its_probability_and_what_rounds_to_nothing_is_none(dry):
     sets = ((("torque_bias", "tip_drag"), 0.9), ((), 0.0999), (("stiction",), 0.0001))
-    found = replace(dry.found, verdict=replace(dry.found.verdict, explanations=sets))
+    found = replace(dry.found, verdict=replace(dry.found.verdict, ranking=sets))
     rows = cells(explanation_table(found))[1:]
     assert rows == [["tip_drag + torque_bias", "0.900"], ["none", "0.100"]]
 

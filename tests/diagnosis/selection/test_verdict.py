@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, scored
 
@@ -61,7 +62,7 @@ def test_what_is_above_the_noise_floor_explains_nothing():
     assert found.kind is VerdictKind.UNKNOWN
     assert not found.settled
     assert found.best.names == ("tip_drag",)
-    assert dict(found.ranking)["unknown"] == 1.0
+    assert dict(found.ranking)["unknown",] == 1.0
 
 
 def test_what_was_not_checked_on_held_out_trials_explains_nothing():
@@ -109,17 +110,19 @@ def test_what_asks_the_rigs_constants_to_be_off_by_chance_is_named_beside_the_be
 def test_probabilities_are_those_of_the_scores():
     ranking = dict(verdict((["tip_drag"], 100.0), (["entry_friction"], 104.0)).ranking)
     assert sum(ranking.values()) == pytest.approx(1.0)
-    assert ranking["tip_drag"] / ranking["entry_friction"] == pytest.approx(2.718281828**2)
-    assert set(ranking) == {*LIBRARY, "none", "unknown"}
+    assert ranking["tip_drag",] / ranking["entry_friction",] == pytest.approx(2.718281828**2)
+    assert set(ranking) == {(name,) for name in (*LIBRARY, "none", "unknown")}
 
 
-def test_a_pair_is_one_explanation_and_each_of_its_effects_has_half_of_it_in_the_ranking():
-    found = verdict((["tip_drag", "torque_bias"], 100.0), (["entry_friction"], 104.0))
-    sets = {frozenset(names): p for names, p in found.explanations}
-    assert sum(sets.values()) == pytest.approx(1.0)
-    pair = sets[frozenset(("tip_drag", "torque_bias"))]
-    assert pair / sets[frozenset(("entry_friction",))] == pytest.approx(2.718281828**2)
-    assert dict(found.ranking)["tip_drag"] == pytest.approx(0.5 * pair)
+def test_a_pair_is_one_row_of_the_ranking_at_its_own_probability():
+    first, second = (["tip_drag", "torque_bias"], 100.0), (["torque_bias", "tip_drag"], 103.0)
+    found = verdict(first, second, (["entry_friction"], 104.0))
+    ranking = dict(found.ranking)
+    assert sum(ranking.values()) == pytest.approx(1.0)
+    pair = ranking["tip_drag", "torque_bias"]
+    odds = np.exp(2.0) * (1.0 + np.exp(-1.5))  # of both fits of the pair
+    assert pair / ranking["entry_friction",] == pytest.approx(odds)
+    assert ranking["tip_drag",] == ranking["torque_bias",] == 0.0
 
 
 def test_the_place_is_that_of_the_first_effect():

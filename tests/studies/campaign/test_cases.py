@@ -60,7 +60,7 @@ def test_a_draw_that_the_protocol_refuses_is_a_case_with_its_error(campaign_file
 @pytest.mark.parametrize(
     ("path", "how", "said"),
     [
-        ("segments.5.turn_deg", {"grid": [1.0]}, "a place from 0 to 1"),
+        ("segments.5.turn_deg", {"grid": [1.0]}, "a position from 0 to 1"),
         ("tissue.damping", {"grid": [1.0]}, "layers"),
         ("free_mm", {"grid": [10.0, -1.0]}, "-1.0"),
         ("free_mm", {"uniform": [10.0, 1000.0]}, "1000.0"),

@@ -22,8 +22,8 @@ def test_a_whole_branch_may_be_replaced():
     ("path", "said"),
     [
         ("tisue.layers", "did you mean 'tissue'"),
-        ("tissue.layers.2.depth", "a place from 0 to 1"),
-        ("tissue.layers.x", "a place from 0 to 1"),
+        ("tissue.layers.2.depth", "a position from 0 to 1"),
+        ("tissue.layers.x", "a position from 0 to 1"),
         ("free_mm.more", "the value 50"),
         ("", "one of tissue, free_mm"),
     ],

@@ -48,6 +48,14 @@ def test_a_pair_is_of_two_effects_that_can_be_told_apart(earlier):
     assert not any({first, second} <= names for names in MUTUALLY_EXCLUSIVE)
 
 
+@pytest.mark.parametrize("earlier", range(40))
+def test_three_effects_can_be_told_apart_and_begin_with_each_in_turn(earlier):
+    names = effects_of(5, "triple", earlier, None)
+    assert len({*names}) == 3
+    assert names[:2] == effects_of(5, "pair", earlier, None)
+    assert not any(len({*names} & excluded) > 1 for excluded in MUTUALLY_EXCLUSIVE)
+
+
 def test_most_pairs_are_of_two_locations():
     """15 % are asked to share one: of 200, 48 or more would have a probability below 0.1 %."""
     pairs = [effects_of(5, "pair", earlier, None) for earlier in range(200)]

@@ -36,7 +36,7 @@ def test_a_topic_whose_joints_change_places_is_left_out_with_a_note(tmp_path):
     path = write_ros2(tmp_path, FEW, names=lambda i: ("a", "b") if i % 2 else ("b", "a"))
     file = read_mcap_file(path)
     assert not any("joint" in table.title for table in file.tables)
-    assert any("/joint_states changes the order" in note for note in file.notes)
+    assert any("/joint_states lists its joints in changing order" in note for note in file.notes)
 
 
 def test_json_comes_back_and_an_unknown_encoding_is_noted(tmp_path):

@@ -18,7 +18,7 @@ def _closed():
 def paired(found):
     """The same diagnosis, explained by a pair."""
     sets = ((("tip_drag", "torque_bias"), 0.9), (("stiction",), 0.1))
-    return replace(found, verdict=replace(found.verdict, explanations=sets))
+    return replace(found, verdict=replace(found.verdict, ranking=sets))
 
 
 def test_a_pair_is_one_bar_at_its_probability(dry):

@@ -1,0 +1,52 @@
+"""Held-out trials, each predicted by a fit to the others: where one step from the fit leads too far."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import FAR_STEP
+from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.problem import FitProblem
+
+Array = NDArray[np.float64]
+GapOf = Callable[[Fit, tuple[Array, ...]], float]
+
+_ITERATIONS = 3
+
+
+def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf) -> tuple[Array, ...]:
+    """Residuals / sigma of each trial that the fit has not seen, by one step or by refits.
+
+    Args:
+      gap_of: of a fit and its held-out residuals; far above that of the fit, the step is not trusted.
+
+    Raises:
+      SimulationFailed: the others lead to where the needle cannot be simulated.
+    """
+    held_out = held_out_residuals(problem, fit)
+    return held_out if gap_of(fit, held_out) <= FAR_STEP * fit.gap else refitted_without(problem, fit)
+
+
+def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
+    """Residuals / sigma of each trial, simulated with a fit to the others.
+
+    Raises:
+      SimulationFailed: the others lead to where the needle cannot be simulated.
+    """
+    left = []
+    for i, trial in enumerate(problem.log.trials):
+        others = tuple(other for j, other in enumerate(problem.log.trials) if j != i)
+        rest = replace(problem, log=replace(problem.log, trials=others))
+        again = fit_effects(rest, fit.names, fit.x, most_iterations=_ITERATIONS)
+        rig = again.parameterization.rig(again.x)
+        own = replace(problem, log=replace(problem.log, trials=(trial,)))
+        left.append(own.residuals([rig])[0][0])
+    return tuple(left)
+
+
+def root_mean_square(_: Fit, held_out: tuple[Array, ...]) -> float:
+    """The gap as the report tells it."""
+    return float(np.sqrt(np.mean(np.concatenate(held_out) ** 2)))

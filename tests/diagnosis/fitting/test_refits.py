@@ -1,0 +1,48 @@
+"""Held-out trials by fits to the others, where one step from the fit leads too far."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import TORQUE, joined, log_of, problem_of
+
+from diagnosis.criteria import FAR_STEP
+from diagnosis.fitting.cross_validation import held_out_residuals
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.refits import held_out_or_refitted, refitted_without, root_mean_square
+from diagnosis.log.trial import SENSORS
+from diagnosis.replay.rig_parameters import RigParameters
+
+BIASES_N_MM = (0.02, 0.05)
+
+
+@pytest.fixture(scope="module")
+def fitted():
+    """Two trials that each ask for their own bias of the torque, and the fit of one bias."""
+    problem = problem_of(
+        joined(*(log_of(RigParameters(torque_bias_n_mm=b), seconds=6.0) for b in BIASES_N_MM))
+    )
+    return problem, fit_effects(problem, ("torque_bias",))
+
+
+def test_each_trial_is_predicted_with_what_the_others_ask_for(fitted):
+    """The second is predicted with the bias of the first, and the other way round; torques first."""
+    problem, _ = fitted
+    for left, trial, sign in zip(refitted_without(*fitted), problem.log.trials, (-1, 1), strict=True):
+        torque = left[: np.isfinite(trial.readings[SENSORS[0]]).sum()]
+        expected = sign * (BIASES_N_MM[1] - BIASES_N_MM[0]) / TORQUE
+        # Each of the two means is known to sigma / sqrt(N).
+        assert torque.mean() == pytest.approx(expected, abs=5 * np.sqrt(2 / torque.size))
+
+
+@pytest.mark.parametrize(("factor", "refits"), [(0.99, False), (1.01, True)])
+def test_refits_are_made_where_a_step_leads_far(fitted, factor, refits):
+    problem, fit = fitted
+    found = held_out_or_refitted(problem, fit, lambda fit, _: factor * FAR_STEP * fit.gap)
+    expected = (refitted_without if refits else held_out_residuals)(problem, fit)
+    for one, other in zip(found, expected, strict=True):
+        np.testing.assert_allclose(one, other)
+
+
+def test_the_gap_of_held_out_trials_is_their_root_mean_square():
+    assert root_mean_square(None, (np.array([3.0]), np.array([4.0, 5.0]))) == pytest.approx(
+        np.sqrt(50 / 3)
+    )
