@@ -14,10 +14,10 @@ from diagnosis.assessment.intervals import Interval, covariance, intervals
 from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.nearest import Nearest, nearest_of
 from diagnosis.effects import IMPERFECTIONS
+from diagnosis.fitting.held_out.refits import held_out_or_refitted, root_mean_square
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.fitting.refits import held_out_or_refitted, root_mean_square
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.replay.drift import drift_range_sigma, with_drift

@@ -1,9 +1,9 @@
 """Forward steps: what each further effect would add to an explanation.
 
-Real rigs have three to five effects at once, and a verdict stops at two, because more of them can
-imitate what the library lacks. The nearest explanation of an unknown log goes on: one effect at
-a time, the one that promises most, as long as it takes off a good share of what is left and does not
-come down to the noise (by imitation, most likely).
+Real rigs have three to five effects at once, and a library holds few of them. Where a search ends
+with fewer than three and explains nothing, the nearest explanation goes on: one effect at a time,
+the one that promises most, as long as it takes off a good share of what is left and does not come
+down to the noise (by imitation, most likely: the search would have found it otherwise).
 """
 
 from collections.abc import Sequence

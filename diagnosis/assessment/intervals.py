@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import INTERVAL_Z
 from diagnosis.effects.effect import Parameter
-from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.stopping import stopping
 

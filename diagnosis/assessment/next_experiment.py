@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.experiments import SAMPLE_S, Experiment
-from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial

@@ -1,8 +1,8 @@
 """What is missing, in plain words."""
 
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Law, Missing
-from diagnosis.freeform.shapes import likeness_of
 
 PLACES = {
     Place.INTERFACE: "along the shaft, between it and the tissue",

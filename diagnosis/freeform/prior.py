@@ -13,8 +13,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.freeform.family import Family, kind_of
 
 Array = NDArray[np.float64]

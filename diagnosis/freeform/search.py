@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import CLOSED_GAP
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.fitting.refits import held_out_or_refitted
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.prior import free_covariance, well_determined, with_estimated_prior

@@ -13,8 +13,8 @@ from diagnosis.assessment.joint_uncertainty import JointUncertainty
 from diagnosis.assessment.nearest import Nearest
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Dependence, Law, Missing
-from diagnosis.freeform.shapes import likeness_of
 from diagnosis.report.sentences import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape

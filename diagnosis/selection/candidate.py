@@ -16,8 +16,8 @@ from diagnosis.criteria import (
     SHIFT_LIMIT,
 )
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.cross_validation import held_out_residuals, information, shift_statistic
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.held_out.cross_validation import held_out_residuals, information, shift_statistic
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem

@@ -13,7 +13,7 @@ dropped.
 
 from diagnosis.selection.stages.best import (
     best_to_its_end,
-    effects_of_the_best_alone,
+    best_without_each_effect,
     scatter_of_the_best,
 )
 from diagnosis.selection.stages.coloured_noise import coloured_noise
@@ -40,7 +40,7 @@ STAGES: tuple[Stage, ...] = (
     one_more_imperfection,
     triples,
     best_to_its_end,
-    effects_of_the_best_alone,
+    best_without_each_effect,
     scatter_of_the_best,
     finer_mesh,
 )

@@ -1,7 +1,10 @@
-"""The best explanation taken apart: each of its effects alone, its fit to the end, its scatter."""
+"""The best explanation taken apart: its fit to the end, without each of its effects, its scatter."""
 
+from itertools import combinations
+
+from diagnosis.criteria import BASE_NOISE_GAP, CONTENDING
 from diagnosis.fitting.fit_status import Termination
-from diagnosis.selection.fitting import fit_all, fit_each_alone
+from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -14,14 +17,22 @@ def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_all("best to its end", [(state.problem, best.names, best.fit.x)], workers))
 
 
-def effects_of_the_best_alone(state: SearchState, workers: Workers) -> SearchState:
-    """Each effect of a leading pair alone: the other may have been a crutch."""
+def best_without_each_effect(state: SearchState, workers: Workers) -> SearchState:
+    """The best without each of its effects, which may have been a crutch of the others.
+
+    Fewer leave no less, so that far above the noise there is nothing to ask.
+    """
     best = state.best
-    if len(best.names) < 2:
+    if len(best.names) < 2 or best.floor.gap > BASE_NOISE_GAP:
         return state
-    return state.adding(
-        fit_each_alone("effects of the best alone", state.problem, best, best.names, workers)
-    )
+    known = {frozenset(c.names) for c in state.candidates}
+    fewer = [s for s in combinations(best.names, len(best.names) - 1) if frozenset(s) not in known]
+    calls = [
+        (state.problem, names, state.problem.parameterization(names).joined(best.fit.parts), enough)
+        for enough in [best.score + CONTENDING]
+        for names in fewer
+    ]
+    return state.adding(fit_all("best without each effect", calls, workers))
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:

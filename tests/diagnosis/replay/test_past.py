@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, log_with, prepared, trial, turns
 
-from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.nominal_replay import replay_nominal

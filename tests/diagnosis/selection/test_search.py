@@ -35,7 +35,7 @@ def test_the_stages_are_these_in_this_order():
         "one_more_imperfection",
         "triples",
         "best_to_its_end",
-        "effects_of_the_best_alone",
+        "best_without_each_effect",
         "scatter_of_the_best",
         "finer_mesh",
     ]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
+from diagnosis.criteria import BASE_NOISE_GAP
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.search import search
@@ -13,19 +14,38 @@ from diagnosis.selection.stages import best as module
 from diagnosis.workers import Workers
 
 
-def test_each_effect_of_a_leading_pair_is_fitted_alone(monkeypatch, still_start):
-    asked = []
+@pytest.fixture
+def asked(monkeypatch):
+    """Sets of effects that are fitted."""
+    found = []
 
-    def fit_each_alone(stage, problem, one, names, workers):
-        asked.append((stage, tuple(names)))
+    def fit_all(stage, calls, workers):
+        found.extend(call[1] for call in calls)
         return [], ()
 
-    monkeypatch.setattr(module, "fit_each_alone", fit_each_alone)
-    single, pair = scored(["tip_drag"], 2.0), scored(["tip_drag", "torque_bias"], 1.0)
-    module.effects_of_the_best_alone(replace(still_start, candidates=(single,)), Workers())
+    monkeypatch.setattr(module, "fit_all", fit_all)
+    return found
+
+
+def test_one_effect_has_nothing_to_be_taken_apart(asked, still_start):
+    state = replace(still_start, candidates=(scored(["tip_drag"], 1.0),))
+    module.best_without_each_effect(state, Workers())
     assert asked == []
-    module.effects_of_the_best_alone(replace(still_start, candidates=(single, pair)), Workers())
-    assert asked == [("effects of the best alone", ("tip_drag", "torque_bias"))]
+
+
+def test_of_three_effects_each_is_left_out_in_turn_but_for_what_was_fitted(asked, still_start):
+    three = ("tip_drag", "torque_bias", "stiction")
+    found = [scored(three, 1.0), scored(["torque_bias", "tip_drag"], 2.0)]
+    module.best_without_each_effect(replace(still_start, candidates=found), Workers())
+    assert asked == [("tip_drag", "stiction"), ("torque_bias", "stiction")]
+
+
+@pytest.mark.parametrize(("gap", "fitted"), [(0.99, 2), (1.01, 0)])
+def test_far_above_the_noise_none_is_left_out(gap, fitted, asked, still_start):
+    pair = scored(["tip_drag", "torque_bias"], 1.0)
+    pair = replace(pair, floor=replace(pair.floor, gap=gap * BASE_NOISE_GAP))
+    module.best_without_each_effect(replace(still_start, candidates=(pair,)), Workers())
+    assert len(asked) == fitted
 
 
 def test_a_fit_of_the_best_that_was_given_up_is_taken_to_its_end(monkeypatch, still_start):

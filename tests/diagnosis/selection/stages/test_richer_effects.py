@@ -7,8 +7,8 @@ import pytest
 from diagnosis_fixtures import log_of, start_of_search
 
 from diagnosis.criteria import SIMPLE_LEAD
-from diagnosis.fitting.cross_validation import information
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.stages import richer_effects as module

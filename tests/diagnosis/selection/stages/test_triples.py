@@ -2,17 +2,20 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from diagnosis_fixtures import concluded, log_of, scored, start_of_search
+from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
 
-from diagnosis.criteria import TRIPLE_BASES
+from diagnosis.criteria import TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.screening import Screened
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import triples as module
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
 
+LEADING = ("tip_drag", "coulomb_friction", "entry_friction", "stiction")
 EFFECTS = ("coulomb_friction", "tip_drag", "torque_bias", "entry_friction", "stiction")
 
 
@@ -32,10 +35,31 @@ def asked_for(state, monkeypatch, *, explained, pairs):
 
 def test_every_other_effect_is_tried_beside_the_leading_pairs_alone(still_start, monkeypatch):
     last = [scored(["tip_drag", "stiction"], 9.0)]
-    first = [scored(["tip_drag", "torque_bias"], float(i)) for i in range(TRIPLE_BASES)]
+    first = [scored([name, "torque_bias"], 1.0) for name in LEADING]
     asked = asked_for(still_start, monkeypatch, explained=False, pairs=(*last, *first))
-    others = ("coulomb_friction", "entry_friction", "stiction")
-    assert asked == TRIPLE_BASES * [("tip_drag", "torque_bias", other) for other in others]
+    assert len(LEADING) == TRIPLE_BASES
+    assert asked == [
+        (name, "torque_bias", other)
+        for name in LEADING
+        for other in EFFECTS
+        if other not in (name, "torque_bias")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("cost", "gain", "worth"),
+    [
+        (2000.0 - 1.01 * TRIPLE_SHARE * 1000.0, WORTH_FITTING, True),
+        (2000.0 - 0.99 * TRIPLE_SHARE * 1000.0, WORTH_FITTING, False),
+        (1000.0, 0.9 * WORTH_FITTING, False),
+    ],
+)
+def test_a_third_effect_has_to_promise_its_share_of_what_the_pair_leaves_beyond_noise(cost, gain, worth):
+    pair = fit_of(("tip_drag", "torque_bias"), by_trial=[np.full(1000, np.sqrt(2.0))])
+    three = ("tip_drag", "torque_bias", "stiction")
+    one = Screened(names=three, start=np.zeros(3), cost=cost, gain=gain)
+    assert pair.cost == pytest.approx(2000.0)
+    assert module._worth_a_third(one, pair) is worth
 
 
 @pytest.mark.parametrize("explained", [True, False])

@@ -1,33 +1,18 @@
-"""From a curve to a name: which plain law a free-form one looks like.
+"""Plain laws that a curve may look like: of any variable, of a rate, of an angle.
 
-Each shape is fitted to the curve's points by least squares over the half width of its band, and that of
-least
-
-    chi-square + 2 (parameters)                                        (Akaike 1974)
-
-is named if it runs within the band: a root mean square of at most one half width. Where the library has
-a law of that shape, at that place and of that variable, it is named too.
+Each is y(x) with few parameters, and a start for a fit of it to points of a curve.
 """
 
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import OptimizeWarning, curve_fit
-
-from diagnosis.effects.effect import Place
-from diagnosis.freeform.missing import Law
 
 Array = NDArray[np.float64]
 
-_LEAST_BAND = 0.01  # of the range of a curve: no band is taken to be narrower
-_WITHIN = 1.0  # half widths of the band, root mean square
-_MOST_EVALUATIONS = 4000
-_STEP_WIDTH = (
-    0.03  # of the range: less than from one point to the next, not so steep that no fit finds it
-)
+_STEP_WIDTH = 0.03
+"""Of the range: less than from one point to the next, not so steep that no fit finds it."""
 _MOST_CYCLES = 4  # of a wave in one turn, from which a fit starts
 
 
@@ -45,20 +30,6 @@ class Shape:
     says: str
     law: Callable[..., Array]
     start: Callable[[Array, Array], tuple[float, ...]]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Likeness:
-    """A plain law that a curve looks like.
-
-    Attributes:
-      says: in words, with its values.
-      library: effects of the library with a law of that shape; may be none.
-    """
-
-    shape: str
-    says: str
-    library: tuple[str, ...]
 
 
 def _constant(x: Array, a: float) -> Array:
@@ -132,8 +103,8 @@ _STRIBECK = Shape(
     law=_stribeck,
     start=lambda x, y: (float(y[0]), 0.3 * float(y[0]), float(x[len(x) // 2]), _slope(x, y)),
 )
-_OF_RATE = (_DRY_AND_VISCOUS, _POWER, _STRIBECK)
-_OF_ANY = (
+OF_RATE = (_DRY_AND_VISCOUS, _POWER, _STRIBECK)
+OF_ANY = (
     Shape(
         name="constant",
         says="the same everywhere, {0:.3g}",
@@ -159,7 +130,7 @@ _OF_ANY = (
         start=lambda x, y: (float(y[0]), float(y[-1] - y[0]), _largest_jump(x, y)),
     ),
 )
-_OF_ANGLE = (
+OF_ANGLE = (
     Shape(
         name="sine wave",
         says="{0:.3g} + {1:.3g} sin({3:.3g} angle {2:+.3g} rad)",
@@ -167,59 +138,3 @@ _OF_ANGLE = (
         start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
     ),
 )
-_ANGLES = ("base_angle", "tip_angle")
-LIBRARY_LAWS = {
-    (Place.INTERFACE, "rate", "dry and viscous friction"): ("coulomb_friction",),
-    (Place.INTERFACE, "rate", "power law"): ("shear_thinning",),
-    (Place.INTERFACE, "rate", "Stribeck friction"): ("stiction",),
-    (Place.INTERFACE, "position", "step"): ("layered_tissue",),
-    (Place.INTERFACE, "axial_speed", "power law"): ("speed_dependent_friction",),
-    (Place.NEEDLE, "rate", "dry and viscous friction"): ("tip_drag",),
-    (Place.NEEDLE, "tip_angle", "sine wave"): ("needle_curvature",),
-    (Place.SENSOR, "tip_angle", "straight line"): ("tip_angle_scale", "tip_angle_bias"),
-    (Place.SENSOR, "torque", "straight line"): ("torque_scale", "torque_bias"),
-}
-"""Effects of the library by place, variable and shape."""
-
-
-def likeness_of(law: Law) -> Likeness | None:
-    """The plain law that a curve looks like; None: none that is known here, or it is no curve."""
-    if law.variable in ("direction", "event"):
-        return None
-    x, y = np.array(law.x), np.array(law.y)
-    half = 0.5 * (np.array(law.high) - np.array(law.low))
-    half = np.maximum(half, _LEAST_BAND * max(float(np.ptp(y)), 1e-12))
-    tried = []
-    for shape in _shapes_of(law):
-        fitted = _fitted(shape, x, y, half)
-        if fitted is not None:
-            tried.append((fitted[1] + 2 * len(fitted[0]), fitted[1], shape, fitted[0]))
-    if not tried:
-        return None
-    _, chi_square, shape, values = min(tried, key=lambda one: one[0])
-    if chi_square > _WITHIN**2 * x.size:
-        return None
-    library = LIBRARY_LAWS.get((law.place, law.variable, shape.name), ())
-    return Likeness(shape=shape.name, says=shape.says.format(*values), library=library)
-
-
-def _shapes_of(law: Law) -> tuple[Shape, ...]:
-    if law.variable == "rate":
-        return (*_OF_RATE, *_OF_ANY[:1])
-    return (*_OF_ANY, *_OF_ANGLE) if law.variable in _ANGLES else _OF_ANY
-
-
-def _fitted(shape: Shape, x: Array, y: Array, half: Array) -> tuple[Array, float] | None:
-    """Parameters and chi-square of a shape with fewer parameters than points."""
-    start = shape.start(x, y)
-    if len(start) >= x.size:
-        return None
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore", OptimizeWarning)
-            values, _ = curve_fit(shape.law, x, y, start, half, maxfev=_MOST_EVALUATIONS)
-    except RuntimeError:
-        return None
-    left = (y - shape.law(x, *values)) / half
-    chi_square = float(left @ left)
-    return (values, chi_square) if np.isfinite(chi_square) else None

@@ -7,8 +7,8 @@ import pytest
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.likeness.likeness import LIBRARY_LAWS, likeness_of
 from diagnosis.freeform.missing import Law
-from diagnosis.freeform.shapes import LIBRARY_LAWS, likeness_of
 
 RATES = np.geomspace(0.006, 3.0, 7)
 TIMES = np.linspace(0.0, 10.0, 8)

@@ -5,9 +5,9 @@ import pytest
 from diagnosis_fixtures import TORQUE, joined, log_of, problem_of
 
 from diagnosis.criteria import FAR_STEP
-from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.fitting.refits import held_out_or_refitted, refitted_without, root_mean_square
+from diagnosis.fitting.held_out.cross_validation import held_out_residuals
+from diagnosis.fitting.held_out.refits import held_out_or_refitted, refitted_without, root_mean_square
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.rig_parameters import RigParameters
 

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import FAR_STEP
-from diagnosis.fitting.cross_validation import held_out_residuals
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.held_out.cross_validation import held_out_residuals
 from diagnosis.fitting.problem import FitProblem
 
 Array = NDArray[np.float64]

@@ -7,13 +7,13 @@ from diagnosis_fixtures import fit_of, held_by_a_bound, joined, log_of, problem_
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.fitting.cross_validation import (
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.held_out.cross_validation import (
     _steps,
     held_out_residuals,
     information,
     shift_statistic,
 )
-from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.nuisance import prior_sigma
 from diagnosis.replay.rig_parameters import RigParameters
 

@@ -1,0 +1,1 @@
+"""What a fit predicts on trials that it has not seen."""

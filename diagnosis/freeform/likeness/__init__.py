@@ -1,0 +1,1 @@
+"""From a free-form curve to the name of a plain law."""

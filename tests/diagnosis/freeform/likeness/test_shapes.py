@@ -1,0 +1,45 @@
+"""Plain laws: what a fit of each starts from."""
+
+import numpy as np
+import pytest
+
+from diagnosis.freeform.likeness.shapes import OF_ANGLE, OF_ANY, OF_RATE
+
+SHAPES = (*OF_RATE, *OF_ANY, *OF_ANGLE)
+X = np.linspace(0.1, 2.0, 12)
+SAMPLE = {  # by name: parameters of a curve of that law
+    "dry and viscous friction": (0.5, 0.2),
+    "power law": (0.7, 0.6),
+    "Stribeck friction": (0.4, 0.3, 0.5, 0.1),
+    "constant": (0.3,),
+    "straight line": (0.1, 0.4),
+    "exponential approach": (1.0, -0.8, 0.6),
+    "step": (0.2, 0.5, 1.0),
+    "sine wave": (0.1, 0.5, 0.3, 2.0),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
+def test_a_start_has_a_value_for_each_parameter_that_words_name(shape):
+    values = SAMPLE[shape.name]
+    start = shape.start(X, shape.law(X, *values))
+    assert len(start) == len(values)
+    assert np.isfinite(start).all()
+    assert "{" not in shape.says.format(*start)
+
+
+def test_a_wave_starts_from_its_own_number_of_cycles():
+    """Its amplitude, phase and mean are then those of a linear least squares, which is exact."""
+    (wave,) = OF_ANGLE
+    degrees = np.linspace(-170.0, 180.0, 36)
+    values = SAMPLE["sine wave"]
+    np.testing.assert_allclose(wave.start(degrees, wave.law(degrees, *values)), values)
+
+
+def test_a_step_starts_where_the_curve_jumps():
+    shape = next(s for s in OF_ANY if s.name == "step")
+    level, height, at = SAMPLE["step"]
+    start = shape.start(X, shape.law(X, level, height, at))
+    assert start[0] == pytest.approx(level, abs=1e-6)
+    assert start[1] == pytest.approx(height, abs=1e-6)
+    assert abs(start[2] - at) <= X[1] - X[0]
