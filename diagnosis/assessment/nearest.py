@@ -112,7 +112,7 @@ def nearest_candidate(
     exact = nominal_fit(nominal_residuals(problem, nominal))
     if floor_of(after).gap < exact.gap:
         return near, after, lost
-    return candidate(exact), exact.by_trial, ()
+    return candidate(exact), exact.by_trial, lost
 
 
 def _with_further_effects(
