@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from itertools import product
 
 import mujoco
 import numpy as np
@@ -29,6 +30,7 @@ MODES, EULER, TRAPEZE = "modes", "backward Euler loop", "midpoint loop"
 OURS = (CHAIN, SIBLINGS)
 
 _ELEMENTS = (4, 6, 8, 12, 16)
+_ORDERS = (2, 3)
 _STEPS_S = tuple(TURN_S / k for k in (3, 4, 5, 6, 7, 8, 10, 12, 15, 20, 24, 30, 40, 60))
 _CELLS = (24, 32, 48, 64)
 _TOLERANCES = tuple(10.0**-k for k in (1.5, 2, 2.5, 3, 3.5, 4, 4.5))
@@ -79,13 +81,12 @@ def _kernel_of(setup: Setup, loop: Callable[..., Array]) -> Callable[[], Answer]
 def our_settings(case: Case) -> Settings:
     """The simulator in both arrangements, and its kernel without MuJoCo."""
     loop, settings = kernel_loop(), Settings()
-    for n in _ELEMENTS:
-        for h in _STEPS_S:
-            name = f"n = {n}, {1e3 * h:.3g} ms"
-            for method, arrangement in zip(OURS, Arrangement, strict=True):
-                setup = setup_of(case, elements=n, step_s=h, arrangement=arrangement)
-                settings[method, name] = rollout_of(setup)
-            settings[KERNEL, name] = _kernel_of(setup, loop)
+    for n, h, order in product(_ELEMENTS, _STEPS_S, _ORDERS):
+        name = f"n = {n}, {1e3 * h:.3g} ms, order {order}"
+        for method, arrangement in zip(OURS, Arrangement, strict=True):
+            setup = setup_of(case, elements=n, step_s=h, order=order, arrangement=arrangement)
+            settings[method, name] = rollout_of(setup)
+        settings[KERNEL, name] = _kernel_of(setup, loop)
     return settings
 
 

@@ -62,8 +62,9 @@ class Discretisation(Record):
     step_s: Annotated[float, Field(gt=0, le=0.1)] = 0.01
     presliding_deg: Annotated[float, Field(gt=0, le=5)] = 0.1
     """Angle at which a dry element slips."""
-    order: Annotated[int, Field(ge=1, le=2)] = 2
-    """Of the step: 2, or 1 for MuJoCo's own step, to which only the tissue's torque is added."""
+    order: Annotated[int, Field(ge=1, le=3)] = 2
+    """Of the step: 2, or 3 where a larger step is to be as accurate, or 1 for MuJoCo's own step, to
+    which only the tissue's torque is added."""
     arrangement: Arrangement = Arrangement.CHAIN
     slip: SlipRate = SlipRate.MATERIAL_DERIVATIVE
 

@@ -11,8 +11,6 @@ from sim.protocol import Protocol
 from sim.recording.recording import Recording, record
 from sim.simulation import Run, simulate
 
-_SECOND_ORDER = 4.0 / 3.0  # error of a step h from the difference to h / 2
-
 
 def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recording:
     """Simulate a protocol and record everything.
@@ -33,11 +31,12 @@ def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recordin
 
 
 def step_error_deg(protocol: Protocol, run: Run) -> float:
-    """Largest error of the tip that the step causes, deg, by halving it."""
+    """Largest error of the tip that the step causes, deg, by halving it (Richardson)."""
     fine = protocol.discretisation.but(step_s=run.setup.discretisation.step_s / 2)
     halved = simulate([protocol.but(discretisation=fine).setup()], protocol.schedule())[0]
     size = min(run.tip_deg.size, (halved.tip_deg.size + 1) // 2)
-    return float(_SECOND_ORDER * np.abs(run.tip_deg[:size] - halved.tip_deg[: 2 * size : 2]).max())
+    difference = np.abs(run.tip_deg[:size] - halved.tip_deg[: 2 * size : 2]).max()
+    return float(difference / (1.0 - 0.5**protocol.discretisation.order))
 
 
 def checked_error_deg(protocol: Protocol, run: Run) -> float:
@@ -50,7 +49,7 @@ def checked_error_deg(protocol: Protocol, run: Run) -> float:
     allowed = protocol.accuracy_deg or np.inf
     if error > allowed:
         # Halves of the step keep the corners of the motion at the ends of steps.
-        enough = step / 2 ** math.ceil(math.log2(error / allowed) / 2)
+        enough = step / 2 ** math.ceil(math.log2(error / allowed) / protocol.discretisation.order)
         raise InvalidValue(
             "discretisation.step_s",
             step,

@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager
 import pytest
 
 from diagnosis import nominal_replay, pipeline
-from diagnosis.assessment import assess
+from diagnosis.assessment import nearest
 from diagnosis.replay import replay
 from diagnosis.selection import candidate
 
@@ -35,7 +35,7 @@ class SimulatorSpy(AbstractContextManager):
         self._patch.setattr(pipeline, "assess", self._watched(pipeline.assess, self._assessed))
         for stage, module, name in (
             ("search", candidate, "held_out_residuals"),
-            ("assessment", assess, "held_out_or_refitted"),
+            ("assessment", nearest, "held_out_or_refitted"),
         ):
             count = self._counter(self.held_out[stage])
             self._patch.setattr(module, name, self._watched(getattr(module, name), count))

@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.detection_limits import detection_limits
-from diagnosis.assessment.forward_step import forward_selection, gap_with_one_more, on_decimated
+from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, covariance, intervals
 from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
-from diagnosis.assessment.nearest import Nearest, nearest_of
+from diagnosis.assessment.nearest import ONE_MORE, Nearest, nearest_candidate, nearest_of
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.fitting.held_out.refits import held_out_or_refitted, root_mean_square
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
@@ -29,7 +28,7 @@ from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
-from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StopSignal
@@ -38,15 +37,10 @@ from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 
-ONE_TRIAL = (
-    "the log has one trial, so none can be held out: the gap after is that of the fitted trial "
-    "itself, and nothing shows whether its parameters hold for other trials; add a second trial"
-)
-
 TO_ITS_END = "diagnose this log to its end first: what was not tried may explain it as well, or better"
 """In place of a next experiment where the search was cut short."""
 FINER, REPLICATES = "numerical error", "noise of the base angle in the intervals"
-ONE_MORE, LIMITS, NEXT = "adding another effect", "detection limits", "next experiment"
+LIMITS, NEXT = "detection limits", "next experiment"
 TWIST = "twist along the shaft"
 """Parts that a stop leaves out."""
 
@@ -116,7 +110,7 @@ def assess(
     """
     stop = workers.stop
     complete = not stop.left_out
-    near = _nearest_candidate(problem, coarse, verdict, effects, workers)
+    near, after, lost = nearest_candidate(problem, coarse, nominal, verdict, effects, workers)
     rig = near.fit.parameterization.rig(near.fit.x)
     predictions = replay(problem.log, rig, problem.resolution)
     arguments = (problem.log, problem.noise, rig, predictions, problem.resolution)
@@ -126,7 +120,6 @@ def assess(
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
-    after, lost = _held_out(problem, near)
     with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
     spread = covariance(problem, near.fit, change, left=_above_noise(near))
     own = intervals(near.fit, spread)
@@ -166,23 +159,6 @@ def assess(
             *_bound_warnings(near.fit.status.at_bound),
         ),
     )
-
-
-def _nearest_candidate(
-    problem: FitProblem,
-    coarse: FitProblem,
-    verdict: Verdict,
-    effects: Sequence[str],
-    workers: Workers,
-) -> Candidate:
-    """The best of the verdict; of an unknown log, with the further effects that bring it nearer."""
-    if verdict.kind is not VerdictKind.UNKNOWN:
-        return verdict.best
-    if workers.stop.due:
-        workers.stop.leave_out(ONE_MORE)
-        return verdict.best
-    fit = forward_selection(problem, coarse, verdict.best.fit, effects, workers)
-    return verdict.best if fit is verdict.best.fit else candidate(fit)
 
 
 def _next_experiment(
@@ -253,19 +229,3 @@ def _further_effects(
     if not verdict.settled:
         return left, {}
     return left, stop.unless_due(LIMITS, lambda: detection_limits(*arguments)) or {}
-
-
-def _held_out(problem: FitProblem, best: Candidate) -> tuple[tuple[Array, ...], tuple[str, ...]]:
-    """Residuals of trials that the fit has not seen, and a warning where there are none."""
-    if len(problem.log.trials) == 1:
-        return best.fit.by_trial, (ONE_TRIAL,)
-    if best.held_out is not None:
-        return best.held_out, ()
-    try:
-        return held_out_or_refitted(problem, best.fit, root_mean_square), ()
-    except SimulationFailed as failed:
-        warning = (
-            "the gap after is that on the trials of the fit: a held-out trial cannot be simulated with "
-            f"the parameters from the others ({failed})"
-        )
-        return best.fit.by_trial, (warning,)

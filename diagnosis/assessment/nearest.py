@@ -9,12 +9,35 @@ that of the nominal residual beyond noise,
 Its intervals are wider than those of an explanation that reaches the noise floor, by what is left.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.assessment.forward_step import forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.intervals import Interval
-from diagnosis.selection.candidate import Candidate
+from diagnosis.fitting.fit import nominal_fit
+from diagnosis.fitting.held_out.refits import held_out_or_refitted
+from diagnosis.fitting.noise_floor import floor_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.nominal_replay import nominal_residuals
+from diagnosis.replay.replay import Prediction
+from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.workers import Workers
+from sim.simulation import SimulationFailed
+
+Array = NDArray[np.float64]
+HeldOut = tuple[Array, ...]
+
+ONE_TRIAL = (
+    "the log has one trial, so none can be held out: the gap after is that of the fitted trial "
+    "itself, and nothing shows whether its parameters hold for other trials; add a second trial"
+)
+ONE_MORE = "adding another effect"
+"""A part that a stop leaves out."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,3 +85,61 @@ def _power_percent(gap: GapReduction) -> float:
     if beyond <= 0:
         return 0.0
     return 100.0 * min(max((gap.before**2 - max(gap.after, 1.0) ** 2) / beyond, 0.0), 1.0)
+
+
+def nearest_candidate(
+    problem: FitProblem,
+    coarse: FitProblem,
+    nominal: Sequence[Prediction],
+    verdict: Verdict,
+    effects: Sequence[str],
+    workers: Workers,
+) -> tuple[Candidate, HeldOut, tuple[str, ...]]:
+    """The best of the verdict, its residuals on held-out trials, and a warning where there are none.
+
+    Of an unknown log it is the best with the further effects that bring it nearer; or the nominal rig,
+    where that leaves no more on held-out trials.
+
+    Args:
+      problem: the log itself; coarse: the decimated log.
+      nominal: readings of the nominal rig by trial.
+      effects: that may be tried.
+    """
+    if verdict.kind is not VerdictKind.UNKNOWN:
+        return verdict.best, *_held_out(problem, verdict.best)
+    near = _with_further_effects(problem, coarse, verdict.best, effects, workers)
+    after, lost = _held_out(problem, near)
+    exact = nominal_fit(nominal_residuals(problem, nominal))
+    if floor_of(after).gap < exact.gap:
+        return near, after, lost
+    return candidate(exact), exact.by_trial, lost
+
+
+def _with_further_effects(
+    problem: FitProblem,
+    coarse: FitProblem,
+    best: Candidate,
+    effects: Sequence[str],
+    workers: Workers,
+) -> Candidate:
+    if workers.stop.due:
+        workers.stop.leave_out(ONE_MORE)
+        return best
+    fit = forward_selection(problem, coarse, best.fit, effects, workers)
+    return best if fit is best.fit else candidate(fit)
+
+
+def _held_out(problem: FitProblem, best: Candidate) -> tuple[HeldOut, tuple[str, ...]]:
+    """Residuals of trials that the fit has not seen, and a warning where there are none."""
+    if len(problem.log.trials) == 1:
+        return best.fit.by_trial, (ONE_TRIAL,)
+    if best.held_out is not None:
+        return best.held_out, ()
+    try:
+        return held_out_or_refitted(problem, best.fit), ()
+    except SimulationFailed as failed:
+        warning = (
+            "the gap after is that on the trials of the fit: a held-out trial cannot be simulated with "
+            f"the parameters from the others ({failed})"
+        )
+        return best.fit.by_trial, (warning,)

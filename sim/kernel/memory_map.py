@@ -18,7 +18,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_MAGIC,
     H_ELEMENTS,  # n
     H_ROWS,  # rows of the law table
-    H_ORDER,  # of the step: 1 (MuJoCo's own) or 2
+    H_ORDER,  # of the step: 1 (MuJoCo's own), 2 or 3
     H_BACKLASH,  # half of the play between drive shaft and needle, rad
     H_PRESLIDING,  # angle at which a dry element slips, rad
     H_RADIUS,  # m

@@ -1,16 +1,13 @@
-"""One step of needle and tissue together, of second order or of MuJoCo's own first.
+"""One step of needle and tissue together, in implicit stages (sim.kernel.method).
 
-Second order: Alexander's two-stage singly diagonally implicit Runge-Kutta method, with
-gamma = 1 - 1/sqrt(2): L-stable, stiffly accurate. First order: backward Euler, one stage
-of gamma = 1, which is what MuJoCo's `discrete` integrator does. A stage of length
-g = gamma h solves for the rates w of the nodes
+A stage of length g = gamma h solves for the rates w of the nodes
 
     I (w - w*) / g + K (theta* + g w) + sum over sites of N f(N' w) = drive - tip,
 
 a tridiagonal system, by Newton's method; I, K and the servo in `drive` are those of the
 MuJoCo model (sim.kernel.shaft). Everything that is remembered (angles, rates, presliding,
-tissue twist) enters the second stage as y* = y0 + (1/gamma - 1)(y1 - y0). Inputs run
-straight from one end of the step to the other; lengths and speed are those of its middle.
+tissue twist) is carried from stage to stage. Inputs run straight from one end of the step to
+the other; lengths and speed are those of its middle.
 """
 
 import math
@@ -19,6 +16,7 @@ from sim.kernel import memory_map
 from sim.kernel.advection import advect_tissue, forget_uncovered
 from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.mesh import cover, place_nodes
+from sim.kernel.method import CARRIED, GAMMAS, KEPT, REACH, SHARE, STAGES
 from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
     add_viscous,
@@ -32,9 +30,6 @@ from sim.kernel.stage.newton import newton
 from sim.kernel.stage.workspace import Frame, Workspace, divide
 from sim.kernel.torques import set_other
 from sim.kernel.view import view
-
-GAMMA = 1.0 - math.sqrt(0.5)
-_CARRY = 1.0 / GAMMA - 1.0
 
 
 @inlined
@@ -97,20 +92,27 @@ def _stiffness_factor(head: Array, torque: float) -> float:
 
 
 @inlined
-def _second_stage(
-    law: Array, theta: Array, rates: Array, before: Array, w: Workspace, frame: Frame
+def _next_stage(
+    law: Array,
+    theta: Array,
+    rates: Array,
+    before: Array,
+    w: Workspace,
+    frame: Frame,
+    kept: float,
+    carried: float,
 ) -> None:
-    """Carry everything that is remembered into the second stage."""
+    """Carry everything that is remembered into the next stage."""
     angles, omega, rest = w.theta, w.omega, w.rest
     n = omega.size - 1
     for i in range(n + 1):
         reached = angles[i] + frame.g * omega[i]
-        angles[i] = theta[i] + _CARRY * (reached - theta[i])
-        rest[i] = rates[i] + _CARRY * (omega[i] - rates[i])
+        angles[i] = theta[i] + kept * (angles[i] - theta[i]) + carried * (reached - angles[i])
+        rest[i] = rates[i] + kept * (rest[i] - rates[i]) + carried * (omega[i] - rest[i])
     start, end = w.start, w.end
     for r in range(law.shape[0]):
         if not is_linear(law[r]):
-            _carry_sites(before[r], start[r], end[r], frame.yield_angle)
+            _carry_sites(before[r], start[r], end[r], frame.yield_angle, kept, carried)
 
 
 @embedded
@@ -123,13 +125,15 @@ def _hold_sites(before: Array, start: Array, end: Array) -> None:
 
 
 @embedded
-def _carry_sites(before: Array, start: Array, end: Array, limit: float) -> None:
+def _carry_sites(
+    before: Array, start: Array, end: Array, limit: float, kept: float, carried: float
+) -> None:
     """The memory of a row's sites, (n, 2, SITE) each."""
     for e in range(before.shape[0]):
         for k in range(2):
             for j in range(memory_map.SITE):
-                old = before[e, k, j]
-                start[e, k, j] = old + _CARRY * (end[e, k, j] - old)
+                first, last = before[e, k, j], start[e, k, j]
+                start[e, k, j] = first + kept * (last - first) + carried * (end[e, k, j] - last)
             dry, turn = start[e, k, memory_map.Z_DRY], start[e, k, memory_map.Z_TURN]
             axial = start[e, k, memory_map.Z_AXIAL]
             start[e, k, memory_map.Z_DRY] = min(max(dry, -limit), limit)
@@ -202,10 +206,10 @@ def advance(
     )
     inserted = 0.5 * (past[memory_map.U_INSERTED] + ctrl[memory_map.U_INSERTED])
     speed = 0.5 * (past[memory_map.U_SPEED] + ctrl[memory_map.U_SPEED])
-    stages = 1 if head[memory_map.H_ORDER] == 1.0 else 2
-    gamma = 1.0 if stages == 1 else GAMMA
+    order = int(head[memory_map.H_ORDER])
+    stages = STAGES[order - 1]
     frame = Frame(
-        gamma * h,
+        GAMMAS[order - 1] * h,
         speed / head[memory_map.H_RADIUS],
         head[memory_map.H_ADVECTION] * speed,
         head[memory_map.H_PRESLIDING],
@@ -232,20 +236,19 @@ def advance(
         tissue[i] = 0.0
     work, dissipated, failed, iterations = 0.0, 0.0, 0, 0
     torque, friction, stored, drive = 0.0, 0.0, 0.0, 0.0
-    for stage in range(stages):
-        last = stage == stages - 1
-        reach = 1.0 if last else gamma
-        share = frame.g if last else h - frame.g
+    for stage in range(order):
+        reach, share = stages[stage, REACH], stages[stage, SHARE]
         drive = drive_was + reach * (drive_is - drive_was)
         tip_torque = tip_was + reach * (tip_is - tip_was)
-        if stage == 1:
-            _second_stage(law, theta, rates, before, w, frame)
-        again = stage == 1 and not nonlinear and frame.drift == 0.0
+        if stage > 0:
+            kept, carried = stages[stage - 1, KEPT], stages[stage - 1, CARRIED]
+            _next_stage(law, theta, rates, before, w, frame, kept, carried)
+        again = stage > 0 and not nonlinear and frame.drift == 0.0
         solved, count, recoverable, stored = newton(law, w, frame, drive, tip_torque, nonlinear, again)
-        torque, friction, power = _friction(w, frame, drive, tip_torque, share / h, tissue)
+        torque, friction, power = _friction(w, frame, drive, tip_torque, share, tissue)
         turning = (drive_is - drive_was) / h if shaft.servo > 0.0 else w.omega[0]
-        work += share * (torque * turning - tip_torque * w.omega[n])
-        dissipated += share * (power - recoverable)
+        work += h * share * (torque * turning - tip_torque * w.omega[n])
+        dissipated += h * share * (power - recoverable)
         failed += 0 if solved else 1
         iterations += count
     end = view(nxt, memory_map.B_ANGLES, (n + 1,))

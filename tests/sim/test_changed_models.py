@@ -18,7 +18,7 @@ from sim.simulation import SimulationFailed, simulate
 from sim.spec import Setup
 
 BETA = 0.01725
-ORDERS = pytest.mark.parametrize("order", [1, 2])
+ORDERS = pytest.mark.parametrize("order", [1, 2, 3])
 STEP_S = 0.005
 
 
@@ -61,7 +61,7 @@ def slowest_pole(model, made):
     lag = run.base_deg - run.tip_deg
     late = run.time_s > 3.0
     factor = math.exp(np.polyfit(run.time_s[late], np.log(lag[late]), 1)[0] * h)
-    # backward Euler multiplies a mode by 1 / (1 - h p), the second-order method by about exp(h p)
+    # backward Euler multiplies a mode by 1 / (1 - h p), the others by about exp(h p)
     return (1 - 1 / factor) / h if made.discretisation.order == 1 else math.log(factor) / h
 
 

@@ -101,6 +101,17 @@ def test_halving_the_step_converges_in_nonlinear_tissue_too(tissue):
     assert math.log2(coarse / fine) > 1.2
 
 
+@pytest.mark.parametrize(("tissue", "times"), [(None, 4), (SOFT, 3), (DRY, 2)])
+def test_a_step_of_third_order_errs_less(tissue, times):
+    """At 20 ms; where dry friction slips and sticks, a corner inside a step costs part of the order."""
+    exact = simulate([setup(tissue, step_s=0.0025, order=3)], TURN)[0].tip_deg[::8]
+    second, third = (
+        np.abs(simulate([setup(tissue, step_s=0.02, order=order)], TURN)[0].tip_deg - exact).max()
+        for order in (2, 3)
+    )
+    assert times * third < second
+
+
 @pytest.mark.parametrize("tissue", [None, DRY, SOFT], ids=["viscous", "dry", "soft"])
 def test_siblings_land_where_the_chain_lands(tissue):
     chain, siblings = (simulate([setup(tissue, arrangement=a)], TURN)[0] for a in Arrangement)

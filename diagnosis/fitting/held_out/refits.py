@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from diagnosis.criteria import FAR_STEP
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.held_out.cross_validation import held_out_residuals
+from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
 
 Array = NDArray[np.float64]
@@ -17,7 +18,12 @@ GapOf = Callable[[Fit, tuple[Array, ...]], float]
 _ITERATIONS = 3
 
 
-def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf) -> tuple[Array, ...]:
+def plain_gap(_: Fit, held_out: tuple[Array, ...]) -> float:
+    """Root mean square of held-out residuals / sigma."""
+    return floor_of(held_out).gap
+
+
+def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_gap) -> tuple[Array, ...]:
     """Residuals / sigma of each trial that the fit has not seen, by one step or by refits.
 
     Args:
@@ -45,8 +51,3 @@ def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
         own = replace(problem, log=replace(problem.log, trials=(trial,)))
         left.append(own.residuals([rig])[0][0])
     return tuple(left)
-
-
-def root_mean_square(_: Fit, held_out: tuple[Array, ...]) -> float:
-    """The gap as the report tells it."""
-    return float(np.sqrt(np.mean(np.concatenate(held_out) ** 2)))

@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import log_of
 
 from diagnosis.assessment import assess as module
+from diagnosis.assessment import nearest
 from diagnosis.assessment.assess import assess
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import fit_effects, nominal_fit
@@ -84,13 +85,13 @@ def test_a_parameter_at_its_bound_earns_a_warning_that_names_it():
 
 def test_of_one_trial_none_is_held_out(log, nominal, fitted):
     alone = replace(nominal.problem.log, trials=nominal.problem.log.trials[:1])
-    after, said = module._held_out(replace(nominal.problem, log=alone), fitted)
+    after, said = nearest._held_out(replace(nominal.problem, log=alone), fitted)
     assert after is fitted.fit.by_trial
-    assert said == (module.ONE_TRIAL,)
+    assert said == (nearest.ONE_TRIAL,)
 
 
 def test_held_out_trials_are_not_simulated_again(log, nominal, fitted, monkeypatch):
-    monkeypatch.setattr(module, "held_out_or_refitted", pytest.fail)
+    monkeypatch.setattr(nearest, "held_out_or_refitted", pytest.fail)
     assert assessed(log, nominal, fitted).gap.after < 1.1
 
 
@@ -99,7 +100,7 @@ def failing(*_):
 
 
 def test_where_held_out_trials_cannot_be_simulated_the_gap_is_that_of_the_fit(log, nominal, monkeypatch):
-    monkeypatch.setattr(module, "held_out_or_refitted", failing)
+    monkeypatch.setattr(nearest, "held_out_or_refitted", failing)
     exact = candidate(nominal_fit(nominal_residuals(nominal.problem, nominal.predictions)))
     told = assessed(log, nominal, exact)
     assert told.gap.after == told.gap.before == pytest.approx(exact.floor.gap)

@@ -1,14 +1,20 @@
 """The nearest explanation: what it explains, and what stopped at a bound."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import scored
 
+from diagnosis.assessment import nearest as module
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.intervals import Interval
 from diagnosis.assessment.nearest import nearest_of
 from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.fitting.noise_floor import floor_of
+from diagnosis.selection.verdict import VerdictKind
+from diagnosis.workers import Workers
 
 LEVEL = Interval(value=1.0, low=0.9, high=1.1, unit="N mm / mm")
 PARAMETERS = {"coulomb_friction": {"level": LEVEL}, "damping_error": {"scale": LEVEL}}
@@ -37,3 +43,19 @@ def test_it_tells_the_parameters_of_its_effects_and_what_stopped_at_a_bound():
     near = nearest_of(best, ("coulomb_friction",), PARAMETERS, gap(5.0, 2.0))
     assert near.parameters == {"coulomb_friction": {"level": LEVEL}}
     assert near.at_bound == ("coulomb_friction.level",)
+
+
+@pytest.mark.parametrize(("left", "effects"), [(0.9, ("tip_drag",)), (1.1, ())])
+def test_what_leaves_more_on_held_out_trials_than_the_nominal_rig_is_not_nearest(
+    left, effects, monkeypatch
+):
+    """Trials that a fit has not seen may tell another story than those that it has."""
+    before = (np.full(50, 4.0), np.full(50, 3.0))
+    best = replace(scored(["tip_drag"], 0.0), held_out=tuple(left * own for own in before))
+    monkeypatch.setattr(module, "forward_selection", lambda problem, coarse, fit, *_: fit)
+    monkeypatch.setattr(module, "nominal_residuals", lambda *_: before)
+    two = SimpleNamespace(log=SimpleNamespace(trials=("one", "two")))
+    unknown = SimpleNamespace(kind=VerdictKind.UNKNOWN, best=best)
+    near, after, _ = module.nearest_candidate(two, None, (), unknown, (), Workers())
+    assert near.names == effects
+    assert floor_of(after).gap == pytest.approx(min(left, 1.0) * np.sqrt(12.5))

@@ -89,7 +89,7 @@ def at_stage(interpreted, shaft_of):
         rates = np.random.default_rng(seed).normal(0.0, 0.3, n + 1)
         shaft = shaft_of(setup)
         frame = interpreted.workspace.Frame(
-            step.GAMMA * setup.discretisation.step_s,
+            interpreted.method.GAMMAS[1] * setup.discretisation.step_s,
             speed_m_s / head[places.H_RADIUS],
             head[places.H_ADVECTION] * speed_m_s,
             head[places.H_PRESLIDING],

@@ -93,7 +93,7 @@ def test_a_first_order_step_adds_the_torque_of_the_tissue_and_nothing_else():
 
 def test_what_is_added_to_qfrc_passive_is_the_sum_of_the_parts():
     """`qfrc_passive` also holds MuJoCo's own joint springs, at the start of the step."""
-    for order in (1, 2):
+    for order in (1, 2, 3):
         model = compile_model(setup(order=order))
         data = mujoco.MjData(model)
         data.ctrl[memory_map.U_INSERTED] = 0.15
@@ -152,7 +152,7 @@ def test_a_joint_of_the_chain_turns_all_that_lies_beyond_it(interpreted):
     assert nodes.tolist() == [7.0, 6.0, 4.0]  # siblings: each its own
 
 
-@pytest.mark.parametrize(("order", "tolerance"), [(2, 0.01), (1, 0.15)])
+@pytest.mark.parametrize(("order", "tolerance"), [(3, 0.01), (2, 0.01), (1, 0.15)])
 def test_the_base_torque_of_a_heavy_shaft_is_its_inertia(order, tolerance):
     """Hardly any tissue: T = I alpha. The centred second difference of a motion at w = 4 pi rad/s is
     within (w h)^2 / 12 = 0.13 %; a first-order step lags by h / 2 on top, w h = 0.13."""
