@@ -186,7 +186,7 @@ def _twist(
         rigs |= {name: _alone(problem, near, name, effects) for name in effects}
     rigs["explained"] = near.fit.parameterization.rig(near.fit.x)
     try:
-        return shaft_twist(problem.log, *moment, rigs, problem.resolution)
+        return shaft_twist(problem.log, *moment, rigs)
     except SimulationFailed:
         return None
 

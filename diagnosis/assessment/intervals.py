@@ -8,7 +8,7 @@ a Gauss-Newton step, as it does to a finer replay.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.replay.resolution import FINE
 from diagnosis.stopping import stopping
 
 Array = NDArray[np.float64]
@@ -86,15 +87,20 @@ def _interval(parameter: Parameter, value: float, one: float, other: float) -> I
 
 
 def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
-    """How far the fit moves with the noise that is left in the base angle, (K, n)."""
+    """How far the fit moves with the noise that is left in the base angle, (K, n).
+
+    That takes no finer replay than the usual one, also where the fit asked for it.
+    """
     rng = np.random.default_rng(_SEED)
-    rig = fit.parameterization.rig(fit.x)
-    found = [np.zeros(fit.x.size)] if stopping() else []
+    rig, usual = fit.parameterization.rig(fit.x), replace(problem, resolution=FINE)
+    if stopping():
+        return np.zeros((1, fit.x.size))
+    here, found = usual.residuals([rig], callback_alone=True), list[Array]()
     while not stopping() and len(found) < _REPLICATES:
-        runs = problem.read_again(rng).residuals([rig], callback_alone=True)
-        moved = [run[0] - residual for run, residual in zip(runs, fit.by_trial, strict=True)]
+        runs = usual.read_again(rng).residuals([rig], callback_alone=True)
+        moved = [run[0] - left[0] for run, left in zip(runs, here, strict=True)]
         found.append(_answer(fit, inverse, moved))
-    return np.array(found)
+    return np.array(found or [np.zeros(fit.x.size)])
 
 
 def _answer(fit: Fit, inverse: Array, moved: Sequence[Array]) -> Array:

@@ -70,6 +70,11 @@ class Fit:
         return float(np.sum((self.parameterization.weights * self.x) ** 2))
 
     @property
+    def slopes(self) -> Array:
+        """Of residuals and prior, one below the other, (N, n)."""
+        return np.vstack([*self.jacobian, np.diag(self.parameterization.weights)])
+
+    @property
     def parts(self) -> dict[str, Array]:
         """The vector by effect."""
         return self.parameterization.parts(self.x)
@@ -82,6 +87,7 @@ def fit_effects(
     enough: float = np.inf,
     *,
     most_iterations: int = _MOST_ITERATIONS,
+    slopes: Array | None = None,
 ) -> Fit:
     """Fit a set of effects.
 
@@ -89,6 +95,7 @@ def fit_effects(
       start: the vector to start from; None is neutral.
       enough: cost that the fit has to come below to be of use: one that cannot is given up.
       most_iterations: of Gauss-Newton.
+      slopes: of residuals and prior, (N, n), of a fit close by; None: they are taken on the way.
 
     Raises:
       SimulationFailed: the rig cannot be simulated where the fit starts, or close to where it is.
@@ -100,8 +107,9 @@ def fit_effects(
             [trial[0] for trial in problem.residuals([parameterization.rig(np.zeros(0))])]
         )
     x = np.clip(parameterization.joined({}) if start is None else start, objective.low, objective.high)
-    for difference in max((e.differences for e in parameterization.all), key=len):
-        objective = Objective(problem, parameterization, difference)
+    differences = max((e.differences for e in parameterization.all), key=len)
+    for difference in differences if slopes is None else differences[-1:]:
+        objective = Objective(problem, parameterization, difference, slopes)
         x, status = _minimised(
             objective, x, Stopping(objective, problem.tolerance_sigma, enough), most_iterations
         )

@@ -30,12 +30,21 @@ class Objective:
     """
 
     def __init__(
-        self, problem: FitProblem, parameterization: Parameterization, difference: float = 1e-3
+        self,
+        problem: FitProblem,
+        parameterization: Parameterization,
+        difference: float = 1e-3,
+        slopes: Array | None = None,
     ) -> None:
+        """An objective.
+
+        Args:
+          slopes: (N, n), known from elsewhere and good enough everywhere; None: they are taken.
+        """
         self.problem, self.parameterization = problem, parameterization
         self.difference = difference
         self.low, self.high = parameterization.bounds()
-        self.slopes: Array | None = None
+        self.slopes, self._known_slopes = slopes, slopes is not None
         self._fresh_at: Array | None = None
         free = np.arange(parameterization.bounds()[0].size) < parameterization.free
         self._effects = np.flatnonzero(free)
@@ -88,7 +97,9 @@ class Objective:
         return np.concatenate([*trials, self.parameterization.weights * x])
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
-        """By differences away from the bounds, (N, n)."""
+        """By differences away from the bounds, (N, n); or those that are known."""
+        if self._known_slopes and self.slopes is not None:
+            return self.slopes
         flat = x.ravel()
         steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
         taken = self._moving

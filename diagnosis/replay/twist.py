@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.replay.replay import shape_of
-from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import RigParameters
 from models import units
 from sim.simulation import Run
@@ -41,17 +40,15 @@ def shaft_twist(
     trial: str,
     at_s: float,
     rigs: dict[str, RigParameters],
-    resolution: Resolution = FINE,
 ) -> ShaftTwist:
-    """Simulate one trial with several rigs and keep the shape of the shaft at one moment.
+    """Simulate one trial with several rigs, as finely as usual; the shape of the shaft at one moment.
 
     Raises:
       SimulationFailed: one of the rigs cannot be simulated.
     """
     own = next(one for one in log.trials if one.name == trial)
     shapes = {
-        name: _along(shape_of(log.rig, own, rig.on_trial(trial), resolution), at_s)
-        for name, rig in rigs.items()
+        name: _along(shape_of(log.rig, own, rig.on_trial(trial)), at_s) for name, rig in rigs.items()
     }
     return ShaftTwist(
         trial=trial,

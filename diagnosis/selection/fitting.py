@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR
 from diagnosis.effects import FITTED
-from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.complexity import complexity_penalty
@@ -24,7 +24,11 @@ Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
 def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> Made:
     """Candidates of calls of `fit_effects` (problem, names, start, enough), in their order."""
     tasks = [Task(effects=tuple(call[1]), arguments=call) for call in calls]
-    results = workers.each(stage, fit_effects, tasks)
+    return candidates_of(stage, workers.each(stage, fit_effects, tasks))
+
+
+def candidates_of(stage: str, results: Sequence[Fit | Failure]) -> Made:
+    """Candidates of fits, in their order; failures are in the record."""
     found = [candidate(fit) for fit in results if not isinstance(fit, Failure)]
     failures = [fit for fit in results if isinstance(fit, Failure)]
     return found, (*made(stage, found), *failed(stage, failures))

@@ -21,20 +21,21 @@ from diagnosis.criteria import (
     REFINE_SHARE,
     REFINE_SIGMA,
 )
-from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.resolution import Resolution
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.fitting import candidates_of
 from diagnosis.selection.record import RecordEntry, dropped
 from diagnosis.selection.stages.stage import stopped_in
 from diagnosis.selection.state import SearchState
-from diagnosis.workers import Workers
+from diagnosis.workers import Task, Workers
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 
 STAGE = "mesh refinement"
+_ITERATIONS = 2
 
 
 def finer_mesh_near_the_floor(state: SearchState, workers: Workers) -> SearchState:
@@ -101,11 +102,19 @@ def _is_much(change: Array, left: Array) -> bool:
 def _fitted_again(
     problem: FitProblem, candidates: Sequence[Candidate], workers: Workers
 ) -> tuple[list[Candidate], tuple[RecordEntry, ...]]:
-    """The leading candidates, fitted from where they are."""
+    """The leading candidates, fitted from where they are; a finer replay hardly changes their slopes."""
     near = [c for c in candidates if c.score - candidates[0].score <= CONTENDING]
-    calls = [
-        (replace(problem, nuisance=c.fit.parameterization.nuisance), c.names, c.fit.x) for c in near
+    tasks = [
+        Task(
+            effects=c.names,
+            arguments=(replace(problem, nuisance=c.fit.parameterization.nuisance), c.names, c.fit),
+        )
+        for c in near
     ]
-    found, record = fit_all(STAGE, calls, workers)
+    found, record = candidates_of(STAGE, workers.each(STAGE, _with_known_slopes, tasks))
     out = [c for c in candidates if c not in near]
     return found, (*record, *dropped(STAGE, out, f"behind the best by more than {CONTENDING:g}"))
+
+
+def _with_known_slopes(problem: FitProblem, names: tuple[str, ...], coarser: Fit) -> Fit:
+    return fit_effects(problem, names, coarser.x, slopes=coarser.slopes, most_iterations=_ITERATIONS)
