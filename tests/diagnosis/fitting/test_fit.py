@@ -11,6 +11,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects, nominal_fit
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.parameterization import parameterization_of, starts
+from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 
@@ -46,6 +47,19 @@ def test_slopes_are_those_of_central_differences(dry):
         slope = (ahead - behind) / 0.02
         # One-sided differences of 0.001, of the last iterate but one: a few per cent.
         assert np.linalg.norm(fit.jacobian[0][:, entry] - slope) < 0.05 * np.linalg.norm(slope)
+
+
+def test_a_finer_replay_is_fitted_as_well_with_the_slopes_of_the_usual_one(dry):
+    """Slopes that are a few per cent off lead to the same minimum; the tolerance is 2 % of sigma."""
+    usual = fit_effects(dry, ("coulomb_friction",), start_of(dry, "coulomb_friction"))
+    assert usual.slopes.shape == (usual.samples + usual.x.size, usual.x.size)
+    finer = replace(dry, resolution=Resolution(elements=24, step_s=0.005))
+    anew = fit_effects(finer, usual.names, usual.x)
+    known = fit_effects(finer, usual.names, usual.x, slopes=usual.slopes)
+    sigma = np.sqrt(np.diag(np.linalg.inv(usual.slopes.T @ usual.slopes)))
+    assert np.all(np.abs(known.x - anew.x) < 0.1 * sigma)
+    assert known.cost == pytest.approx(anew.cost, abs=0.1)
+    np.testing.assert_array_equal(known.slopes, usual.slopes)
 
 
 def test_a_fit_that_is_stopped_early_says_so(dry):

@@ -62,6 +62,13 @@ def test_slopes_are_those_of_the_closed_form():
     np.testing.assert_allclose(slopes, central, rtol=1e-3, atol=1e-6)
 
 
+def test_slopes_that_are_known_are_not_taken_again():
+    known = np.arange(10.0).reshape(5, 2)
+    objective, x = Objective(ClosedForm(), DRAG, slopes=known), middle()
+    np.testing.assert_array_equal(objective.jacobian(x, objective(x)), known)
+    assert len(objective.problem.rigs) == 1
+
+
 def test_differences_stay_within_bounds():
     objective = Objective(ClosedForm(), DRAG)
     x = np.array([objective.high[0], 0.0])

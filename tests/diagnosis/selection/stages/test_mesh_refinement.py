@@ -103,12 +103,14 @@ def refined(monkeypatch, matters, *, fails=False, candidates=None):
     """What comes of candidates where some resolutions matter; no fit is made."""
     calls = []
 
-    def fit_all(stage, each, _):
-        calls.append(each)
-        return [] if fails else [scored(call[1], 1.0) for call in each], ()
+    def with_known_slopes(problem, names, coarser):
+        calls.append(names)
+        if fails:
+            raise SimulationFailed("lost its numbers")
+        return coarser
 
     monkeypatch.setattr(module, "_matters", lambda problem, best, there: matters(problem, there))
-    monkeypatch.setattr(module, "fit_all", fit_all)
+    monkeypatch.setattr(module, "_with_known_slopes", with_known_slopes)
     problem = small()
     candidates = candidates or [scored(["tip_drag"], 1.0)]
     return calls, *refined_mesh(problem, candidates, Workers())
@@ -133,9 +135,9 @@ def test_candidates_that_are_far_behind_are_dropped(monkeypatch):
         lambda problem, there: there.elements == 24 != problem.resolution.elements,
         candidates=each,
     )
-    assert [call[1] for call in calls[0]] == [("tip_drag",)]
+    assert calls == [("tip_drag",)]
     assert [c.names for c in found] == [("tip_drag",)]
-    (out,) = record
+    (out,) = [entry for entry in record if entry.decision is Decision.DROPPED]
     assert (out.effects, out.decision) == (("stiction",), Decision.DROPPED)
 
 
