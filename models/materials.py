@@ -45,8 +45,8 @@ _CHICKEN_LEVEL = level_n_mm_per_mm(
     NITINOL, lag_deg=published.CHICKEN_LAG.value, free_mm=_FREE_MM, inserted_mm=_DEPTH_MM
 )
 
-_NO_ELASTICITY = "its elasticity, and so its creep: none is used"
-_NO_VISCOUS = "its viscous damping: none is used"
+_NO_ELASTICITY = "elasticity, and therefore creep: none is used"
+_NO_VISCOUS = "viscous damping: none is used"
 
 MATERIALS: dict[str, Tissue] = {
     tissue.name: tissue
@@ -64,26 +64,26 @@ MATERIALS: dict[str, Tissue] = {
             time_constant_s=_TIME,
         ).but(
             unknown=(
-                "its own damping: Table II does not say which plastisol it measured",
-                "its elasticity: 100 times the soft one's, as in Section IV-B, is used",
+                "damping: Table II does not say which plastisol was measured",
+                "elasticity: 100 times that of the soft one is used, as in Section IV-B",
             )
         ),
         Tissue.uniform(name="viscous-plastisol", viscous_n_mm_s_per_mm=_DAMPING).but(
-            unknown=("nothing is known of tissue motion: the model of Sections III and V has none",)
+            unknown=("motion of the tissue: the model of Sections III and V has none",)
         ),
         Tissue.uniform(name="porcine-gelatin", shared_n_mm_per_mm=_GELATIN_LEVEL).but(
             unknown=(_NO_VISCOUS, _NO_ELASTICITY)
         ),
         Tissue.uniform(name="simtest", shared_n_mm_per_mm=_SIMTEST_LEVEL).but(
             unknown=(
-                "its friction with depth: the one torque of Section II-D over 10 cm is used",
+                "friction against depth: the one torque of Section II-D is used, spread over 10 cm",
                 _NO_VISCOUS,
                 _NO_ELASTICITY,
             )
         ),
         Tissue.uniform(name="chicken", shared_n_mm_per_mm=_CHICKEN_LEVEL).but(
             unknown=(
-                "its friction: what eq. (2) makes of a lag of 3 deg at 10 cm is used",
+                "friction: calculated with eq. (2) from a lag of 3 deg at 10 cm",
                 _NO_VISCOUS,
                 _NO_ELASTICITY,
             )

@@ -32,7 +32,7 @@ NEEDLE_SHEAR_MODULUS = PublishedFigure(value=27.2, unit="GPa", source="Section I
 NEEDLE_DENSITY = PublishedFigure(value=6.45, unit="g/cm^3", source="Section II-A")
 POLAR_MOMENT = PublishedFigure(value=0.012, unit="mm^4", source="Section II-A")
 TWIST_TEST_TORQUE = PublishedFigure(
-    value=1.24, unit="N mm", source="Section II-A", note="90 deg of 41 cm"
+    value=1.24, unit="N mm", source="Section II-A", note="twists 41 cm by 90 deg"
 )
 TWIST_TEST_LENGTH = PublishedFigure(value=410.0, unit="mm", source="Section II-A")
 TWIST_TEST_ANGLE = PublishedFigure(value=90.0, unit="deg", source="Section II-A")
@@ -49,7 +49,7 @@ REVERSAL_LEAD = PublishedFigure(
     value=20.0, unit="deg", source="Fig. 4", note="almost; tip rotation before the base overtakes it"
 )
 FIG_5_SETTLING = PublishedFigure(
-    value=2.0, unit="s", source="Fig. 5", note="nearly; the depth is not said, 20 cm is its deepest"
+    value=2.0, unit="s", source="Fig. 5", note="nearly; the depth is not stated, 20 cm is the largest"
 )
 SETTLED_WITHIN = PublishedFigure(
     value=3.0, unit="deg", source="Section IV-B", note="of the final base angle"
@@ -77,7 +77,7 @@ TABLE_III_HANKEL = (1.0, 5.396e-1, 7.377e-2, 1.583e-2, 1.710e-3)
 TISSUE_MODULUS = PublishedFigure(value=45.2, unit="kPa", source="Section IV-A2")
 TISSUE_POISSON = PublishedFigure(value=0.45, unit="-", source="Section IV-A2")
 TISSUE_DEPTH = PublishedFigure(
-    value=0.5, unit="mm", source="Section IV-A2", note="tissue that turns along"
+    value=0.5, unit="mm", source="Section IV-A2", note="tissue that turns with the shaft"
 )
 ELEMENT_AREA = PublishedFigure(value=1.9, unit="mm^2", source="Section IV-A2", note="of 1 mm of shaft")
 ELEMENT_LENGTH = PublishedFigure(value=1.0, unit="mm", source="Section IV")

@@ -75,7 +75,7 @@ class StepResponse:
         """What failed, in words; nothing where the tip settled sooner than with the base alone."""
         compared = self.controller not in (SLOW_BASELINE, SAME_LIMITS)
         found = {
-            f"never settles, {self.final_error_deg:.1f} deg left": math.isnan(self.settle_s),
+            f"never settles, final error {self.final_error_deg:.1f} deg": math.isnan(self.settle_s),
             f"overshoots by {self.overshoot_deg:.0f} deg": self.overshoot_deg > _WORST_OVERSHOOT_DEG,
             "settles later than the base alone": compared
             and not math.isnan(self.settle_s)

@@ -119,7 +119,7 @@ def linear_checks() -> list[Check]:
             value=slow,
             unit="-",
             high=CREEP_BOUND,
-            why="0.5 % of kappa w^2, of which a creeping pole takes a quarter at most",
+            why="a creeping pole has at most a quarter of the error of kappa w^2, which is 0.5 %",
         ),
         Check(name="worst quick pole in soft plastisol", value=fast, unit="-", high=BOUND, why=why),
         Check(name="worst pole with drag at the tip", value=drag, unit="-", high=BOUND, why=why),
@@ -205,7 +205,7 @@ def response_error_deg(setup: Setup, exact: YieldingTissueNeedle | TipDragNeedle
 def check_responses() -> list[Check]:
     """The fast turn of a needle 20 cm deep, at the default discretisation."""
     depth, kind = LENGTHS_MM[-1], DriveKind.ANGLE
-    why = "step: 0.0043 deg at each corner of the turn; elements: 0.3 % of poles at most, 0.003 deg"
+    why = "step: 0.0043 deg at each corner of the turn; elements: at most 0.3 % of poles, 0.003 deg"
     return [
         Check(
             name=f"tip on the 20 cm turn, {what}, {free:g} mm free",

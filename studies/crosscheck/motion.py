@@ -104,7 +104,7 @@ def order_in_step() -> list[Check]:
             unit="-",
             low=1.8,
             high=2.4,
-            why="the method is second order; a corner-free turn of 2 s",
+            why="the method is of second order; a smooth turn of 2 s",
         ),
         Check(
             name="order of convergence in the step, first order, 10 to 5 ms",
@@ -112,7 +112,7 @@ def order_in_step() -> list[Check]:
             unit="-",
             low=0.95,
             high=1.05,
-            why="MuJoCo's own step; the same turn",
+            why="MuJoCo's own step is of first order; the same turn",
         ),
     ]
 
@@ -126,7 +126,7 @@ def check_first_order_turn() -> Check:
         value=error,
         unit="deg",
         high=0.5 * step_s * _CURVATURE_DEG_S + 0.02,
-        why="h / 2 times |t theta_tt| <= 99 deg/s on this turn, and 0.02 deg of the elements",
+        why="h / 2 times |t theta_tt| <= 99 deg/s on this turn, and 0.02 deg from the elements",
     )
 
 
@@ -137,11 +137,11 @@ def check_arrangements() -> Check:
         simulate([viscous_setup(arrangement=a)], schedule)[0].tip_deg for a in Arrangement
     )
     return Check(
-        name="siblings against chain, tip",
+        name="siblings minus chain, tip",
         value=float(np.abs(chain - siblings).max()),
         unit="deg",
         high=1e-8,
-        why="the same step by another arrangement of bodies: rounding",
+        why="the same step with another arrangement of bodies: only rounding differs",
     )
 
 
@@ -167,7 +167,7 @@ def check_steady_twist() -> list[Check]:
             unit="-",
             low=1 - 1e-5,
             high=1 + 1e-5,
-            why="linear elements are exact for steady twist; the servo's give is 1e-6",
+            why="linear elements are exact for steady twist; the servo yields by 1e-6",
         ),
         Check(
             name="steady torque at 4.5 deg/s over b omega",
@@ -175,7 +175,7 @@ def check_steady_twist() -> list[Check]:
             unit="-",
             low=1 - 1e-5,
             high=1 + 1e-5,
-            why="(25); the servo's give is 1e-6",
+            why="equation (25); the servo yields by 1e-6",
         ),
     ]
 
@@ -211,32 +211,32 @@ def check_balances() -> list[Check]:
     )
     return [
         Check(
-            name="base torque against the sum of friction (Fig. 4, 10 cm)",
+            name="base torque minus sum of friction (Fig. 4, 10 cm)",
             value=float(imbalance),
             unit="-",
             high=1e-6,
-            why="the needle's inertia takes less than 1e-6 of the torque",
+            why="the inertia of the needle needs less than 1e-6 of the torque",
         ),
         Check(
-            name="energy created by tissue in any step, over all that it dissipates",
+            name="energy created by tissue in any step, over its total dissipation",
             value=created,
             unit="-",
             high=1e-4,
-            why="presliding stores level z_y / 2 per mm, and gives it back: below 1e-4",
+            why="presliding stores level z_y / 2 per mm and returns it: below 1e-4",
         ),
         Check(
-            name="work of the drive less dissipation and storage, over the work",
+            name="work of the drive minus dissipation and storage, over the work",
             value=float(closed),
             unit="-",
             high=1e-4,
-            why="an identity of the method but for presliding and the stages' quadrature",
+            why="zero, except for presliding and the quadrature of the stages",
         ),
         Check(
             name="stages that did not converge",
             value=run.unconverged,
             unit="-",
             high=0,
-            why="every stage of Newton's method must",
+            why="Newton's method must converge in every stage",
         ),
     ]
 

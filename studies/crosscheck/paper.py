@@ -119,7 +119,7 @@ def table_iii() -> list[Comparison]:
             ours=float(ours[column][k]),
             unit="rad/s",
             source="Table III",
-            note="every printed pole is 0.58 times what kappa, b and l give; their ratios agree",
+            note="every printed pole is 0.58 times that from kappa, b and l; the ratios agree",
         )
         for column, poles in published.TABLE_III_RAD_S.items()
         for k, printed in enumerate(poles)
@@ -133,7 +133,7 @@ def table_iii() -> list[Comparison]:
             ours=float(hankel[k]),
             unit="-",
             source="Table III",
-            note="mode 0 left out: it integrates; the paper does not say what it did",
+            note="without mode 0, an integrator; the paper does not say how it is treated",
         )
         for k, printed in enumerate(published.TABLE_III_HANKEL)
         if k > 0
@@ -175,7 +175,7 @@ def figure_4() -> list[Comparison]:
             f"Fig. 4, 10 cm: tip turns back before the base overtakes it, {name}",
             published.REVERSAL_LEAD,
             reversal_lead_deg(tissue),
-            "the lead is the tissue's elasticity, which is not stated: it lies between these two",
+            "the lead depends on the elasticity, which is not stated: it is between these two",
         )
         for name, tissue in (
             ("rigid gelatin", tissue_named("porcine-gelatin")),
@@ -194,7 +194,7 @@ def figure_8() -> list[Comparison]:
         protocol = protocol_named(f"fig8-{kind}")
         run = simulate([protocol.setup()], protocol.schedule())[0]
         error = _TURN_DEG - run.tip_deg
-        note = "base turned by 90 deg in 0.3 s, as stated constants; the paper's motion is not stated"
+        note = "stated constants, base turned by 90 deg in 0.3 s; the motion is not stated"
         settled = settling_s(run.time_s, error)
         late = "" if np.isfinite(settled) else "; does not settle to 3 deg within 8.3 s"
         rows += [

@@ -31,11 +31,11 @@ def figure_3() -> list[Comparison]:
     table_ii = published.DAMPING_PLASTISOL_N_MM_S[10.0] * np.radians(_TURN_DEG) / _SLOW_TURN_S
     own = lag_deg(NITINOL, base_torque_n_mm=table_ii, free_mm=_SLOW_FREE_MM, inserted_mm=_SLOW_DEPTH_MM)
     plastisol = (
-        f"Table II's own torque at 10 cm gives {own:.1f} deg by eq. (2), and "
+        f"The torque of Table II at 10 cm gives {own:.1f} deg by eq. (2), and "
         f"{_at_exit_deg(table_ii):.1f} deg if all of it acted at the exit: Fig. 3 and Table II do not "
         "agree at the stated lengths"
     )
-    circular = "its friction here is what eq. (2) makes of this lag: no test of the model"
+    circular = "its friction is calculated from this lag with eq. (2): not a test of the model"
     simtest = "simulated with the one torque that Section II-D states, 1.0 N mm"
     return [
         compare(f"Fig. 3, lag after the slow turn, {name}", figure, _slow_lag_deg(material), note)
@@ -62,11 +62,9 @@ def _slow_lag_deg(material: str) -> float:
 def figure_5() -> list[Comparison]:
     """The quick turn while retracting, 20 cm deep: when the tip settles, and what it is short of."""
     protocol = protocol_named("fig5-20cm")
-    yields = (
-        "the spring and damper of Section IV-A2 let the tissue turn along and creep back (0.2 rad/s)"
-    )
+    yields = "with the spring and damper of Section IV-A2, tissue turns too and creeps back (0.2 rad/s)"
     slow = (
-        "b = 3.45 N mm s is of a slow turn at rest; Tables IV and V show less damping in the quick one"
+        "b = 3.45 N mm s is from slow turns without sliding; Tables IV and V show less in the quick turn"
     )
     rows = []
     for name, tissue, note in (
@@ -88,7 +86,7 @@ def figure_5() -> list[Comparison]:
                     f"Fig. 5, 20 cm, {name}: short of 90 deg after {at_s:g} s",
                     published.SETTLED_WITHIN,
                     float(np.interp(at_s, time, error)),
-                    f"published: at most; {note}",
+                    f"published: at most this; {note}",
                 )
                 for at_s in (published.FIG_5_SETTLING.value, _FIG_5_ENDS_S)
             ),

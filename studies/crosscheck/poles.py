@@ -137,12 +137,12 @@ SOURCES = {
     PoleSource.FIRST_ORDER: PoleMeasurement(
         measure=lambda *case: measure(chain(*case, order=1), COUNT),
         bound=BOUND + _RESOLUTION / 2,
-        why="0.5 % of the elements, and h |p| / 2 of the step: h |p| = 0.02 for the fourth pole",
+        why="0.5 % from the elements, and h |p| / 2 from the step: h |p| = 0.02 for the fourth pole",
     ),
     PoleSource.NATIVE: PoleMeasurement(
         measure=lambda *case: measure_native(closed_form_needle(*case), COUNT),
         bound=native_needle.pole_bound(COUNT),
-        why=f"lumped: (4 pi / 2n)^2 / 3 with n = {native_needle.ELEMENTS}; none of the step",
+        why=f"lumped: (4 pi / 2n)^2 / 3 with n = {native_needle.ELEMENTS}; no error from the step",
     ),
 }
 
@@ -198,7 +198,7 @@ def order_in_elements() -> list[Check]:
     """Order of convergence of the fourth pole as the elements shrink."""
     bounds = {
         DriveKind.ANGLE: (3.7, 4.5, "error x^4 / 240 + O(x^6) between a held base and a free tip"),
-        DriveKind.TORQUE: (1.9, 4.5, "a covered end that is neither costs two orders"),
+        DriveKind.TORQUE: (1.9, 4.5, "any other covered end costs two orders"),
     }
     return [
         Check(

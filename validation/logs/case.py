@@ -91,7 +91,7 @@ def draw_case(
             return case
     raise ImpossibleDraw(
         f"signature: expected a range that logs of kind {kind} with {', '.join(names)} can reach, "
-        f"got {signature}, which none of {DRAWS} draws did; widen it"
+        f"found {signature}, which none of {DRAWS} draws did; widen it"
     )
 
 

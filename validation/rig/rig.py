@@ -37,14 +37,14 @@ class IndependentRig:
         known = {name: sorted(fields) for name, fields in (LAW_FIELDS | NEUTRAL).items()}
         for effect, parameters in self.effects.items():
             if effect not in known:
-                raise ValueError(f"effects: expected some of {', '.join(known)}, got {effect!r}")
+                raise ValueError(f"effects: expected some of {', '.join(known)}, found {effect!r}")
             if sorted(parameters) != known[effect]:
                 raise ValueError(
-                    f"effects: expected {effect} with {known[effect]}, got {sorted(parameters)}"
+                    f"effects: expected {effect} with {known[effect]}, found {sorted(parameters)}"
                 )
         for effect in self.outside:
             if effect not in (*UNMODELLED, *UNLISTED):
-                raise ValueError(f"outside: expected some of {', '.join(UNMODELLED)}, got {effect!r}")
+                raise ValueError(f"outside: expected some of {', '.join(UNMODELLED)}, found {effect!r}")
 
     def law(self) -> LawParameters:
         """Parameters of the laws, in the units of `laws`."""

@@ -86,7 +86,7 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
         xlim=(-0.05, 1.05),
         ylim=(-0.05, 1.05),
         title=f"Reliability: calibration error {calibration_error(scores):.3f}\n"
-        f"{100 * share:.1f} % of {count} intervals of 95 % hold the truth",
+        f"{100 * share:.1f} % of {count} intervals (95 %) contain the truth",
     )
     axis.legend(fontsize=9, loc="upper left")
 

@@ -84,7 +84,7 @@ class RollErrors:
     end_deg: Spread
 
 
-ESTIMATORS = ("base alone", "fused, base doubted", "fused, averaged")
+ESTIMATORS = ("base alone", "fused, base uncertain", "fused, averaged")
 
 
 def compare_estimators(

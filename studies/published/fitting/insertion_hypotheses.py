@@ -115,7 +115,7 @@ ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
     STATED_INSERTION,
     InsertionHypothesis(
         name="no friction at all",
-        basis="the base's own turning",
+        basis="only the turning time of the base",
         apply=lambda _: _model(damping_scale=1e-4),
     ),
     InsertionHypothesis(
@@ -133,7 +133,7 @@ ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
     _set_by_figure_12(_SHARED, 1e-3, 3.0),
     InsertionHypothesis(
         name="prebent tip in the channel that it cuts",
-        basis=f"{prebend_torque_n_mm():.2g} N mm: a channel that does not give",
+        basis=f"{prebend_torque_n_mm():.2g} N mm: a rigid channel",
         apply=lambda _: InsertionRig(channel_n_mm=prebend_torque_n_mm()),
     ),
     _set_by_figure_12(_BENT, 0.01, 1.0),
@@ -146,7 +146,7 @@ ALL_INSERTION_HYPOTHESES: tuple[InsertionHypothesis, ...] = (
     ),
     InsertionHypothesis(
         name="longer shaft",
-        basis="410 mm, the twist test's",
+        basis="410 mm, as in the twist test",
         apply=lambda _: InsertionRig(shaft_mm=_TWIST_TEST_MM),
     ),
     InsertionHypothesis(

@@ -69,7 +69,8 @@ def _stated(study: InsertionStudy) -> str:
     turning = next((p for p in study.predictions if p.hypothesis.name == "no friction at all"), None)
     own = (
         f" Without any friction, {deviation_text(turning.alone_mm)} and "
-        f"{deviation_text(turning.compensated_mm)} are left, by the time that the base itself takes."
+        f"{deviation_text(turning.compensated_mm)} remain, because the turn of the base "
+        "itself takes time."
         if turning
         else ""
     )
@@ -83,8 +84,8 @@ def _stated(study: InsertionStudy) -> str:
 def _one_way(study: InsertionStudy) -> str:
     alone, compensated = study.one_way_mm
     return (
-        "The half turns are taken to and fro through the same side, as the text says. If all went one "
-        f"way, the stated model would leave the plane by {alone:.2f} mm and {compensated:.2f} mm."
+        "The half turns go to and fro on the same side, as the text says. If all went one way, "
+        f"the deviation of the stated model would be {alone:.2f} mm and {compensated:.2f} mm."
     )
 
 
@@ -92,7 +93,10 @@ def _explanations(study: InsertionStudy) -> list[str]:
     both = [p for p in study.predictions if p.meets_both]
     if not both:
         return ["No hypothesis meets both deviations within 2 σ."]
-    said = [f"Both deviations within 2 σ: {'; '.join(map(_named, both))}. Two figures test no more."]
+    said = [
+        f"Both deviations within 2 σ: {'; '.join(map(_named, both))}. Two figures cannot test more "
+        "than this."
+    ]
     worse = [p.hypothesis.name for p in both if study.worsened(p)]
     if worse:
         said.append(
@@ -112,11 +116,11 @@ def _of_tables(study: InsertionStudy) -> list[str]:
         return []
     alone, compensated = ([p.alone_mm for p in found], [p.compensated_mm for p in found])
     return [
-        f"What explains Tables II, IV and V predicts {_range(alone)} with the base alone and "
-        f"{_range(compensated)} compensated, also with {SLOW_TURN_SHAFT_MM:g} mm of shaft: it does not "
-        "explain Fig. 12 as well."
+        f"The explanations of Tables II, IV and V predict {_range(alone)} with the base alone and "
+        f"{_range(compensated)} compensated, also with {SLOW_TURN_SHAFT_MM:g} mm of shaft: they do "
+        "not explain Fig. 12 as well."
         if not any(p.meets_both for p in found)
-        else "Of what explains Tables II, IV and V, "
+        else "Of the explanations of Tables II, IV and V, "
         + "; ".join(_named(p) for p in found if p.meets_both)
         + " explains Fig. 12 as well."
     ]
@@ -125,7 +129,7 @@ def _of_tables(study: InsertionStudy) -> list[str]:
 def _with_channel(study: InsertionStudy) -> list[str]:
     """The best explanation of the tables with a prebent tip in its channel."""
     return [
-        f"With {_named(p)}, {deviation_text(p.compensated_mm)} are left compensated. Gain and motor of "
+        f"With {_named(p)}, {deviation_text(p.compensated_mm)} remain if compensated. Gain and motor of "
         "the compensator are ours, not the paper's."
         for p in study.predictions
         if p.hypothesis.of_tables and math.isfinite(p.value)
@@ -142,7 +146,7 @@ def _named(prediction: InsertionPrediction) -> str:
 
 def _prebend() -> str:
     return (
-        f"A prebent tip would cost up to {prebend_torque_n_mm():.1f} N mm a quarter turn in a channel "
-        f"that does not give, and drag {prebend_drag_n_mm_s():.0f} N mm s / rad as a slender body; that "
-        "drag is far more than Fig. 12 allows."
+        f"A prebent tip would need up to {prebend_torque_n_mm():.1f} N mm for a quarter turn in a rigid "
+        f"channel, and would have a drag of {prebend_drag_n_mm_s():.0f} N mm s / rad as a slender body; "
+        "that drag is far more than Fig. 12 allows."
     )

@@ -15,7 +15,7 @@ def limitations(study: PublishedStudy) -> list[str]:
     found = study.plastisol
     return [
         f"{len(found.figures)} figures of plastisol: four of Table II determine one number, the damping "
-        "of a slow turn at rest, and its scatter; four of Tables IV and V are left for everything else.",
+        "of a slow turn at rest, and its scatter; four of Tables IV and V remain for everything else.",
         _rejection(found),
         _without_fit(found),
         _best_single(found),
@@ -37,7 +37,8 @@ def _rejection(study: MaterialStudy) -> str:
 def _without_fit(study: MaterialStudy) -> str:
     ratios = [quick_damping(f.hypothesis.base.free_mm) for f in study.stated]
     return (
-        "If the base moved alike at both depths, Table V alone gives the damping of the quick turn: "
+        "If the base moved in the same way at both depths, Table V alone gives the damping of the quick "
+        "turn: "
         + " or ".join(f"{r.ratio:.2f} ± {r.sigma:.2f}" for r in ratios)
         + f" of the stated one ({' or '.join(f.hypothesis.free_length for f in study.stated)})."
     )

@@ -19,21 +19,21 @@ from studies.published.report.tables import (
 from studies.published.study import PublishedStudy
 
 _SIGMA = (
-    "σ is the standard deviation of a figure. The paper prints none: the scatter of Table II is taken "
-    "for its columns, rounding and 5 % for Tables IV and V."
+    "σ is the standard deviation of a figure. The paper prints none. For Table II it is the scatter of "
+    "each column; for Tables IV and V it is assumed to be rounding and 5 % of the figure."
 )
 _COMPENSATOR = "The paper states neither the compensator's gains nor its motor; those here are our own."
-_NEAREST = "Fits to the tables that come nearest to these figures, which none of them used:"
+_NEAREST = "The fits to the tables that come nearest to these figures; no fit used these figures:"
 _RESIDUALS_ALT = (
-    "Bars: simulated minus published over σ for the {count} figures of {material}, by the stated model "
+    "Bars: simulated minus published over σ for the {count} figures of {material}, for the stated model "
     "and the leading explanations. The stated model is up to {largest:.0f} σ off; 2 σ are shaded."
 )
 _TURNS_ALT = (
-    "Tip and base angle over time in the quick turn at 5 cm and 10 cm, by the stated model and the "
+    "Tip and base angle over time in the quick turn at 5 cm and 10 cm, for the stated model and the "
     "leading explanations, with the published settling times."
 )
 _FITS_ALT = (
-    "Bars: rms residual over σ of the hypotheses with the least AICc, the accepted ones in red; dots: "
+    "Bars: rms residual over σ of the hypotheses with the lowest AICc, the accepted ones in red; dots: "
     "the rms residual of each figure left out in turn. The best is at {best:.2f} σ."
 )
 

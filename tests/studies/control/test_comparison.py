@@ -93,7 +93,7 @@ def test_the_shear_stress_is_that_of_the_largest_torque(at_10_cm):
     ("changes", "words"),
     [
         ({}, ""),
-        ({"settle_s": math.nan, "final_error_deg": 4.26}, "never settles, 4.3 deg left"),
+        ({"settle_s": math.nan, "final_error_deg": 4.26}, "never settles, final error 4.3 deg"),
         ({"overshoot_deg": 22.4}, "overshoots by 22 deg"),
         ({"settle_better_same_limits": -1.0}, "settles later than the base alone"),
         ({"integral_better_same_limits": -1.0}, "more error than the base alone"),

@@ -34,6 +34,6 @@ def test_a_range_that_no_draw_reaches_is_named(monkeypatch):
     monkeypatch.setattr("validation.logs.case.DRAWS", 2)
     assert DRAWS > 2
     with pytest.raises(
-        ImpossibleDraw, match=r"signature: .*single with tip_angle_bias.*got \(1000000\.0"
+        ImpossibleDraw, match=r"signature: .*single with tip_angle_bias.*found \(1000000\.0"
     ):
         drawn("single", ("tip_angle_bias",), (1e6, 2e6))

@@ -39,9 +39,12 @@ def test_a_sensor_without_an_effect_is_neutral(make_rig):
 @pytest.mark.parametrize(
     ("how", "message"),
     [
-        ({"effects": {"magnetism": {}}}, "effects: expected some of coulomb_friction.*got 'magnetism'"),
+        (
+            {"effects": {"magnetism": {}}},
+            "effects: expected some of coulomb_friction.*found 'magnetism'",
+        ),
         ({"effects": {"coulomb_friction": {"slope": 1.0}}}, "coulomb_friction with .'level'.*slope"),
-        ({"outside": {"magnetism": {}}}, "outside: expected some of lubrication.*got 'magnetism'"),
+        ({"outside": {"magnetism": {}}}, "outside: expected some of lubrication.*found 'magnetism'"),
     ],
 )
 def test_unknown_effects_and_parameters_are_named(how, message):

@@ -40,10 +40,10 @@ def test_a_value_is_said_with_its_unit_and_what_set_it(insertions):
 def test_sentences_say_what_is_left_and_what_is_contradicted(insertions):
     said = "\n".join(insertion_sentences(insertions))
     assert "the stated model gives 6.5 mm and 1.9 mm" in said
-    assert "leave the plane by 0.69 mm and 0.17 mm" in said
+    assert "would be 0.69 mm and 0.17 mm" in said
     assert "larger damping would miss those by far more" in said
     assert "Without such a contradiction: longer shaft, 330 mm" in said
-    assert "330 mm of shaft: it does not explain Fig. 12 as well" in said
+    assert "330 mm of shaft: they do not explain Fig. 12 as well" in said
     assert "With base_servo and shear_thinning, prebent tip in the channel that it cuts" in said
 
 
