@@ -388,8 +388,8 @@ rough (250 blind logs), what only mimics it to 15, 21, 39, 45. Set on seeds 1, 2
 WORTH_FITTING = 6.0
 """Cost that an effect has to promise before it is fitted: a chi-square of one exceeds it in 1.4 %."""
 SECOND_LEAVES = 0.99
-"""Share of the cost that a second effect beside one at the floor may leave: half a per cent of the gap.
-By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 % once."""
+"""Share of the cost that one more effect beside one or two at the floor may leave: half a per cent of
+the gap. By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 % once."""
 NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more beside what is at the
 floor, and no finer mesh and no search with drift is spent on it."""

@@ -17,6 +17,8 @@ from diagnosis.replay.rig_parameters import RigParameters
 
 Array = NDArray[np.float64]
 
+_ROUNDING = 1e-9  # of a vector, whose entries are of the order of one
+
 
 @dataclass(frozen=True, kw_only=True)
 class Parameterization:
@@ -61,8 +63,10 @@ class Parameterization:
         return np.concatenate(own) if own else np.zeros(0)
 
     def values(self, x: Array) -> list[float]:
-        """Parameter values of a vector."""
-        return [p.from_fit(float(v)) for p, v in zip(self.parameters, x, strict=True)]
+        """Parameter values of a vector; what a fit left beyond a bound by rounding is at the bound."""
+        within = np.clip(x, *self.bounds())
+        near = np.where(np.abs(within - x) < _ROUNDING, within, x)
+        return [p.from_fit(float(v)) for p, v in zip(self.parameters, near, strict=True)]
 
     def rig(self, x: Array) -> RigParameters:
         """The rig with these effects in it."""

@@ -8,7 +8,7 @@ where lambda_k, v_k are what a Gaussian process of covariance exp(-(u - u')^2 / 
 beside straight lines (Rasmussen and Williams 2006, Section 2.7). A curve that has a period is a constant
 and a rest of covariance exp(-2 sin^2((x - x') pi / period) / l^2), their Section 4.2. Straight part and
 rest each have a prior strength of their own, so that a law that is straight goes on straight where no
-trial has been.
+trial has been. Where both signs of a variable may differ, |x| belongs to the straight part.
 """
 
 from collections.abc import Sequence
@@ -60,6 +60,22 @@ def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = Fals
     line = np.stack([np.ones(count), u], axis=1)
     places = low + (high - low) * share
     return SmoothCurve(places=places, basis=_beside(line, covariance), straight=2)
+
+
+def bent_curve(low: float, high: float, count: int = 8) -> SmoothCurve:
+    """A smooth curve that may bend at zero, as what differs between both signs of a variable does.
+
+    Its straight part has a slope on each side. Without both signs it is a smooth curve.
+    """
+    if not low < 0 < high:
+        return smooth_curve(low, high, count)
+    places = np.linspace(low, high, count)
+    inner = places[1:-1]
+    inner[np.argmin(np.abs(inner))] = 0.0
+    u = places / max(-low, high)
+    covariance = np.exp(-((u[:, None] - u) ** 2) / (2 * _LENGTH**2))
+    line = np.stack([np.ones(count), u, np.abs(u)], axis=1)
+    return SmoothCurve(places=places, basis=_beside(line, covariance), straight=3)
 
 
 def periodic_curve(period: float, count: int = 12) -> SmoothCurve:

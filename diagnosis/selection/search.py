@@ -21,7 +21,7 @@ from diagnosis.selection.stages.imperfections import one_more_imperfection
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
-from diagnosis.selection.stages.richer_effects import richer_effects
+from diagnosis.selection.stages.richer_effects import richer_effects, richer_triples
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
 from diagnosis.selection.stages.torque_drift import with_drift
@@ -39,6 +39,7 @@ STAGES: tuple[Stage, ...] = (
     richer_effects,
     one_more_imperfection,
     triples,
+    richer_triples,
     best_to_its_end,
     best_without_each_effect,
     scatter_of_the_best,

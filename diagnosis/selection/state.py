@@ -24,7 +24,7 @@ class SearchState:
       nominal: the nominal rig, exactly as rig.yaml says.
       candidates: fitted on the log itself.
       singles: single effects, fitted on the decimated log, best first.
-      pairs: the same of pairs.
+      pairs, triples: the same of two and three effects.
       checked: candidates as they were last checked.
       record: of every stage so far.
     """
@@ -36,6 +36,7 @@ class SearchState:
     candidates: tuple[Candidate, ...] = ()
     singles: tuple[Candidate, ...] = ()
     pairs: tuple[Candidate, ...] = ()
+    triples: tuple[Candidate, ...] = ()
     checked: Checked | None = None
     record: tuple[RecordEntry, ...] = ()
 

@@ -20,6 +20,7 @@ from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.ripple import waves_in_a_turn
 from diagnosis.freeform.smooth_curve import (
     SmoothCurve,
+    bent_curve,
     periodic_curve,
     separate_values,
     smooth_curve,
@@ -40,6 +41,8 @@ _SAYS = {
     Variable.PAST: "history",
     Variable.TURNED_BY: "history",
 }
+SIGNED = (Variable.TORQUE, Variable.TORQUE_RATE, Variable.RATE, Variable.TIP_RATE, Variable.AXIAL_SPEED)
+"""Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
 
 
@@ -133,7 +136,8 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:
         return separate_values(ranges.missing[added.sensor] * TURNED_BY)
-    return smooth_curve(*ranges.ends[added.variable], PLACES)
+    curve = bent_curve if added.variable in SIGNED else smooth_curve
+    return curve(*ranges.ends[added.variable], PLACES)
 
 
 def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:

@@ -1,15 +1,12 @@
 """Pairs of effects: a leading one with any other."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
 
 from diagnosis.criteria import MOST_PAIRS, PAIR_BASES, SECOND_LEAVES, WORTH_FITTING
-from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_finalists, fit_screened
-from diagnosis.selection.record import dropped
 from diagnosis.selection.screening import Screened
-from diagnosis.selection.stages.stage import not_worth, screen_all
+from diagnosis.selection.stages.stage import not_worth, screen_all, taking_off_enough
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -26,21 +23,13 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
     state = state.noting(*not_worth(stage, screened, worth), *record)
     state = replace(state, pairs=tuple(fitted))
-    found, record = fit_finalists("finalists, pairs", state.problem, fitted, workers)
-    enough = _takes_off_enough(found, state) if alone and state.singles else found
-    out = [c for c in found if c not in enough]
-    reason = f"its second effect leaves more than {SECOND_LEAVES:g} of the cost of one alone"
-    return state.adding((enough, (*record, *dropped("finalists, pairs", out, reason))))
+    made = fit_finalists("finalists, pairs", state.problem, fitted, workers)
+    if alone and state.singles:
+        made = taking_off_enough("finalists, pairs", made, state.singles[0].fit.cost, state)
+    return state.adding(made)
 
 
 def _worth_a_second(one: Screened, state: SearchState, *, alone: bool) -> bool:
     if not alone:
         return one.gain >= WORTH_FITTING
     return one.cost < SECOND_LEAVES * state.singles[0].fit.cost
-
-
-def _takes_off_enough(found: Sequence[Candidate], state: SearchState) -> list[Candidate]:
-    """Pairs that take off the log itself what a second effect has to promise on the decimated one."""
-    asked = (1 - SECOND_LEAVES) * state.singles[0].fit.cost
-    most = min(c.fit.cost for c in state.candidates) - asked
-    return [c for c in found if c.fit.cost <= most]

@@ -22,10 +22,22 @@ def richer_effects(state: SearchState, workers: Workers) -> SearchState:
 
     Fitted from far off they may have ended in a local minimum, above what they contain.
     """
-    stage = "richer effects"
     leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:FINALISTS]
+    if not any(_richer(c, state.effects) for c in leading) or state.rechecked()[1]:
+        return state
+    return _with_richer(leading, state, workers)
+
+
+def richer_triples(state: SearchState, workers: Workers) -> SearchState:
+    """The same of three effects, also where they explain the log: no pair of theirs asked for more."""
+    leading = sorted(state.triples, key=lambda c: c.score)[:1]
+    return _with_richer(leading, state, workers)
+
+
+def _with_richer(leading: Sequence[Candidate], state: SearchState, workers: Workers) -> SearchState:
+    stage = "richer effects"
     inner = next((c for c in leading if _richer(c, state.effects)), None)
-    if inner is None or state.rechecked()[1]:
+    if inner is None:
         return state
     enough = leading[0].score + CONTENDING
     calls = [

@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Sequence
 
+from diagnosis.criteria import SECOND_LEAVES
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.selection.record import Decision, RecordEntry, failed, not_fitted
+from diagnosis.selection.fitting import Made
+from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, not_fitted
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Failure, Task, Workers
@@ -33,6 +35,20 @@ def screen_all(
     results = workers.each(f"screening {stage}", screen, tasks)
     found = [s for own in results if not isinstance(own, Failure) for s in own]
     return found, failed(stage, [r for r in results if isinstance(r, Failure)])
+
+
+def taking_off_enough(stage: str, made: Made, without: float, state: SearchState) -> Made:
+    """Sets that take off the log itself what their last effect has to promise on the decimated one.
+
+    Args:
+      without: cost without that effect, on the decimated log.
+    """
+    found, record = made
+    most = min(c.fit.cost for c in state.candidates) - (1 - SECOND_LEAVES) * without
+    enough = [c for c in found if c.fit.cost <= most]
+    out = [c for c in found if c not in enough]
+    reason = f"its last effect leaves more than {SECOND_LEAVES:g} of the cost without it"
+    return enough, (*record, *dropped(stage, out, reason))
 
 
 def not_worth(

@@ -1,25 +1,33 @@
-"""Three effects at once: a leading pair with any other, where no pair explains the log.
+"""Three effects at once: a leading pair with any other.
 
-Three laws can imitate much. So the third has to promise most of what the pair leaves beyond noise.
+Three laws can imitate much. So the third has to promise most of what the pair leaves beyond noise, where
+that does not explain the log; and where it does, more than noise could.
 """
 
-from diagnosis.criteria import MOST_TRIPLES, TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from diagnosis.criteria import (
+    MOST_TRIPLES,
+    SECOND_LEAVES,
+    TRIPLE_BASES,
+    TRIPLE_SHARE,
+    WORTH_FITTING,
+)
 from diagnosis.fitting.fit import Fit
+from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_finalists, fit_screened
 from diagnosis.selection.screening import Screened
-from diagnosis.selection.stages.stage import not_worth, screen_all
+from diagnosis.selection.stages.stage import not_worth, screen_all, taking_off_enough
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 
 def triples(state: SearchState, workers: Workers) -> SearchState:
-    """Every effect beside each of the leading pairs; the promising are fitted."""
+    """Every effect beside the leading pairs, or beside the one that explains the log."""
     stage = "three effects"
     state, explained = state.rechecked()
-    if explained or not state.pairs:
-        return state
-    leading = sorted(state.pairs, key=lambda c: c.score)[:TRIPLE_BASES]
-    pairs = {pair.names: pair.fit for pair in leading}
+    pairs = _explaining(state) if explained else _leading(state)
     calls = [
         (state.coarse, pair, name)
         for names, pair in pairs.items()
@@ -27,15 +35,36 @@ def triples(state: SearchState, workers: Workers) -> SearchState:
         if name not in names
     ]
     screened, record = screen_all(stage, calls, workers)
-    worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]])]
+    worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
     state = state.noting(*record, *not_worth(stage, screened, worth), *fits)
     if not fitted:
         return state
-    return state.adding(fit_finalists(f"finalists, {stage}", state.problem, fitted, workers))
+    state = replace(state, triples=tuple(fitted))
+    made = fit_finalists(f"finalists, {stage}", state.problem, fitted, workers)
+    if explained:
+        (pair,) = pairs.values()
+        made = taking_off_enough(f"finalists, {stage}", made, pair.cost, state)
+    return state.adding(made)
 
 
-def _worth_a_third(one: Screened, pair: Fit) -> bool:
+def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
+    return _fits(sorted(state.pairs, key=lambda c: c.score)[:TRIPLE_BASES])
+
+
+def _explaining(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
+    """The best explanation if it is a pair, on the decimated log."""
+    best = {*state.best.names}
+    return _fits([pair for pair in state.pairs if {*pair.names} == best][:1])
+
+
+def _fits(pairs: Sequence[Candidate]) -> Mapping[tuple[str, ...], Fit]:
+    return {pair.names: pair.fit for pair in pairs}
+
+
+def _worth_a_third(one: Screened, pair: Fit, *, explained: bool) -> bool:
     """Whether the third effect promises enough, of itself and of what the pair leaves."""
+    if explained:
+        return one.cost < SECOND_LEAVES * pair.cost
     beyond_noise = pair.cost - pair.samples
     return one.gain >= WORTH_FITTING and pair.cost - one.cost >= TRIPLE_SHARE * beyond_noise

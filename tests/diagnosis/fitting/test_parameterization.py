@@ -1,11 +1,14 @@
 """Parameters of effects as a vector that a fit can move in."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.parameterization import parameterization_of, starts
+from diagnosis.effects.effect import Parameter
+from diagnosis.fitting.parameterization import Parameterization, parameterization_of, starts
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 OPEN = tuple(LIBRARY[name] for name in SCATTER)
@@ -64,3 +67,14 @@ def test_no_effect_is_the_nominal_rig():
     assert nothing.parts(np.zeros(0)) == {}
     assert nothing.joined({}).size == 0
     assert parameterization_of((), OPEN).rig(np.zeros(2)) == NOMINAL
+
+
+def test_what_rounding_left_beyond_a_bound_is_at_the_bound():
+    """Beyond zero a law would be refused: -7e-19 of a drag that may be none, say."""
+    drag = Parameter(name="damping", unit="-", low=0.0, high=2.0, start=(1.0,), scale=1.0)
+    effect = replace(LIBRARY["tip_drag"], parameters=(drag,))
+    own = Parameterization(effects=(effect,), nuisance=())
+    assert own.values(np.array([-7e-19])) == [0.0]
+    assert own.values(np.array([2.0 + 1e-15])) == [2.0]
+    assert own.values(np.array([-1e-6])) == [-1e-6]
+    assert own.values(np.array([0.5])) == [0.5]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from diagnosis.freeform.smooth_curve import (
+    bent_curve,
     periodic_curve,
     separate_values,
     smooth_curve,
@@ -69,3 +70,22 @@ def test_separate_values_are_their_coordinates():
     curve = separate_values(np.array([0.1, 1.0, 3.0]))
     assert curve.straight == 0
     assert curve.values([4.0, 5.0, 6.0]) == (4.0, 5.0, 6.0)
+
+
+def test_a_bent_curve_has_a_slope_on_each_side_of_zero():
+    """Both slopes and the value at zero are its straight part: a line and |x| make any of them."""
+    curve = bent_curve(-2.0, 10.0, 12)
+    assert curve.straight == 3
+    assert 0.0 in curve.places
+    assert np.all(np.diff(curve.places) > 0)
+    assert (curve.places[0], curve.places[-1]) == (-2.0, 10.0)
+    wanted = np.where(curve.places < 0, 0.3 * curve.places, 0.5 * curve.places) + 1.0
+    found = np.linalg.solve(curve.basis, wanted)
+    np.testing.assert_allclose(found[3:], 0.0, atol=1e-8)
+    np.testing.assert_allclose(found[:3], [1.0, 4.0, 1.0], atol=1e-8)
+
+
+def test_of_one_sign_nothing_is_bent():
+    one, smooth = bent_curve(1.0, 5.0), smooth_curve(1.0, 5.0)
+    np.testing.assert_array_equal(one.basis, smooth.basis)
+    np.testing.assert_array_equal(one.places, smooth.places)

@@ -34,6 +34,7 @@ def test_the_stages_are_these_in_this_order():
         "richer_effects",
         "one_more_imperfection",
         "triples",
+        "richer_triples",
         "best_to_its_end",
         "best_without_each_effect",
         "scatter_of_the_best",

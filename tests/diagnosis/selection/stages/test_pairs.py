@@ -7,11 +7,13 @@ import pytest
 from diagnosis_fixtures import fit_of, scored
 
 from diagnosis.criteria import SECOND_LEAVES, WORTH_FITTING
+from diagnosis.selection.record import Decision
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages import pairs as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.pairs import pairs
 from diagnosis.selection.stages.single_effects import single_effects
+from diagnosis.selection.stages.stage import taking_off_enough
 from diagnosis.workers import Workers
 
 
@@ -46,7 +48,9 @@ def test_a_second_effect_has_to_take_off_the_log_itself_what_it_promised(still_s
     pair = ("tip_drag", "torque_bias")
     asked = (1 - SECOND_LEAVES) * 1000.0
     found = [costing(pair, 1000.0 - share * asked) for share in (0.9, 1.1)]
-    assert module._takes_off_enough(found, state) == found[1:]
+    enough, (out,) = taking_off_enough("pairs", (found, ()), 1000.0, state)
+    assert enough == found[1:]
+    assert (out.effects, out.decision) == (pair, Decision.DROPPED)
 
 
 @pytest.mark.slow

@@ -47,3 +47,14 @@ def test_no_richer_effect_is_fitted_where_none_contains_a_leading_one(taken_for_
 def test_no_richer_effect_is_fitted_where_something_explains_the_log(taken_for_constant, monkeypatch):
     monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
     assert module.richer_effects(taken_for_constant, Workers()) is taken_for_constant
+
+
+@pytest.mark.slow
+def test_of_three_effects_a_richer_one_is_tried_also_where_they_explain_the_log(
+    taken_for_constant, monkeypatch
+):
+    monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
+    assert module.richer_triples(taken_for_constant, Workers()) is taken_for_constant
+    state = replace(taken_for_constant, triples=taken_for_constant.singles)
+    found = module.richer_triples(state, Workers())
+    assert [c.names for c in found.candidates] == [(), ("stiction",)]

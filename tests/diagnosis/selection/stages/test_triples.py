@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
 
-from diagnosis.criteria import TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
+from diagnosis.criteria import SECOND_LEAVES, TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.search import search
@@ -47,27 +47,39 @@ def test_every_other_effect_is_tried_beside_the_leading_pairs_alone(still_start,
 
 
 @pytest.mark.parametrize(
-    ("cost", "gain", "worth"),
+    ("explained", "cost", "gain", "worth"),
     [
-        (2000.0 - 1.01 * TRIPLE_SHARE * 1000.0, WORTH_FITTING, True),
-        (2000.0 - 0.99 * TRIPLE_SHARE * 1000.0, WORTH_FITTING, False),
-        (1000.0, 0.9 * WORTH_FITTING, False),
+        (False, 2000.0 - 1.01 * TRIPLE_SHARE * 1000.0, WORTH_FITTING, True),
+        (False, 2000.0 - 0.99 * TRIPLE_SHARE * 1000.0, WORTH_FITTING, False),
+        (False, 1000.0, 0.9 * WORTH_FITTING, False),
+        (True, 0.999 * SECOND_LEAVES * 2000.0, 0.0, True),
+        (True, 1.001 * SECOND_LEAVES * 2000.0, WORTH_FITTING, False),
     ],
 )
-def test_a_third_effect_has_to_promise_its_share_of_what_the_pair_leaves_beyond_noise(cost, gain, worth):
+def test_a_third_effect_has_to_promise_its_share_of_what_the_pair_leaves(explained, cost, gain, worth):
     pair = fit_of(("tip_drag", "torque_bias"), by_trial=[np.full(1000, np.sqrt(2.0))])
     three = ("tip_drag", "torque_bias", "stiction")
     one = Screened(names=three, start=np.zeros(3), cost=cost, gain=gain)
     assert pair.cost == pytest.approx(2000.0)
-    assert module._worth_a_third(one, pair) is worth
+    assert module._worth_a_third(one, pair, explained=explained) is worth
+
+
+def test_beside_a_pair_that_explains_the_log_every_other_effect_is_tried(still_start, monkeypatch):
+    best, behind = scored(["torque_bias", "tip_drag"], 1.0), scored(["torque_bias", "stiction"], 0.5)
+    state = replace(still_start, candidates=(best,))
+    pairs = (behind, scored(["tip_drag", "torque_bias"], 2.0))
+    asked = asked_for(state, monkeypatch, explained=True, pairs=pairs)
+    others = ("coulomb_friction", "entry_friction", "stiction")
+    assert asked == [("tip_drag", "torque_bias", other) for other in others]
 
 
 @pytest.mark.parametrize("explained", [True, False])
-def test_none_is_tried_where_something_explains_the_log_or_no_pair_was_fitted(
+def test_none_is_tried_where_one_effect_explains_the_log_or_no_pair_was_fitted(
     explained, still_start, monkeypatch
 ):
-    pairs = (scored(["tip_drag", "torque_bias"], 1.0),) if explained else ()
-    assert asked_for(still_start, monkeypatch, explained=explained, pairs=pairs) == []
+    state = replace(still_start, candidates=(scored(["tip_drag"], 1.0),))
+    pairs = (scored(["tip_drag", "torque_bias"], 2.0),) if explained else ()
+    assert asked_for(state, monkeypatch, explained=explained, pairs=pairs) == []
 
 
 @pytest.mark.slow
