@@ -11,6 +11,7 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.held_out.cross_validation import held_out_residuals
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.stopping import StoppedEarly
 
 Array = NDArray[np.float64]
 GapOf = Callable[[Fit, tuple[Array, ...]], float]
@@ -24,7 +25,7 @@ def plain_gap(_: Fit, held_out: tuple[Array, ...]) -> float:
 
 
 def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_gap) -> tuple[Array, ...]:
-    """Residuals / sigma of each trial that the fit has not seen, by one step or by refits.
+    """Residuals / sigma of each trial that the fit has not seen, by one step; by refits if there is time.
 
     Args:
       gap_of: of a fit and its held-out residuals; far above that of the fit, the step is not trusted.
@@ -33,7 +34,12 @@ def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_ga
       SimulationFailed: the others lead to where the needle cannot be simulated.
     """
     held_out = held_out_residuals(problem, fit)
-    return held_out if gap_of(fit, held_out) <= FAR_STEP * fit.gap else refitted_without(problem, fit)
+    if gap_of(fit, held_out) <= FAR_STEP * fit.gap:
+        return held_out
+    try:
+        return refitted_without(problem, fit)
+    except StoppedEarly:
+        return held_out
 
 
 def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:

@@ -99,7 +99,7 @@ def test_friction_that_is_stronger_one_way_is_found_without_a_name():
         assert abs(value - truth) < 3.5 / 1.96 * 0.5 * (high - low)
     assert told.gap.before > 10.0
     assert told.gap.after < 1.1
-    assert "acts along the shaft" in what_is_missing(missing, told.gap.before)
+    assert "acts between shaft and tissue" in what_is_missing(missing, told.gap.before)
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ from diagnosis.fitting.held_out.cross_validation import held_out_residuals
 from diagnosis.fitting.held_out.refits import held_out_or_refitted, plain_gap, refitted_without
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.stopping import StopSignal, listening
 
 BIASES_N_MM = (0.02, 0.05)
 
@@ -39,6 +40,14 @@ def test_refits_are_made_where_a_step_leads_far(fitted, factor, refits):
     found = held_out_or_refitted(problem, fit, lambda fit, _: factor * FAR_STEP * fit.gap)
     expected = (refitted_without if refits else held_out_residuals)(problem, fit)
     for one, other in zip(found, expected, strict=True):
+        np.testing.assert_allclose(one, other)
+
+
+def test_where_there_is_no_time_the_step_is_what_there_is(fitted):
+    problem, fit = fitted
+    with listening(StopSignal(1e-9)):
+        found = held_out_or_refitted(problem, fit, lambda fit, _: 2 * FAR_STEP * fit.gap)
+    for one, other in zip(found, held_out_residuals(problem, fit), strict=True):
         np.testing.assert_allclose(one, other)
 
 
