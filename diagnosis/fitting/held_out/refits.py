@@ -25,7 +25,7 @@ def plain_gap(_: Fit, held_out: tuple[Array, ...]) -> float:
 
 
 def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_gap) -> tuple[Array, ...]:
-    """Residuals / sigma of each trial that the fit has not seen, by one step; by refits if there is time.
+    """Residuals / sigma of trials that the fit has not seen: by one step, or by refits if there is time.
 
     Args:
       gap_of: of a fit and its held-out residuals; far above that of the fit, the step is not trusted.
