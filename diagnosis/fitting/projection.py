@@ -19,7 +19,7 @@ class Projection:
         self._kept = np.array([owner != name for owner in base.parameterization.owners], bool)
         self._prior = base.parameterization.weights * base.x
         self._residual = np.concatenate([*base.by_trial, self._prior])
-        slopes = np.vstack([*base.jacobian, np.diag(base.parameterization.weights)])[:, self._kept]
+        slopes = base.slopes[:, self._kept]
         self._basis, self._root = np.linalg.qr(slopes)
         self._low, self._high = (
             np.asarray(b - base.x)[self._kept] for b in base.parameterization.bounds()
