@@ -32,6 +32,7 @@ from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import check
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import verdict_on
+from diagnosis.workers import Workers
 
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02
 RIG = NominalRig(
@@ -176,3 +177,17 @@ def start_of_search(log, effects=None):
 def concluded(state):
     """The verdict on what a search has come to."""
     return verdict_on(check(state.problem, state.candidates, state.checked).candidates)
+
+
+def sets_screened(stage, state, monkeypatch, *, explained):
+    """The sets that a stage of the search screens, where a log is explained already or not."""
+    monkeypatch.setattr(SearchState, "rechecked", lambda own: (own, explained))
+    asked = []
+
+    def screen_all(_, calls, __):
+        asked.extend((*base.names, name) for _, base, name in calls)
+        return [], ()
+
+    monkeypatch.setitem(stage.__globals__, "screen_all", screen_all)
+    stage(state, Workers())
+    return asked

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
+from diagnosis_fixtures import concluded, fit_of, log_of, scored, sets_screened, start_of_search
 
 from diagnosis.criteria import SECOND_LEAVES, TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import triples as module
-from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
 
@@ -21,16 +20,8 @@ EFFECTS = ("coulomb_friction", "tip_drag", "torque_bias", "entry_friction", "sti
 
 def asked_for(state, monkeypatch, *, explained, pairs):
     """The sets that are screened."""
-    monkeypatch.setattr(SearchState, "rechecked", lambda own: (own, explained))
-    asked = []
-
-    def screen_all(stage, calls, workers):
-        asked.extend((*base.names, name) for _, base, name in calls)
-        return [], ()
-
-    monkeypatch.setattr(module, "screen_all", screen_all)
-    module.triples(replace(state, effects=EFFECTS, pairs=pairs), Workers())
-    return asked
+    state = replace(state, effects=EFFECTS, pairs=pairs)
+    return sets_screened(module.triples, state, monkeypatch, explained=explained)
 
 
 def test_every_other_effect_is_tried_beside_the_leading_pairs_alone(still_start, monkeypatch):
