@@ -45,15 +45,14 @@ class Stage(NamedTuple):
     g: float  # length of the implicit stage, s
     axial: float  # axial speed over the radius, rad/s
     yield_angle: float  # presliding angle, rad
-    cautious: bool  # take slopes that cannot mislead Newton's method
     factor: float = 1.0  # of rows that vary in time
 
 
 @embedded
 def slip_law(
-    s: float, row: Array, extra: float, old: Memory, stage: Stage, lag: float
-) -> tuple[float, float, float, Memory]:
-    """Torque per length, tangent and secant slope against slip, presliding it leaves.
+    s: float, row: Array, extra: float, old: Memory, stage: Stage
+) -> tuple[float, float, Memory]:
+    """Torque per length, its slope against slip, presliding it leaves.
 
     Args:
       s: slip rate, rad/s.
@@ -61,44 +60,41 @@ def slip_law(
       extra: dry level in addition to the row's, N m / m.
       old: memory of the site before the stage.
       stage: see `Stage`.
-      lag: slip rate that sets the Stribeck level in a cautious stage, rad/s.
     """
-    torque, tangent, secant = 0.0, 0.0, 0.0
+    torque, slope = 0.0, 0.0
     dry, turn, axial = old.dry, old.turn, old.axial
     g, limit = stage.g, stage.yield_angle
     viscous = row[memory_map.L_VISCOUS]
     p = row[memory_map.L_EXPONENT]
     if p == 1.0:
         torque = viscous * s
-        tangent = secant = viscous
+        slope = viscous
     elif viscous != 0.0:
         q = s * s + row[memory_map.L_PLATEAU] ** 2
         m = viscous * q ** (0.5 * (p - 1.0))
         torque = m * s
-        secant = m
-        tangent = m * (1.0 + (p - 1.0) * s * s / q)
+        slope = m * (1.0 + (p - 1.0) * s * s / q)
     shaped = row[memory_map.L_SHAPED] != 0.0
     if shaped and row[memory_map.L_RATE_STEP] > 0.0:
         curve, rise = _rate_curve(s, row)
-        tangent = curve * (tangent + rise * secant)
-        torque, secant = torque * curve, secant * curve
+        slope = curve * (slope + rise * (torque / s if s != 0.0 else slope))
+        torque *= curve
     level = row[memory_map.L_KINETIC] + extra
     excess = row[memory_map.L_STATIC] - row[memory_map.L_KINETIC]
     if level > 0.0 or excess > 0.0:
         if excess > 0.0:
-            w = (lag if stage.cautious else s) / row[memory_map.L_STRIBECK]
+            w = s / row[memory_map.L_STRIBECK]
             bump = excess * math.exp(-w * w)
             level += bump
         dry += g * s
         size = abs(dry)
         if size < limit:
-            tangent += level * g / limit
-        secant += level * g / max(size, limit)
+            slope += level * g / limit
         if size > limit:
             dry = math.copysign(limit, dry)
         torque += level * dry / limit
-        if excess > 0.0 and not stage.cautious:
-            tangent -= 2.0 * bump * w / row[memory_map.L_STRIBECK] * dry / limit
+        if excess > 0.0:
+            slope -= 2.0 * bump * w / row[memory_map.L_STRIBECK] * dry / limit
     shared = row[memory_map.L_SHARED]
     if shared > 0.0:
         turn += g * s
@@ -106,19 +102,17 @@ def slip_law(
         size = math.sqrt(turn * turn + axial * axial)
         if size <= limit:
             torque += shared * turn / limit
-            tangent += shared * g / limit
-            secant += shared * g / limit
+            slope += shared * g / limit
         else:
             torque += shared * turn / size
-            tangent += shared * g * (axial / size) ** 2 / size
-            secant += shared * g / size
+            slope += shared * g * (axial / size) ** 2 / size
             turn, axial = turn * limit / size, axial * limit / size
     if shaped:
         asymmetry = row[memory_map.L_ASYMMETRY]
         factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
         factor *= stage.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
-        torque, tangent, secant = torque * factor, tangent * factor, secant * factor
-    return torque, tangent, secant, Memory(dry, turn, axial, old.phi)
+        torque, slope = torque * factor, slope * factor
+    return torque, slope, Memory(dry, turn, axial, old.phi)
 
 
 @embedded
@@ -139,20 +133,19 @@ def _rate_curve(s: float, row: Array) -> tuple[float, float]:
 
 @embedded
 def site_law(
-    omega: float, row: Array, extra: float, old: Memory, stage: Stage, lag: float
+    omega: float, row: Array, extra: float, old: Memory, stage: Stage
 ) -> tuple[float, float, float, Memory]:
     """As `slip_law`, against the rate of the shaft, with the tissue in series.
 
     Returns torque per length, its slope against omega, the slip rate, and the
-    memory that the stage leaves. A cautious stage gets the secant slope, which
-    majorises the potential of the friction, so that its iteration always descends.
+    memory that the stage leaves.
     """
-    torque, tangent, secant, new = slip_law(omega, row, extra, old, stage, lag)
+    torque, slope, new = slip_law(omega, row, extra, old, stage)
     k = row[memory_map.L_STIFFNESS]
     if row[memory_map.L_VARIES] != 0.0:
         k *= stage.factor
     if k <= 0.0:
-        return torque, secant if stage.cautious else tangent, omega, new
+        return torque, slope, omega, new
     resistance = k * (row[memory_map.L_TIME] + stage.g)
     push = k * old.phi
     s = omega
@@ -164,14 +157,13 @@ def site_law(
             high = s
         else:
             low = s
-        change = miss / (tangent + resistance)
+        change = miss / (slope + resistance)
         if abs(change) <= 1e-13 * (1.0 + abs(s)):
             break
         s -= change
         if not low < s < high:
             s = 0.5 * (low + high)
-        torque, tangent, secant, new = slip_law(s, row, extra, old, stage, lag)
+        torque, slope, new = slip_law(s, row, extra, old, stage)
     phi = old.phi + stage.g * (omega - s)
-    slope = secant if stage.cautious else tangent
     left = Memory(new.dry, new.turn, new.axial, phi)
     return torque, slope * resistance / (slope + resistance), s, left

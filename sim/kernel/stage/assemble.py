@@ -124,18 +124,16 @@ def slack(miss: float, backlash: float) -> float:
 
 
 @embedded
-def add_row(
-    w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float, cautious: bool
-) -> tuple[float, float]:
+def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -> tuple[float, float]:
     """Every covered site of a row that is more than viscous.
 
     Returns the power that goes into twisted tissue and bent shaft, W, and the
     energy stored in the tissue, J.
     """
-    x, theta, omega, lag, spring = w.x, w.theta, w.omega, w.lag, w.spring
+    x, theta, omega, spring = w.x, w.theta, w.omega, w.spring
     lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs
     loads, before, after = w.loads[r], w.start[r], w.end[r]
-    stage = Stage(frame.g, frame.axial, frame.yield_angle, cautious, frame.factor)
+    stage = Stage(frame.g, frame.axial, frame.yield_angle, frame.factor)
     g, n = frame.g, omega.size - 1
     is_point, place, fraction = row[memory_map.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
     load, curvature, phase = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_PHASE]
@@ -164,8 +162,7 @@ def add_row(
             before[slot, k, memory_map.Z_AXIAL],
             before[slot, k, memory_map.PHI],
         )
-        started = left * lag[e] + right * lag[e + 1] + advected
-        torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage, started)
+        torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage)
         after[slot, k, memory_map.Z_DRY] = new.dry
         after[slot, k, memory_map.Z_TURN] = new.turn
         after[slot, k, memory_map.Z_AXIAL] = new.axial
@@ -178,8 +175,6 @@ def add_row(
             torque += curvature * math.sin(angle)
             slope += g * curvature * cycles * math.cos(angle)
             recoverable += weight * curvature * math.sin(angle) * rate
-        if cautious and slope < 0.0:
-            slope = 0.0
         tilt = g * per_length
         rhs[e] -= to_left * torque
         rhs[e + 1] -= to_right * torque

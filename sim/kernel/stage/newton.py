@@ -1,10 +1,12 @@
 """Newton's method on one stage, with a line search: dry friction has corners.
 
-The residual is, up to sign, the gradient of a convex potential wherever friction
+The residual is, up to sign, the gradient of a potential, which is convex wherever friction
 does not weaken with speed. Most stages need a few steps. If more are taken, Newton's
 method may be going round in a circle: a step that meets a good part of the force that it
-set out with has overshot the minimum along it, which regula falsi then finds. After
-many iterations slopes are replaced by secants, which majorise that potential.
+set out with has overshot the minimum along it, which regula falsi then finds. Where friction
+weakens so fast that the potential is concave, the needle snaps to another state: negative
+pivots count as positive, so that every step descends (Nocedal and Wright, Numerical
+Optimization, section 3.4), and one at whose end the force still pulls goes on.
 """
 
 import math
@@ -26,21 +28,20 @@ _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 r
 _BALANCE = 1e-12  # force over stiffness that is as good as none, as a rate
 _FREE = 4  # steps that are not searched: a drive crosses its play in three
 _OVERSHOOT = 0.3  # a step is shortened where it meets this much of its own force again
-_PLAIN = 40  # iterations of plain Newton; after them slopes are made safe
+_STILL = 0.5  # a step is lengthened where so much of its force still pulls ahead
+_LONGER, _LONGEST = 4.0, 1e6  # by which factor, and up to how many times Newton's step
 _ITERATIONS = 160
 
 
 @inlined
-def _add_other_rows(
-    law: Array, w: Workspace, frame: Frame, tip_torque: float, cautious: bool
-) -> tuple[float, float]:
+def _add_other_rows(law: Array, w: Workspace, frame: Frame, tip_torque: float) -> tuple[float, float]:
     recoverable, stored = 0.0, 0.0
     for r in range(law.shape[0]):
         if is_linear(law[r]):
             if frame.drift != 0.0 and law[r, memory_map.L_VISCOUS] != 0.0:
                 add_viscous_advection(w, w.loads[r], law[r, memory_map.L_VISCOUS], frame)
         else:
-            power, energy = add_row(w, r, law[r], frame, tip_torque, cautious)
+            power, energy = add_row(w, r, law[r], frame, tip_torque)
             recoverable += power
             stored += energy
     return recoverable, stored
@@ -72,11 +73,9 @@ def newton(
     Without nonlinear rows both stages have the same matrix, and one iteration is
     exact: the second stage uses the factors of the first.
     """
-    lag, omega, rhs, diagonal = w.lag, w.omega, w.rhs, w.diagonal
-    n = omega.size
-    for i in range(n):
-        lag[i] = omega[i]
-    recoverable, stored = 0.0, 0.0
+    rhs, diagonal = w.rhs, w.diagonal
+    n = rhs.size
+    recoverable, stored, convex = 0.0, 0.0, True
     search = Search(0.0, 0.0, 0.0, 1.0, 0.0, 1.0)
     for iteration in range(_ITERATIONS):
         add_linear(w, frame.g, not factored)
@@ -85,15 +84,15 @@ def newton(
         rhs[n - 1] -= tip_torque
         if not factored:
             diagonal[0] += slope
-            recoverable, stored = _add_other_rows(law, w, frame, tip_torque, iteration >= _PLAIN)
-        if iteration > _FREE:
+            recoverable, stored = _add_other_rows(law, w, frame, tip_torque)
+        if iteration > _FREE or not convex:
             searching, search = _search(w, search)
             if searching:
                 continue
         if nonlinear and iteration > 0 and _balanced(w):
             return True, iteration, recoverable, stored
         if not factored:
-            factorise(w.lower, w.diagonal, w.upper)
+            convex = factorise(w.lower, w.diagonal, w.upper)
         change, size, force = _take_step(w)
         search = Search(force, 0.0, force, 1.0, 0.0, 1.0)
         if not math.isfinite(change + force):  # of NaN, `max` keeps the other
@@ -105,11 +104,11 @@ def newton(
 
 @inlined
 def _search(w: Workspace, search: Search) -> tuple[bool, Search]:
-    """Move along the last step if it overshot: dry friction would let Newton cycle.
+    """Move along the last step if its end is far from the minimum along it.
 
-    The residual is, up to sign, the gradient of a convex potential. Where the end of
-    a step meets a good part of the force that it set out with, the minimum along it
-    lies before: regula falsi with Illinois' halving, until little force is left.
+    Where the end of a step meets a good part of the force that it set out with, the minimum
+    along it lies before: regula falsi with Illinois' halving, until little force is left. Where
+    a good part of that force still pulls ahead, it lies beyond.
     Returns whether the rates have moved.
     """
     rhs, step, omega = w.rhs, w.step, w.omega
@@ -119,15 +118,19 @@ def _search(w: Workspace, search: Search) -> tuple[bool, Search]:
         met += rhs[i] * step[i]
         length = max(length, abs(step[i]))
     low, pull, high, push = search.low, search.pull, search.high, search.push
+    still = met > _STILL * search.force and push == 0.0 and search.at < _LONGEST
     calm = abs(met) <= _OVERSHOOT * search.force or (met > 0.0 and push == 0.0)
-    if calm or (high - low) * length <= _TOLERANCE:
+    if not still and (calm or (high - low) * length <= _TOLERANCE):
         return False, search
     if met > 0.0:
         low, pull, push = search.at, met, 0.5 * push
     else:
         pull = 0.5 * pull if push > 0.0 else pull
         high, push = search.at, -met
-    at = low + (high - low) * pull / (pull + push)
+    if still:
+        high = at = _LONGER * low
+    else:
+        at = low + (high - low) * pull / (pull + push)
     for i in range(n):
         omega[i] += (at - search.at) * step[i]
     return True, Search(search.force, low, pull, high, push, at)

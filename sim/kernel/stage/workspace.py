@@ -18,7 +18,6 @@ class Workspace(NamedTuple):
     theta: np.ndarray  # theta* of the stage, rad
     rest: np.ndarray  # omega* of the stage, rad/s
     omega: np.ndarray  # the unknown rates, rad/s
-    lag: np.ndarray  # rates at the start of the stage
     damp_lower: np.ndarray  # viscous rows, assembled; then with inertia and torsion
     damp_diagonal: np.ndarray
     damp_upper: np.ndarray
@@ -54,7 +53,7 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
     The memory is the model's own (`userdata`), so that no step allocates.
     """
     m = n + 1
-    loads = 15 * m
+    loads = 14 * m
     point = loads + 4 * n * rows
     places = point + 2 * rows
     twist = places + 2 * n + 1
@@ -74,7 +73,6 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
         view(memory, 11 * m, (m,)),
         view(memory, 12 * m, (m,)),
         view(memory, 13 * m, (m,)),
-        view(memory, 14 * m, (m,)),
         view(memory, loads, (rows, n, 4)),
         view(memory, point, (rows, 2)),
         view(memory, places, (2 * n + 1,)),

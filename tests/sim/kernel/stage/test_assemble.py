@@ -59,7 +59,7 @@ def residual(interpreted, stage, omega, *, drive=0.2, tip_torque=1e-4):
             beta = row[interpreted.memory_map.L_VISCOUS]
             assemble.add_viscous_advection(w, w.loads[r], beta, stage.frame)
         else:
-            assemble.add_row(w, r, row, stage.frame, tip_torque, False)
+            assemble.add_row(w, r, row, stage.frame, tip_torque)
     matrix = np.diag(w.diagonal) + np.diag(w.lower[1:], -1) + np.diag(w.upper[:-1], 1)
     return w.rhs.copy(), matrix
 

@@ -43,3 +43,21 @@ def test_without_factors_the_substitution_is_wrong():
     solution = rhs.copy()
     tridiagonal.substitute(lower, diagonal, upper, solution)
     assert np.abs(dense(lower, diagonal, upper) @ solution - rhs).max() > 0.1
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_of_a_matrix_that_is_not_definite_comes_a_direction_of_descent(seed):
+    lower, diagonal, upper, rhs = system(8, seed)
+    upper[:-1] = lower[1:]  # symmetric
+    diagonal[3] = -diagonal[3]
+    matrix = dense(lower, diagonal, upper)
+    assert np.linalg.eigvalsh(matrix).min() < 0.0
+    assert not tridiagonal.factorise(lower, diagonal, upper)
+    step = rhs.copy()
+    tridiagonal.substitute(lower, diagonal, upper, step)
+    assert rhs @ step > 0.0
+    assert rhs @ np.linalg.solve(matrix, rhs) < rhs @ step  # Newton's own step descends less, or not
+
+
+def test_a_definite_matrix_is_told_from_one_that_is_not():
+    assert tridiagonal.factorise(*system(8, seed=3)[:3])
