@@ -6,7 +6,12 @@ from itertools import product
 from diagnosis.criteria import MOST_PAIRS, PAIR_BASES, SECOND_LEAVES, WORTH_FITTING
 from diagnosis.selection.fitting import fit_finalists, fit_screened
 from diagnosis.selection.screening import Screened
-from diagnosis.selection.stages.stage import not_worth, screen_all, taking_off_enough
+from diagnosis.selection.stages.stage import (
+    not_worth,
+    promising_on_the_log,
+    screen_all,
+    taking_off_enough,
+)
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -20,6 +25,8 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     screened, record = screen_all(stage, calls, workers)
     state = state.noting(*record)
     worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]
+    if alone:
+        worth = promising_on_the_log(stage, worth, state, workers)
     fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
     state = state.noting(*not_worth(stage, screened, worth), *record)
     state = replace(state, pairs=tuple(fitted))

@@ -37,6 +37,24 @@ def screen_all(
     return found, failed(stage, [r for r in results if isinstance(r, Failure)])
 
 
+def promising_on_the_log(
+    stage: str, screened: Sequence[Screened], state: SearchState, workers: Workers
+) -> list[Screened]:
+    """Of sets that add an effect to what explains the log, those that promise enough on the log itself.
+
+    The decimated log is replayed coarsely: of rough friction that leaves what any effect could take.
+    """
+    known = {c.names: c.fit for c in state.candidates}
+    calls = [
+        (state.problem, known[names], name)
+        for names, name in dict.fromkeys((s.names[:-1], s.names[-1]) for s in screened)
+        if names in known
+    ]
+    found, _ = screen_all(stage, calls, workers)
+    enough = {s.names for s in found if s.cost < SECOND_LEAVES * known[s.names[:-1]].cost}
+    return [s for s in screened if s.names in enough or s.names[:-1] not in known]
+
+
 def taking_off_enough(stage: str, made: Made, without: float, state: SearchState) -> Made:
     """Sets that take off the log itself what their last effect has to promise on the decimated one.
 

@@ -18,7 +18,12 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_finalists, fit_screened
 from diagnosis.selection.screening import Screened
-from diagnosis.selection.stages.stage import not_worth, screen_all, taking_off_enough
+from diagnosis.selection.stages.stage import (
+    not_worth,
+    promising_on_the_log,
+    screen_all,
+    taking_off_enough,
+)
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -36,6 +41,8 @@ def triples(state: SearchState, workers: Workers) -> SearchState:
     ]
     screened, record = screen_all(stage, calls, workers)
     worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
+    if explained:
+        worth = promising_on_the_log(stage, worth, state, workers)
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
     state = state.noting(*record, *not_worth(stage, screened, worth), *fits)
     if not fitted:

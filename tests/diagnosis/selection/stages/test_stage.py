@@ -2,11 +2,15 @@
 
 from dataclasses import replace
 
-from diagnosis_fixtures import scored
+import numpy as np
+from diagnosis_fixtures import fit_of, scored
 
+from diagnosis.criteria import SECOND_LEAVES
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.screening import Screened
+from diagnosis.selection.stages import stage as module
 from diagnosis.selection.stages.stage import not_worth, run_stages, screen_all, stopped_in
 from diagnosis.stopping import StopSignal
 from diagnosis.workers import Workers
@@ -46,6 +50,30 @@ def test_what_a_stop_cut_short_is_found_in_the_record():
     cut = RecordEntry(stage="any", effects=(), decision=Decision.STOPPED, reason="no time")
     kept = replace(cut, decision=Decision.KEPT)
     assert stopped_in((kept, cut)) == [cut]
+
+
+def test_what_promises_enough_on_the_decimated_log_has_to_on_the_log_itself(still_start, monkeypatch):
+    one = replace(scored(["stiction"], 1.0), fit=fit_of(("stiction",), cost=1000.0))
+    state = replace(still_start, candidates=(one,))
+    promises = {"tip_drag": 0.999, "torque_bias": 1.001}  # of what is asked
+
+    def screen_all(_, calls, __):
+        assert all(problem is state.problem for problem, *_ in calls)
+        found = [
+            adding(name, promises[name] * SECOND_LEAVES * base.cost, base.names)
+            for _, base, name in calls
+        ]
+        return found, ()
+
+    monkeypatch.setattr(module, "screen_all", screen_all)
+    coarse = [adding(name, 1.0, ("stiction",)) for name in promises]
+    elsewhere = adding("tip_drag", 1.0, ("sheath_friction",))  # beside what was not fitted to the log
+    found = module.promising_on_the_log("pairs", [*coarse, elsewhere], state, Workers())
+    assert found == [coarse[0], elsewhere]
+
+
+def adding(name, cost, base):
+    return Screened(names=(*base, name), start=np.zeros(2), cost=cost, gain=0.0)
 
 
 def failing(*_, **__):
