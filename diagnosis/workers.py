@@ -5,7 +5,8 @@ simulated, or what a stop has left undone. Misuse is no failure of a simulation:
 a worker too. Worker processes end with this one, however it ends.
 
 Where there are fewer calls than processes, the cores that are left go to threads within a call
-(`side_by_side`): simulations run without Python's lock. Results depend on neither.
+(`side_by_side`): simulations run without Python's lock. Libraries of linear algebra get one thread in
+a process: their own, one per core in each, would wait for each other. Results depend on none of this.
 """
 
 import os
@@ -25,6 +26,8 @@ from dataclasses import dataclass
 from multiprocessing import active_children, parent_process
 from threading import Thread
 from typing import Any, TypeVar
+
+from threadpoolctl import threadpool_limits
 
 from diagnosis.stopping import NEVER, StoppedEarly, StopSignal, listen
 from sim.simulation import SimulationFailed
@@ -176,9 +179,13 @@ def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER
 
 
 def _begin(stop: StopSignal) -> None:
-    """Signals go to the whole group of processes: what they mean is the parent's to decide."""
+    """A process of the pool begins.
+
+    Signals go to the whole group of processes: what they mean is the parent's to decide.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    threadpool_limits(1)
     listen(stop)
     Thread(target=_end_with_the_parent, daemon=True).start()
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from multiprocessing import active_children
 
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from diagnosis.stopping import StopReason, StopSignal, raise_if_stopped
 from diagnosis.workers import Failure, Task, Workers, attempt, process_pool, side_by_side
@@ -42,6 +43,18 @@ EXPECTED = [
 def pool():
     with process_pool(2) as two:
         yield two
+
+
+def threads_of_libraries():
+    """Of linear algebra, in the process that is asked: the most that any library uses."""
+    return max(library["num_threads"] for library in threadpool_info())
+
+
+def test_libraries_use_one_thread_in_each_process_however_many_they_have_here():
+    asked = [Task(effects=(), arguments=()) for _ in range(4)]
+    with threadpool_limits(2), process_pool(2) as two:
+        assert threads_of_libraries() == 2
+        assert two.each("", threads_of_libraries, asked) == [1] * 4
 
 
 def test_a_call_is_its_value_or_a_failure_that_names_the_effects():
