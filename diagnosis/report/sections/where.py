@@ -19,7 +19,7 @@ _ALONG = (
     "means play or stiction."
 )
 _MEMORY = (
-    "White noise is equally strong at all frequencies (black line) and has no autocorrelation (grey "
+    "White noise is equally strong at all frequencies (dotted line) and has no autocorrelation (grey "
     "band, which holds 95 of 100 lags). A rise at low frequencies, or an autocorrelation that stays "
     "outside the band for seconds, means that the model lacks something slow. A peak means a "
     "resonance or a disturbance."
