@@ -17,6 +17,8 @@ from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
+from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
@@ -32,10 +34,10 @@ from diagnosis.progress import (
 from diagnosis.result import Diagnosis
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
-from diagnosis.selection.record import RecordEntry, judged
+from diagnosis.selection.record import RecordEntry, dropped, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, provisional
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, refuted
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
@@ -92,7 +94,7 @@ def diagnose(
         told = told_apart(found, pool)
         cut = bool(stop.left_out)
         heard(CHECKING, 0, 1)
-        last = _judged(told, cut=cut)
+        last = _of_another_form(_judged(told, cut=cut), nominal, pool)
         heard(CHECKING, 1, 1)
         heard(ASSESSING, 0, 1)
         assessment = assess(
@@ -151,6 +153,19 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
         nominal=nominal.fit,
     )
     return search(start, workers)
+
+
+def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -> Judged:
+    """Refuted, where a law that no library holds leaves clearly less than an explanation."""
+    verdict = judged.verdict
+    if verdict.kind is not VerdictKind.EXPLAINED:
+        return judged
+    best = verdict.best.fit
+    form = workers.stop.unless_due(OTHER_FORMS, lambda: other_form(nominal, best, workers))
+    if form is None:
+        return judged
+    entry = dropped("verdict", [verdict.best], f"{form.effect.title} leaves clearly less")
+    return replace(judged, verdict=refuted(verdict, form.effect.title), record=(*judged.record, *entry))
 
 
 def _judged(told: ToldApart, *, cut: bool) -> Judged:

@@ -129,6 +129,7 @@ class Effect:
         name in braces, that of `corrects` as {constant}.
       corrects: constant of rig.yaml whose true value is the nominal one times the first parameter.
       check: how to measure it by itself, as an order.
+      other_forms: names of free-form laws of its kind, which leave less where the law has another form.
     """
 
     name: str
@@ -143,6 +144,7 @@ class Effect:
     remedy: str = ""
     corrects: str = ""
     check: str = ""
+    other_forms: tuple[str, ...] = ()
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

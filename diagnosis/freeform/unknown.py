@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from diagnosis.assessment.assess import Assessment
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
@@ -38,7 +40,7 @@ def with_what_is_missing(
     fits = workers.stop.unless_due(FREE_FORM, lambda: _fits(problem, coarse, companions, workers))
     if not fits or not any(fit.final for fit in fits):
         return None, told
-    missing = missing_of(fits, told.nearest.gap_after)
+    missing = missing_of(fits, np.inf if verdict.other_form else told.nearest.gap_after)
     if missing.law is None:
         return missing, told
     return missing, explained_by(missing, log, problem, nominal, told)

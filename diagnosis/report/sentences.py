@@ -43,7 +43,13 @@ def _verdict(found: Diagnosis) -> str:
             sets = "; or ".join(titles(names) for names in found.verdict.confusable)
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
-            nearest_gap = f"{found.assessment.nearest.gap_after:.2f} σ (σ = sensor noise)"
+            near = found.assessment.nearest
+            nearest_gap = f"{near.gap_after:.2f} σ (σ = sensor noise)"
+            if found.verdict.other_form:
+                return (
+                    f"Unknown: residual {before}. {_capital(titles(near.effects))} would leave "
+                    f"{nearest_gap}, but {found.verdict.other_form} leaves clearly less"
+                )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
                 f"residual {before}, at best {nearest_gap}"
