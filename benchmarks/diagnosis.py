@@ -111,7 +111,9 @@ def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over:
     comparison = RigComparison(motions, _SENSORS, coarse=True)
     rig = draw_rig(rng, comparison, "pair" if len(effects) > 1 else "single", effects, _SIGNATURE)
     if rig is None:
-        raise ValueError(f"effects: {effects}; expected some that {plan} can show; try another seed")
+        raise ValueError(
+            f"effects: expected some that {plan} can show, found {effects}; try another seed"
+        )
     folder.mkdir(parents=True, exist_ok=True)
     shown = [(motion, ideal_signals(rig, motion)) for motion in motions] * times_over
     (folder / "rig.yaml").write_text(rig_yaml(_SENSORS, rig, len(shown)))

@@ -107,7 +107,7 @@ def _replayable(log: RigLog) -> RigLog:
     trials = tuple(trial for trial in log.trials if not reasons[trial.name])
     if not trials:
         raise InvalidValue(
-            "--log", "no such trial", "a trial with constant lengths and complete sensors"
+            "--log", "none", "a log with a trial of constant lengths and complete sensors"
         )
     return replace(log, trials=trials)
 

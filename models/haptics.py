@@ -32,7 +32,9 @@ def torque_n_mm_per_deg(needle: Needle, *, free_mm: float, inserted_mm: float) -
             raise InvalidValue(name, value, "a finite length of at least 0 mm")
     mean_mm = free_mm + inserted_mm / 2
     if mean_mm == 0:
-        raise InvalidValue("inserted_mm", inserted_mm, "some shaft: free + inserted above 0")
+        raise InvalidValue(
+            "inserted_mm", inserted_mm, "a length for which free_mm + inserted_mm is above 0"
+        )
     return 1.0 / twist_deg(needle, torque_n_mm=1.0, length_mm=mean_mm)
 
 

@@ -97,7 +97,9 @@ class YieldingTissueNeedle:
           InvalidValue: the needle is not driven by angle, or times do not increase.
         """
         if self.viscous.drive is not DriveKind.ANGLE:
-            raise InvalidValue("drive", self.viscous.drive.value, "'angle'")
+            raise InvalidValue(
+                "drive", self.viscous.drive.value, "'angle', because a base angle is given"
+            )
         t, u = np.asarray(time_s, float), np.asarray(drive_rad, float)
         shares = self.shares(count) * self.viscous.participation(count)[:, None]
         terms = relaxing_modes(t, u, self.poles_rad_s(count).ravel(), shares.ravel())

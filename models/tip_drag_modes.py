@@ -107,7 +107,7 @@ class TipDragNeedle:
           InvalidValue: the needle is not driven by angle, or times do not increase.
         """
         if self.shaft.drive is not DriveKind.ANGLE:
-            raise InvalidValue("drive", self.shaft.drive.value, "'angle'")
+            raise InvalidValue("drive", self.shaft.drive.value, "'angle', because a base angle is given")
         t, u = np.asarray(time_s, float), np.asarray(drive_rad, float)
         w, wl = self.wavenumbers_per_mm(count), self.wavenumbers_per_mm(count) * self.shaft.inserted_mm
         c = relaxing_modes(t, u, self.poles_rad_s(count), self.participation(count))
