@@ -62,7 +62,7 @@ def run(folder: Path) -> list[report.Goal]:
     least = report.least_times_s({"rope": turn_of_rope, "ours": rollout_of(setup)}, turns=7)
     if not np.isfinite(data.qpos).all():
         raise RuntimeError(
-            f"expected a stable rope at a step of {step_s} s, found angles that are not finite; shorten it"
+            f"expected a stable rope at steps of {step_s} s, found positions that are not finite"
         )
     rows = [{"what": name, "us a step": 1e6 * seconds / steps} for name, seconds in least.items()]
     report.show(f"1-D flex, {_ELEMENTS} elements", rows, folder, "flex")

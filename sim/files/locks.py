@@ -30,7 +30,7 @@ def holding(folder: Path) -> Iterator[None]:
         while taken(handle) is False:
             if time.monotonic() > ends_s:
                 raise UnwritableOutput(
-                    f"{folder}: another run has been writing here for {_MOST_S:g} s; wait for it, or stop it"
+                    f"{folder}: another run has written here for {_MOST_S:g} s; wait for it, or stop it"
                 )
             time.sleep(_LOOK_S)
         yield

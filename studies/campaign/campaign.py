@@ -112,7 +112,7 @@ class Campaign(Record):
         return hashlib.sha256(about.encode()).hexdigest()[:16]
 
     def as_yaml(self) -> str:
-        """The campaign as YAML, with resolved paths and defaults; its first line ends in the fingerprint."""
+        """The campaign as YAML, with paths and defaults; its first line ends in the fingerprint."""
         content = self.model_dump(mode="json", exclude_none=True)
         note = f"# resolved campaign, computed with MuJoCo {mujoco.__version__}; {self.fingerprint}\n"
         return note + yaml.safe_dump(content, sort_keys=False, width=100)
