@@ -11,7 +11,7 @@ from rerun.chunk import RrdReader
 from models.errors import InvalidValue, NeedleError
 from models.names import is_file
 from sim.recording.recording import unit_of
-from sim.recording.rerun_log import TIMELINE
+from sim.recording.rerun_series import TIMELINE
 
 _SIGNAL = "Scalars:scalars"
 _STYLES = ("SeriesLines:", "SeriesPoints:")
