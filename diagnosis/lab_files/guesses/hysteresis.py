@@ -1,8 +1,8 @@
 """The shape of the loops of torque over base angle: stiffness, play, dry level.
 
 After a reversal dry friction holds the needle behind it: the torque falls from one level to the
-opposite one, first along the stiffness of the part that the drive twists, then flat within play, then
-along the stiffness again.
+opposite one, first along the stiffness of the part that the drive twists, then flat within play,
+then along the stiffness again.
 
          level  ----.                      u = 0
                      \\   stiffness
@@ -11,8 +11,8 @@ along the stiffness again.
                                   '-----   u = 1
 
 With u the share of that change, one straight line is fitted to the torque at u between 0.1 and 0.3,
-another between 0.7 and 0.9. Their slopes give the stiffness, their distance in angle at u = 1/2 the play,
-half of the whole change the level. Each is the median over the reversals, with their scatter. This
+another between 0.7 and 0.9. Their slopes give the stiffness, their distance in angle at u = 1/2 the
+play, half of the whole change the level. Each is the median over the reversals, with their scatter. This
 describes the loops, and is no model: viscous torque widens them, too. The torque that is kept at rest
 has no viscous part: only dry friction holds it.
 """
