@@ -173,7 +173,7 @@ class FreeLaw:
     def times(self, strength: float) -> "FreeLaw":
         """The law multiplied by a strength: 0: no law, 1: the law itself.
 
-        Terms that are added to an angle, reading or torque are multiplied; factors are raised to a power.
+        Terms added to an angle, reading or torque are multiplied; factors are raised to a power.
         """
         return FreeLaw(
             curves=tuple(curve.times(strength) for curve in self.curves),

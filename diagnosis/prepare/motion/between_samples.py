@@ -32,7 +32,7 @@ def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
 
 
 def _turn_corners(time_s: Array, base_deg: Array, inside: Array, angles: Array) -> None:
-    """Insert corners into the angles, (N - 1, parts), where lines of three samples on each side cross."""
+    """Insert corners into the angles, (N - 1, parts), where lines of three samples per side cross."""
     rate = np.diff(base_deg) / np.diff(time_s)
     bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
     first = np.arange(2, time_s.size - 3)  # the sample before the corner

@@ -155,7 +155,7 @@ def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
 
 
 def base_noise_deg(rig: NominalRig, trials: Sequence[Trial]) -> float:
-    """Noise of the base's encoder: the claim, unless the scatter of the quietest trial contradicts it."""
+    """Noise of the base's encoder: the claim, unless the scatter of the quietest trial differs."""
     claimed = rig.sensors.base_angle_noise_deg
     found = min(white_noise([trial[BASE]], order=_ORDER) for trial in trials)
     near = claimed > 0 and (not np.isfinite(found) or _agrees(found, claimed))
