@@ -1,8 +1,8 @@
-"""What a step costs in MuJoCo's own 1-D flex, a rope of the same number of elements.
+"""Computing time of a step of MuJoCo's own 1-D flex, a rope with the same number of elements.
 
-Its vertices move in space and its edges resist stretching; nothing of it resists torsion or turns with
-the base, so that it cannot answer the question: only what its step costs is compared, in the fast turn's
-time and at the step of our defaults.
+Its vertices move in space and its edges resist stretching; it has no torsion and does not turn with
+the base, so it cannot replace the needle: only the time of its steps is compared, over the duration of
+the fast turn and with our default step.
 """
 
 from pathlib import Path
