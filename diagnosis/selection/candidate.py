@@ -1,6 +1,6 @@
 """A fitted explanation: its score, what it names, and whether it explains the log."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -62,20 +62,26 @@ class Candidate:
     @property
     def objection(self) -> str:
         """Why it does not explain the log, in words; empty: it does."""
+        return next(self._objections(), "")
+
+    def _objections(self) -> Iterator[str]:
         floor = self.floor
         if not floor.small:
-            return f"above the noise floor: residual {floor.gap:.3f} sigma, limit {floor.gap_limit:.3f}"
+            yield f"above the noise floor: residual {floor.gap:.3f} sigma, limit {floor.gap_limit:.3f}"
         if not floor.reached:
-            return f"not white: slow part {floor.slow:.3f} sigma, limit {floor.slow_limit:.3f}"
+            yield f"not white: slow part {floor.slow:.3f} sigma, limit {floor.slow_limit:.3f}"
+        if self.reached_bounds:
+            yield f"stopped at a bound: {', '.join(self.reached_bounds)}; no real rig is like that"
         if self.held_out is None:
-            return f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
+            yield f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
         for sensor, own in self.coloured.items():
             if own.slow > own.slow_limit:
                 seen = f"slow part {own.slow:.2f} sigma over seconds, limit {own.slow_limit:.2f}"
-                return f"not the noise of {sensor}: {seen}"
+                yield f"not the noise of {sensor}: {seen}"
         if self.shift > self.shift_limit:
-            return f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
-        return "stiffness or damping is off, but it is open which" if self.unidentifiable else ""
+            yield f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
+        if self.unidentifiable:
+            yield "stiffness or damping is off, but it is open which"
 
     def allowing_base_noise(self, problem: FitProblem) -> "Candidate":
         """The same with limits that know what the noise of the encoder leaves in the base motion.
@@ -120,6 +126,13 @@ class Candidate:
             shift=shift_statistic(self.fit),
             coloured=slow_where_coloured(problem, self.fit.by_trial),
         )
+
+    @property
+    def reached_bounds(self) -> tuple[str, ...]:
+        """Parameters of named effects that stopped at a bound, as effect.parameter."""
+        library = [LIBRARY[name] for name in self.names if name in LIBRARY]
+        told = {f"{effect.name}.{p.name}" for effect in library for p in effect.reported}
+        return tuple(name for name in self.fit.status.at_bound if name in told)
 
     @property
     def names(self) -> tuple[str, ...]:

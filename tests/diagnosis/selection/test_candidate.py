@@ -9,6 +9,7 @@ from diagnosis_fixtures import fit_of, joined, log_of, problem_of, scored
 from diagnosis.criteria import SCATTER, SCATTER_NAMED, SHIFT_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate as module
@@ -75,6 +76,23 @@ def test_the_score_is_the_cost_and_the_penalty():
 @pytest.mark.parametrize(("shift", "explains"), [(SHIFT_LIMIT, True), (SHIFT_LIMIT + 0.1, False)])
 def test_trials_that_shift_too_far_are_not_explained(shift, explains):
     assert scored(["tip_drag"], 1.0, shift=shift).explains is explains
+
+
+@pytest.mark.parametrize(
+    ("bound", "explains"),
+    [
+        ("layered_tissue.boundary", False),
+        ("shear_thinning.plateau", True),  # of which nothing is told
+        ("tip_clock.rate", True),  # an imperfection of a sensor
+        ("stiffness_error.scale", True),  # not among its effects
+    ],
+)
+def test_what_needs_a_parameter_at_a_bound_is_another_law(bound, explains):
+    names = ("layered_tissue", "shear_thinning", "tip_clock")
+    status = FitStatus(termination=Termination.GRADIENT, message="", at_bound=(bound,))
+    one = replace(scored(["tip_drag"], 1.0), fit=fit_of(names, status=status))
+    assert one.explains is explains
+    assert ("bound" in one.objection) is not explains
 
 
 def off_by(stiffness, damping, *, names=(), slopes=(1e3, 0.0)):
