@@ -50,7 +50,7 @@ class RigPosterior(Record):
         sizes = {len(self.values), len(self.bounds), len(self.matrix), *map(len, self.matrix)}
         if sizes != {n}:
             raise InvalidValue(
-                "matrix", sorted(sizes), f"{n} values, bounds and rows of {n}: one per parameter"
+                "matrix", sorted(sizes), f"{n} values, bounds and rows of {n}, for {n} parameters"
             )
         spread = np.array(self.matrix)
         variance = np.diag(spread)
