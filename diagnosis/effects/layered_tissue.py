@@ -1,4 +1,4 @@
-"""Two layers of different damping, the total nominal."""
+"""Two layers of different damping, with the nominal total."""
 
 from dataclasses import replace
 
