@@ -454,7 +454,7 @@ SAME_DEPTH_MM = 1.0
 """Depths of trials that differ by less tell nothing of what varies with depth."""
 ALMOST_NOTHING_SIGMA = 0.01
 """Reduction of the gap by another effect that the report calls almost nothing: a third of what GAP_LIMIT
-leaves above the noise."""
+leaves above the noise; of gaps above the noise, this share of them."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
 CONFIDENCE = 0.95

@@ -4,8 +4,9 @@ The stages take typical shares of the time. Once some have ended the pace is kno
 
     left = elapsed * (shares to come) / (shares that have passed),
 
-where a stage that is skipped counts as passed. It is an estimate: nobody knows beforehand whether pairs
-of effects will have to be tried. A limit is known, and nothing takes longer.
+where a stage that is skipped counts as passed. Stages that few logs need (sets of three effects,
+free-form laws) have no share: while one of them runs nobody knows what is left, and its time says
+nothing of the pace. A limit is known, and nothing takes longer.
 """
 
 import time
@@ -24,7 +25,7 @@ class Progress:
       done: tasks of the stage that are done.
       tasks: of the stage.
       elapsed_s: since the diagnosis began.
-      left_s: estimate for the rest of it; None: too early to say.
+      left_s: estimate for the rest of it; None: too early to say, or a stage that few logs need.
     """
 
     stage: str
@@ -89,7 +90,7 @@ _STAGES = {
 }
 """In their order. Shares are means of four logs, three with one effect and one with two; nothing depends
 on them but the estimate of the time that is left. A stage without a share may come at any place, or not
-at all."""
+at all, and take longer than all others."""
 _LEAST_PASSED_PERCENT = 5.0  # of the shares, before which the pace says nothing
 
 
@@ -106,11 +107,15 @@ class ProgressClock:
         self._watcher, self._stop = watcher, stop
         self._began_s = time.monotonic()
         self._passed_percent = 0.0
+        self._last_s, self._expected, self._unexpected_s = 0.0, True, 0.0
 
     def heard(self, stage: str, done: int, tasks: int) -> None:
         """Tell the watcher."""
         self._passed_percent = max(self._passed_percent, _passed(stage, done, tasks))
         elapsed_s = time.monotonic() - self._began_s
+        if not self._expected:
+            self._unexpected_s += elapsed_s - self._last_s
+        self._last_s, self._expected = elapsed_s, _share_percent(stage) > 0
         self._watcher(
             Progress(
                 stage=in_words(stage),
@@ -123,18 +128,24 @@ class ProgressClock:
 
     def _left(self, elapsed_s: float) -> float | None:
         limit_s = self._stop.left_s
-        if self._passed_percent < _LEAST_PASSED_PERCENT:
+        if not self._expected or self._passed_percent < _LEAST_PASSED_PERCENT:
             return max(limit_s, 0.0) if self._stop.limit_s else None
-        left_s = elapsed_s * (_ALL_PERCENT - self._passed_percent) / self._passed_percent
+        pace_s = (elapsed_s - self._unexpected_s) / self._passed_percent
+        left_s = pace_s * (_ALL_PERCENT - self._passed_percent)
         return max(min(left_s, limit_s), 0.0)
 
 
 _ALL_PERCENT = sum(usual.share_percent for usual in _STAGES.values())
 
 
+def _share_percent(stage: str) -> float:
+    """Of a diagnosis; 0: few need this stage."""
+    return _STAGES[stage].share_percent if stage in _STAGES else 0.0
+
+
 def _passed(stage: str, done: int, tasks: int) -> float:
     """Shares of all stages before one, and of its tasks that are done; 0: its place is not known."""
-    if stage not in _STAGES or not _STAGES[stage].share_percent:
+    if not _share_percent(stage):
         return 0.0
     names = list(_STAGES)
     before = sum(_STAGES[name].share_percent for name in names[: names.index(stage)])

@@ -24,6 +24,7 @@ from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
+from diagnosis.selection.verdict import VerdictKind
 from diagnosis.stopping import StoppedEarly, StopSignal
 from scripts.exit_codes import ExitCode
 from scripts.output_folder import output_folder
@@ -125,7 +126,8 @@ def _summary(found: Diagnosis, console: Console) -> None:
     elif found.assessment.nearest.effects:
         parameters = as_json(found)["nearest"]["parameters"]
         print_table(console, _parameter_table(parameters, "What comes nearest"), keys=2)
-    print_table(console, _ranking_table(found))
+    if found.verdict.kind is not VerdictKind.UNKNOWN:  # then no explanation has a probability
+        print_table(console, _ranking_table(found))
     if told.detection_limits and not found.verdict.effects:
         print_table(console, _limits_table(found))
     for sentence in unidentifiable(found.log):

@@ -293,7 +293,7 @@ def refuse_untrustworthy(outputs: Array, time_s: Array, step_s: float) -> None:
         bad = time_s[np.flatnonzero(~np.isfinite(outputs).all(axis=1))[0]]
         raise SimulationFailed(
             f"expected finite outputs, found NaN or infinity at {bad:.3f} s; take a smaller step "
-            f"than {step_s} s, or check the tissue's parameters"
+            f"than {step_s:.3g} s, or check the tissue's parameters"
         )
     landing = float(outputs[-1, memory_map.O_LANDING])
     if landing > _LANDING_TOLERANCE_RAD:

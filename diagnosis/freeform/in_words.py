@@ -116,7 +116,8 @@ def course_of(law: Law) -> str:
 
 
 def _beside(missing: Missing) -> str:
-    """The gaps that laws of other variables leave."""
-    others = [d for d in missing.depends_on[1:] if d.gap_after < float("inf")][:_OTHERS]
+    """The gaps that laws of other variables leave, if they were fitted to the same samples."""
+    fitted = (d for d in missing.depends_on[1:] if not d.decimated and d.gap_after < float("inf"))
+    others = list(fitted)[:_OTHERS]
     told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
     return f"; the best laws of other variables leave {told}" if told else ""

@@ -35,12 +35,15 @@ class Dependence:
     Attributes:
       title: the quantity that the law gives.
       place: where it acts.
+      decimated: whether the gap is that of the decimated log: its samples are means, whose noise is
+        less, so gaps are larger, and compare among themselves alone.
     """
 
     variable: str
     gap_after: float
     title: str
     place: Place
+    decimated: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +127,11 @@ def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
         found.setdefault(
             family.says,
             Dependence(
-                variable=family.says, gap_after=one.gap_after, title=family.title, place=family.place
+                variable=family.says,
+                gap_after=one.gap_after,
+                title=family.title,
+                place=family.place,
+                decimated=not one.final,
             ),
         )
     first, *others = found.values()

@@ -34,5 +34,5 @@ margin:.6rem 0}
 --warn:#fff;--warn-line:#000;--muted:#333}
 body{font-size:10pt;max-width:none;padding:0}nav,.skip{display:none}.scroll{overflow:visible}
 img,.wide img{filter:none;width:auto;max-width:100%;max-height:22cm}
-figure,tr,.warning{break-inside:avoid}h1,h2,h3,caption{break-after:avoid}}
+figure,tr,.warning{break-inside:avoid}h1,h2,h3,caption,p:has(+figure){break-after:avoid}}
 """

@@ -125,6 +125,7 @@ def _dependence(one: Dependence) -> dict[str, Any]:
         "gap_after": one.gap_after if math.isfinite(one.gap_after) else None,
         "place": one.place.value,
         "title": one.title,
+        "decimated": one.decimated,
     }
 
 

@@ -9,6 +9,7 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
 
 _NOTHING = "the nominal model as it is"
+_NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %
 
 
 def headline(found: Diagnosis) -> str:
@@ -44,15 +45,16 @@ def _verdict(found: Diagnosis) -> str:
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
             near = found.assessment.nearest
-            nearest_gap = f"{near.gap_after:.2f} σ (σ = sensor noise)"
+            best = f"at best {near.gap_after:.2f} σ" if near.effects else "which none of them lowers"
             if found.verdict.other_form:
                 return (
                     f"Unknown: residual {before}. {_capital(titles(near.effects))} would leave "
-                    f"{nearest_gap}, but {found.verdict.other_form} leaves clearly less"
+                    f"{near.gap_after:.2f} σ (σ = sensor noise), but {found.verdict.other_form} leaves "
+                    "clearly less"
                 )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
-                f"residual {before}, at best {nearest_gap}"
+                f"residual {before}, {best} (σ = sensor noise)"
             )
 
 
@@ -121,6 +123,8 @@ def reduction(found: Diagnosis) -> str:
     seen = "On held-out trials, which the fit has not seen,"
     if len(found.log.trials) == 1:
         seen = "On the only trial, which is also the one that was fitted,"
+    if abs(gap.shrink) < _NO_SHRINK:
+        return f"{seen} the residual is {gap.after:.2f} σ. 1 σ is the noise floor."
     return (
         f"{seen} the residual falls from {gap.before:.2f} σ to "
         f"{gap.after:.3f} σ: by {100 * gap.shrink:.1f} % "
@@ -136,7 +140,7 @@ def with_one_more(found: Diagnosis) -> str:
         return ""
     here = found.verdict.best.fit.gap
     named = ", ".join(f"with {name} {gap:.3f} σ" for name, gap in first)
-    little = here - first[0][1] < ALMOST_NOTHING_SIGMA
+    little = here - first[0][1] < ALMOST_NOTHING_SIGMA * max(here, 1.0)
     change = "changes almost nothing" if little else "would lower the residual"
     return f"Adding another effect {change}: on the trials of the fit it is {here:.3f} σ, {named}."
 
@@ -161,11 +165,9 @@ def largest_residual(found: Diagnosis) -> str:
 
 def largest_parts(found: Diagnosis) -> str:
     """In which signal and phase the residual is largest, before and after the best explanation."""
-    told = found.assessment
-    return (
-        f"Residual of the nominal model: {told.breakdown.largest}; "
-        f"of {best_in_words(found)}: {told.breakdown_after.largest}"
-    )
+    before, after = (b.largest for b in (found.assessment.breakdown, found.assessment.breakdown_after))
+    nominal = f"Residual of the nominal model: {before}"
+    return nominal if after == before else f"{nominal}; of {best_in_words(found)}: {after}"
 
 
 def label_of(found: Diagnosis, prediction: str) -> str:

@@ -12,6 +12,7 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.record import Decision, RecordEntry
 
 _FOUR_DECIMALS = (0.1, 10.0)  # factors near 1 are told by four decimals, else three digits
+_SHOWN_SETS = 8  # sets of effects that were dropped for one reason; single effects are all named
 
 
 def parameter_table(parameters: Mapping[str, Any]) -> str:
@@ -51,10 +52,17 @@ def _as_one(entry: RecordEntry) -> tuple[str, Decision, str] | int:
 
 def _row(same: Sequence[RecordEntry]) -> tuple[str, ...]:
     first = same[0]
-    named = ", ".join(" + ".join(entry.effects) or "nominal rig" for entry in same)
     gap = "" if first.gap is None else f"{first.gap:.3f}"
-    score = "" if first.score is None else f"{first.score:.1f}"
-    return first.stage, named, first.decision.value, gap, score, first.reason
+    score = "" if first.score is None else f"{first.score:.0f}"
+    return first.stage, _named(same), first.decision.value, gap, score, first.reason
+
+
+def _named(same: Sequence[RecordEntry]) -> str:
+    every = [" + ".join(entry.effects) or "nominal rig" for entry in same]
+    more = len(every) - _SHOWN_SETS
+    if more <= 0 or len(same[0].effects) < 2:
+        return ", ".join(every)
+    return f"{', '.join(every[:_SHOWN_SETS])} and {more} more"
 
 
 def limit_in_words(effect: str, values: Mapping[str, float]) -> str:
@@ -66,13 +74,14 @@ def limit_in_words(effect: str, values: Mapping[str, float]) -> str:
 def _bounded(parameter: Parameter, value: float) -> str:
     """The values that go unseen: from the given one to that at which the effect is not there."""
     size = abs(value)
-    told = f"{_rounded(size)} {parameter.unit}".removesuffix(" -")
     if parameter.neutral is None:
-        return f"{parameter.name} {told}"
+        return f"{parameter.name} {size:.3g} {parameter.unit}".removesuffix(" -")
+    number = _factor(size) if parameter.unit == "-" else f"{size:.3g}"
+    told = f"{number} {parameter.unit}".removesuffix(" -")
     name = f"|{parameter.name}|" if parameter.low < 0 else parameter.name
     return f"{name} {'≥' if size < parameter.neutral else '≤'} {told}"
 
 
-def _rounded(value: float) -> str:
+def _factor(value: float) -> str:
     low, high = _FOUR_DECIMALS
     return f"{value:.4f}" if low < abs(value) < high else f"{value:.3g}"

@@ -52,9 +52,15 @@ def test_at_the_end_nothing_is_left(told):
     assert told((10.0, "detection limits", 5, 5))[0].left_s == pytest.approx(0.0)
 
 
-def test_a_stage_at_no_certain_place_takes_nothing_back(told):
-    before, after = told((10.0, "pairs", 1, 2), (10.0, "mesh refinement", 0, 2))
-    assert after.left_s == before.left_s
+@pytest.mark.parametrize("stage", ["mesh refinement", "three effects", "screening free-form laws"])
+def test_of_a_stage_that_few_logs_need_nobody_knows_when_it_ends(told, stage):
+    """Once it has ended, its time says nothing of the pace of the others."""
+    before, within, still, after = told(
+        (10.0, "pairs", 1, 2), (10.0, stage, 0, 2), (50.0, stage, 1, 2), (90.0, "pairs", 1, 2)
+    )
+    assert (within.left_s, still.left_s) == (None, None)
+    assert after.left_s == pytest.approx(before.left_s)
+    assert told((10.0, stage, 0, 2), limit_s=35.0)[0].left_s == pytest.approx(25.0)
 
 
 def test_no_more_is_left_than_the_limit_leaves(told):

@@ -178,7 +178,7 @@ def _direction(ranges: LogRanges) -> Family:
         ),
         places=_PLACES,
         says="direction",
-        title=f"friction along the shaft, turned slowly at {SLOW_RAD_S:g} rad/s,",
+        title=f"friction along the shaft at {SLOW_RAD_S:g} rad/s",
         curve=partial(_both_ways, beta),
         x_unit="-",
         unit="N mm / mm",

@@ -133,7 +133,7 @@ OF_ANY = (
 OF_ANGLE = (
     Shape(
         name="sine wave",
-        says="{0:.3g} + {1:.3g} sin({3:.3g} angle {2:+.3g} rad)",
+        says="{0:.3g} + {1:.3g} sin({3:.3g} angle + phase), phase {2:.3g} rad",
         law=_wave,
         start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
     ),

@@ -99,11 +99,12 @@ def _label_motion(row: Sequence[Axes], sensor: str) -> None:
     row[0].set(xlabel="base angle, deg", ylabel="mean residual / σ")
     row[1].set_title("after a reversal", fontsize=9, loc="left")
     row[1].set(xlabel="time since the base turned back, s", ylabel="root mean square / σ", xscale="log")
-    row[1].set_ylim(bottom=0)
     row[1].axhline(1, color="k", lw=1)
+    row[1].set_ylim(0, 1.1 * row[1].dataLim.ymax)
     row[2].set_title("against the rate of the base", fontsize=9, loc="left")
     row[2].set(xlabel="rate, deg/s", ylabel="mean residual / σ")
     row[2].set_xscale("symlog", linthresh=TURNING_DEG_S)
+    row[2].tick_params(axis="x", labelsize=7)
     row[1].minorticks_off()
     for axis in (row[0], row[2]):
         axis.axhline(0, color="k", lw=1)

@@ -24,7 +24,7 @@ def draw_breakdown(found: Diagnosis) -> Figure:
     _bars(axes[1], phases, [[w.phase[k] for k in phases] for w in both], "by phase of the motion")
     _bars(axes[2], bands, [[v for *_, v in w.band_hz] for w in both], "by frequency")
     _bars(axes[3], depths, [[v for _, v in w.depth_mm] for w in both], "by depth")
-    axes[0].legend(labels, fontsize=8)
+    axes[0].legend(axes[0].containers, labels, fontsize=8)  # not the line of the noise floor
     figure.supxlabel("residual / σ; the line is the noise floor", fontsize=9)
     return figure
 

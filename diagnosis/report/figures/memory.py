@@ -64,6 +64,9 @@ def _draw_spectrum(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape],
             )
     axis.set_title(f"{LABELS[sensor]}: spectrum of the residual", fontsize=9, loc="left")
     axis.set(xlabel="frequency, Hz", ylabel="σ² / Hz")
+    if axis.get_lines():
+        low, high = np.log10(axis.get_ylim())
+        axis.set_ylim(10.0 ** np.floor(low), 10.0 ** np.ceil(high))  # a number at both ends at least
 
 
 def _draw_autocorrelation(axis: Axes, sensor: str, shapes: Mapping[str, ResidualShape]) -> None:

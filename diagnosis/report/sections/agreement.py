@@ -13,7 +13,7 @@ _TRIALS = (
     "Grey: measured. Dashed blue: the nominal model. Solid red: {best}. Below each signal: measured "
     "minus predicted, in σ (one standard deviation of the sensor's noise), with each sample as a "
     "thin line and means as a thick one. If only noise is left, 95 % of the samples lie in the grey "
-    "band."
+    "band. Where only one line shows, the predictions agree."
 )
 _LOOPS = (
     "The trials whose loops differ most from those of the nominal model. A loop of torque against "

@@ -3,7 +3,7 @@
 import math
 
 from diagnosis.freeform.in_words import PLACES, VARIABLES
-from diagnosis.freeform.missing import Missing
+from diagnosis.freeform.missing import Dependence, Missing
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.law import describe_law, draw_law
@@ -22,8 +22,9 @@ _PLACES = (
 _GAPS = (
     "For each variable, the law that leaves the smallest gap on trials that its fit has not seen, "
     "relative to the noise and to the uncertainty of the curve; 1 is the noise floor. Only the first "
-    "few laws are fitted to the full log. The others are fitted to a decimated log, and their gap is "
-    "that of the fit."
+    "few laws are fitted to the full log. The others are fitted to the decimated log, and their gap is "
+    "that of the fit. Its samples are means, which have less noise: their gaps are larger in σ, and "
+    "compare only with each other."
 )
 
 
@@ -49,16 +50,20 @@ def missing_section(found: Diagnosis) -> list[str]:
 def _place_table(missing: Missing) -> str:
     ranked = sorted(missing.place.items(), key=lambda item: -item[1])
     rows = [(PLACES[place], f"{p:.2f}") for place, p in ranked]
-    return html.table(("what is missing acts", "probability"), rows, "Where it acts")
+    return html.table(("what is missing acts", "probability"), rows, "Probability of each place")
 
 
 def _variable_table(missing: Missing) -> str:
     rows = [
-        (VARIABLES[one.variable], one.title, PLACES[one.place], _gap(one.gap_after))
+        (VARIABLES[one.variable], one.title, PLACES[one.place], _gap(one.gap_after), _fitted_to(one))
         for one in missing.depends_on
     ]
-    head = ("depends on", "law of", "acts", "gap after / σ")
-    return html.table(head, rows, "What it depends on")
+    head = ("depends on", "law of", "acts", "gap after / σ", "fitted to")
+    return html.table(head, rows, "The best law of each variable")
+
+
+def _fitted_to(one: Dependence) -> str:
+    return "decimated log" if one.decimated else "full log"
 
 
 def _gap(gap_sigma: float) -> str:

@@ -28,7 +28,7 @@ def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]
     if sentence := nearest(found):
         own = report["nearest"]["parameters"]
         parts = [html.heading("What comes nearest"), html.paragraph(f"{sentence}.")]
-        return [*parts, *_values(found, own), html.paragraph(_NEAREST)]
+        return [*parts, *_values(found, own), *([html.paragraph(_NEAREST)] if own else [])]
     own = report["parameters"]
     return [html.heading("Parameters"), *_values(found, own)] if own else []
 

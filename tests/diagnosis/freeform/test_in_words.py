@@ -57,6 +57,14 @@ def test_place_variable_course_and_gap_are_in_the_sentence():
     assert "the best laws of other variables leave 2.50 σ with the time since a trial began." in said
 
 
+def test_gaps_of_the_decimated_log_are_not_told_beside_those_of_the_log_itself():
+    """Means have less noise: in sigma, they leave more than the nominal rig does on all samples."""
+    told = missing_with(best=seen_fit())
+    first, *others = told.depends_on
+    behind = (first, *(replace(one, decimated=True) for one in others))
+    assert "other variables" not in what_is_missing(replace(told, depends_on=behind), 8.9)
+
+
 def seen_fit():
     """A fit that was checked on unseen trials."""
     return replace(free_fit(1.03, says="rate"), held_out=(LAW.x,))

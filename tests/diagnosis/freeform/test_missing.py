@@ -72,6 +72,7 @@ def test_after_the_best_variables_are_in_the_order_of_what_is_left():
     ]
     told = missing_of([*fits(), *more], 5.0).depends_on
     assert [d.variable for d in told] == ["direction", "torque", "depth", "time", "rate"]
+    assert [d.variable for d in told if d.decimated] == ["depth"]
 
 
 def test_what_was_fitted_to_the_log_itself_comes_before_what_was_not():

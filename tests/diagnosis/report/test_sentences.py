@@ -166,6 +166,15 @@ def test_the_reduction_is_told_with_its_interval(dry):
     assert f"{100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %" in said
 
 
+def test_what_stays_as_it_is_does_not_fall(dry):
+    told = dry.found.assessment
+    gap = replace(told.gap, before=1.0, after=0.9996, shrink=0.0004, shrink_low=0.0, shrink_high=0.001)
+    same = replace(told, gap=gap, breakdown_after=told.breakdown)
+    found = replace(dry.found, assessment=same)
+    assert "the residual is 1.00 σ. 1 σ is the noise floor." in reduction(found)
+    assert largest_parts(found) == f"Residual of the nominal model: {told.breakdown.largest}"
+
+
 def test_the_best_of_an_unknown_log_is_called_no_explanation(dry):
     unknown = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN))
     called = {found.verdict.kind: label_of(found, "explained") for found in (dry.found, unknown)}
@@ -195,12 +204,27 @@ def test_an_unknown_log_is_told_with_the_gap_of_the_nearest_not_of_the_law(dry):
     assert f"at best {near:.2f} σ" in headline(replace(found, missing=missing_with()))
 
 
+def test_an_unknown_log_that_nothing_comes_nearer_to_has_no_best(dry):
+    near = replace(dry.found.assessment.nearest, effects=())
+    told = replace(dry.found.assessment, nearest=near)
+    found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), assessment=told)
+    assert "which none of them lowers" in headline(found)
+    assert "at best" not in headline(found)
+
+
 def test_one_more_effect_that_changes_nothing_is_said_to(dry):
     found = dry.found
     assert "Adding another effect changes almost nothing" in with_one_more(found)
     here = found.verdict.best.fit.gap
     told = replace(found.assessment, with_one_more={"tip_drag": 0.5 * here})
     assert "would lower the residual" in with_one_more(replace(found, assessment=told))
+    best = replace(
+        found.verdict.best, fit=replace(found.verdict.best.fit, cost=400.0 * found.verdict.best.fit.cost)
+    )
+    far = concluding(
+        replace(found, assessment=replace(told, with_one_more={"tip_drag": 19.95 * here})), best=best
+    )
+    assert "changes almost nothing" in with_one_more(far)
     nothing = replace(found.assessment, with_one_more={})
     assert with_one_more(replace(found, assessment=nothing)) == ""
 

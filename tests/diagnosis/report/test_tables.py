@@ -30,7 +30,8 @@ def cells(table):
         ("tip_drag", {"damping": 0.02}, "damping ≤ 0.02 N mm s / rad"),
         ("tip_angle_bias", {"bias": -0.025}, "|bias| ≤ 0.025 deg"),
         ("tip_angle_scale", {"scale": 0.99}, "scale ≥ 0.9900"),
-        ("layered_tissue", {"ratio": 1.1, "boundary": 0.35}, "ratio ≤ 1.1000, boundary 0.3500"),
+        ("layered_tissue", {"ratio": 1.1, "boundary": 0.35}, "ratio ≤ 1.1000, boundary 0.35"),
+        ("inserted_offset", {"offset": 0.48781}, "|offset| ≤ 0.488 mm"),
         ("stiction", {}, "any strength"),
     ],
 )
@@ -65,7 +66,7 @@ def test_every_decision_of_the_search_is_a_row():
         *dropped("finalists", [scored(["tip_drag"], 20.0)], "others are better"),
     )
     rows = cells(search_table(record))[1:]
-    assert rows[0] == ["nominal rig", "nominal rig", "kept", "1.000", "12.3", "as rig.yaml says"]
+    assert rows[0] == ["nominal rig", "nominal rig", "kept", "1.000", "12", "as rig.yaml says"]
     assert rows[1] == ["pairs", "tip_drag + stiction", "dropped", "", "", "promises too little"]
     assert rows[2][2:] == ["failed", "", "", "a &lt; b"]
     assert len(rows) == 4
@@ -82,3 +83,12 @@ def test_what_was_not_fitted_for_one_reason_is_one_row_and_every_fit_has_its_own
         "tip_drag",
         "stiction",
     ]
+
+
+def test_of_many_sets_the_first_are_named_and_the_others_counted_single_effects_all():
+    names = [f"effect_{i}" for i in range(20)]
+    sets = not_fitted("pairs", [("tip_drag", name) for name in names], "promises too little")
+    alone = not_fitted("single effects", [(name,) for name in names], "promises too little")
+    of_sets, of_single = cells(search_table((*sets, *alone)))[1:]
+    assert of_sets[1].endswith("tip_drag + effect_7 and 12 more")
+    assert of_single[1] == ", ".join(names)

@@ -36,6 +36,13 @@ def test_after_a_reversal_the_root_mean_square_falls_to_the_floor(dry):
     np.testing.assert_allclose(explained, 1.0, atol=4 * 0.16)
 
 
+def test_after_a_reversal_no_mark_is_at_the_edge(dry):
+    axis = draw_along_motion(dry.found).axes[1]
+    low, high = axis.get_ylim()
+    assert low == 0.0
+    assert high > 1.05 * max(1.0, *(max(line.get_ydata()) for line in drawn(axis)))
+
+
 def test_dry_friction_that_the_nominal_model_lacks_has_the_sign_of_the_motion(dry):
     """Torque is too large forward and too small back, at the same angle."""
     forward, back = drawn(draw_along_motion(dry.found).axes[0])[:2]

@@ -28,6 +28,14 @@ def test_nominal_bars_are_hatched_so_that_they_differ_without_colour(dry):
     assert not any(bar.get_hatch() for bar in bars[half:])
 
 
+def test_the_legend_names_the_bars_not_the_line_of_the_floor(dry):
+    legend = draw_breakdown(dry.found).axes[0].get_legend()
+    named = dict(zip((t.get_text() for t in legend.get_texts()), legend.get_patches(), strict=True))
+    assert list(named) == ["nominal", "explained"]
+    assert named["nominal"].get_hatch()
+    assert not named["explained"].get_hatch()
+
+
 def test_words_have_the_numbers_of_the_bars(dry):
     told = dry.found.assessment
     said = describe_breakdown(dry.found)

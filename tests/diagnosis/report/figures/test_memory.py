@@ -28,6 +28,18 @@ def test_spectra_are_those_of_the_assessment_beside_white_noise(dry):
     assert set(white.get_ydata()) == {shape.white_per_hz}
 
 
+def test_the_power_has_a_number_at_both_ends_however_flat_a_spectrum_is(dry):
+    told = dry.found.assessment
+    flat = {
+        s: replace(p, power_per_hz=((0.1, 0.02), (10.0, 0.03))) for s, p in told.shape.spectrum.items()
+    }
+    shape = replace(told.shape, spectrum=flat)
+    found = replace(dry.found, assessment=replace(told, shape=shape, shape_after=shape))
+    low, high = np.log10(draw_memory(found).axes[0].get_ylim())
+    assert (low, high) == pytest.approx((np.round(low), np.round(high)))
+    assert low < high
+
+
 def test_the_autocorrelation_falls_into_the_band_of_white_noise(dry):
     axis = draw_memory(dry.found).axes[1]
     before, after = (line.get_ydata() for line in axis.get_lines())

@@ -1,5 +1,6 @@
 """What is missing, on the page."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 from free_forms import LAW, missing_with
@@ -47,3 +48,11 @@ def test_a_law_that_could_not_be_simulated_on_unseen_trials_has_no_number():
     rows = "".join(missing_section(telling(missing_with())))
     assert "<td>not simulated</td>" in rows
     assert "<td>inf</td>" not in rows
+
+
+def test_a_gap_says_to_what_its_law_was_fitted():
+    first, second, *_ = missing_with().depends_on
+    told = replace(missing_with(), depends_on=(first, replace(second, decimated=True)))
+    page = "".join(missing_section(telling(told)))
+    assert "<td>1.03</td><td>full log</td>" in page
+    assert "<td>2.50</td><td>decimated log</td>" in page

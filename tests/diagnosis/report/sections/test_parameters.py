@@ -37,3 +37,15 @@ def test_of_an_unknown_log_it_is_what_comes_nearest(dry):
 def test_where_nothing_was_fitted_there_is_no_section(dry):
     nothing = replace(dry.found, verdict=replace(dry.found.verdict, kind=VerdictKind.NONE, effects=()))
     assert parameters_section(nothing, {**dry.report, "parameters": {}}) == []
+
+
+def test_where_nothing_came_nearer_there_are_no_intervals_to_speak_of(dry):
+    near = replace(dry.found.assessment.nearest, effects=())
+    unknown = replace(
+        dry.found,
+        verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN, effects=()),
+        assessment=replace(dry.found.assessment, nearest=near),
+    )
+    said = "".join(parameters_section(unknown, {**dry.report, "nearest": {"parameters": {}}}))
+    assert "nothing that was tried improves on the nominal model" in said
+    assert "intervals" not in said
