@@ -1,4 +1,4 @@
-"""What the simulator costs, beside what others cost. One thread each: BLAS too."""
+"""Computing time of the simulator, and of other programs. One thread each, also for BLAS."""
 
 import os
 

@@ -1,9 +1,9 @@
-"""Many insertions at once: what a second thread gains, and what a campaign costs beside its insertions.
+"""Many insertions at once: the speed-up by a second thread, and the overhead of a campaign.
 
-`sim.batch.simulate_each` runs insertions that differ in tissue, turn and depth on one thread and on two,
-in turns, in wall time: the ratio is the speed-up. It needs two cores that have nothing else to do; the
-load of the machine is printed. What a campaign adds (drawing values, rows, files) is measured on one
-process, as CPU time beside that of its insertions in the same run.
+`sim.batch.simulate_each` runs insertions that differ in tissue, turn and depth alternately on one thread
+and on two, in wall time: the ratio is the speed-up. It needs two idle cores; the
+load of the machine is printed. The overhead of a campaign (drawing values, rows, files) is measured on
+one process, as CPU time, together with that of its insertions in the same run.
 """
 
 import os

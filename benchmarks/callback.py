@@ -1,10 +1,10 @@
-"""What the tissue callback adds to a bare `mj_step`, and where the rest of it goes.
+"""The time that the tissue callback adds to a bare `mj_step`, and the time of each stage of the step.
 
 The states of the fast turn (20 cm needle, 90 deg in 0.3 s, steps of 10 ms) are
 recorded over its first second. A compiled loop then restores each of them with
 `mj_setState` and takes one `mj_step`: with the model as it is, and with its header
-unmarked, so that the callback returns at once. What restoring costs is
-measured alone and taken off. So both step the same states: a needle without tissue,
+unmarked, so that the callback returns at once. The time of restoring is measured
+separately and subtracted. So both step the same states: a needle without tissue,
 left to itself, would soon be timed on zeros and denormals. Both use one model and one
 data: another place in memory alone changes a step by several percent. The difference
 holds the passive and the sensor callback; the passive one is also called alone.
@@ -49,7 +49,7 @@ _STAGES = ("kinematics", "inertia", "other position", "velocity", "advance", "so
 
 @dataclass(frozen=True, kw_only=True)
 class Cost:
-    """Of one `mj_step`, us.
+    """Times of one `mj_step`, us.
 
     Attributes:
       callback_us: what the callbacks add.
@@ -165,7 +165,7 @@ def measure_one(setup: Setup, sweeps: dict[str, Sweep]) -> Cost:
 
 
 def _check(data: mujoco.MjData) -> None:
-    """A bare step must have stepped something real."""
+    """Check that the bare step had rates to integrate."""
     if not np.isfinite(data.qpos).all() or np.abs(data.qvel).max() < 1e-9:
         raise RuntimeError(f"the bare step ended at rates {data.qvel}: not a step worth timing")
 

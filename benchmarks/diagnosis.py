@@ -1,4 +1,4 @@
-"""Where the time of `needle diagnose` goes, how it grows with the log, and the memory that it takes.
+"""Computing time of `needle diagnose` by stage, its growth with the length of the log, and its memory.
 
 Logs come from the independent rig of `validation.rig`: five trials of 120 s in all at
 100 Hz, with one effect and with a pair of them; and a shorter log once, twice and four
@@ -59,13 +59,13 @@ _PEAK_UNIT = 1 if sys.platform == "darwin" else 1024  # of ru_maxrss, bytes
 
 @dataclass(frozen=True, kw_only=True)
 class Cost:
-    """Of one diagnosis.
+    """Time and memory of one diagnosis.
 
     Attributes:
-      says: what it found.
+      says: its result in words.
       stages_s: wall-clock time by stage, s, in their order.
       cpu_s: of the process and its workers.
-      peak_gib: at most: as if all workers peaked together, and shared nothing.
+      peak_gib: upper limit of the memory, as if all workers peaked together and shared nothing.
       replay_s: CPU time of one replay of the log by the nominal needle.
     """
 
@@ -78,12 +78,12 @@ class Cost:
 
     @property
     def wall_s(self) -> float:
-        """From the log's files to the report's."""
+        """Wall-clock time from the log's files to the report's, s."""
         return sum(self.stages_s.values())
 
 
 class Stages:
-    """A stopwatch: what passes until a mark counts to the mark's stage."""
+    """A stopwatch: the time until a mark counts for the stage of the mark."""
 
     def __init__(self) -> None:
         self.seconds: dict[str, float] = {}
@@ -96,12 +96,12 @@ class Stages:
         self._last = now
 
     def heard(self, news: Progress) -> None:
-        """A report of progress; up to the first there is all that comes before the search."""
+        """Mark a report of progress; the time up to the first one is that before the search."""
         self.mark(news.stage if _BEFORE in self.seconds else _BEFORE)
 
 
 def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over: int = 1) -> Path:
-    """Write a log of a rig with these effects; its trials come again with new noise.
+    """Write a log of a rig with these effects; its trials are repeated with new noise.
 
     Raises:
       ValueError: the trials of the plan cannot show such effects.
@@ -111,7 +111,9 @@ def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over:
     comparison = RigComparison(motions, _SENSORS, coarse=True)
     rig = draw_rig(rng, comparison, "pair" if len(effects) > 1 else "single", effects, _SIGNATURE)
     if rig is None:
-        raise ValueError(f"effects: {effects}; expected some that {plan} can show; try another seed")
+        raise ValueError(
+            f"effects: expected some that {plan} can show, found {effects}; try another seed"
+        )
     folder.mkdir(parents=True, exist_ok=True)
     shown = [(motion, ideal_signals(rig, motion)) for motion in motions] * times_over
     (folder / "rig.yaml").write_text(rig_yaml(_SENSORS, rig, len(shown)))
@@ -122,7 +124,7 @@ def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over:
 
 
 def cost(folder: Path) -> Cost:
-    """Of diagnosing a log, in a process of its own."""
+    """Time and memory of the diagnosis of a log, in a process of its own."""
     # A server's child starts its count of memory afresh, but would have its workers from the server.
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("forkserver")) as alone:
         return alone.submit(_cost, folder, multiprocessing.get_start_method()).result()
@@ -154,7 +156,7 @@ def _cost(folder: Path, usual: str) -> Cost:
 
 
 def used_cpu_s() -> float:
-    """Of this process and of its workers that have ended."""
+    """CPU time of this process and of its workers that have ended, s."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(usage.ru_utime + usage.ru_stime for usage in used)
 

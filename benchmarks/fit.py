@@ -1,10 +1,10 @@
-"""What a Jacobian of a fit costs: columns that MuJoCo steps, and columns of the callback alone.
+"""Computing time of a Jacobian of a fit: with MuJoCo's steps, and with the callback alone.
 
-Where a fit ends its values are MuJoCo's. On its way, and for its slopes, the callback's own steps do, on
-which MuJoCo's land (`sim.needles.callback_loop`), so that these may leave MuJoCo out.
-For effects that change the needle: one Jacobian of each with all that every fit leaves open, both
-ways, on the decimated log and on the log itself; the ratio of times, and how far the columns are
-apart, over their own norm. Both take turns in one run: the ratio is what counts.
+The values at the end of a fit are MuJoCo's. Its iterations and slopes use the callback's own steps,
+which end where MuJoCo's do (`sim.needles.callback_loop`).
+For effects that change the needle: one Jacobian of each, with the nuisance parameters, both ways, on the
+decimated log and on the log itself; the ratio of times, and the difference of the columns / their
+norm. Both ways alternate in one run: the ratio is the result.
 """
 
 from collections.abc import Callable
@@ -58,12 +58,12 @@ class Columns:
 
     @property
     def ratio(self) -> float:
-        """How many times as long MuJoCo takes."""
+        """Time with MuJoCo / time with the callback alone."""
         return self.mujoco_s / self.callback_s
 
 
 def columns(problem: FitProblem, name: str, log: str) -> Columns:
-    """Of an effect at its first start."""
+    """The Jacobian of an effect at its first start, both ways."""
     parameterization = problem.parameterization((name,))
     x = parameterization.joined({name: starts(problem.library[name])[0]})
     rigs = [parameterization.rig(x + step) for step in _DIFFERENCE * np.eye(x.size)]

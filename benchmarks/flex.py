@@ -1,8 +1,8 @@
-"""What a step costs in MuJoCo's own 1-D flex, a rope of the same number of elements.
+"""Computing time of a step of MuJoCo's own 1-D flex, a rope with the same number of elements.
 
-Its vertices move in space and its edges resist stretching; nothing of it resists torsion or turns with
-the base, so that it cannot answer the question: only what its step costs is compared, in the fast turn's
-time and at the step of our defaults.
+Its vertices move in space and its edges resist stretching; it has no torsion and does not turn with
+the base, so it cannot replace the needle: only the time of its steps is compared, over the duration of
+the fast turn and with our default step.
 """
 
 from pathlib import Path
@@ -61,7 +61,9 @@ def run(folder: Path) -> list[report.Goal]:
 
     least = report.least_times_s({"rope": turn_of_rope, "ours": rollout_of(setup)}, turns=7)
     if not np.isfinite(data.qpos).all():
-        raise RuntimeError("the rope is unstable at this step: not a step worth timing")
+        raise RuntimeError(
+            f"expected a stable rope at steps of {step_s} s, found positions that are not finite"
+        )
     rows = [{"what": name, "us a step": 1e6 * seconds / steps} for name, seconds in least.items()]
     report.show(f"1-D flex, {_ELEMENTS} elements", rows, folder, "flex")
     name = f"a step of MuJoCo's 1-D flex, n = {_ELEMENTS}"

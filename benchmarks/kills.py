@@ -1,4 +1,4 @@
-"""Kills a command again and again, at random moments, and looks at what it leaves.
+"""Kills a command repeatedly at random times, and checks the files that it leaves.
 
     python -m benchmarks.kills --kills 60 --seed 1
 
@@ -98,7 +98,7 @@ def _left(place: Path, sets: dict[str, Path]) -> Counter[str]:
 
 
 def _lengths_s(place: Path) -> tuple[float, float]:
-    """How long a run takes until it writes, and writes."""
+    """Time until a run begins to write, and time of writing, s."""
     began_s = time.monotonic()
     running = _begun(place, place / "p.yaml")
     _wait_until_it_writes(running, place)
@@ -114,7 +114,7 @@ def _wait_until_it_writes(running: ForkProcess, place: Path) -> None:
 
 
 def _wait_until_decided(running: ForkProcess, place: Path) -> None:
-    """Look at the one path again and again: it is there for some milliseconds."""
+    """Poll for the journal, which exists for some milliseconds only."""
     _wait_until_it_writes(running, place)
     journal = str(next(place.glob(_PARTS), place) / _JOURNAL)
     while not os.path.exists(journal) and running.is_alive():

@@ -1,7 +1,7 @@
-"""What the benchmarks share: timing, tables, goals, and where they are written.
+"""Common parts of the benchmarks: timing, tables, goals, output files.
 
-Times are of the process's CPU. A machine has other work to do, and its clock moves:
-tasks that are compared take turns in one run, and the least time of each counts.
+Times are CPU times of the process. The load and the clock rate of a machine vary:
+tasks that are compared alternate in one run, and the shortest time of each counts.
 """
 
 import argparse
@@ -31,10 +31,10 @@ _FILES_ALONE: ContextVar[bool] = ContextVar("files_alone", default=False)
 
 @dataclass(frozen=True, kw_only=True)
 class Goal:
-    """A measured value and the bound that it is to keep; NaN: not measured here, or no bound.
+    """A measured value and its bound; NaN: not measured here, or no bound.
 
     Attributes:
-      accuracy: at which it was measured.
+      accuracy: the accuracy at which it was measured.
     """
 
     name: str
@@ -46,14 +46,14 @@ class Goal:
 
     @property
     def asked(self) -> str:
-        """The bound as a person reads it."""
+        """The bound in words."""
         if math.isnan(self.bound):
             return "-"
         return f"{'>=' if self.at_least else '<='} {self.bound:g}"
 
     @property
     def met(self) -> str:
-        """As a person reads it."""
+        """Whether the goal is met, in words."""
         if math.isnan(self.measured):
             return "not measured"
         if math.isnan(self.bound):
@@ -68,9 +68,9 @@ def least_times_s(
     """Least CPU time of each task, s; the tasks take turns.
 
     Args:
-      tasks: by name; each runs once before the clock starts.
-      turns: at most.
-      enough_s: a task that has used this much takes no more turns.
+      tasks: by name; each runs once before it is timed.
+      turns: largest number of runs of each.
+      enough_s: a task that has used this much time is not repeated.
     """
     for task in tasks.values():
         task()

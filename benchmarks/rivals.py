@@ -1,8 +1,8 @@
-"""The same run by others: scipy's solvers, and modes.
+"""The same run by other methods: scipy's solvers, and modes.
 
-Each returns the times at which it has an answer, s, and the angle of the tip there,
-deg. Solvers get what somebody who wants speed would give them: compiled laws and
-Jacobians, bands where they take them, and a restart at the corner of the turn.
+Each returns the times of its results, s, and the angle of the tip at these, deg. Solvers get what
+makes them fast: compiled laws and Jacobians, banded if they accept it, and a restart at the corner
+of the turn.
 """
 
 from collections.abc import Callable

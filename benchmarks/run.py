@@ -1,7 +1,7 @@
 """Every benchmark, and one table: `python -m benchmarks.run --out DIR`.
 
-Other tables and pictures go to files. Less than ten minutes where nothing else runs; PyElastica and
-`mujoco.sysid` are skipped where they are not found.
+Other tables and pictures are written to files. It takes less than ten minutes on an idle machine;
+PyElastica and `mujoco.sysid` are skipped if they are not found.
 """
 
 import time

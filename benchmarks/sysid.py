@@ -37,7 +37,7 @@ _COLUMNS = "residual / sigma; scales of nominal; damping of each trial alone; dr
 
 
 def diagnosed(name: str, log: RigLog) -> Finding:
-    """Our diagnosis."""
+    """The result of our diagnosis."""
     found = as_json(diagnose(log))
     explanations = found["confusable"] or [found["effects"]]
     effects = " or ".join(" + ".join(names) for names in explanations)
@@ -107,13 +107,13 @@ def _replayable(log: RigLog) -> RigLog:
     trials = tuple(trial for trial in log.trials if not reasons[trial.name])
     if not trials:
         raise InvalidValue(
-            "--log", "no such trial", "a trial with constant lengths and complete sensors"
+            "--log", "none", "a log with a trial of constant lengths and complete sensors"
         )
     return replace(log, trials=trials)
 
 
 def _findings(name: str, log: RigLog) -> list[Finding]:
-    """The truth, where it is known, and what each makes of the log."""
+    """The truth, if it is known, and the results of both programs."""
     truth = [_true(name)] if name in TRUTH else []
     dry = name not in TRUTH or LEVEL in TRUTH[name]
     both = [_timed(diagnosed, name, log), _timed(sysid_fit.identified, name, log)]

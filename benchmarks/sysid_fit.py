@@ -33,7 +33,7 @@ sysid: Any = importlib.import_module("mujoco.sysid")
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What one of them made of a log.
+    """The result of one program for a log.
 
     Attributes:
       intervals: value, low and high by `effect.parameter`, in the vocabulary's units.

@@ -1,4 +1,4 @@
-"""The three tissues of the comparison, once for the simulator and once for its rivals.
+"""The three tissues of the comparison, for the simulator and for the other methods.
 
 The needle is 20 cm deep, its base turns by 90 deg in 0.3 s and is held; 8 s in all.
 Units here: mm, N mm, s, rad.

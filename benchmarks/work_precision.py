@@ -1,4 +1,4 @@
-"""Work against precision on one run, for the simulator and for others.
+"""Work-precision diagrams of one run, for the simulator and for other methods.
 
 The run is `studies.crosscheck.motion.fast_turn`: a needle 20 cm deep, its base turned by
 90 deg in 0.3 s and held, 8 s in all, in three tissues. Every method runs at several

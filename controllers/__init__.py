@@ -1,1 +1,1 @@
-"""Estimating and controlling the tip from the base. Runs on a rig: no simulator here."""
+"""Estimators and controllers of the tip angle, from readings at the base. They import no simulator."""

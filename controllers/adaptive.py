@@ -1,22 +1,22 @@
 """An estimator that identifies damping and torque bias from base angle and base torque.
 
-With the torque u given, how fast the base turns tells the damping: the mean of the
+At a known torque u, the rate of the base shows the damping: the mean angle of the
 shaft turns at u / (beta l). An extended Kalman filter on
 
     state     (r = q_0 / 2, p_1 .. p_{n-1}, log beta, b),     u = measured torque - b
     dynamics  dr/dt = u / (beta l) - (dl/dt) / l * (stretching),   dp/dt as in controllers.twist
     measured  base - u f / kappa - tail = r + sum (-1)^k p_k
 
-corrects all of them together. log beta and b drift as random walks, so that a change of
-tissue, or of the sensor's zero, is followed.
+corrects all states together. log beta and b are random walks, so that the filter follows a
+change of tissue or of the sensor's zero.
 
-**Bias.** Before the base first turns, the shaft is untwisted and carries no torque: whatever is shown
-then is bias and noise, and with a drift of 0 this is all that is made of it, as one zeroes a
-sensor. With a drift the bias stays a state of the filter. In viscous tissue it is observable: a
-base at rest needs no torque, so that a torque which is shown while nothing turns is bias (0.1 N mm
-would turn 10 cm in plastisol by 3.3 deg a second). Where tissue holds a true torque at rest, in
-dry friction for ever and in soft tissue until it has crept back, it is not observable: the filter
-then takes that torque for bias, and loses the lag that it holds.
+**Bias.** Before the base first turns, the shaft is untwisted and carries no torque: the reading is
+bias and noise. With a bias drift of 0, the bias is estimated from these readings alone, as when a
+sensor is zeroed. With a drift it stays a state of the filter. In viscous tissue it is observable: a
+base at rest needs no torque, so a torque that is read while nothing turns is bias (0.1 N mm
+would turn 10 cm in plastisol by 3.3 deg per second). Where tissue holds a real torque at rest (dry
+friction for ever, soft tissue until it has crept back) it is not observable: the filter
+then takes that torque for bias, and misses the lag that belongs to it.
 """
 
 import math
@@ -39,20 +39,21 @@ _FIRST_TURN_DEG = 1.0  # of the base: until then the shaft counts as untwisted
 
 
 class AdaptiveEstimator(FeedforwardEstimator):
-    """The feedforward estimator that identifies the damping, and a torque bias, online.
+    """The feedforward estimator, which also identifies damping and torque bias while it runs.
 
     Args:
       needle: the shaft.
       damping_n_mm_s_per_mm: first guess of beta.
       order: modes with mode 0.
-      base_noise_deg: of the base angle, one standard deviation.
-      torque_noise_n_mm: of the base torque: it acts on the base angle through the shaft's compliance.
-      guess_spread: relative uncertainty of the first guess (natural log).
+      base_noise_deg: standard deviation of the base angle.
+      torque_noise_n_mm: standard deviation of the base torque; it acts on the base angle through the
+        shaft's compliance.
+      guess_spread: standard deviation of log beta at the start.
       drift_per_s: random walk of log beta, per square root of a second.
       turn_noise_deg: unmodelled motion of the mean angle, deg per square root of a second.
-      bias_spread_n_mm: of the torque's zero before the first sample, one standard deviation.
-      bias_drift_n_mm: its random walk, N mm per square root of a second; 0: the bias is learnt until
-        the base first turns, and kept.
+      bias_spread_n_mm: standard deviation of the torque bias before the first sample.
+      bias_drift_n_mm: its random walk, N mm per square root of a second; 0: the bias is estimated
+        until the base first turns, then kept.
 
     Raises:
       InvalidValue: a noise is not positive, or a spread of the bias is negative.
@@ -100,7 +101,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._tail = 2 / np.pi**2 * (np.pi**2 / 6 - float((1.0 / self.twist.k**2).sum()))
 
     def reset(self) -> None:
-        """Untwisted, with the first guess of the damping and no bias."""
+        """Go back to an untwisted shaft, the first guess of the damping, and no bias."""
         super().reset()
         self.damping, self.torque_bias_n_mm = self._guess, 0.0
         n = self.twist.k.size + 3
@@ -111,7 +112,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._untwisted, self._start_deg = self._bias_var > 0, math.nan
 
     def update(self, sample: Sample) -> Estimate:
-        """Take one sample, whose torque is freed of the bias as far as that is known."""
+        """Take one sample; the estimated bias is subtracted from its torque."""
         if self._untwisted and sample.usable():
             self._weigh(sample)
         if self._bias_var == 0:
@@ -119,7 +120,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         return super().update(replace(sample, torque_n_mm=sample.torque_n_mm - self.torque_bias_n_mm))
 
     def _weigh(self, sample: Sample) -> None:
-        """The torque of an untwisted shaft is bias and noise; the base's first turn ends it."""
+        """Estimate the bias from the torque of the untwisted shaft, until the base first turns."""
         if math.isnan(self._start_deg):
             self._start_deg = sample.base_deg
         self._untwisted = abs(sample.base_deg - self._start_deg) < _FIRST_TURN_DEG
@@ -148,7 +149,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._correct(now)
 
     def _predict(self, last: Sample, now: Sample, turned: float, before: Array) -> None:
-        """Covariance over one sample."""
+        """Propagate the covariance over one sample."""
         dt, depth = now.time_s - last.time_s, 0.5 * (last.inserted_mm + now.inserted_mm)
         # The Jacobian is diagonal but for two columns. beta only sets the pace, so that
         # d / d log beta of a step is minus the step; the bias acts as a torque.
@@ -166,7 +167,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._covariance[_BIAS, _BIAS] += self._bias_drift**2 * dt
 
     def _correct(self, now: Sample) -> None:
-        """The base angle as a measurement."""
+        """Correct the state by the measured base angle."""
         compliance = self._compliance(now)
         row = self._row
         row[_BIAS] = -compliance

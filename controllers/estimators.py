@@ -1,13 +1,13 @@
 """Estimators of the tip: feedforward (31) and Luenberger observer (32).
 
 Both run the modal model on the measured base torque. The feedforward estimator
-adds nothing; the observer, which has a tip sensor to compare with, corrects the odd
-modes so that its poles are `speed` times faster than the needle's:
+does only this; the observer has a tip sensor, by which it corrects the odd
+modes, so that its poles are `speed` times faster than the needle's:
 
     dx/dt = A x + B u + L (y - y_hat),   poles of A - L C = speed * poles of A
 
-OutputEquation.SERIES takes base and tip from the series (12). OutputEquation.PAPER is the
-paper's own: mode 0 is the measured base angle and the tip is base + sum p_k.
+OutputEquation.SERIES computes base and tip from the series (12). OutputEquation.PAPER follows
+the paper: mode 0 is the measured base angle, and the tip is base + sum p_k.
 """
 
 import math
@@ -30,7 +30,7 @@ _LEAST_DEPTH_MM = 1.0  # below this the needle counts as outside
 
 
 class OutputEquation(StrEnum):
-    """Base and tip angle in terms of the modes: from the series (12), or as the paper has it."""
+    """How base and tip angle follow from the modes: by the series (12), or as in the paper."""
 
     SERIES = "series"
     PAPER = "paper"
@@ -43,7 +43,7 @@ class Estimator(Protocol):
         """Take one sample; times must increase."""
 
     def reset(self) -> None:
-        """Back to the initial state: untwisted, before the first sample."""
+        """Go back to the state before the first sample: an untwisted shaft."""
 
 
 class FeedforwardEstimator:
@@ -53,7 +53,7 @@ class FeedforwardEstimator:
       needle: the shaft.
       damping_n_mm_s_per_mm: beta.
       order: modes with mode 0.
-      output: base and tip in terms of the modes.
+      output: how base and tip follow from the modes.
 
     Raises:
       InvalidValue: damping is not positive, or the order is below 2.
@@ -75,7 +75,7 @@ class FeedforwardEstimator:
         self.reset()
 
     def reset(self) -> None:
-        """Untwisted, before the first sample."""
+        """Go back to the state before the first sample: an untwisted shaft."""
         self._p = np.zeros(self.twist.k.size)
         self._last: Sample | None = None
         self._estimate = Estimate(tip_deg=math.nan, status=Status.BAD_SAMPLE)
@@ -110,7 +110,7 @@ class FeedforwardEstimator:
         return Estimate(sample.base_deg, modes, self.damping, Status.OUTSIDE)
 
     def _advance(self, last: Sample, now: Sample) -> None:
-        """Modes over one sample: exact for a torque that runs straight."""
+        """Advance the modes by one sample: exact for a torque that is linear in time."""
         dt, depth = now.time_s - last.time_s, 0.5 * (last.inserted_mm + now.inserted_mm)
         growth = (now.inserted_mm - last.inserted_mm) / depth
         if growth != 0.0:
@@ -134,7 +134,7 @@ class FeedforwardEstimator:
 
 
 def _response(z: Array) -> tuple[Array, Array]:
-    """(e^z - 1)/z and (e^z - 1 - z)/z^2: a step and a ramp through a pole over one step."""
+    """(e^z - 1)/z and (e^z - 1 - z)/z^2: responses of a pole to a step and to a ramp over one sample."""
     small = np.abs(z) < 1e-4
     safe = np.where(small, 1.0, z)
     whole = np.where(small, 1 + z / 2, np.expm1(safe) / safe)
@@ -149,7 +149,7 @@ class LuenbergerEstimator(FeedforwardEstimator):
       speed: how many times faster than the needle the observer's poles are.
 
     Raises:
-      InvalidValue: speed is not above 1: the observer would not correct anything.
+      InvalidValue: speed is not above 1; at 1 the observer would correct nothing.
     """
 
     def __init__(

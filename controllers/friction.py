@@ -2,16 +2,15 @@
 
 Dry friction holds a lag that no waiting removes. The base therefore
 
-1. overshoots by the compensator's law, and winds on at a rate proportional to the
+1. overshoots by the compensator's law, and keeps winding at a rate proportional to the
    tip error, until the estimate is within `dead_band` of the reference;
-2. then unwinds half of the lag that it holds: less than friction lets the tip notice
-   (reversal has to unwind the shaft from the base on), so the tip stays and the
-   torque that a later slip could release is halved;
-3. asks for a short retraction and reinsertion where the lag can be wound no further
-   (winding at its limit, or torque for `rest_s`): sliding axially frees a shaft (Section II-B3).
+2. then unwinds half of the remaining lag. The tip stays where it is, since a reversal first has
+   to unwind the shaft from the base on; and the torque that a later slip could release is halved;
+3. asks for a short retraction and reinsertion if it can wind no further (winding at its limit,
+   or torque at its limit for `rest_s`): axial sliding frees a stuck shaft (Section II-B3).
 
-In viscous tissue nothing is held: a lag that still falls while the base rests is not unwound.
-Phases follow the mean error of the last 50 ms or so, since noise alone must not end one.
+In viscous tissue no lag is held: a lag that still falls while the base rests is not unwound.
+Phases end by the mean error of about the last 50 ms, so that noise alone cannot end one.
 """
 
 import math
@@ -37,12 +36,12 @@ class Phase(StrEnum):
 
 
 class FrictionAware:
-    """See the module.
+    """The controller for dry friction; the module describes its phases.
 
     Args:
-      gain: overshoot over the estimated error of the tip.
-      winding_per_s: rate of winding on, over the tip error.
-      dead_band_deg: error of the tip that is good enough.
+      gain: overshoot / estimated error of the tip.
+      winding_per_s: rate of further winding / tip error.
+      dead_band_deg: tip error that is accepted.
       most_winding_deg: how far beyond the compensator's law the base may wind.
       rest_s: time for which the tip has to stay within the dead band before the base unwinds,
         or the torque at its limit before the needle is retracted.
@@ -83,7 +82,7 @@ class FrictionAware:
         self.reset()
 
     def reset(self) -> None:
-        """Forget winding and phase."""
+        """Start again: no winding, first phase."""
         self._base.reset()
         self.phase = Phase.WINDING
         self._wound_deg = self._at_limit_s = 0.0
@@ -117,7 +116,7 @@ class FrictionAware:
 
     @property
     def _lag_deg(self) -> float:
-        """Of the tip behind the base, by the mean error."""
+        """Lag of the tip behind the base, from the mean error, deg."""
         return self._base.base_deg - (self._reference_deg - self._mean_error_deg)
 
     def _enter(self, phase: Phase, sample: Sample) -> None:
@@ -159,7 +158,7 @@ class FrictionAware:
         return self._base.toward(self._rest_deg, sample, estimate.status)
 
     def _unwind(self, sample: Sample) -> None:
-        """Half of a lag that is held; a lag that falls is watched for longer."""
+        """Unwind half of a lag that stays; wait while it still falls."""
         lag = self._lag_deg
         if abs(lag) > _HELD_LAG_DEG and abs(lag) < (1 - _FALLING) * abs(self._held_deg):
             self._enter(Phase.RESTING, sample)
@@ -169,7 +168,7 @@ class FrictionAware:
         self._enter(Phase.UNWINDING, sample)
 
     def _retract(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """Out for a second, in for a second, with the base at the reference."""
+        """Retract for a second, reinsert for a second, with the base at the reference."""
         passed = sample.time_s - self._since_s
         if passed >= 2.0:
             self._wound_deg = 0.0

@@ -1,10 +1,10 @@
-"""Controllers of the tip: from a reference of the tip and an estimate to a base command.
+"""Control laws: a base command from a reference of the tip angle and an estimate of it.
 
     base only      base = reference
     compensator    base = reference + gain (reference - tip_hat)       the paper's overshoot
 
-Each law gives a base angle; `LimitedBase` saturates it to the limits of the motor. The regulator
-is in controllers.regulator, those that plan or wind in controllers.least_time and .friction.
+Each law computes a base angle; `LimitedBase` saturates it at the limits of the motor. Other laws:
+controllers.regulator, controllers.least_time (plans), controllers.friction (winds).
 """
 
 import math
@@ -16,13 +16,13 @@ from models.errors import InvalidValue
 
 
 class Controller(Protocol):
-    """Anything that turns a reference of the tip, deg, and an estimate into a base command."""
+    """Computes a base command from a reference of the tip, deg, and an estimate of it."""
 
     def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """The command until the next sample."""
+        """The base command until the next sample."""
 
     def reset(self) -> None:
-        """Forget everything before a new run."""
+        """Go back to the initial state, for a new run."""
 
 
 class BaseOnly:
@@ -44,7 +44,7 @@ class Compensator:
     """The paper's torsion compensator: the base overshoots by the error of the tip.
 
     Args:
-      gain: overshoot over the estimated error of the tip.
+      gain: overshoot / estimated error of the tip.
 
     Raises:
       InvalidValue: gain is negative.

@@ -1,13 +1,12 @@
 """The controller that brings the tip to its reference in the least time that the motor allows.
 
-When the reference jumps, a linear program plans the base's rate over the next
-moments: the tip, which is linear in the plan, has to be within `band` of the
-reference from some time on, and never beyond it by more; the base rate and the torque
-stay within the motor's limits. The earliest such time is found by bisection, and of
-all plans that reach it the one with the least integral of tip error is taken. The
-plan is followed, corrected by the deviation of the estimate from it; when it has
-ended, a regulator holds the tip. A plan that the tip does not follow rests on a
-wrong model: it is dropped, and the compensator takes over.
+When the reference jumps, a linear program plans the rates of the base. The tip, which is
+linear in them, has to stay within `band` of the reference from some time on, and may never
+overshoot by more than that; base rate and torque stay within the motor's limits. Bisection
+finds the earliest such time; among the plans that reach it, the program chooses the one with
+the smallest integral of tip error. The base follows the plan, corrected by the deviation of
+the estimate from it. When the plan has ended, a regulator holds the tip. If the tip does
+not follow the plan, its model is wrong: the plan is dropped, and the compensator takes over.
 """
 
 import math
@@ -36,12 +35,12 @@ _MOVING = 0.7  # share of the plan in which the base may move; the rest shows wh
 
 
 class LeastTime:
-    """Plans the base by linear programming; see the module.
+    """Plans the base motion by linear programming; see the module.
 
     Args:
-      damping_n_mm_s_per_mm: beta of the plan; replaced by the estimate's where it learns.
-      band_deg: how near the tip has to come, and the most that it may overshoot.
-      steps: of the plan.
+      damping_n_mm_s_per_mm: beta of the plan; an estimator that identifies beta replaces it.
+      band_deg: how near the tip has to come, and how far it may overshoot.
+      steps: number of steps of the plan.
 
     Raises:
       InvalidValue: the band is not positive, or the plan has fewer than 10 steps.
@@ -68,7 +67,7 @@ class LeastTime:
         self.reset()
 
     def reset(self) -> None:
-        """Forget plan and command."""
+        """Forget the plan and the last command."""
         self._base.reset()
         self._regulator.reset()
         self._fallback.reset()
@@ -77,7 +76,7 @@ class LeastTime:
         self._reference_deg = self._planned_deg = math.nan
 
     def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """Follow the plan for this reference; make one if the reference has jumped."""
+        """Follow the plan; make a new one if the reference has jumped."""
         if estimate.status not in (Status.OK, Status.OUTSIDE) or not math.isfinite(reference_deg):
             return self._base.toward(reference_deg, sample, estimate.status)
         if estimate.status is Status.OUTSIDE:
@@ -131,7 +130,7 @@ class LeastTime:
 
 
 class Plan:
-    """A base motion and the tip that it gives, at equal steps."""
+    """A base motion and the tip motion that it causes, at equal steps."""
 
     def __init__(
         self, start_s: float, step_s: float, base_deg: Array, tip_deg: Array, settling_s: float
@@ -143,7 +142,7 @@ class Plan:
         """Time from the start after which the tip stays within the band."""
 
     def at(self, time_s: float) -> tuple[float, float]:
-        """Base and tip at a time, deg."""
+        """Base and tip angle at a time, deg."""
         return (
             float(np.interp(time_s, self.times_s, self.base_deg)),
             float(np.interp(time_s, self.times_s, self.tip_deg)),
@@ -161,7 +160,7 @@ def plan(
     band_deg: float,
     steps: int,
 ) -> Plan | None:
-    """The base motion that settles the tip first; None if none does within the horizon."""
+    """The base motion that settles the tip soonest; None if none settles it within the horizon."""
     horizon = _horizon_s(
         modes, abs(reference_deg - base_deg) + float(np.abs(lag_deg).sum()), limits, band_deg
     )
@@ -186,7 +185,7 @@ def plan(
 
 
 def _horizon_s(modes: BaseModes, turn_deg: float, limits: MotorLimits, band_deg: float) -> float:
-    """Long enough for the base alone to settle, and a turn there and back."""
+    """Horizon of a plan, s: the base alone would settle in it, plus a turn there and back."""
     settle = math.log(max(turn_deg, 2 * band_deg) / band_deg) / abs(float(modes.poles[0]))
     return min(settle, 4.0) + 3 * turn_deg / limits.rate_deg_s
 
@@ -194,7 +193,7 @@ def _horizon_s(modes: BaseModes, turn_deg: float, limits: MotorLimits, band_deg:
 def _tip(
     modes: BaseModes, base_deg: float, lag_deg: Array, dt: float, steps: int
 ) -> tuple[Array, Array]:
-    """Tip at the ends of the steps: without a plan, and its response to rates."""
+    """Tip at the ends of the steps with the base at rest, (steps,), and its response to rates."""
     j = np.arange(1, steps + 1)
     decay = np.exp(np.outer(j, modes.poles) * dt)
     pulse = -modes.participation * np.expm1(modes.poles * dt) / modes.poles
@@ -204,7 +203,7 @@ def _tip(
 
 
 def _torque(modes: BaseModes, lag_deg: Array, dt: float, steps: int) -> tuple[Array, Array]:
-    """Base torque, N mm, likewise."""
+    """Base torque at the ends of the steps, N mm, as `_tip`."""
     held = modes.held
     w = held.wavenumbers_per_mm(modes.poles.size)
     shape = -held.needle.rigidity_n_mm2 * w * np.sin(w * held.inserted_mm) * _RAD

@@ -2,14 +2,13 @@
 
 A turn of the base by du within a time h twists the free shaft f and that part of the inserted
 shaft which the turn can reach in h; the rest has not moved yet. With D = kappa / beta, the
-diffusivity of (9) without inertia, a ramp over h reaches sqrt(pi D h) / 2, so that the torque that is
-to be expected is
+diffusivity of (9) without inertia, a ramp over h reaches sqrt(pi D h) / 2. The expected torque is
 
     T + k du,     k = kappa / (f + sqrt(pi D h) / 2),
 
-which errs on the safe side: the torque T of before has begun to decay. du is the turn that the
-measured torque does not show yet: the one of this sample, and where torque is shown late, all that
-was commanded meanwhile. The command goes no further than where this is at the limit.
+with the measured torque T. It is an upper estimate, since T has begun to decay. du is the turn that
+T does not show yet: that of this sample and, if the torque reading is late, all turns that were
+commanded in the meantime. The command stops where the expected torque reaches the limit.
 """
 
 import math
@@ -23,21 +22,21 @@ _RAD = math.pi / 180.0
 
 
 class ShaftLimits(Record):
-    """The shear stress that a shaft may carry, and what is needed to foresee it.
+    """The shear stress that a shaft may carry, and the constants that predict it.
 
-    No stress is a property of the paper's wire: it states none. For superelastic Nitinol the
-    assumption used in this project's studies is `SUPERELASTIC_SHEAR_MPA`.
+    The paper states no admissible stress for its wire. This project's studies assume
+    `SUPERELASTIC_SHEAR_MPA`, a value for superelastic Nitinol.
     """
 
     needle: Needle
     damping_n_mm_s_per_mm: Positive
     shear_stress_mpa: Positive
     lateness_s: NonNegative = 0.0
-    """From a command to a sample that shows its torque, beside the sample itself."""
+    """Delay from a command to the sample that shows its torque, in addition to one sampling step."""
 
     @property
     def torque_n_mm(self) -> float:
-        """The torque at which the shaft's surface has this stress."""
+        """The torque at which the stress at the shaft's surface reaches the limit."""
         return self.needle.torque_n_mm_at(self.shear_stress_mpa)
 
     def stiffness_n_mm_per_deg(self, free_mm: float, turn_s: float) -> float:
@@ -57,8 +56,8 @@ SUPERELASTIC_SHEAR_MPA = 230.0
 class MotorLimits(Record):
     """Limits of the motor at the base, and of the shaft that it turns.
 
-    The rate is that of the commanded angle. Torque cannot be commanded where the base
-    is a servo: at the limit, the base goes no further against the torque it feels.
+    The rate limit applies to the commanded angle. A servo takes no torque command: at the torque
+    limit, the base does not turn any further against the torque.
     """
 
     rate_deg_s: Positive = 1500.0
@@ -68,7 +67,7 @@ class MotorLimits(Record):
 
     @property
     def most_torque_n_mm(self) -> float:
-        """What motor and shaft both stand."""
+        """The smaller of the limits of motor and shaft."""
         return min(self.torque_n_mm, self.shaft.torque_n_mm if self.shaft else math.inf)
 
 
@@ -116,7 +115,7 @@ class LimitedBase:
         return Command(self._base_deg, rate_limited, allowed != change, advance_mm, status)
 
     def _within_torque(self, change_deg: float, sample: Sample, passed_s: float) -> float:
-        """As much of a change as keeps the torque within the limits."""
+        """The part of a change that keeps the torque within the limits, deg."""
         if (
             change_deg * sample.torque_n_mm > 0
             and abs(sample.torque_n_mm) >= self.limits.most_torque_n_mm
@@ -132,12 +131,12 @@ class LimitedBase:
         return side * min(abs(change_deg), max(most, 0.0))
 
     def _unseen_deg(self, seen_s: float) -> float:
-        """What was commanded after a time."""
+        """Change of the command since a time, deg."""
         while len(self._sent) > 1 and self._sent[1][0] <= seen_s:
             self._sent.popleft()
         return self._base_deg - self._sent[0][1] if self._sent else 0.0
 
 
 def rigid_needle_estimate(sample: Sample) -> Estimate:
-    """The estimate without torsion: the tip is where the base is."""
+    """The estimate for a rigid needle: the tip has the angle of the base."""
     return Estimate(sample.base_deg)

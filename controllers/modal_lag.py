@@ -20,8 +20,8 @@ _RAD = math.pi / 180.0
 class BaseModes:
     """Modes of the base-driven needle, from the modes and tip of an estimate.
 
-    The lag theta - base along the shaft is known at the tip and, from the torque, in
-    shape; its modes are those of the estimate, projected.
+    The lag theta - base is known at the tip, and its shape along the shaft follows from the
+    torque; its modes are a projection of the modes of the estimate.
     """
 
     def __init__(self, held: InsertedNeedle, count: int, known: int) -> None:

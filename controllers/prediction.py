@@ -1,17 +1,17 @@
-"""What the needle will do before the next command reaches it: a Smith predictor on its modes.
+"""The state of the needle when the next command arrives: a Smith predictor on its modes.
 
-A controller whose sensors are d late, and whose commands arrive L later at a servo, decides at
-time t on an estimate of t - d, but can change nothing before t + L. What happens in between
-follows from the commands that it has sent already:
+If sensors are late by d, and commands reach the servo after L, a controller decides at time t
+from an estimate for t - d, and can change nothing before t + L. What happens in between
+follows from the commands that were already sent:
 
     time                t - d               t           t + L
     known of the needle   estimate
     known of the shaft    encoder ------- servo model ------|     driven by commands in flight
-    decided on                                            state
+    predicted                                             state
 
-The shaft's angles in that window are those of a model of the drive (models.servo), shifted by
-what the encoder showed at t - d beyond it. They take the modes of the base-driven needle along,
-exactly, since the shaft runs straight from sample to sample:
+The angles of the shaft in that window are those of a model of the drive (models.servo), shifted by
+the difference between encoder and model at t - d. They drive the modes of the base-driven needle;
+the solution is exact, since the shaft's angle is linear between samples:
 
     c_k(t + L) = e^(p_k (d + L)) c_k(t - d) - a_k sum over pieces of rate_j (E_j - E_{j+1}) / p_k,
     E_j = e^(p_k (t + L - t_j))
@@ -35,7 +35,7 @@ _RAD = math.pi / 180.0
 
 
 class LoopTiming(Record):
-    """How late sensors and drive of a rig are, as its controller knows them."""
+    """Delays of sensors and drive of a rig, as its controller knows them."""
 
     measurement_delay_s: NonNegative = 0.0
     """Of base angle and torque."""
@@ -45,14 +45,14 @@ class LoopTiming(Record):
 
     @property
     def lateness_s(self) -> float:
-        """From a command to the reading of what it has done."""
+        """Delay from a command to the reading that shows its effect, s."""
         lag_s = self.servo.lag_s if self.servo else 0.0
         return self.measurement_delay_s + self.command_latency_s + lag_s
 
 
 @dataclass(frozen=True, slots=True)
 class PredictedState:
-    """State when the next command arrives: shaft, deg and deg/s, and modes of the lag, rad."""
+    """State when the next command arrives: shaft angle, deg, and rate, deg/s; modes of the lag, rad."""
 
     shaft_deg: float
     shaft_rate_deg_s: float
@@ -60,9 +60,9 @@ class PredictedState:
 
 
 class Predictor:
-    """Runs drive and modes ahead of late measurements; see the module.
+    """Predicts drive and modes from late measurements; see the module.
 
-    Once a sample: `advance`, then `predict`, then `send` the command that was decided on.
+    At each sample call `advance`, then `predict`, then `send` with the new command.
     """
 
     def __init__(self, timing: LoopTiming) -> None:
@@ -76,11 +76,11 @@ class Predictor:
         self._ahead: deque[tuple[float, float]] = deque()
 
     def advance(self, time_s: float, base_deg: float) -> None:
-        """Move the drive's model on to the arrival of the next command.
+        """Advance the model of the drive to the time when the next command arrives.
 
         Args:
           time_s: of this sample.
-          base_deg: where the shaft stands at the first sample.
+          base_deg: angle of the shaft at the first sample.
         """
         arrival = time_s + self.timing.command_latency_s
         if not self._ahead:
@@ -99,16 +99,16 @@ class Predictor:
             self._ahead.popleft()
 
     def send(self, command_deg: float) -> None:
-        """The command of this sample is on its way."""
+        """Note the command that is sent at this sample."""
         self._command_deg = command_deg
 
     def predict(self, modes: BaseModes, lag_modes_rad: Array, base_deg: float) -> PredictedState:
-        """The state at the arrival of the next command, from that of a late measurement.
+        """The state at the time when the next command arrives, from a late measurement.
 
         Args:
           modes: of the base-driven needle at its present lengths.
-          lag_modes_rad: as the late measurement gives them.
-          base_deg: the shaft, as the encoder showed it with that measurement.
+          lag_modes_rad: modes of the lag from the late measurement.
+          base_deg: angle of the shaft in the same measurement.
         """
         arrival, angle = self._ahead[-1]
         seen = arrival - self.timing.command_latency_s - self.timing.measurement_delay_s

@@ -5,15 +5,15 @@
 On an ideal drive x = (base - reference, c_1, c_2, ...) with the modes c_k of controllers.modal_lag,
 and K minimises the integral of (tip - reference)^2 + weight^2 (d command/dt)^2.
 
-The predictive regulator knows that its loop is late. It applies K to the state that the needle will
-have when the command arrives (controllers.prediction), and where a servo lies between command and
-shaft, the servo's angle and rate are states of its own:
+The predictive regulator knows the delays of its loop. It applies K to the state that the needle will
+have when the command arrives (controllers.prediction). If a servo turns the shaft, its angle and
+rate are states too:
 
     x = (command - reference, shaft - reference, d shaft/dt, c_1, c_2, ...)
     shaft'' = w^2 (command - shaft) - 2 d w shaft',     dc_k/dt = p_k c_k - a_k shaft'
 
-A delay that is known costs the tip that delay, and no stability. One that is not known remains
-in the loop: the error of the assumed delay is what the regulator has to stand.
+A known delay makes the tip later by that delay, and costs no stability. An unknown one remains
+in the loop: the regulator has to be robust against the error of the assumed delay.
 """
 
 import math
@@ -44,8 +44,8 @@ class Regulator:
 
     Args:
       needle: the shaft.
-      damping_n_mm_s_per_mm: beta of the design; the estimate's, where it has one.
-      weight_s: weight of base rate: seconds of tip error that one rad/s is worth.
+      damping_n_mm_s_per_mm: beta of the design, unless the estimate brings its own.
+      weight_s: weight of the base rate, s: one rad/s costs as much as a tip error of this many rad.
       order: modes of the base-driven needle in the design.
 
     Raises:
@@ -92,7 +92,7 @@ class Regulator:
         return self._base.toward(base + rate_deg_s * dt, sample, estimate.status)
 
     def design(self, sample: Sample, estimate: Estimate) -> tuple[BaseModes, Array]:
-        """Modes and gain at these lengths and this damping; made once for every 2 mm and 5 %."""
+        """Modes and gain at these lengths and this damping, cached on a grid of 2 mm and 5 %."""
         inserted = max(_GRID_MM, _GRID_MM * round(sample.inserted_mm / _GRID_MM))
         free = _GRID_MM * round(sample.free_mm / _GRID_MM)
         level = self._damping_level(estimate.damping_n_mm_s_per_mm)
@@ -110,7 +110,7 @@ class Regulator:
         return self._designs[key]
 
     def _damping_level(self, identified: float) -> int:
-        """The identified damping on the grid; 0 is the assumed one."""
+        """Index of the identified damping on a grid of 5 %; 0 is the assumed damping."""
         if not (math.isfinite(identified) and identified > 0):
             return 0
         off = math.log(identified / self.damping)
@@ -131,12 +131,17 @@ class Regulator:
         a, b, tip = self._system(modes)
         gain, _, closed = control.lqr(a, b, tip.T @ tip, np.array([[self.weight_s**2]]))
         if not np.all(np.real(closed) < 0):
-            raise InvalidValue("weight_s", self.weight_s, "a weight that gives a stable design")
+            raise InvalidValue(
+                "weight_s",
+                self.weight_s,
+                "a weight that gives a stable design",
+                "choose one nearer to the default, 0.02 s",
+            )
         row: Array = np.asarray(gain)[0]
         return row
 
     def _system(self, modes: BaseModes) -> tuple[Array, Array, Array]:
-        """A, B and the row of the tip in the states of the module's docstring."""
+        """A, B and the output row of the tip for the states of the module's docstring."""
         a = np.diag(np.concatenate([[0.0], modes.poles]))
         b = np.concatenate([[1.0], -modes.participation])[:, None]
         return a, b, np.ones((1, a.shape[0]))
@@ -170,7 +175,7 @@ class PredictiveRegulator(Regulator):
         self._predictor.reset()
 
     def command(self, reference_deg: float, sample: Sample, estimate: Estimate) -> Command:
-        """d command/dt = -K x, of the state that the command will meet."""
+        """d command/dt = -K x, with the state at the time when the command arrives."""
         if sample.usable():
             self._predictor.advance(sample.time_s, sample.base_deg)
         command = super().command(reference_deg, sample, estimate)

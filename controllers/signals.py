@@ -1,7 +1,7 @@
 """Inputs and outputs of estimators and controllers at each sample.
 
-A loop never receives a silent NaN: after an unusable sample the last good output is held,
-and a status says so.
+Outputs are never NaN: after an unusable sample the last good output is held, and the status
+says so.
 """
 
 import math
@@ -37,7 +37,7 @@ class Sample:
       base_deg: measured angle of the base.
       torque_n_mm: measured torque that the drive puts in.
       inserted_mm, free_mm: lengths in tissue, and between chuck and tissue.
-      tip_deg: measured tip, where there is such a sensor.
+      tip_deg: measured angle of the tip; None without such a sensor.
     """
 
     time_s: float
@@ -57,12 +57,12 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What the estimator computes from the samples so far.
+    """What an estimator computes from the samples so far.
 
     Attributes:
       tip_deg: angle of the tip.
       modes_deg: amplitudes of modes 1, 2, ... of the shaft's twist.
-      damping_n_mm_s_per_mm: of the model at this moment.
+      damping_n_mm_s_per_mm: beta of the model at this sample.
       status: how the estimate came about.
     """
 
@@ -74,13 +74,13 @@ class Estimate:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """The command of the base until the next sample.
+    """The command to the base until the next sample.
 
     Attributes:
       base_deg: commanded angle.
-      rate_limited, torque_limited: which limits held it back.
+      rate_limited, torque_limited: which limits reduced it.
       advance_mm: axial motion relative to the planned one (retraction, dither).
-      status: that of the estimate it rests on.
+      status: status of the estimate that it was computed from.
     """
 
     base_deg: float

@@ -7,14 +7,14 @@ From the tip, s = 0, to the entry, s = l, with the base torque u acting there:
               - (dl/dt) / l  sum_j g_kj p_j                  (the shapes stretch with l)
     g_kj = (2 / l) int (j pi s / l) sin(j pi s / l) cos(k pi s / l) ds
 
-The last line carries the states over while the needle goes in: material keeps its
-angle as the modes change under it. Base and tip are
+The last line corrects the amplitudes while the needle is inserted: each point of the shaft
+keeps its angle although the mode shapes change. Base and tip are
 
     base = u f / kappa + q_0 / 2 + sum (-1)^k p_k,    tip = q_0 / 2 + sum p_k
     tip = base - u f / kappa + 2 sum over odd k of p_k
 
-so that even modes never enter the lag. What truncation drops of the odd modes still
-lags by its static share of u, `tail`.
+so that even modes do not contribute to the lag. The odd modes that truncation drops are
+replaced by their static response to u, `tail`.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ class Twist:
 
     Args:
       needle: the shaft.
-      order: number of modes with mode 0, as the paper counts; 4 by default.
+      order: number of modes including mode 0, as the paper counts; 4 by default.
 
     Raises:
       InvalidValue: order below 2.

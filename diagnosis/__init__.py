@@ -1,1 +1,1 @@
-"""From a rig's log to what the model lacks."""
+"""The diagnosis: from a rig's log to the effects that its nominal model lacks."""

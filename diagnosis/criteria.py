@@ -1,12 +1,12 @@
 """Every number that decides something in the diagnosis, in one place, in the order of its stages.
 
-Under each stands its scale, where it comes from, and on what it was set. Three kinds of origin:
+Each states its scale, its origin, and the logs that it was set on. There are three kinds of origin:
 
-  derived    follows from noise statistics or from the method; no log was looked at
-  physical   what no rig of this kind can do; far from anything that a real one does
-  set on     chosen on logs, which are named; a score on these logs is no test of it
+  derived    follows from noise statistics or from the method; no log was used
+  physical   beyond the limits of any rig of this kind, and far from what real ones do
+  set on     chosen on logs, which are named; a score on these logs does not test it
 
-A score is -2 log(likelihood) plus penalties: a difference of s are odds of exp(s / 2) to 1. Sigma is
+A score is -2 log(likelihood) plus penalties: a difference of s means odds of exp(s / 2) to 1. Sigma is
 one standard deviation of a sensor's noise. Costs are sums of squared residuals / sigma.
 
 Numbers of a numerical method that decide nothing (windows, differences, iterations) stay with it.

@@ -1,6 +1,6 @@
-"""A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
+"""A log beside the predictions of its nominal rig: the end of `needle replay`, the start of a diagnosis.
 
-RigLog -> PreparedLog -> FitProblem, with the noise that is left of the nominal rig
+RigLog -> PreparedLog -> FitProblem, with the noise from the residual of the nominal rig
 """
 
 from collections.abc import Sequence
@@ -30,14 +30,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class NominalReplay:
-    """A log beside what its nominal rig predicts: where `needle replay` ends and a diagnosis begins.
+    """A log beside the predictions of its nominal rig.
 
     Attributes:
-      log: as it is diagnosed: averaged, if it has more samples than are of use, and without the first
-        readings of trials that began late.
-      problem: the log, its noise, and what is left open of the rig.
-      fit: of what came before trials that began late, and of nothing else.
-      predictions: of the nominal rig, by trial of the problem.
+      log: the log that is diagnosed: averaged, if it has more samples than are of use, and without
+        the first readings of trials that began late.
+      problem: the log, its noise and the nuisance parameters.
+      fit: fit of the pasts of trials that began late, and of nothing else.
+      predictions: predictions of the nominal rig, by trial of the problem.
     """
 
     log: RigLog
@@ -47,12 +47,12 @@ class NominalReplay:
 
     @property
     def rig(self) -> RigParameters:
-        """The nominal rig, with what came before trials that began late."""
+        """The nominal rig, with the pasts of trials that began late."""
         return self.fit.parameterization.rig(self.fit.x)
 
 
 def replay_nominal(log: RigLog) -> NominalReplay:
-    """The nominal rig on a log, with the noise that its residual shows.
+    """Replay a log with its nominal rig; the noise is estimated from the residual.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.

@@ -2,7 +2,7 @@
 
 RigLog -> PreparedLog -> FitProblem, fine and coarse -> SearchState -> Verdict -> Assessment -> Diagnosis
 
-and, where nothing explains the log, Missing beside the Assessment.
+and, if nothing explains the log, Missing beside the Assessment.
 """
 
 import time
@@ -17,6 +17,8 @@ from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
+from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
@@ -32,10 +34,10 @@ from diagnosis.progress import (
 from diagnosis.result import Diagnosis
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
-from diagnosis.selection.record import RecordEntry, judged
+from diagnosis.selection.record import RecordEntry, dropped, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, provisional
+from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, refuted
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes
@@ -45,11 +47,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Judged:
-    """A verdict, with what it rests on.
+    """A verdict, with the problems that it is based on.
 
     Attributes:
-      problem, coarse: with the noise that the best explanation leaves.
-      record: of the search and of the verdict.
+      problem, coarse: with the noise from the residual of the best explanation.
+      record: record of the search and of the verdict.
     """
 
     problem: FitProblem
@@ -70,15 +72,15 @@ def diagnose(
     """Diagnose a log, to the end or as far as there is time.
 
     Args:
-      workers: processes.
-      limit_s: time after which the best so far is told; None: as long as it takes.
-      stop: a signal with a limit of its own, which others may give at any time.
-      progress: is told how far it is: at every stage and task, and ten times a second between.
-      diagnosed_on: day that the report names; None: none.
+      workers: number of processes.
+      limit_s: time after which the best result so far is reported, s; None: no limit.
+      stop: a signal with its own limit, which may be given at any time.
+      progress: called at every stage and task, and ten times per second in between.
+      diagnosed_on: date for the report; None: none.
 
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
-      StoppedEarly: the end came before the nominal rig was replayed.
+      StoppedEarly: it was stopped before the nominal rig was replayed.
     """
     stop = StopSignal(limit_s) if stop is None else stop
     heard = ProgressClock(progress, stop).heard
@@ -92,7 +94,7 @@ def diagnose(
         told = told_apart(found, pool)
         cut = bool(stop.left_out)
         heard(CHECKING, 0, 1)
-        last = _judged(told, cut=cut)
+        last = _of_another_form(_judged(told, cut=cut), nominal, pool)
         heard(CHECKING, 1, 1)
         heard(ASSESSING, 0, 1)
         assessment = assess(
@@ -123,7 +125,7 @@ def diagnose(
 
 
 def _nominal_in_time(log: RigLog, stop: StopSignal) -> NominalReplay:
-    """The nominal replay, from whose time that of the end is known."""
+    """The nominal replay; its duration tells the time that the last stage needs."""
     began_s = time.monotonic()
     nominal = replay_nominal(log)
     if stop.over:
@@ -142,7 +144,7 @@ def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
 
 
 def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
-    """The search for what explains the log."""
+    """The search for an explanation of the log."""
     problem = nominal.problem
     start = SearchState(
         problem=problem,
@@ -153,8 +155,21 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
     return search(start, workers)
 
 
+def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -> Judged:
+    """Refuted, where a law that no library holds leaves clearly less than an explanation."""
+    verdict = judged.verdict
+    if verdict.kind is not VerdictKind.EXPLAINED:
+        return judged
+    best = verdict.best.fit
+    form = workers.stop.unless_due(OTHER_FORMS, lambda: other_form(nominal, best, workers))
+    if form is None:
+        return judged
+    entry = dropped("verdict", [verdict.best], f"{form.effect.title} leaves clearly less")
+    return replace(judged, verdict=refuted(verdict, form.effect.title), record=(*judged.record, *entry))
+
+
 def _judged(told: ToldApart, *, cut: bool) -> Judged:
-    """The verdict on what the search found; provisional if it was cut short."""
+    """The verdict on the result of the search; provisional if that was stopped."""
     found, checked, verdict = told.state, told.checked, told.verdict
     problem = replace(found.problem, noise=checked.noise)
     if verdict.kind is VerdictKind.EXPLAINED:

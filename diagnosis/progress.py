@@ -79,6 +79,7 @@ _STAGES = {
     "finer mesh": _Usual(words="fitting with a finer mesh"),
     "what cannot be told apart": _Usual(words="looking for equivalent explanations"),
     CHECKING: _Usual(words="checking on held-out trials", share_percent=1.0),
+    "other forms of a law": _Usual(words="comparing with other forms of a law"),
     ASSESSING: _Usual(words="assessing the best explanation", share_percent=2.0),
     "adding another effect": _Usual(words="adding another effect", share_percent=5.0),
     "screening free-form laws": _Usual(words="screening free-form laws"),

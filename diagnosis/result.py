@@ -1,4 +1,4 @@
-"""Everything that a report is made of."""
+"""The result of a diagnosis: everything that a report is made of."""
 
 from dataclasses import dataclass
 from datetime import date
@@ -18,14 +18,14 @@ from sim.recording.html_table import html_table
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis:
-    """What a log says of its rig.
+    """The result of a diagnosis.
 
     Attributes:
       nominal: readings that the nominal rig predicts, at the samples of the log, by trial.
-      record: of the search, stage by stage.
-      missing: of an unknown log, what is not in the library; None: not looked for.
-      stopped: what a stop left out; None: it went to its end.
-      diagnosed_on: the day of the diagnosis, as whoever asked for it says; None: not said.
+      record: record of the search, stage by stage.
+      missing: for an unknown log, what the library lacks; None: not searched for.
+      stopped: what an early stop left out; None: the diagnosis was completed.
+      diagnosed_on: date of the diagnosis, as given by the caller; None: not given.
     """
 
     log: RigLog
@@ -40,7 +40,7 @@ class Diagnosis:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Of a stop, of the log, of its noise, of the search and of the replay."""
+        """Warnings about an early stop, the log, its noise, the search and the replay."""
         return (
             *([self.stopped.warning] if self.stopped else ()),
             *self.log.warnings,
@@ -50,7 +50,7 @@ class Diagnosis:
         )
 
     def _repr_html_(self) -> str:
-        """Verdict, parameters and warnings, for a notebook; the report has all of it."""
+        """Verdict, parameters and warnings, for a notebook; the report has more."""
         tables = [html_table(self._in_short, self._parameters)]
         if self.warnings:
             tables.append(html_table("warnings", pd.DataFrame({"": self.warnings})))
@@ -75,7 +75,7 @@ class Diagnosis:
 
     @property
     def _failures(self) -> tuple[str, ...]:
-        """What could not be simulated, once for each set of effects."""
+        """Failed simulations, once for each set of effects."""
         lost = {e.effects: e for e in self.record if e.decision is Decision.FAILED}
         return tuple(
             f"{' with '.join(names) or 'the nominal rig'}: not fully tried ({entry.stage}): "

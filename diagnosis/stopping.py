@@ -1,8 +1,8 @@
-"""Stopping a diagnosis before its end: at a time limit, or because somebody asks for it.
+"""Stops a diagnosis early: at a time limit, or on request.
 
-A signal is seen by this process and by every process that is made after it: what was asked for is in
-shared memory, and `time.monotonic()` is one clock for a whole machine. What runs looks at the signal
-between its steps and raises `StoppedEarly`; what has come to a result keeps it.
+A signal is visible in this process and in every process that is made after it: the request is in
+shared memory, and `time.monotonic()` is one clock for the whole machine. Computations check the signal
+between their steps and raise `StoppedEarly`; results that exist are kept.
 """
 
 import math
@@ -21,11 +21,11 @@ T = TypeVar("T")
 
 
 class StoppedEarly(NeedleError):
-    """A computation ended before it came to a result."""
+    """A computation was stopped before it had a result."""
 
 
 class StopReason(IntEnum):
-    """Who asked for an end."""
+    """The reason of a stop."""
 
     NOBODY = 0
     INTERRUPTED = 1
@@ -34,13 +34,13 @@ class StopReason(IntEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class EarlyStop:
-    """What a diagnosis that was stopped says of it.
+    """What a stopped diagnosis reports about the stop.
 
     Attributes:
       why: "limit of 30 s", "interrupted" or "terminated".
-      stage: that was cut short, in words.
-      left_out: parts of the work that were not done, or not to their end.
-      search: whether the search itself was cut short, so that rivals may not have been tried.
+      stage: stage that was stopped, in words.
+      left_out: parts of the work that were not done, or not completed.
+      search: whether the search itself was stopped, so that some explanations may not have been tried.
     """
 
     why: str
@@ -50,31 +50,31 @@ class EarlyStop:
 
     @property
     def warning(self) -> str:
-        """What was not done, and what that means."""
+        """A warning: what was not done, and what this means."""
         meant = "; what was not tried may explain the log as well, or better" if self.search else ""
         left_out = ", ".join(self.left_out)
         return f"stopped early ({self.why}); not done, or not to the end: {left_out}{meant}"
 
 
 class StopSignal:
-    """When a diagnosis has to come to its end.
+    """Tells when a diagnosis has to stop.
 
     Attributes:
-      limit_s: for the whole, from `began_s`; None: without a limit.
-      left_out: parts of the work that were not done, or not to their end, in their order.
+      limit_s: time limit from `began_s`, s; None: no limit.
+      left_out: parts of the work that were not done, or not completed, in order.
     """
 
     def __init__(
         self, limit_s: float | None = None, *, began_s: float | None = None, reserve_s: float = 0.0
     ) -> None:
-        """A signal that nobody has given yet.
+        """A new signal, which has not been given yet.
 
         Args:
           began_s: `time.monotonic()` from which the limit counts; None: now.
-          reserve_s: of the limit, kept for what comes after the diagnosis.
+          reserve_s: part of the limit that is kept for the time after the diagnosis.
 
         Raises:
-          InvalidValue: the limit is no positive time.
+          InvalidValue: the limit is not a positive time.
         """
         if limit_s is not None and not 0 < limit_s < math.inf:
             raise InvalidValue("limit", limit_s, "seconds above 0", "leave it out for no limit")
@@ -86,21 +86,21 @@ class StopSignal:
         self._asked = RawValue("b", StopReason.NOBODY)
 
     def request(self, reason: StopReason) -> None:
-        """Ask for an end; safe in a handler of signals."""
+        """Request a stop; safe in a signal handler."""
         self._asked.value = reason
 
     def reserve(self, seconds_s: float) -> None:
-        """Keep more of the limit for the end: before processes that listen are made."""
+        """Reserve more of the limit for the end; call it before worker processes are made."""
         self._reserve_s += seconds_s
 
     @property
     def requested(self) -> StopReason:
-        """Who asked for an end."""
+        """The reason of the request, if there is one."""
         return StopReason(self._asked.value)
 
     @property
     def left_s(self) -> float:
-        """Time for the search and all that is told beside it."""
+        """Remaining time for search and assessment, s."""
         return self._ends_s - self._reserve_s - time.monotonic()
 
     @property
@@ -110,21 +110,21 @@ class StopSignal:
 
     @property
     def over(self) -> bool:
-        """Whether the limit is past, or an end was asked for: too late for any result."""
+        """Whether the whole limit has passed, or a stop was requested: too late for any result."""
         return bool(self.requested) or self.left_s + self._reserve_s <= 0
 
     @property
     def why(self) -> str:
-        """In words."""
+        """The reason of the stop in words."""
         return self.requested.name.lower() if self.requested else f"limit of {self.limit_s or 0:g} s"
 
     def leave_out(self, part: str) -> None:
-        """Note a part of the work that was not done, or not to its end."""
+        """Note a part of the work that was not done, or not completed."""
         if part not in self.left_out:
             self.left_out.append(part)
 
     def unless_due(self, part: str, make: Callable[[], T]) -> T | None:
-        """What is made, or None where there was no time for all of it."""
+        """The result of `make`, or None if there was not enough time."""
         made = None if self.due else make()
         if not self.due:
             return made
@@ -137,18 +137,18 @@ _HEARD: ContextVar[StopSignal] = ContextVar("heard", default=NEVER)
 
 
 def stopping() -> bool:
-    """Whether what runs in this context has to end."""
+    """Whether computations in this context have to stop."""
     return _HEARD.get().due
 
 
 def listen(stop: StopSignal) -> None:
-    """From now on, what runs in this context ends when the signal is given."""
+    """From now on, computations in this context stop when the signal is given."""
     _HEARD.set(stop)
 
 
 @contextmanager
 def listening(stop: StopSignal) -> Iterator[None]:
-    """What runs inside ends when the signal is given."""
+    """Computations inside the block stop when the signal is given."""
     before = _HEARD.set(stop)
     try:
         yield
@@ -157,7 +157,7 @@ def listening(stop: StopSignal) -> Iterator[None]:
 
 
 def raise_if_stopped() -> None:
-    """Called between the steps of what takes long.
+    """To be called between the steps of long computations.
 
     Raises:
       StoppedEarly: the signal has been given.

@@ -1,12 +1,11 @@
-"""Running one function on many arguments, over processes where there are several.
+"""Runs one function on many arguments, in several processes if there are several.
 
-Every call comes back, in order: as its value, or as a `Failure` that names what could not be
-simulated, or what a stop has left undone. Misuse is no failure of a simulation: it is raised, from
-a worker too. Worker processes end with this one, however it ends.
+Each call returns, in order, its value, or a `Failure` if it could not be simulated or was stopped.
+Other errors are raised, from workers too. Worker processes end with this one, however it ends.
 
-Where there are fewer calls than processes, the cores that are left go to threads within a call
-(`side_by_side`): simulations run without Python's lock. Libraries of linear algebra get one thread in
-a process: their own, one per core in each, would wait for each other. Results depend on none of this.
+If there are fewer calls than processes, the other cores are used by threads within calls
+(`side_by_side`): simulations release Python's lock. Libraries of linear algebra get one thread per
+process: with one per core in each, they would wait for each other. Results do not depend on any of this.
 """
 
 import os
@@ -44,17 +43,17 @@ _LOOK_S = 0.1  # between two looks at the signal to stop
 
 
 def unheard(stage: str, done: int, tasks: int) -> None:
-    """Progress that nobody watches."""
+    """Ignore progress."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Failure:
-    """A computation that could not be carried out.
+    """A computation that failed.
 
     Attributes:
-      effects: that it was about.
-      reason: why, in the words of what failed.
-      stopped: whether there was no time for it.
+      effects: effects that it was about.
+      reason: message of the error.
+      stopped: whether it was stopped early.
     """
 
     effects: tuple[str, ...]
@@ -72,11 +71,11 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Workers:
-    """Processes, who is told how far they are, and when they have to end.
+    """Worker processes, with a watcher of their progress and a signal to stop.
 
     Attributes:
-      pool: None works in this process.
-      count: of processes.
+      pool: None: compute in this process.
+      count: number of processes.
     """
 
     pool: Executor | None = None
@@ -87,10 +86,10 @@ class Workers:
     def each(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
         """Values or failures, in the order of the tasks.
 
-        After a stop what waits is not begun, and what runs is not waited for.
+        After a stop, waiting tasks are not begun, and running ones are not awaited.
 
         Raises:
-          Exception: whatever a call raises but SimulationFailed.
+          Exception: any error of a call except SimulationFailed.
         """
         found = (
             self._over_processes(self.pool, stage, function, tasks)
@@ -126,7 +125,7 @@ class Workers:
 
 
 def attempt(function: Callable[..., T], task: Task) -> T | Failure:
-    """The value of a call, or why it could not be simulated, or not in time."""
+    """The value of a call, or a failure if it could not be simulated, or was stopped."""
     try:
         return function(*task.arguments)
     except SimulationFailed as failed:
@@ -140,7 +139,7 @@ def _undone(task: Task) -> Failure:
 
 
 def _attempt_on(threads: int, function: Callable[..., T], task: Task) -> T | Failure:
-    """The same in a process of the pool, which has so many cores to itself."""
+    """The same in a process of the pool, which may use so many threads."""
     _THREADS.set(threads)
     return attempt(function, task)
 
@@ -149,7 +148,7 @@ def side_by_side(function: Callable[[S], T], items: Sequence[S]) -> list[T]:
     """The function of each item, in order, on the threads that this call may use.
 
     Raises:
-      Exception: what the first item raises that raises anything.
+      Exception: the error of the first item that fails.
     """
     threads = min(_THREADS.get(), len(items))
     if threads <= 1:
@@ -160,7 +159,7 @@ def side_by_side(function: Callable[[S], T], items: Sequence[S]) -> list[T]:
 
 @contextmanager
 def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER) -> Iterator[Workers]:
-    """Processes that share what this one has loaded, and end with the block; 1 works in this one."""
+    """Forked processes, which end with the block; with a count of 1, this process computes."""
     if count <= 1:
         yield Workers(progress=progress, stop=stop)
         return
@@ -179,9 +178,9 @@ def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER
 
 
 def _begin(stop: StopSignal) -> None:
-    """A process of the pool begins.
+    """Initialise a process of the pool.
 
-    Signals go to the whole group of processes: what they mean is the parent's to decide.
+    Signals reach the whole process group; only the parent reacts to them.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -191,7 +190,7 @@ def _begin(stop: StopSignal) -> None:
 
 
 def _end_with_the_parent() -> None:
-    """Also where the parent is killed, and can tell nobody."""
+    """End this process with its parent, even if that is killed."""
     parent = parent_process()
     if parent is not None:
         parent.join()

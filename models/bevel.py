@@ -1,4 +1,4 @@
-"""Where a bevel tip goes: constant curvature in the direction that the tip points.
+"""The path of a bevel tip: constant curvature in the direction in which the bevel pulls.
 
 With unit tangent t and a frame n, b that is carried along without turning about t, a
 tip of radius of curvature R at roll theta moves as (Webster et al. 2006; the paper's
@@ -6,8 +6,8 @@ Section V uses R = 61 mm for its prebent tip)
 
     dp/ds = t,    dt/ds = (cos theta n + sin theta b) / R.
 
-At one roll the tip moves along a circle, and a step is that circle's arc: exact, whatever
-its length, and the frame stays orthonormal.
+At constant roll the tip moves along a circle. Every step is an arc of it: exact for any step
+length, and the frame stays orthonormal.
 """
 
 import math
@@ -24,10 +24,10 @@ PREBENT_RADIUS_MM = 61.0
 
 
 class BevelTip:
-    """A tip on its way; x along the first insertion, z out of the first plane of curvature.
+    """The pose of a tip; x along the first insertion, z out of the first plane of curvature.
 
     Args:
-      radius_mm: of curvature.
+      radius_mm: radius of curvature.
       position_mm: where the tip starts, (3,).
 
     Raises:
@@ -59,7 +59,7 @@ class BevelTip:
         return direction
 
     def pointing(self, roll_rad: float) -> tuple[Array, Array]:
-        """Where the bevel pulls at a roll, and the direction in which more roll moves it."""
+        """Direction in which the bevel pulls at a roll, and its derivative with the roll, (3,) each."""
         _, n, b = self.frame.T
         toward = math.cos(roll_rad) * n + math.sin(roll_rad) * b
         onward = -math.sin(roll_rad) * n + math.cos(roll_rad) * b

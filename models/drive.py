@@ -1,4 +1,4 @@
-"""What turns the base: a servo that sets an angle, or a motor that sets a torque."""
+"""The drive of the base: a servo that sets an angle, or a motor that sets a torque."""
 
 from enum import StrEnum
 
@@ -10,7 +10,7 @@ from models.record import Record
 
 
 class DriveKind(StrEnum):
-    """Which quantity at the base is given."""
+    """Which quantity is given at the base."""
 
     ANGLE = "angle"
     TORQUE = "torque"

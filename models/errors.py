@@ -1,4 +1,4 @@
-"""The exceptions of the library: what was expected, what was found and how to fix it."""
+"""The exceptions of the library: they say what was expected, what was found and how to fix it."""
 
 from pathlib import PurePath
 from typing import Any
@@ -33,7 +33,7 @@ class InvalidValue(NeedleError, ValueError):
 
 
 class UnknownName(InvalidValue):
-    """A name that is not among the known ones: says which was probably meant, then all of them."""
+    """A name that is not known; the message suggests the one that was probably meant, then lists all."""
 
     def __init__(self, field: str, found: Any, known: Any) -> None:
         names = ", ".join(sorted(map(str, known)))
@@ -44,15 +44,15 @@ class UnknownName(InvalidValue):
 
 
 class OutputExists(NeedleError):
-    """An output path exists and was not to be overwritten."""
+    """An output path exists, and overwriting was not allowed."""
 
 
 class UnsafeOutput(NeedleError):
-    """An output path is the user's own file, or leads to it: no option replaces that."""
+    """An output path is or leads to a file of the user's, which no option overwrites."""
 
 
 class UnwritableOutput(NeedleError):
-    """The system does not let an output be written: its disk is full, or its path is no place for it."""
+    """The system cannot write an output: the disk is full, or the path is unsuitable."""
 
 
 class EnvironmentMismatch(NeedleError):
@@ -60,7 +60,7 @@ class EnvironmentMismatch(NeedleError):
 
 
 def _shown(value: Any) -> str:
-    """A value as a person wrote it, paths as plain text; all else as Python shows it; cut."""
+    """A value for a message: paths as plain text, all else by `repr`; long values are cut."""
     if value is None:
         return "nothing"
     shown = str(value) if isinstance(value, PurePath) else repr(value)
@@ -68,7 +68,7 @@ def _shown(value: Any) -> str:
 
 
 def _restored(kind: type[InvalidValue], *fields: Any) -> InvalidValue:
-    """An error of a kind from its fields, independent of its constructor."""
+    """An error of a kind from its fields, without its constructor: for errors of other processes."""
     error = kind.__new__(kind)
     InvalidValue.__init__(error, *fields)
     return error

@@ -16,9 +16,9 @@ m = kappa w^2:
     beta k tau s^2 + (beta k + m (beta + k tau)) s + m k = 0.
 
 Its discriminant, (beta k - m k tau)^2 + m^2 beta^2 + 2 m beta (beta k + m k tau), is positive:
-both are real. The fast one is the shaft against friction and damper in series, the slow one
-the tissue that creeps back: for high modes it tends to -k / (beta + k tau), from above. In a
-turn of the base each mode shares out to its two poles as the residues of Z / (s (Z + m)),
+both are real. The fast pole is the shaft against friction and damper in series, the slow one
+tissue that creeps back: for high modes it tends to -k / (beta + k tau), from above. In a
+turn of the base, the shares of the two poles of a mode are the residues of Z / (s (Z + m)),
 
     g = beta k (1 + tau s) / (2 beta k tau s + beta k + m (beta + k tau)),   g_slow + g_fast = 1.
 
@@ -44,8 +44,8 @@ class YieldingTissueNeedle:
 
     Attributes:
       viscous: the same needle in tissue that does not yield: beta, lengths, drive.
-      stiffness_n_mm_per_rad_per_mm: k, of the tissue.
-      time_constant_s: tau, damper over spring.
+      stiffness_n_mm_per_rad_per_mm: k, stiffness of the tissue.
+      time_constant_s: tau, damper / spring.
 
     Raises:
       InvalidValue: stiffness or time constant is not positive.
@@ -63,7 +63,7 @@ class YieldingTissueNeedle:
 
     @property
     def creep_limit_rad_s(self) -> float:
-        """-k / (beta + k tau), rad/s: where the slow poles of high modes gather."""
+        """-k / (beta + k tau), rad/s: the limit of the slow poles for high modes."""
         k = self.stiffness_n_mm_per_rad_per_mm
         return -k / (self.viscous.damping_n_mm_s_per_mm + k * self.time_constant_s)
 
@@ -86,7 +86,7 @@ class YieldingTissueNeedle:
         return np.asarray(friction * (1 + self.time_constant_s * s) / slope, np.float64)
 
     def respond(self, time_s: ArrayLike, drive_rad: ArrayLike, *, count: int = 60) -> Response:
-        """Exact response, from rest, to a base angle that runs straight between samples.
+        """Exact response, from rest, to a base angle that is linear between samples.
 
         Args:
           time_s: increasing times, (N,).
@@ -97,7 +97,9 @@ class YieldingTissueNeedle:
           InvalidValue: the needle is not driven by angle, or times do not increase.
         """
         if self.viscous.drive is not DriveKind.ANGLE:
-            raise InvalidValue("drive", self.viscous.drive.value, "'angle'")
+            raise InvalidValue(
+                "drive", self.viscous.drive.value, "'angle', because a base angle is given"
+            )
         t, u = np.asarray(time_s, float), np.asarray(drive_rad, float)
         shares = self.shares(count) * self.viscous.participation(count)[:, None]
         terms = relaxing_modes(t, u, self.poles_rad_s(count).ravel(), shares.ravel())

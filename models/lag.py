@@ -14,7 +14,7 @@ def twist_deg(needle: Needle, *, torque_n_mm: float, length_mm: float) -> float:
 def shear_modulus_gpa(
     *, diameter_mm: float, torque_n_mm: float, length_mm: float, twist_deg: float
 ) -> float:
-    """G from a twist test, GPA: equation (1) read backwards (Section II-A)."""
+    """G from a twist test, GPa: equation (1) solved for G (Section II-A)."""
     polar_moment_mm4 = math.pi * diameter_mm**4 / 32
     return torque_n_mm * length_mm / (polar_moment_mm4 * math.radians(twist_deg)) * 1e-3
 
@@ -36,7 +36,7 @@ def lag_deg(needle: Needle, *, base_torque_n_mm: float, free_mm: float, inserted
 
 
 def level_n_mm_per_mm(needle: Needle, *, lag_deg: float, free_mm: float, inserted_mm: float) -> float:
-    """Dry friction per mm that holds a given lag, N mm / mm: (2) read backwards."""
+    """Dry friction per mm that holds a given lag, N mm / mm: (2) solved for the friction."""
     torque = math.radians(lag_deg) * needle.rigidity_n_mm2 / (free_mm + inserted_mm / 2)
     return torque / inserted_mm
 

@@ -1,9 +1,8 @@
 """The paper's lumped needle: equations (3) and (4).
 
-m equal masses, free at both ends; torsion kappa / l_s between neighbours (the
-paper's K, divided by the length l_s that its kappa is spread over), damping b / m
-each. Every pole is that of the continuous needle times (sin x / x)^2,
-x = k pi / 2m.
+m equal masses, free at both ends; torsional stiffness kappa / l_s between neighbours (the
+paper's K divided by the length l_s of an element); damping b / m on each. Every pole is that
+of the continuous needle times (sin x / x)^2, x = k pi / 2m.
 """
 
 import numpy as np
@@ -26,9 +25,9 @@ def stiffness_n_mm(needle: InsertedNeedle, masses: int) -> Array:
 
 
 def poles_rad_s(needle: InsertedNeedle, *, masses: int, count: int) -> Array:
-    """The slowest `count` poles of (3), rad/s, slowest first, the free turn (0) included.
+    """The slowest `count` poles of (3), rad/s, slowest first, including the free turn (0).
 
-    Inertia shifts each by less than a part in 10^6 (Section III-E) and is kept:
+    Inertia is kept, although it shifts each by less than a part in 10^6 (Section III-E): a pole is
     the slow root of (eta l_s) s^2 + d s + k_i = 0.
     """
     spring = needle.needle.rigidity_n_mm2 * masses / needle.inserted_mm

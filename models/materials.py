@@ -1,7 +1,7 @@
 """The paper's five materials (Table I), as far as it states them.
 
-What is computed from a printed figure is computed here, once. What the paper does
-not state stays unknown: it is listed, together with what is used instead.
+Constants that follow from printed figures are computed here, once. Constants that the paper does
+not state are listed, together with the values that are used instead.
 """
 
 import numpy as np

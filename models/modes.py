@@ -3,7 +3,7 @@
 Equation (9), kappa theta'' = eta theta_tt + beta theta_t, on the inserted length
 0 <= x <= l, free at the tip; a free length f between chuck and tissue carries
 torque without friction. Separation of variables (12)-(14) gives shapes
-cos(w (l - x)) whose wavenumbers w depend on what is given at the base:
+cos(w (l - x)) whose wavenumbers w depend on the quantity that is given at the base:
 
     torque given (free - free):   w = k pi / l                  (14)
     angle given:                  w l tan(w l) = l / f;  f = 0: w = (k - 1/2) pi / l
@@ -44,7 +44,7 @@ class InsertedNeedle:
       damping_n_mm_s_per_mm: beta, viscous torque per rad/s and per mm inserted.
       inserted_mm: l, length in contact with tissue.
       free_mm: f, length between chuck and tissue.
-      drive: which quantity at the base is given.
+      drive: which quantity is given at the base.
 
     Raises:
       InvalidValue: damping or inserted length is not positive, or free is negative.
@@ -97,7 +97,7 @@ class InsertedNeedle:
         return np.array(roots)
 
     def overtones_rad_s(self, count: int) -> NDArray[np.complex128]:
-        """The fast partners of the poles in (19), without free length, rad/s."""
+        """The fast root of each mode in (19), without free length, rad/s."""
         eta, beta = self._inertia, self.damping_n_mm_s_per_mm
         square = beta**2 + 4 * eta * beta * self.poles_rad_s(count).astype(complex)
         return np.asarray((-beta - np.sqrt(square)) / (2 * eta), np.complex128)
@@ -137,7 +137,7 @@ class InsertedNeedle:
         return np.where(w == 0, 1.0, a)
 
     def respond(self, time_s: ArrayLike, drive_rad: ArrayLike, *, count: int = 60) -> "Response":
-        """Exact response, from rest, to a base angle that runs straight between samples.
+        """Exact response, from rest, to a base angle that is linear between samples.
 
         With theta = u + sum c_k cos(w_k (l - x)):  dc_k/dt = p_k c_k - a_k du/dt.
 
@@ -161,7 +161,7 @@ class InsertedNeedle:
 
 @dataclass(frozen=True, kw_only=True)
 class Response:
-    """What the closed form says: times (N,), tip (N,), torque (N,), modes (N, count)."""
+    """Response of the closed form: times, tip and torque, (N,) each; modes, (N, count)."""
 
     time_s: Array
     tip_rad: Array

@@ -1,4 +1,4 @@
-"""Names that become files: a protocol's, a trial's. What cannot be one is refused when it is read."""
+"""Names that become file names (protocols, trials): impossible ones are refused when they are read."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ MOST_BYTES = 200
 
 
 def refuse_no_file_name(field: str, name: str) -> None:
-    """Check that a name is one of a file, and of no folder above or below.
+    """Check that a name is a plain file name, without a path to another folder.
 
     Raises:
       InvalidValue: names the field, what was found and how to fix it.
@@ -30,7 +30,7 @@ def refuse_no_file_name(field: str, name: str) -> None:
 
 
 def is_file(path: Path) -> bool:
-    """Whether there is such a file; what no file system can have is not there."""
+    """Whether the file exists; False, too, for a path that no file system allows."""
     try:
         return path.is_file()
     except (OSError, ValueError):
@@ -38,7 +38,7 @@ def is_file(path: Path) -> bool:
 
 
 def is_folder(path: Path) -> bool:
-    """Whether there is such a folder; what no file system can have is not there."""
+    """Whether the folder exists; False, too, for a path that no file system allows."""
     try:
         return path.is_dir()
     except (OSError, ValueError):

@@ -21,9 +21,9 @@ STIFFNESS_POINTS = 5
 
 
 class Needle(Record):
-    """Material and shape of a needle, and the torques that are its own.
+    """Material and shape of a needle, and the torques that depend on it alone.
 
-    What follows the length is nothing for the straight, bare shaft of the paper.
+    All fields after the length are neutral by default: the straight, bare shaft of the paper.
     """
 
     name: str = "custom"

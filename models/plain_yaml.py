@@ -1,8 +1,8 @@
-"""YAML as plain values: the one reader of every YAML file that a user hands in.
+"""YAML as plain values: the one reader of every YAML file that a user provides.
 
-YAML lets a small file stand for a huge one (aliases), the last of two equal keys win, and a tag ask for
-a value that its text is none of. None of it is wanted in a protocol, a `rig.yaml` or a mapping, and all
-of it is refused before anything is built.
+YAML allows aliases, which let a small file expand to a huge one; duplicate keys, of which the last
+wins; and tags, which may contradict the text of a value. No protocol, `rig.yaml` or mapping needs
+these: all are refused before any object is built.
 """
 
 import binascii
@@ -29,7 +29,7 @@ _WRONG_TEXT = (ValueError, LookupError, ArithmeticError, TypeError, AttributeErr
 
 
 class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
-    """The safe loader, whose values say on which line they are wrong."""
+    """The safe loader; its errors name the line of the wrong value."""
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
         try:
@@ -44,7 +44,7 @@ def read_yaml(path: Path, *, expected: str) -> dict[str, Any]:
     """The fields of a YAML file.
 
     Args:
-      expected: what the file is, in words, as an error says it.
+      expected: what the file should be, in words, for the error message.
 
     Raises:
       InvalidValue: names the file, the line if one is at fault, and how to fix it.
@@ -67,7 +67,7 @@ def read_yaml(path: Path, *, expected: str) -> dict[str, Any]:
 
 
 def read_record(path: Path, kind: type[R], content: Mapping[str, Any]) -> R:
-    """The record that a file's fields make.
+    """Build a record from the fields of a file.
 
     Raises:
       InvalidValue: names the file and the field.
@@ -82,7 +82,7 @@ def read_record(path: Path, kind: type[R], content: Mapping[str, Any]) -> R:
 
 
 def _refuse_yes_for_a_number(path: Path, given: Any, built: Any, field: str) -> None:
-    """`yes`, `no`, `on` and `off` are truths of YAML, which pydantic would take for 1 and 0."""
+    """Refuse YAML's `yes`, `no`, `on` and `off` for numbers; pydantic would make them 1 and 0."""
     if isinstance(given, bool) and isinstance(built, float):
         raise InvalidValue(f"{path}: {field}", given, "a number")
     if isinstance(given, Mapping):
@@ -114,7 +114,7 @@ def _text(path: Path, expected: str) -> str:
 
 
 def _refuse_huge(path: Path, text: str) -> None:
-    """Looks at the events alone: nothing is built yet."""
+    """Refuse a file that expands too far, from its parse events, before any object is built."""
     depth = 0
     for event in yaml.parse(text, Loader=_Loader):
         place = f"{path}, {_line(event)}"
@@ -129,7 +129,7 @@ def _refuse_huge(path: Path, text: str) -> None:
 
 
 def _refuse_odd(path: Path, node: yaml.Node | None) -> None:
-    """Refuse names that are none or are there twice, and text that cannot be shown."""
+    """Refuse keys that are not text, duplicate keys, and text that cannot be displayed."""
     if isinstance(node, yaml.MappingNode):
         _refuse_odd_names(path, [key for key, _ in node.value])
         for _, value in node.value:

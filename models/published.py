@@ -1,7 +1,7 @@
 """Figures printed by Reed, Okamura and Cowan, IEEE Trans. Biomed. Eng. 56 (2009).
 
-Each carries where it is printed. Nothing here is computed; what follows from these
-figures is computed where it is used, and compared there.
+Each figure states where it is printed. Nothing is computed here: what follows from these
+figures is computed, and compared with them, where it is used.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class PublishedFigure:
       value: as printed.
       unit: as printed, spelled out.
       source: table, figure, equation or section.
-      note: a remark of the paper on it, where that matters.
+      note: a relevant remark of the paper on it, or empty.
     """
 
     value: float

@@ -1,4 +1,4 @@
-"""Frozen, keyword-only configuration records whose errors name the field at fault."""
+"""Frozen, keyword-only configuration records whose errors name the wrong field."""
 
 from typing import Any
 
@@ -31,7 +31,7 @@ class Record(BaseModel):
 
 
 def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:
-    """The first of pydantic's errors as one of the library's own."""
+    """The first of pydantic's errors as an `InvalidValue`."""
     first = error.errors()[0]
     cause = first.get("ctx", {}).get("error")
     if isinstance(cause, InvalidValue):

@@ -1,11 +1,11 @@
 """Modes that each relax at one rate, driven by a base angle.
 
-What is linear and has no inertia answers a base angle u(t) with terms
+A linear needle without inertia responds to a base angle u(t) with one term
 
     dc/dt = p c - a du/dt,        c = 0 at rest,
 
-one for every pole p, whatever resists the shaft: `a` is the share of a uniform turn that the
-pole takes. Where u runs straight between samples this is solved exactly.
+for every pole p, whatever resists the shaft: `a` is the share of a uniform turn that belongs to
+the pole. The solution is exact if u is linear between samples.
 """
 
 import numpy as np

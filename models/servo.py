@@ -34,7 +34,7 @@ class Servo(Record):
 
     @property
     def lag_s(self) -> float:
-        """How far a shaft lags behind a command that moves slowly: 2 d / w, s."""
+        """Time by which the shaft lags behind a slowly moving command: 2 d / w, s."""
         return 2 * self.damping_ratio / self.rate_rad_s
 
     @property
@@ -44,7 +44,7 @@ class Servo(Record):
         return np.array([[0.0, 1.0], [-(w**2), -2 * self.damping_ratio * w]])
 
     def after(self, state: Array, command: float, step_s: float) -> Array:
-        """Angle and rate (2,) after a step with a held command, in the units of the command."""
+        """Angle and rate, (2,), after a step with a held command, in the units of the command."""
         held = np.array([command, 0.0])
         moved: Array = held + _transition(self, round(step_s, 12)) @ (state - held)
         return moved

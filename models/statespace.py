@@ -1,12 +1,12 @@
 """The torque-driven modal needle as a state space: equations (19)-(23).
 
-States are the modal amplitudes q_k of (12), input the base torque u, N mm. What
-the series says the angles are:
+States are the modal amplitudes q_k of (12), the input is the base torque u, N mm. By
+the series the angles are
 
     base = q_0 / 2 + sum q_k  (+ u f / kappa, over a free length f)
     tip  = q_0 / 2 + sum (-1)^k q_k
 
-`paper_tip` is the paper's (23c), where mode 0 enters whole.
+`paper_tip` is the paper's (23c), in which mode 0 counts fully instead of by half.
 """
 
 import control
@@ -46,7 +46,7 @@ def modal_system(needle: InsertedNeedle, *, modes: int) -> control.StateSpace:
 
 
 def full_modal_system(needle: InsertedNeedle, *, modes: int) -> control.StateSpace:
-    """The same with inertia, (20): states are amplitudes, then their rates."""
+    """The modal model with inertia, (20): states are the amplitudes, then their rates."""
     slow = modal_system(needle, modes=modes)
     eta, beta = needle.needle.rotary_inertia_kg_m, needle.damping_n_mm_s_per_mm
     zero, one = np.zeros((modes, modes)), np.eye(modes)
@@ -59,10 +59,10 @@ def full_modal_system(needle: InsertedNeedle, *, modes: int) -> control.StateSpa
 def hankel_ratios(
     needle: InsertedNeedle, *, modes: int, leak_rad_s: float | None = None
 ) -> NDArray[np.float64]:
-    """Hankel singular values of torque to tip, largest first, over the largest.
+    """Hankel singular values from torque to tip, largest first, relative to the largest.
 
-    Mode 0 integrates, so its Hankel value is infinite: it is left out, or let leak
-    at `leak_rad_s`. Neither is said by the paper, whose values follow from neither.
+    Mode 0 integrates, so its Hankel value is infinite: it is left out, or gets a slow pole at
+    `leak_rad_s`. The paper states neither, and its values follow from neither.
     """
     system = modal_system(needle, modes=modes)
     a, b, c = np.array(system.A), np.array(system.B), np.array(system.C)[1:2]

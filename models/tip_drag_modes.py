@@ -12,10 +12,10 @@ which is cos(w (l-x) + atan(w d)) up to a factor, and the base's condition is
     angle given:    w l + atan(w d) + atan(w f) = (k + 1/2) pi,     k = 0, 1, ...
     torque given:   w l + atan(w d)             = k pi.
 
-The left side rises with w and exceeds w l by less than pi, so each k has one root and it is
-bracketed; drag at one end and free length at the other enter alike. With d = 0 these are the
-wavenumbers of `models.modes`. The shapes are orthogonal in the weight of what resists,
-beta dx + c at the tip, with which a uniform turn is shared out to them.
+The left side rises with w and exceeds w l by less than pi, so each k has exactly one root in a
+known bracket; drag at one end and free length at the other have the same form. With d = 0 these are
+the wavenumbers of `models.modes`. The shapes are orthogonal in the weight beta dx + c at the tip,
+which also gives the share of each in a uniform turn.
 
 Units here: mm, N mm, s, rad.
 """
@@ -40,7 +40,7 @@ class TipDragNeedle:
 
     Attributes:
       shaft: the same needle without drag at its tip: beta, lengths, drive.
-      tip_drag_n_mm_s_per_rad: c, of the tip; 0: none.
+      tip_drag_n_mm_s_per_rad: c, drag of the tip; 0: none.
 
     Raises:
       InvalidValue: the drag is negative.
@@ -96,7 +96,7 @@ class TipDragNeedle:
         return np.where(w == 0, 1.0, a)
 
     def respond(self, time_s: ArrayLike, drive_rad: ArrayLike, *, count: int = 60) -> Response:
-        """Exact response, from rest, to a base angle that runs straight between samples.
+        """Exact response, from rest, to a base angle that is linear between samples.
 
         Args:
           time_s: increasing times, (N,).
@@ -107,7 +107,7 @@ class TipDragNeedle:
           InvalidValue: the needle is not driven by angle, or times do not increase.
         """
         if self.shaft.drive is not DriveKind.ANGLE:
-            raise InvalidValue("drive", self.shaft.drive.value, "'angle'")
+            raise InvalidValue("drive", self.shaft.drive.value, "'angle', because a base angle is given")
         t, u = np.asarray(time_s, float), np.asarray(drive_rad, float)
         w, wl = self.wavenumbers_per_mm(count), self.wavenumbers_per_mm(count) * self.shaft.inserted_mm
         c = relaxing_modes(t, u, self.poles_rad_s(count), self.participation(count))

@@ -1,4 +1,4 @@
-"""The tissue: what resists the shaft where it is inserted, per mm of shaft.
+"""The tissue: the laws that resist the inserted shaft, per mm of shaft.
 
 Friction acts at the interface between shaft and tissue, against their slip s:
 
@@ -9,8 +9,8 @@ Friction acts at the interface between shaft and tissue, against their slip s:
 and the tissue at the shaft may itself turn, by phi, against a Kelvin-Voigt element
 stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
 
-A law may be shaped beyond these: its viscous torque times a curve of |s|; all of it stronger one way
-than the other, and times a factor that varies in time. A torque may depend on the angle of the shaft,
+Three more factors may shape a law: a curve of |s| on the viscous torque, a different strength in
+either direction, and a factor that varies in time. A torque may also depend on the shaft's angle,
 
     orientation sin(cycles theta - phase).
 """
@@ -87,7 +87,7 @@ class Interface(Record):
 
 
 class Layer(Record):
-    """A stretch of tissue, from where the previous layer ends."""
+    """A layer of tissue; it begins where the previous layer ends."""
 
     interface: Interface
     thickness_mm: Positive | None = None
@@ -143,7 +143,7 @@ class Tissue(Record):
     def uniform(
         cls, *, name: str = "custom", entry_friction_n_mm: float = 0.0, **law: float
     ) -> "Tissue":
-        """One layer; `law` are fields of `Interface`."""
+        """Tissue of one layer; the keyword arguments `law` are fields of `Interface`."""
         return cls(
             name=name,
             layers=(Layer(interface=Interface(**law)),),

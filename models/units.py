@@ -1,6 +1,6 @@
-"""Conversions between the units that people read and SI, which MuJoCo computes in.
+"""Conversions between the units of users and SI, in which MuJoCo computes.
 
-N mm, mm, deg, s, GPa, g/cm3 at the edges; N m, m, rad, s, Pa, kg/m3 inside.
+Inputs and outputs: N mm, mm, deg, s, GPa, g/cm3. Inside: N m, m, rad, s, Pa, kg/m3.
 """
 
 import math

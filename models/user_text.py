@@ -1,8 +1,8 @@
-r"""The user's own text (names, descriptions, paths), shown as what it says and nothing else.
+r"""Escapes the user's own text (names, descriptions, paths), so that it is displayed literally.
 
-Whoever shows text reads marks in it: matplotlib takes `$...$` for mathematics, Markdown `[x](y)` for a
-link, XML `--` for the end of a comment, a terminal the character 27 for a command. Each has its owner
-here, but HTML (`html.escape`) and rich, whose consoles are made in one place (`scripts/terminal.py`).
+Every display interprets some characters: matplotlib takes `$...$` for mathematics, Markdown `[x](y)`
+for a link, XML `--` for the end of a comment, a terminal the character 27 for a command. This module
+escapes for these; `html.escape` does for HTML, and `scripts/terminal.py` for rich.
 """
 
 import re
@@ -14,26 +14,26 @@ _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
 def unprintable(text: str) -> str:
-    """The first character that no page and no terminal can show; empty if there is none."""
+    """The first character that cannot be displayed; empty if there is none."""
     found = _UNPRINTABLE.search(text)
     return found[0] if found else ""
 
 
 def printable(text: str) -> str:
-    """The text with a mark in the place of every character that cannot be shown."""
+    """The text with a mark in place of every character that cannot be displayed."""
     return _UNPRINTABLE.sub(_REPLACEMENT, text)
 
 
 def in_figure(text: str) -> str:
-    r"""For matplotlib: `$\foo$` is shown as it stands, and not read as mathematics."""
+    r"""Escape for matplotlib: `$\foo$` is displayed literally, not as mathematics."""
     return printable(text).replace("$", r"\$")
 
 
 def in_markdown(text: str) -> str:
-    """For a line of Markdown: no heading, link, picture, code or table of its own."""
+    """Escape for a line of Markdown: the text makes no heading, link, picture, code or table."""
     return _MARKDOWN.sub(r"\\\1", " ".join(printable(text).split()))
 
 
 def in_xml_comment(text: str) -> str:
-    """For a comment of XML, which two hyphens may end."""
+    """Escape for an XML comment, which may not contain two hyphens in a row."""
     return re.sub("-(?=-|$)", "- ", printable(text))

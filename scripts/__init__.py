@@ -1,1 +1,1 @@
-"""What the console command `needle` runs."""
+"""The subcommands of the console command `needle`."""

@@ -1,4 +1,4 @@
-"""The arguments of the console command `needle`, and what is said of wrong ones."""
+"""The arguments of the console command `needle`, and the errors for wrong ones."""
 
 import argparse
 import platform
@@ -16,10 +16,10 @@ SHELLS = ("bash", "zsh")
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors say which name was probably meant."""
+    """A parser whose errors suggest the name that was probably meant."""
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """In place of argparse's own, which lists all choices."""
+        """Replaces argparse's own check, whose error lists all choices."""
         if action.choices is not None and value not in action.choices:
             known = [str(choice) for choice in action.choices]
             meant = did_you_mean(value, known)
@@ -81,7 +81,7 @@ def parser() -> Parser:
 
 
 def versions() -> str:
-    """Of this project, of what it computes and records with, and of Python."""
+    """Versions of this project, of its main packages, and of Python."""
     return ", ".join((*map(_version, PACKAGES), f"Python {platform.python_version()}"))
 
 

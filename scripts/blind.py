@@ -1,4 +1,4 @@
-"""`needle blind`: how often is the diagnosis right on rigs that it has never met?"""
+"""`needle blind`: how often is the diagnosis right on rigs that it has never seen?"""
 
 import json
 from collections.abc import Sequence
@@ -99,7 +99,7 @@ def run_score(
     Raises:
       InvalidValue: `trials` or the limit is out of range, or the folder has no logs or no usable
         ground truth.
-      EngineFailed: nobody is left who could diagnose; the reports so far are kept.
+      EngineFailed: no worker is left; the reports so far are kept.
     """
     if trials is not None and trials < 1:
         raise InvalidValue("--trials", trials, "at least 1", "leave it out for all trials")

@@ -35,10 +35,10 @@ def run(
     force: bool,
     console: Console,
 ) -> int:
-    """Run what is missing of a campaign, then sum it up.
+    """Run the missing cases of a campaign, then summarise it.
 
     Raises:
-      NeedleError: the campaign is not possible, or the folder is another one's.
+      NeedleError: the campaign is impossible, or the folder belongs to another one.
     """
     campaign = read_campaign(path, samples=samples)
     folder = out or _default_folder(campaign, resume=resume, force=force)
@@ -56,7 +56,7 @@ def run(
 
 
 def _default_folder(campaign: Campaign, *, resume: bool, force: bool) -> Path:
-    """Named after the campaign; numbered, if another run has or had it, but that which is continued."""
+    """The folder named after the campaign; numbered if another run uses it, unless that is continued."""
 
     def there(folder: Path) -> ResultFolder:
         return ResultFolder(folder=folder, campaign=campaign)

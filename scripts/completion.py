@@ -20,7 +20,7 @@ _FOLDERS = ("DIR", "LOG")
 
 
 def run(shell: str, console: Console) -> int:
-    """Print the script as it stands: rich would make blanks of its tabs."""
+    """Print the script unchanged: rich would replace its tabs by blanks."""
     console.file.write(script(shell))
     return 0
 
@@ -41,7 +41,7 @@ def script(shell: str) -> str:
 
 
 def _actions(of: argparse.ArgumentParser) -> Iterator[argparse.Action]:
-    """Every argument, those of subcommands among them."""
+    """Every argument, including those of subcommands."""
     for action in of._actions:
         yield action
         if isinstance(action.choices, Mapping):

@@ -53,7 +53,7 @@ def _steps(folder: Path) -> dict[str, Path]:
 
 
 def _told(written: ResultSet, folder: Path) -> list[Path | str]:
-    """The many recordings of steps in one line, the others one by one."""
+    """Names of the written files: the many recordings of steps in one line, the others one by one."""
     steps = {*_steps(folder).values()}
     others = [path for path in written.made if path not in steps]
     count = len(written.made) - len(others)
@@ -79,7 +79,7 @@ def _write(study: ControlStudy, destination: Destination, stage: ByShare) -> Res
 
 
 def _recordings(folder: Path) -> dict[tuple[TurnOrder, str], Path]:
-    """Files of the steered insertions; those as in the paper carry the controller's name alone."""
+    """Files of the steered insertions; for the paper's order of turns, named by controller only."""
     prefix = {TurnOrder.TO_AND_FRO: "", TurnOrder.WINDING: "winding_"}
     return {
         (order, name): folder / f"steered_{prefix[order]}{name}.rrd"

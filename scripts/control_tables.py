@@ -56,7 +56,7 @@ def integral_table(responses: list[StepResponse]) -> Table:
 
 
 def robustness_tables(responses: list[StepResponse]) -> list[Table]:
-    """Settling on every rig, a group of controllers each."""
+    """Settling on every rig, one table per group of controllers."""
     rigs = list(dict.fromkeys(o.plant for o in responses))
     found = {(o.plant, o.controller): o for o in responses}
     tables = []
@@ -77,7 +77,7 @@ def robustness_tables(responses: list[StepResponse]) -> list[Table]:
 
 
 def failures_table(responses: Iterable[StepResponse]) -> Table:
-    """Everything that failed beside the baselines."""
+    """All failures, except those of the baselines."""
     table = Table(title="What failed", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
     table.add_column("rig", max_width=28)
     table.add_column("controller", no_wrap=True)

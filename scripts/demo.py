@@ -1,7 +1,7 @@
-"""`needle demo`: the main job, from one command.
+"""`needle demo`: the main steps in one command.
 
-A simulated insertion, the cross-check against the closed-form modes, the replay of a
-rig's log that ships with the project, and what another rig has that its model lacks.
+A simulated insertion, the cross-check against the closed-form modes, the replay of an example
+log, and the diagnosis of another one.
 """
 
 import time

@@ -1,4 +1,4 @@
-"""`needle diagnose`: what a rig has that its nominal model lacks."""
+"""`needle diagnose`: which effects the nominal model of a rig lacks."""
 
 import json
 import time
@@ -56,13 +56,13 @@ def run(
     """Diagnose a log; prints a summary, or `report.json`.
 
     Args:
-      out: where the report goes; None: a default folder, or nowhere with `json_only`.
-      limit_s: for all of it; None: no limit.
+      out: folder of the report; None: a default folder, or none with `json_only`.
+      limit_s: time limit for everything, s; None: no limit.
       began_s: `time.monotonic()` from which the limit counts; None: now.
-      save_effect: name under which a free-form law that closes the gap is saved; None: it is not.
+      save_effect: name under which a free-form law that closes the gap is saved; None: it is not saved.
 
     Returns:
-      0, or 128 and the number of the signal that asked for the best so far.
+      0, or 128 + the number of the signal that stopped the diagnosis early.
     """
     effect_file = file_of(save_effect) if save_effect is not None else None
     if effect_file:

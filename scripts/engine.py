@@ -1,4 +1,4 @@
-"""The engine that a command line asks for."""
+"""The engine that the command line selects."""
 
 import os
 
@@ -10,10 +10,10 @@ from diagnosis.engines.local import on_this_machine
 
 
 def engine_of(workers: int | None, scheduler: str | None, shown: Console) -> Engine:
-    """A cluster, if there is an address of its scheduler; else processes, by default one per core.
+    """A cluster, if the address of its scheduler is given; else processes, by default one per core.
 
     Args:
-      shown: is told what happens to the connection.
+      shown: shows news of the connection.
     """
     if scheduler is None:
         return on_this_machine(workers or os.cpu_count() or 1)

@@ -1,4 +1,4 @@
-"""What the exit codes of `needle` mean."""
+"""The exit codes of `needle`, and their meaning."""
 
 from enum import IntEnum
 
@@ -24,5 +24,5 @@ class ExitCode(IntEnum):
 
 
 def in_words() -> str:
-    """All of them, a line each."""
+    """All codes with their meaning, one line each."""
     return "\n".join(f"  {code.value:>3}  {code.words}" for code in ExitCode)

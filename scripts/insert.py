@@ -54,7 +54,7 @@ def run(
     """Simulate a protocol by name or YAML file, in closed loop if a controller is named.
 
     Args:
-      mjcf: where to write the model; model: the one to run, if not the protocol's own.
+      mjcf: path to write the model to; model: path of the model to run; None: the protocol's own.
 
     Raises:
       InvalidValue: `model` together with `mjcf` or `controller`.
@@ -67,7 +67,7 @@ def run(
         raise UnknownName("--controller", controller, TIP_CONTROLLERS)
 
     def beside(folder: Path) -> list[Path]:
-        """A model inside the folder is one of its results; outside of it a result of its own."""
+        """Further results of the folder: the model, if it is written inside."""
         return [mjcf] if mjcf and mjcf.is_relative_to(folder) else []
 
     inputs = (*([Path(name)] if _is_file(name) else []), *([model] if model else []))
@@ -109,7 +109,7 @@ def _write_model(protocol: Protocol, path: Path) -> None:
 
 
 def find(name: str) -> Protocol:
-    """A protocol by file, if the name looks like one, else by name."""
+    """A protocol from a file, if the name looks like one, else by its name."""
     return read_protocol(Path(name)) if _is_file(name) else protocol_named(name)
 
 
@@ -118,7 +118,7 @@ def _is_file(name: str) -> bool:
 
 
 def output_paths(folder: Path, protocol: Protocol) -> list[Path]:
-    """What `write` will write."""
+    """All files that `write` writes."""
     return [folder / f"{protocol.name}{ending}" for ending in ENDINGS]
 
 

@@ -29,7 +29,7 @@ def run(path: Path, *, table: bool, console: Console) -> int:
 
 
 def as_table(path: Path, found: list[Entry]) -> Table:
-    """One row a component."""
+    """A table with one row per component."""
     shown = Table(title=str(path))
     shown.add_column("entity")
     for heading in ("rows", "from, s", "to, s", "last value"):

@@ -1,4 +1,4 @@
-"""Where results go: the folder that was asked for, or a default one in which nothing is overwritten."""
+"""The output folder: the given one, or a default one in which nothing is overwritten."""
 
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -27,7 +27,7 @@ def output_folder(
       inputs: files that the run reads.
 
     Raises:
-      OutputExists: a result exists in the folder that was asked for, and `force` is not given.
+      OutputExists: a result exists in the given folder, and `force` is not given.
       UnsafeOutput, UnwritableOutput: a result may not or cannot be written there.
     """
     folder = given or (default if force else first_free(default, outputs))
@@ -37,9 +37,9 @@ def output_folder(
 
 
 def first_free(default: Path, outputs: Outputs) -> Path:
-    """The default, or the first numbered one that has no results and is no other run's.
+    """The default, or the first numbered folder that has no results and is used by no other run.
 
-    It is this run's until `release_folders`.
+    It is reserved for this run until `release_folders`.
 
     Raises:
       UnwritableOutput: nothing can be written there.
@@ -48,15 +48,15 @@ def first_free(default: Path, outputs: Outputs) -> Path:
 
 
 def latest(default: Path, begun_at: Callable[[Path], float | None]) -> Path:
-    """The default or numbered folder in which a run was begun last; the default if none was.
+    """The default or numbered folder with the latest start of a run; the default if there is none.
 
-    It is this run's until `release_folders`.
+    It is reserved for this run until `release_folders`.
 
     Args:
-      begun_at: when the run was begun in a folder, in any unit of time; None: it was not.
+      begun_at: time at which a run was started in a folder, in any unit; None: never.
 
     Raises:
-      OutputExists: another run works in it.
+      OutputExists: another run uses it.
       UnwritableOutput: nothing can be written there.
     """
     begun = {folder: begun_at(folder) for folder in _existing(default)}
@@ -68,7 +68,7 @@ def latest(default: Path, begun_at: Callable[[Path], float | None]) -> Path:
 
 
 def release_folders() -> None:
-    """Let other runs choose what this process has chosen; to be called when it is done."""
+    """Release the folders that this process has reserved; to be called at its end."""
     _CLAIMS.close()
 
 
@@ -86,7 +86,7 @@ def _has_results(folder: Path, outputs: Outputs) -> bool:
 
 
 def _existing(default: Path) -> list[Path]:
-    """The default and all numbered folders that are there."""
+    """The default and all numbered folders that exist."""
     named = re.compile(re.escape(default.name) + r"(-\d+)?")
     there = default.parent.iterdir() if default.parent.is_dir() else ()
     return [path for path in there if named.fullmatch(path.name)]

@@ -1,4 +1,4 @@
-"""`needle diagnose --paper`: what explains the published figures where the stated model fails."""
+"""`needle diagnose --paper`: what explains the published figures that the stated model misses."""
 
 import json
 from pathlib import Path
@@ -37,10 +37,10 @@ def run(out: Path | None, *, json_only: bool, force: bool, console: Console) -> 
     """Diagnose Tables II, IV and V, and Figs. 3, 5, 11 and 12; prints a summary, or `paper.json`.
 
     Args:
-      out: where `paper.json` and `paper.html` go; None: a default folder, or nowhere with `json_only`.
+      out: folder of `paper.json` and `paper.html`; None: a default folder, or none with `json_only`.
 
     Raises:
-      OutputExists: a result exists and `force` is not given; before any work.
+      OutputExists: a result exists and `force` is not given; checked before any work.
     """
     writes = out is not None or not json_only
     destination = output_folder(out, DEFAULT, output_paths, force=force) if writes else None

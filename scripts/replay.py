@@ -1,4 +1,4 @@
-"""`needle replay`: a rig's log beside what its nominal rig predicts."""
+"""`needle replay`: a rig's log beside the predictions of its nominal rig."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -35,7 +35,7 @@ _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
 
 @dataclass(frozen=True, kw_only=True)
 class ReplayedTrial:
-    """A trial beside what the nominal rig predicts at its samples."""
+    """A trial, and the predictions of the nominal rig at its samples."""
 
     trial: Trial
     prediction: Prediction
@@ -61,7 +61,7 @@ def run(log_folder: Path, out: Path | None, *, force: bool, console: Console) ->
 
 
 def output_paths(log: RigLog, folder: Path) -> list[Path]:
-    """What `write` will write."""
+    """All files that `write` writes."""
     predictions = [folder / "predictions" / trial.name for trial in log.trials]
     return [folder / "replay.png", folder / "replay.rrd", *predictions]
 
@@ -70,7 +70,7 @@ def gap(nominal: NominalReplay, sensor: str, trial: int | None = None) -> float:
     """Root mean square of the residual / sigma, as in a diagnosis; NaN if not measured.
 
     Args:
-      trial: index; None: of all trials together.
+      trial: index of a trial; None: all trials together.
     """
     each = list(zip(nominal.problem.log.trials, nominal.predictions, strict=True))
     left = [t.readings[sensor] - p[sensor] for t, p in _chosen(each, trial) if t.has(sensor)]
@@ -80,7 +80,7 @@ def gap(nominal: NominalReplay, sensor: str, trial: int | None = None) -> float:
 
 
 def table(nominal: NominalReplay) -> Table:
-    """The gap of each trial, in units of the noise that the readings show."""
+    """The gap of each trial, in units of the estimated noise."""
     noise = nominal.problem.noise
     heads = [f"{label} (σ {noise[s]:.3g})" for s, label in _LABELS.items()]
     shown = Table("trial", "samples", *heads, title="Residual of the nominal model / σ")
@@ -123,7 +123,7 @@ def write(nominal: NominalReplay, destination: Destination, stage: ByShare = unh
 
 
 def _predicted(one: ReplayedTrial) -> pd.DataFrame:
-    """At the rows of the trial's file."""
+    """The predictions at the rows of the trial's file."""
     rows = one.trial.file_rows
     there = one.prediction.at(rows.taken_s, one.trial["time_s"])
     return pd.DataFrame({"time_s": rows.stamps_s} | {f"{s}_nominal": there[s] for s in SENSORS})
@@ -142,7 +142,7 @@ def _record(nominal: NominalReplay, path: Path) -> None:
 
 
 def _measured(trial: Trial) -> pd.DataFrame:
-    """What a trial measured, at its own samples, by the names of recordings."""
+    """The readings of a trial at its own samples, with the signal names of recordings."""
     names = {
         "base_angle_deg": "measured_base_deg",
         "tip_angle_deg": "measured_tip_deg",

@@ -1,4 +1,4 @@
-"""What a command says of the results that it wrote, and the exit code that goes with it."""
+"""Prints which results a command wrote, and returns its exit code."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -11,10 +11,10 @@ from sim.files import ResultSet
 
 
 def tell(results: ResultSet, console: Console, *, shown: Iterable[Path | str] | None = None) -> ExitCode:
-    """Name every file that is there, each in a line that can be copied; on standard error what is not.
+    """Print the path of every file that exists on a line of its own; missing ones on standard error.
 
     Args:
-      shown: named in place of the files that are there; None: those.
+      shown: lines to print instead of the paths; None: the paths.
     """
     for path in results.made if shown is None else shown:
         console.print(f"wrote      {path}", highlight=False, markup=False, soft_wrap=True)

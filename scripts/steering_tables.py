@@ -12,7 +12,7 @@ from studies.control.steering.steering_study import SteeringStudy
 
 
 def steering_tables(study: SteeringStudy) -> list[tuple[Table, int]]:
-    """Every table, in the order of the stages, and how many of its columns name a row."""
+    """Every table, in the order of the stages, with the number of columns that name its rows."""
     named_by_one = (_steered(study), _known_pose(study), _travels(study), _heights(study))
     return [*((table, 1) for table in named_by_one), (_fused(study), 2), (_spun(study), 3)]
 

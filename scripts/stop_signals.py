@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM: once asks a diagnosis for the best so far, twice ends it at once."""
+"""Ctrl-C and SIGTERM: the first asks a diagnosis for its best result so far, the second ends it."""
 
 import os
 import signal
@@ -20,10 +20,10 @@ EXIT_CODES = {
 
 @contextmanager
 def stops_on_signals(stop: StopSignal) -> Iterator[None]:
-    """Signals to this process ask for an end; signals that come then are those of Python.
+    """The first signal to this process requests a stop; further ones are handled by Python as usual.
 
-    A signal to the whole group also reaches processes that this one has just made, which still have
-    its handlers: they leave it to this one.
+    A signal to the whole process group also reaches child processes that still have these handlers:
+    they ignore it.
     """
     if threading.current_thread() is not threading.main_thread():
         yield  # only the main thread hears of signals

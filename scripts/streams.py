@@ -1,4 +1,4 @@
-"""Standard output and standard error: either may be full, closed, or unable to show a Greek letter."""
+"""Standard output and standard error: each may be full, closed, or unable to show some characters."""
 
 import os
 import sys
@@ -11,14 +11,14 @@ from scripts.terminal import terminal
 
 
 def show_what_can_be_shown() -> None:
-    """What a terminal has no sign for is a question mark, and no reason to stop."""
+    """Replace characters that a terminal cannot show by question marks, instead of failing."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
 
 
 def flush_output() -> None:
-    """Show all of it now, while an error can still be told.
+    """Flush standard output now, while an error can still be reported.
 
     Raises:
       OSError: standard output is full or closed.
@@ -28,7 +28,7 @@ def flush_output() -> None:
 
 
 def give_up_output() -> None:
-    """Let what cannot be shown go, so that Python does not complain when it ends."""
+    """Discard output that cannot be written, so that Python reports no error at exit."""
     try:
         flush_output()
     except OSError:

@@ -4,7 +4,7 @@
     ────────────────    ->    ────────────    then the same names beside c
     one    1   2   3          one    1   2
 
-Cells are broken between words, the widest column first; inside a word only if it is longer than half
+Cells wrap between words, the widest column first; inside a word only if it is longer than half
 the screen.
 """
 
@@ -21,14 +21,14 @@ def print_table(console: Console, table: Table, *, keys: int = 1) -> None:
     """Print a table no wider than the screen.
 
     Args:
-      keys: number of columns that name a row, and are repeated beside every part of it.
+      keys: number of columns that name a row; they are repeated in every part of the table.
     """
     for part in fitted(console, table, keys=keys):
         console.print(part)
 
 
 def fitted(console: Console, table: Table, *, keys: int = 1) -> list[Table]:
-    """The table as it is; or else with narrow rules; or else as several."""
+    """The table as it is, if it fits; else with narrow rules; else as several tables."""
     for whole in (table, _dense(table)):
         if _fits(console, whole, whole.columns):
             return [_with_columns(console, whole, whole.columns)]
@@ -41,7 +41,7 @@ def fitted(console: Console, table: Table, *, keys: int = 1) -> list[Table]:
 
 
 def _column_parts(console: Console, table: Table, keys: int) -> list[list[Column]]:
-    """As many columns beside the keys as fit, then the next."""
+    """Groups of as many columns as fit beside the keys."""
     key, parts = table.columns[:keys], [table.columns[:keys]]
     for column in table.columns[keys:]:
         if len(parts[-1]) > keys and not _fits(console, table, [*parts[-1], column]):
@@ -51,13 +51,13 @@ def _column_parts(console: Console, table: Table, keys: int) -> list[list[Column
 
 
 def _fits(console: Console, table: Table, columns: Sequence[Column]) -> bool:
-    """Whether no cell has to be broken inside a word."""
+    """Whether no cell has to wrap inside a word."""
     least = [_span(console, column, heading=table.show_header).minimum for column in columns]
     return sum(least) + _rules(table, columns) <= console.width
 
 
 def _widths(console: Console, table: Table, columns: Sequence[Column]) -> list[int]:
-    """Of the cells: the widest column shrinks until all fit, or until its longest word is reached."""
+    """Widths of columns: the widest shrinks until all fit, or down to its longest word."""
     spans = [_span(console, column, heading=table.show_header) for column in columns]
     widths, least = [span.maximum for span in spans], [span.minimum for span in spans]
     room = max(console.width - _rules(table, columns), len(columns))

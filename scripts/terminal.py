@@ -1,7 +1,8 @@
-"""The consoles of the command: what a user wrote is shown as it stands.
+"""The consoles of the command, which show the user's text literally.
 
-Rich reads marks in text (`[bold]`, `:bomb:`), and a terminal reads controls (character 27). Names,
-descriptions and paths of users may hold both: no text is read here, style comes as `rich.text.Text`.
+Rich interprets markup in text (`[bold]`, `:bomb:`), and a terminal control characters (27). Names,
+descriptions and paths of users may contain both: no text is interpreted here, and styles are
+`rich.text.Text`.
 """
 
 import errno
@@ -15,13 +16,13 @@ from models.user_text import printable
 
 
 class Terminal(Console):
-    """A console that shows text as it stands, with a mark for what cannot be shown.
+    """A console that shows text literally, with a mark for characters that cannot be shown.
 
-    A pipe that somebody closed is an error like others, and not an exit.
+    A closed pipe raises an error, instead of ending the process.
     """
 
     def on_broken_pipe(self) -> None:
-        """Called by rich, which would end the process.
+        """Called by rich on a closed pipe; rich's own method ends the process.
 
         Raises:
           BrokenPipeError: always.
@@ -31,7 +32,7 @@ class Terminal(Console):
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> Iterable[Segment]:
-        """Segments of what is printed; only rich's own are controls."""
+        """Segments of the output; only rich's own may be control codes."""
         for text, style, control in super().render(renderable, options):
             yield Segment(text if control else printable(text), style, control)
 

@@ -86,7 +86,7 @@ def poles_table(findings: Findings) -> Table:
 
 
 def checks_table(findings: Findings) -> Table:
-    """Every bound."""
+    """A table of all bounds."""
     table = Table("bound", "measured", "must be", "unit", "", title="Bounds")
     for c in findings.checks:
         result = Text("holds", "green") if c.passed else Text("fails", "red")

@@ -1,8 +1,8 @@
-"""Many insertions in one call: other tissues, needles and motions side by side, one thread per core.
+"""Many insertions in one call, with different tissues, needles and motions; one thread per core.
 
-Insertions of one model size and one number of steps share MuJoCo's batches. A thread that steps a batch
-holds no lock of Python, so that others make their models meanwhile. Results do not depend on who runs
-beside whom.
+Insertions with the same model size and number of steps share a batch of MuJoCo. A thread that steps a
+batch releases Python's lock, so that others can compile models meanwhile. Results do not depend on
+which insertions share a batch.
 """
 
 import os
@@ -23,20 +23,20 @@ _SIDE_BY_SIDE = 8  # needles of one batch: few enough to share out evenly, many 
 
 
 class Insertion(typing.Protocol):
-    """What can be simulated: a protocol, or anything else that knows its set-up and its inputs."""
+    """Anything that can be simulated: it gives a set-up and inputs, as a protocol does."""
 
     def setup(self) -> Setup:
-        """The needle."""
+        """The model of the needle."""
         ...
 
     def schedule(self) -> Schedule:
-        """What is done to it."""
+        """The inputs over time."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Ready:
-    """An insertion as its model and inputs, and its place in the call."""
+    """Model and inputs of an insertion, and its index in the call."""
 
     place: int
     setup: Setup
@@ -44,7 +44,7 @@ class _Ready:
 
     @property
     def size(self) -> Hashable:
-        """What insertions of one batch share."""
+        """Key that all insertions of one batch share."""
         discretisation, kind = self.setup.discretisation, self.setup.drive.kind
         nodes, rows = self.setup.nodes_mm.size, len(self.setup.law)
         return discretisation, kind, nodes, rows, self.inputs.at_steps(discretisation.step_s).time_s.size
@@ -53,14 +53,14 @@ class _Ready:
 def simulate_each(
     insertions: Sequence[Insertion], *, threads: int | None = None
 ) -> list[Run | NeedleError]:
-    """Simulate insertions, as protocols are, that may differ in everything, each as if it were alone.
+    """Simulate insertions (such as protocols), which may differ in everything, independently.
 
     Args:
-      threads: None: one for each core. Results do not depend on it, to the last bit.
+      threads: None: one per core. Results are bit-identical for any number.
 
     Returns:
-      In their order, a run, or why there is none: `SimulationFailed`, or `InvalidValue` for one that
-      makes no model.
+      For each insertion, in order, its run or the error: `SimulationFailed`, or `InvalidValue` if no
+      model can be made of it.
     """
     prepare_processes()
     count = threads or os.cpu_count() or 1
@@ -76,7 +76,7 @@ def simulate_each(
 
 
 def _batches(insertions: Sequence[Insertion], found: list[Run | NeedleError]) -> Iterator[list[_Ready]]:
-    """Insertions of one size, a batch as soon as it is full; those that make no set-up are `found`."""
+    """Full batches of insertions of one size, then the rest; errors of set-ups go into `found`."""
     waiting: dict[Hashable, list[_Ready]] = defaultdict(list)
     for place, insertion in enumerate(insertions):
         try:
@@ -91,12 +91,12 @@ def _batches(insertions: Sequence[Insertion], found: list[Run | NeedleError]) ->
 
 
 def _placed(batch: Sequence[_Ready]) -> list[tuple[int, Run | NeedleError]]:
-    """Results of a batch with their places."""
+    """Results of a batch with their indices in the call."""
     return [(one.place, result) for one, result in zip(batch, _simulated(batch), strict=True)]
 
 
 def _simulated(batch: Sequence[_Ready]) -> list[Run | NeedleError]:
-    """Runs of a batch; where one fails, halves are tried until it is alone with its error."""
+    """Runs of a batch; if it fails, it is halved until the failing insertion is alone with its error."""
     try:
         return list(simulate([one.setup for one in batch], [one.inputs for one in batch]))
     except (NeedleError, mujoco.FatalError) as failed:

@@ -1,9 +1,9 @@
 """A needle in MuJoCo under feedback control, which acts on the base joint only.
 
-The loop runs at the step of the simulation: the controller receives what the sensors show of
-base angle and base torque (and of the tip, if it is given a sensor for it), and returns the base
-angle that the drive is to reach by the next step. Between the controller and the needle lies the
-hardware of `sim.loop`, which is ideal unless it is said otherwise.
+The loop runs at the step of the simulation: the controller receives the readings of base angle
+and base torque (and of the tip, if there is a sensor), and returns the base angle that the drive
+should reach by the next step. The hardware between controller and needle is that of `sim.loop`;
+it is ideal by default.
 """
 
 from collections.abc import Callable
@@ -35,14 +35,14 @@ _PROGRESS_EVERY = 1000  # steps: a tenth of a second
 
 
 class FeedbackController(Protocol):
-    """Anything that turns the base: from a measurement and a reference to a base angle, deg."""
+    """Computes the base angle, deg, from a measurement and a reference."""
 
     def __call__(self, measurement: Measurement, reference_deg: float) -> float:
-        """The base angle for the next step, deg; `reference_deg` is for the tip."""
+        """The base angle for the next step, deg; `reference_deg` is the wanted tip angle."""
 
     @property
     def advance_mm(self) -> float:
-        """Axial motion wanted in addition to the scheduled one, mm: a retraction is negative."""
+        """Axial motion in addition to the scheduled one, mm; negative: retraction."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,11 +50,11 @@ class ClosedLoopRun:
     """A run under control.
 
     Attributes:
-      run: as of `sim.simulation.simulate`; its drive is what acted on the needle: the angle of the
-        drive shaft, deg, or the torque of the motor, N mm.
-      reference_deg: of the tip, (N,).
-      command_deg: of the base, received from the controller at each sample, (N,).
-      measured: what the sensors showed, by the names of `sim.loop.measurement.CHANNELS`, (N,) each.
+      run: as from `sim.simulation.simulate`; `run.inputs.drive` is the actual angle of the drive
+        shaft, deg, or the torque of the motor, N mm.
+      reference_deg: reference of the tip, (N,).
+      command_deg: base angle that the controller commanded at each sample, (N,).
+      measured: readings, by the names of `sim.loop.measurement.CHANNELS`, (N,) each.
       log: signals of the controller by name, (N,) each.
     """
 
@@ -81,15 +81,15 @@ def run_closed_loop(
     keep_shape: bool = False,
     progress: Callable[[float], None] = lambda share: None,
 ) -> ClosedLoopRun:
-    """Run a needle whose base a controller turns.
+    """Run a needle whose base is turned by a controller.
 
     Args:
-      inputs: lengths and speed as scheduled; its `drive` is the reference of the tip, deg.
-      noise: of the sensors; None: no noise.
-      hardware: of drive and sensors; None: ideal.
-      log: called after each command; the signals that it returns are kept.
-      keep_shape: keep the angles of all nodes.
-      progress: called now and then with the share that is done.
+      inputs: scheduled lengths and speed; `drive` is the reference of the tip, deg.
+      noise: noise of the sensors; None: none.
+      hardware: drive and sensors; None: ideal.
+      log: called after each command; the signals that it returns are recorded.
+      keep_shape: record the angles of all nodes.
+      progress: called from time to time with the share that is done.
     """
     loop, logged = _Loop(setup, inputs, noise or MeasurementNoise(), hardware or LoopHardware()), []
     for i in range(loop.samples):
@@ -111,7 +111,7 @@ def run_closed_loop(
 
 
 class _Loop:
-    """The simulated rig of a run: row i of each array belongs to the end of step i."""
+    """The simulated rig during a run: row i of each array belongs to the end of step i."""
 
     def __init__(
         self, setup: Setup, inputs: Schedule, noise: MeasurementNoise, hardware: LoopHardware
@@ -151,7 +151,7 @@ class _Loop:
         self._angles[i] = np.cumsum(joints) if self._chain else joints
 
     def measurement(self, i: int) -> Measurement:
-        """The sensors at sample i."""
+        """Readings of the sensors at sample i."""
         tip = self._outputs[i, memory_map.O_TIP_ANGLE] / units.DEG
         self.measured[i] = self._sensors.read(i, (self._shaft_deg(i), self._torque_n_mm(i), float(tip)))
         base_deg, torque_n_mm, tip_deg = self.measured[i].tolist()
@@ -165,14 +165,14 @@ class _Loop:
         )
 
     def _shaft_deg(self, i: int) -> float:
-        """Angle of the drive shaft: with a torque drive, of the needle's base, which it carries."""
+        """Angle of the drive shaft, deg; with a torque drive, that of the needle's base on it."""
         if self._driven_by_angle:
             return float(self._acting[i])
         return float(self._outputs[i, memory_map.O_BASE_ANGLE]) / units.DEG
 
     def _torque_n_mm(self, i: int) -> float:
-        """Torque that the needle takes: with a torque drive, of its first element (the rotor takes
-        a share of the motor's)."""
+        """Torque on the needle, N mm; with a torque drive, that in its first element (part of the
+        motor's torque accelerates the rotor)."""
         if self._driven_by_angle:
             return float(self._outputs[i, memory_map.O_BASE_TORQUE]) / units.N_MM
         grown = float(self._free_mm[i]) / self.setup.free_mm if self._stretching else 1.0
@@ -180,7 +180,7 @@ class _Loop:
         return self.setup.needle.rigidity_n_mm2 * twist_rad / (self._first_mm * grown)
 
     def command(self, i: int, base_deg: float, advance_mm: float) -> None:
-        """Give the drive and the carriage the command of sample i: they act in the next step."""
+        """Pass the command of sample i to drive and carriage; they act in the next step."""
         self.command_deg[i] = base_deg
         if i + 1 == self.samples:
             return
@@ -208,7 +208,7 @@ class _Loop:
             self._ctrl[i, memory_map.U_INSERTED] = self._inserted_mm[i] * units.MM
 
     def run(self, *, keep_shape: bool) -> Run:
-        """Everything that happened.
+        """The run as recorded.
 
         Raises:
           SimulationFailed: see `sim.simulation.refuse_untrustworthy`.

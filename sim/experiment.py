@@ -1,4 +1,4 @@
-"""Running a protocol: simulate, check the step where accuracy was asked, record."""
+"""Running a protocol: simulate, check the time step if the protocol bounds its error, record."""
 
 import math
 from typing import Any
@@ -16,10 +16,10 @@ def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recordin
     """Simulate a protocol and record everything.
 
     Args:
-      model: of the protocol, with other numbers (`sim.model_file`); None: as the protocol says.
+      model: the protocol's model with changed numbers (`sim.model_file`); None: as the protocol says.
 
     Raises:
-      InvalidValue: the step causes more error than the protocol allows.
+      InvalidValue: the time step causes a larger error than the protocol allows.
       SimulationFailed: see `sim.simulation.simulate`.
     """
     models = None if model is None else [model]
@@ -31,7 +31,7 @@ def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recordin
 
 
 def step_error_deg(protocol: Protocol, run: Run) -> float:
-    """Largest error of the tip that the step causes, deg, by halving it (Richardson)."""
+    """Largest error of the tip due to the time step, deg, from a run with half of it (Richardson)."""
     fine = protocol.discretisation.but(step_s=run.setup.discretisation.step_s / 2)
     halved = simulate([protocol.but(discretisation=fine).setup()], protocol.schedule())[0]
     size = min(run.tip_deg.size, (halved.tip_deg.size + 1) // 2)
@@ -40,10 +40,10 @@ def step_error_deg(protocol: Protocol, run: Run) -> float:
 
 
 def checked_error_deg(protocol: Protocol, run: Run) -> float:
-    """The error of the tip that the step causes, deg, where it is within what the protocol allows.
+    """The error of the tip due to the time step, deg, if the protocol allows it.
 
     Raises:
-      InvalidValue: it is more; names a step that is small enough.
+      InvalidValue: the error is larger; the message names a step that is small enough.
     """
     error, step = step_error_deg(protocol, run), protocol.discretisation.step_s
     allowed = protocol.accuracy_deg or np.inf

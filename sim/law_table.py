@@ -1,4 +1,4 @@
-"""The law table: what the compiled tissue reads, from the records that people write."""
+"""The law table: the input of the compiled tissue, made of the records that users write."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,7 +84,7 @@ def _over_inserted_length(law: Interface) -> Array:
 
 
 def _at_tip(law: Interface) -> Array:
-    """In one place, where torques are not per mm."""
+    """A law at the tip alone, where torques are not per mm."""
     row = _interface(law)
     row[_TORQUES_PER_LENGTH] *= units.MM
     row[[memory_map.L_POINT, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = 1.0

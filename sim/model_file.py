@@ -1,7 +1,7 @@
-"""A needle's model from an MJCF file, which `needle insert --mjcf` wrote and somebody may have changed.
+"""A needle's model from an MJCF file that `needle insert --mjcf` wrote and the user may have changed.
 
-MuJoCo's model owns the needle: stiffness, inertia, servos and time step of the file are what
-is simulated. Elements, tissue and lengths have to be those of the protocol that runs on it.
+Stiffness, inertia, servos and time step are simulated as the file has them. Elements, tissue and
+lengths have to be those of the protocol that runs on it.
 """
 
 from pathlib import Path
@@ -23,7 +23,7 @@ def read_model(path: Path, setup: Setup) -> mujoco.MjModel:
     """The model of a file, for a set-up.
 
     Raises:
-      InvalidValue: the file is not a MuJoCo model, not one of ours, or of another set-up.
+      InvalidValue: the file is no MuJoCo model, was not written by this project, or has another set-up.
     """
     try:
         model = mujoco.MjModel.from_xml_path(str(path))
@@ -55,7 +55,7 @@ def _header(model: mujoco.MjModel, path: Path) -> np.ndarray:
 
 
 def _check_lengths(model: mujoco.MjModel, path: Path, setup: Setup) -> None:
-    """Nodes are places on the shaft: a file of other lengths would feel the tissue elsewhere."""
+    """Check the lengths: with others, the nodes would lie elsewhere in the tissue."""
     found, expected = model.numeric("needle_mesh").data / units.MM, setup.nodes_mm
     if not np.allclose(found, expected, rtol=_SAME, atol=_SAME):
         raise InvalidValue(

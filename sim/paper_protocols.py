@@ -1,8 +1,8 @@
 """The paper's experiments by name.
 
 Non-translating (Figs. 3, 4): 23 cm of shaft between base and tissue. Translating
-(Fig. 5): 5 cm at the start, retracting at 2.5 mm/s. Where the paper says only that
-the base was turned "quickly" or the needle retracted, the times here are ours.
+(Fig. 5): 5 cm at the start, retracting at 2.5 mm/s. Where the paper says only that the
+base was turned "quickly" or the needle retracted, the times are assumptions of this project.
 """
 
 from collections.abc import Callable
@@ -70,7 +70,7 @@ def fast_turn(depth_mm: float) -> Protocol:
 
 
 def kelvin_voigt(kind: str) -> Protocol:
-    """Fig. 8: a fast turn in tissue that yields, soft or a hundred times harder."""
+    """Fig. 8: a fast turn in yielding tissue, soft or a hundred times stiffer."""
     return Protocol(
         name=f"fig8-{kind}",
         description="Fig. 8: 90 deg in 0.3 s, 20 cm deep, 5 cm free, Kelvin-Voigt tissue",

@@ -32,7 +32,7 @@ _LARGEST, _SMALLEST = 1e9, 1e-18  # of any number in a file, in its own unit: no
 
 
 class Segment(Record):
-    """A stretch of time in which everything runs straight, but for dither."""
+    """An interval in which all inputs are linear in time, apart from dither."""
 
     duration_s: Positive
     turn_deg: float = 0.0
@@ -124,7 +124,7 @@ class Protocol(Record):
             )
 
     def schedule(self) -> Schedule:
-        """The inputs of the run."""
+        """The inputs of the run over time."""
         columns: dict[str, list[float]] = {
             "time_s": [],
             "drive": [],
@@ -191,7 +191,7 @@ def read_protocol(path: Path) -> Protocol:
 
 
 def _refuse_out_of_scale(path: Path, value: Any, field: str) -> None:
-    """Numbers beyond any rig: a simulation of them would fail, or mean nothing."""
+    """Refuse numbers far beyond any real rig: their simulation would fail or be meaningless."""
     inner: Iterable[tuple[Any, Any]] = value.items() if isinstance(value, dict) else ()
     inner = enumerate(value) if isinstance(value, list | tuple) else inner
     for name, part in inner:

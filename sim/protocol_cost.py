@@ -1,4 +1,4 @@
-"""What a protocol's run would cost, told before anything of it is computed or allocated."""
+"""The cost of a protocol's run, checked before anything is computed or allocated."""
 
 from collections.abc import Sequence
 from typing import Protocol as Shape
@@ -18,7 +18,7 @@ _JUMP = 1e-6  # of a segment, that a jump at its start takes
 
 
 class _Timed(Shape):
-    """What is asked of a segment."""
+    """The fields of a segment that decide its cost."""
 
     @property
     def duration_s(self) -> float: ...
@@ -28,23 +28,23 @@ class _Timed(Shape):
 
 
 def samples_of(segment: _Timed) -> float:
-    """Samples of the inputs in a segment: its two ends, or many in each wave."""
+    """Samples of the inputs in a segment: its two ends, or many per period of its dither."""
     waves = segment.dither_hz * segment.duration_s
     return 2.0 if waves == 0 else waves * SAMPLES_A_WAVE + 1.0
 
 
 def recorded_bytes(steps: float, elements: int, rows: int) -> float:
-    """What a run keeps, bytes; `rows` are those of the law table."""
+    """Memory that a run's recording takes, bytes; `rows`: of the law table."""
     return 8.0 * steps * (memory_map.userdata(elements, rows) + elements + memory_map.OUTPUTS)
 
 
 def refuse_costly(
     segments: Sequence[_Timed], discretisation: Discretisation, *, layers: int, rows: int
 ) -> None:
-    """Check what a run would cost, and that its inputs can be sampled.
+    """Check the cost of a run, and that its inputs can be sampled.
 
     Args:
-      layers: of the tissue; rows: of the law table.
+      layers: number of layers of the tissue; rows: number of rows of the law table.
 
     Raises:
       InvalidValue: names the field, what the run would cost, and how to make it cheaper.
@@ -58,7 +58,7 @@ def refuse_costly(
             raise InvalidValue(
                 f"segments.{i}.dither_hz",
                 segment.dither_hz,
-                f"at most {1 / (STEPS_A_WAVE * step_s):g} Hz: {STEPS_A_WAVE:g} steps a wave",
+                f"at most {1 / (STEPS_A_WAVE * step_s):g} Hz: {STEPS_A_WAVE:g} steps per period",
                 "take a shorter discretisation.step_s",
             )
         time_s += segment.duration_s

@@ -1,6 +1,6 @@
 """The inputs of a run over time, sampled.
 
-Between samples everything runs straight. Lengths and speed are those of the shaft
+Between samples all inputs are linear. Lengths and speed are those of the shaft
 relative to the tissue; `speed_mm_s` is positive into it.
 """
 
@@ -27,12 +27,12 @@ class Schedule:
 
     Attributes:
       time_s: strictly increasing.
-      drive: base angle, deg, or base torque, N mm, as the drive is.
+      drive: base angle, deg, or base torque, N mm, depending on the drive.
       free_mm: from chuck to tissue.
       inserted_mm: in contact with tissue.
       speed_mm_s: axial, positive into the tissue.
       tip_torque_n_mm: known torque at the tip, positive resists positive rotation.
-      tissue_factor: what the torque of tissue that varies is times; 1 without.
+      tissue_factor: factor on the torque of tissue that varies in time; 1: as its law says.
 
     Raises:
       InvalidValue: names the column and the first offending row.
@@ -76,22 +76,22 @@ class Schedule:
 
     @property
     def duration_s(self) -> float:
-        """From the first sample to the last."""
+        """Time from the first sample to the last, s."""
         return float(self.time_s[-1] - self.time_s[0])
 
     @property
     def longest_mm(self) -> float:
-        """Most shaft between chuck and tip that the schedule asks for."""
+        """Largest length between chuck and tip in the schedule, mm."""
         return float((self.free_mm + self.inserted_mm).max())
 
     @property
     def mesh(self) -> Mesh:
-        """Eulerian where the needle has a constant inserted length; else Lagrangian."""
+        """Eulerian if the inserted length is constant; else Lagrangian."""
         constant = np.ptp(self.inserted_mm) <= LENGTH_TOLERANCE_MM
         return Mesh.EULERIAN if constant and self.inserted_mm[0] > 0 else Mesh.LAGRANGIAN
 
     def rows(self, kept: NDArray[np.bool_]) -> "Schedule":
-        """The inputs at some of their times, two at least."""
+        """The inputs at some of their times, at least two."""
         return Schedule(**{name: getattr(self, name)[kept] for name in ("time_s", *COLUMNS)})
 
     def at_steps(self, step_s: float) -> "Schedule":

@@ -26,19 +26,19 @@ _SAME_TIME = 1e-6  # of a step
 
 
 class SimulationFailed(NeedleError):
-    """A run did not end, or its results cannot be trusted."""
+    """A run stopped early, or its results cannot be trusted."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """What a simulated needle did; N samples, n + 1 nodes.
+    """The result of a simulation: N samples, n + 1 nodes.
 
     Attributes:
       inputs: the inputs at the ends of the steps.
-      outputs: (N, memory_map.OUTPUTS), SI, as the sensors show them.
-      angles_rad: (N, n + 1) or None where they were not kept.
+      outputs: (N, memory_map.OUTPUTS), SI, as the model's sensors return them.
+      angles_rad: (N, n + 1), or None if they were not kept.
       tissue_rad: (N, rows, n, 2) twist of the tissue at its sites, or None.
-      unconverged: stages whose iteration did not converge; 0 in a good run.
+      unconverged: number of stages whose iteration did not converge; 0 in a good run.
     """
 
     setup: Setup
@@ -64,17 +64,17 @@ class Run:
 
     @property
     def shaft_deg(self) -> Array:
-        """Angle of the drive shaft, deg, (N,): of the needle's base, where the drive gives torque."""
+        """Angle of the drive shaft, deg, (N,); of the needle's base if the drive gives torque."""
         driven_by_angle = self.setup.drive.kind is DriveKind.ANGLE
         return self.inputs.drive if driven_by_angle else self.base_deg
 
     @property
     def base_torque_n_mm(self) -> Array:
-        """Torque that the drive puts in, N mm, (N,)."""
+        """Torque of the drive on the needle, N mm, (N,)."""
         return self.outputs[:, memory_map.O_BASE_TORQUE] / units.N_MM
 
     def since(self, start_s: float) -> "Run":
-        """The run from a time on; itself if it begins there."""
+        """The run from a time on; the same run if it begins there."""
         kept = self.time_s >= start_s - _SAME_TIME * self.setup.discretisation.step_s
         if kept.all():
             return self
@@ -88,7 +88,7 @@ class Run:
 
     @property
     def unconverged(self) -> int:
-        """Stages whose iteration did not converge."""
+        """Number of stages whose iteration did not converge."""
         return int(self.outputs[-1, memory_map.O_FAILED])
 
 
@@ -106,10 +106,10 @@ class PassiveTorques:
     """What the callback added to `qfrc_passive` in the last step, N m, (n + 1,) hinges each.
 
     Attributes:
-      tissue: of the tissue on the shaft; in the mean over a step of second order.
-      other: of what the model's joints cannot hold: play of the drive, an element whose length
-        changes, springs of siblings; 0 without them.
-      correction: what lifts MuJoCo's first-order step to second order; 0 for a step of order 1.
+      tissue: torque of the tissue on the shaft; the mean over the step for second order.
+      other: torques that the model's joints cannot represent: play of the drive, an element whose
+        length changes, springs of siblings; 0 without them.
+      correction: makes MuJoCo's first-order step one of second order; 0 for a step of order 1.
     """
 
     tissue: Array
@@ -118,7 +118,7 @@ class PassiveTorques:
 
 
 def passive_torques(model: mujoco.MjModel, data: mujoco.MjData) -> PassiveTorques:
-    """The torques of the last `mj_step` or `mj_forward`, apart from each other."""
+    """The separate torques of the last `mj_step` or `mj_forward`."""
     head = model.numeric("needle").data
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     at = memory_map.CLOCK + 2 * memory_map.block(n, rows)
@@ -144,7 +144,7 @@ def controls(inputs: Schedule, setup: Setup) -> Array:
 
 
 def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjData:
-    """Untwisted and at rest, at the first of the inputs.
+    """Data of an untwisted needle at rest, at the first of the inputs.
 
     Args:
       ctrl: the inputs at the start, SI, (inputs,).
@@ -178,23 +178,23 @@ def simulate(
     threads: int = 1,
     callback_alone: bool = False,
 ) -> list[Run]:
-    """Run needles of one model size side by side, through the same inputs or each through its own.
+    """Run needles of one model size in a batch, with the same inputs or each with its own.
 
     Args:
-      setups: differ in anything but number of nodes, rows and step.
-      inputs: sampled at any times; resampled to the step. One for all set-ups, or one for each, from
-        the same start to the same end.
-      models: of the set-ups, where their numbers were changed after they were compiled: their
-        stiffness, inertia, servos and time step are what is simulated. None: as compiled.
+      setups: may differ in anything but the number of nodes, the number of rows and the step.
+      inputs: sampled at any times; resampled to the step. One for all set-ups, or one for each, all
+        with the same start and end.
+      models: models of the set-ups whose numbers were changed after compilation: their stiffness,
+        inertia, servos and time step are simulated. None: as compiled.
       keep_shape: keep the angles of all nodes and the twist of the tissue.
-      threads: of MuJoCo's batch; results do not depend on it.
-      callback_alone: without MuJoCo's steps, as fits on their way may be
+      threads: number of threads of MuJoCo's batch; results do not depend on it.
+      callback_alone: without MuJoCo's steps, for the iterations of a fit
         (sim.needles.callback_loop); no shape is kept.
 
     Raises:
-      InvalidValue: the setups differ in elements or rows of the law table; the inputs are not as many
-        as the set-ups, or last differently long.
-      SimulationFailed: MuJoCo stopped, or its step did not land where it should.
+      InvalidValue: the set-ups differ in elements or rows of the law table; or there are not as many
+        inputs as set-ups, or their durations differ.
+      SimulationFailed: MuJoCo stopped, or its step did not end where the callback's did.
     """
     install()
     with models_of(setups) if models is None else nullcontext(list(models)) as own:
@@ -214,7 +214,7 @@ def simulate(
 
 
 def _refuse_other_sizes(models: Sequence[mujoco.MjModel]) -> None:
-    """A batch is of models of one size."""
+    """Refuse models of different sizes: one batch cannot run them."""
     first = models[0]
     for model in models:
         if (model.nq, model.nuserdata) != (first.nq, first.nuserdata):
@@ -234,7 +234,7 @@ def _rollout(
     keep_shape: bool,
     threads: int,
 ) -> dict[str, Array]:
-    """What MuJoCo records at the ends of steps, (needles, N, ...) each.
+    """Step the models; returns MuJoCo's records at the ends of steps, (needles, N, ...) each.
 
     Args:
       starts: joints at the start, (joints,) each.
@@ -249,7 +249,7 @@ def _rollout(
 
 
 def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) -> list[Schedule]:
-    """The inputs of every set-up at the ends of steps; those that several share are resampled once."""
+    """The inputs of every set-up at the ends of steps; shared inputs are resampled once."""
     each = [inputs] * count if isinstance(inputs, Schedule) else list(inputs)
     if len(each) != count:
         raise InvalidValue("inputs", len(each), f"one schedule, or one for each of {count} set-ups")
@@ -257,12 +257,14 @@ def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) 
     stepped = {key: own.at_steps(step_s) for key, own in distinct.items()}
     spans = {(own.time_s[0], own.time_s.size) for own in stepped.values()}
     if len(spans) > 1:
-        raise InvalidValue("inputs", sorted(spans), "schedules of one start and one number of steps")
+        raise InvalidValue(
+            "inputs", sorted(spans), "schedules with the same start and the same number of steps"
+        )
     return [stepped[id(own)] for own in each]
 
 
 def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]) -> Run:
-    """What came of a rollout that set off at some joints `start`, under the inputs `ctrl`."""
+    """The run of a rollout from the joints `start` with the inputs `ctrl`."""
     outputs = np.vstack([_at_rest(setup, start, ctrl), raw["sensordata"]])
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:
         _centre_inertia(outputs)
@@ -282,10 +284,10 @@ def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[st
 
 
 def refuse_untrustworthy(outputs: Array, time_s: Array, step_s: float) -> None:
-    """What every run has to pass, whoever made its steps.
+    """Checks that every run has to pass, with and without MuJoCo's steps.
 
     Raises:
-      SimulationFailed: outputs are not finite, or MuJoCo did not land where it should.
+      SimulationFailed: outputs are not finite, or MuJoCo's step did not end where the callback's did.
     """
     if not np.isfinite(outputs).all():
         bad = time_s[np.flatnonzero(~np.isfinite(outputs).all(axis=1))[0]]
@@ -303,16 +305,16 @@ def refuse_untrustworthy(outputs: Array, time_s: Array, step_s: float) -> None:
 
 
 def _centre_inertia(outputs: Array) -> None:
-    """The inertia's share of the base torque at each sample, in place.
+    """Assign the inertia's share of the base torque to its sample, in place.
 
-    A step knows it about its start; what belongs to a sample is known in the step that follows.
+    A step computes it for its start, so the share of a sample is known only in the step after it.
     """
     inertia = outputs[:, memory_map.O_INERTIA]
     outputs[:-1, memory_map.O_BASE_TORQUE] += inertia[1:] - inertia[:-1]
 
 
 def _at_rest(setup: Setup, start: Array, ctrl: Array) -> Array:
-    """The outputs before anything has moved."""
+    """The outputs at the start, before anything has moved."""
     row = np.zeros(memory_map.OUTPUTS)
     row[[memory_map.O_BASE_ANGLE, memory_map.O_TIP_ANGLE]] = start[1]
     row[memory_map.O_TIP_TORQUE] = ctrl[memory_map.U_TIP]

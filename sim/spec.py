@@ -4,9 +4,9 @@ A carriage slides along x and carries the base. The shaft is cut at nodes; each
 node is a body with the mass and inertia of the shaft half way to its neighbours,
 drawn as a capsule, and turns about x. Torsion between nodes a apart is the joint
 stiffness kappa / a. The servo of the base is a joint spring with a motor of the
-same gear, and so is the carriage's: both hold in any viewer, without a callback.
-Inertia, stiffness, servos and time step stand here and nowhere else: the callback
-reads them from the compiled model.
+same gear, and so is the carriage's: both work in any viewer, without a callback.
+Inertia, stiffness, servos and time step are defined only in the model: the callback
+reads them from there.
 
 The inputs (`ctrl`) are, in order: drive (rad or N m), carriage (m), inserted
 length (m), axial speed (m/s), torque at the tip (N m, positive resists), relative change of tissue
@@ -41,12 +41,12 @@ _CARRIAGE_INERTIA = 1e-5  # kg m^2; the carriage does not turn
 
 @dataclass(frozen=True, kw_only=True)
 class Setup:
-    """Everything that makes a model: what is simulated, and how.
+    """Everything that a model depends on: the rig and its discretisation.
 
     Attributes:
       needle, tissue, drive: the rig.
       discretisation: elements and step.
-      mesh: frame in which the nodes stand still.
+      mesh: frame in which the nodes are fixed.
       free_mm, inserted_mm: lengths at the start; together the shaft that is modelled.
       rows: least number of rows of the law table.
       slip_share: weight of the material (1) against the spatial (0) derivative in the slip
@@ -70,7 +70,9 @@ class Setup:
                 raise InvalidValue(name, value, "a finite length of at least 0 mm")
         total = self.free_mm + self.inserted_mm
         if total <= 0:
-            raise InvalidValue("inserted_mm", self.inserted_mm, "some shaft: free + inserted above 0")
+            raise InvalidValue(
+                "inserted_mm", self.inserted_mm, "a length for which free_mm + inserted_mm is above 0"
+            )
 
     @property
     def nodes_mm(self) -> Array:
@@ -84,9 +86,9 @@ class Setup:
 
     @property
     def bodies(self) -> tuple[object, ...] | None:
-        """What MuJoCo's bodies depend on; set-ups that share it differ in numbers alone.
+        """Key of MuJoCo's bodies: models of set-ups with the same key differ only in their numbers.
 
-        None: joints that turn on their neighbour hold the torsion themselves.
+        None for a chain, whose joints carry the torsion themselves: its models are not reused.
         """
         if self.discretisation.arrangement is Arrangement.CHAIN:
             return None
@@ -115,7 +117,7 @@ class Setup:
 
     @property
     def servo_n_m_per_rad(self) -> float:
-        """Stiffness between drive shaft and needle; 0 where the drive gives torque."""
+        """Stiffness between drive shaft and needle, N m / rad; 0 if the drive gives torque."""
         if self.drive.kind is DriveKind.TORQUE:
             return 0.0
         if self.drive.stiffness_n_mm_per_rad is not None:
@@ -125,7 +127,7 @@ class Setup:
 
 
 def _arena_bytes(joints: int) -> int:
-    """Working memory of a step: there are no contacts, but some dense matrices of the joints."""
+    """Working memory of a step, bytes: no contacts, but some dense matrices of the joints."""
     return 1_000_000 + 32 * 8 * joints * joints
 
 
@@ -159,10 +161,10 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
 
 
 def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
-    """Give a model of the same bodies the numbers of a set-up.
+    """Write the numbers of a set-up into a model with the same bodies.
 
-    Siblings have no torsion in their joints: all that a rig changes in MuJoCo's own
-    numbers is then the servo.
+    Siblings have no torsion in their joints: of MuJoCo's own numbers, a rig then changes only
+    those of the servo.
     """
     model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
     model.jnt_stiffness[memory_map.FIRST_JOINT] = setup.servo_n_m_per_rad

@@ -1,1 +1,1 @@
-"""Studies: the simulation beside published figures, closed forms and controllers."""
+"""Studies: the simulation compared with published figures and closed forms; controllers on it."""

@@ -49,14 +49,14 @@ ENDED = FitStatus(termination=Termination.GRADIENT, message="converged after 1 i
 AT_FLOOR = NoiseFloor(gap=1.0, slow=1.0)
 
 
-def trial(angle, *, speed=0.0, step=0.01, name="trial_01.csv"):
-    """A trial without readings, 90 mm deep."""
+def trial(angle, *, speed=0.0, step=0.01, name="trial_01.csv", deep_mm=90.0):
+    """A trial without readings."""
     time = step * np.arange(angle.size)
     table = pd.DataFrame(
         {
             "time_s": time,
             "base_angle_deg": angle,
-            "inserted_mm": 90.0,
+            "inserted_mm": deep_mm,
             "free_mm": 60.0 - speed * time,
             "speed_mm_s": speed,
         }
@@ -80,10 +80,10 @@ def prepared(one):
     return prepare(log_with(one))[0].trials[0]
 
 
-def log_of(rig, *, seed=0, speed=0.0, seconds=12.0):
+def log_of(rig, *, seed=0, speed=0.0, seconds=12.0, deep_mm=90.0):
     """A log of one trial, of our own needle."""
     rng = np.random.default_rng(seed)
-    clean = trial(turns(seconds), speed=speed)
+    clean = trial(turns(seconds), speed=speed, deep_mm=deep_mm)
     found = predict(RIG, prepared(clean), [rig])[0]
     size = len(clean.table)
     table = clean.table.assign(

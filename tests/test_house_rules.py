@@ -43,7 +43,8 @@ MAY_IMPORT_INSIDE = {
         *(f"studies.published.{room}" for room in ("experiments", "fitting", "selection", "report")),
     },
 }
-SIDE_STREAMS = {f"sim/recording/rerun_{name}.py" for name in ("file", "log", "table")}
+RERUN = ("file", "layout", "log", "plots", "series", "shaft", "table")
+SIDE_STREAMS = {f"sim/recording/rerun_{name}.py" for name in RERUN}
 
 
 def sources(package):

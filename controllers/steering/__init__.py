@@ -1,1 +1,1 @@
-"""Steering a bevel tip by its roll: the planar controller; pose and torsion together."""
+"""Steering a bevel tip by its roll: a planar controller, and estimators of pose and torsion."""

@@ -1,12 +1,12 @@
 """Duty-cycled spinning: a bevel tip that curves less (Minhas, Engh, Fenske and Riviere 2007).
 
-A tip that spins while it goes in runs straight; one that is held curves by 1/R. Each cycle
-holds the tip at one roll and then spins it once around. Spinning for a share d of the time
-leaves the mean of the bevel's pull, and so a curvature of
+A tip that spins while it is inserted moves straight; one that is held curves by 1/R. Each cycle
+holds the tip at one roll and then spins it once around. If it spins for a share d of the time,
+the mean curvature is
 
     (1 - d) / R    towards the held roll.
 
-The law is about the roll of the tip; what turns the base is another's task.
+The law gives the roll of the tip; a tip controller turns the base accordingly.
 """
 
 import math
@@ -33,12 +33,12 @@ class DutyCycle(Record):
 
     @property
     def period_s(self) -> float:
-        """Of one hold and one spin; infinite for a tip that never spins."""
+        """Duration of one hold and one spin, s; infinite for a tip that never spins."""
         return _TURN_DEG / self.spin_deg_s / self.duty if self.duty > 0 else math.inf
 
     @property
     def curvature_share(self) -> float:
-        """Curvature of the path over that of a tip that is held."""
+        """Curvature of the path / curvature of a tip that is held."""
         return 1.0 - self.duty
 
     def roll_deg(self, time_s: float) -> float:
@@ -51,7 +51,7 @@ class DutyCycle(Record):
 
 
 def mean_pull(roll_rad: Array, inserted_mm: Array) -> complex:
-    """Mean of exp(i roll) over the travel: curvature over 1/R, and its direction as the argument.
+    """Mean of exp(i roll) over the travel: its modulus is curvature times R, its argument the direction.
 
     Args:
       roll_rad, inserted_mm: (N,) each, over whole cycles.

@@ -1,10 +1,10 @@
 """Roll of the tip from the base and from images of the tip together: an error-state Kalman filter.
 
-The base gives angle and torque at every sample, and with them the roll of the tip as in
-controllers.estimators. It drifts where the model is wrong: a bias of the torque sensor, a
-torque at the tip, friction elsewhere than assumed. Images give the tip's position. A tip
-whose roll is off by a curves out of the expected path by a s^2 / 2R, and so gives away its roll
-while it goes in. State and error state (true minus estimated) are
+Angle and torque of the base give the roll of the tip at every sample, as in
+controllers.estimators. This estimate drifts if the model is wrong: bias of the torque sensor, a
+torque at the tip, friction elsewhere than assumed. Images give the position of the tip. If its
+roll is off by an angle a, the tip leaves the expected path by a s^2 / 2R over a travel s, which
+makes the roll observable. State and error state (true minus estimated) are
 
     position p and direction F of the tip (SO(3)), errors dp, dphi    controllers.steering.tip_pose
     modes p_k of the twist                                            controllers.twist
@@ -15,7 +15,7 @@ while it goes in. State and error state (true minus estimated) are
 
     roll = base - (u - bias - noise) f / kappa + tail + 2 sum over odd k of p_k + lag
 
-An image is compared with the clone, so that its delay costs no accuracy.
+An image is compared with the clone, so the delay of images costs no accuracy.
 """
 
 import math
@@ -40,7 +40,7 @@ _LOG_2PI = math.log(2 * math.pi)
 class FusionNoise(Record):
     """Standard deviations that the filter assumes.
 
-    Zero for bias and lag says that the base is right: images then correct the pose alone.
+    With zero for bias and lag, the roll from the base counts as right: images correct the pose only.
     """
 
     image_mm: Positive = 0.5
@@ -67,16 +67,16 @@ class FusedEstimator(FeedforwardEstimator):
     Args:
       needle: the shaft.
       damping_n_mm_s_per_mm: beta.
-      radius_mm: of curvature of the tip's path.
+      radius_mm: radius of curvature of the tip's path.
       noise: assumed standard deviations.
       start_mm: position of the tip at the first sample, (3,); it heads along x.
       order: modes with mode 0.
 
     Attributes:
-      pose: of the tip, as estimated.
-      bias_n_mm, lag_rad: estimated bias of the torque, and lag beyond the model's.
-      covariance: of the error state, in the order of the module's docstring.
-      transition: of the error state over the last step.
+      pose: estimated pose of the tip.
+      bias_n_mm, lag_rad: estimated bias of the torque, and lag that the model does not have.
+      covariance: covariance of the error state, in the order of the module's docstring.
+      transition: transition matrix of the error state over the last step.
 
     Raises:
       InvalidValue: the radius or the damping is not positive, or the order is below 2.
@@ -97,7 +97,7 @@ class FusedEstimator(FeedforwardEstimator):
         super().__init__(needle, damping_n_mm_s_per_mm=damping_n_mm_s_per_mm, order=order)
 
     def reset(self) -> None:
-        """Untwisted, at the start, before the first sample."""
+        """Go back to the state before the first sample: untwisted, at the start."""
         super().reset()
         noise, n = self.noise, self._size
         self._modes, self._bias, self._lag, self._white = slice(_MODES, n), n, n + 1, n + 2
@@ -155,11 +155,11 @@ class FusedEstimator(FeedforwardEstimator):
 
     @property
     def tip_spread_deg(self) -> float:
-        """Standard deviation of the roll, deg."""
+        """Standard deviation of the estimated roll, deg."""
         return math.sqrt(max(float(self._row @ self.covariance @ self._row), 0.0)) / _RAD
 
     def _advance(self, last: Sample, now: Sample) -> None:
-        """Modes over one sample, and how their errors go on."""
+        """Advance the modes by one sample, and the transition matrix of their errors."""
         denoised = replace(last, torque_n_mm=last.torque_n_mm - self._noise_n_mm)
         super()._advance(self._unbiased(denoised), self._unbiased(now))
         dt, depth = now.time_s - last.time_s, 0.5 * (last.inserted_mm + now.inserted_mm)
@@ -182,7 +182,7 @@ class FusedEstimator(FeedforwardEstimator):
         return replace(sample, torque_n_mm=sample.torque_n_mm - self.bias_n_mm)
 
     def _roll_row(self, sample: Sample, status: Status) -> Array:
-        """Error of the roll in terms of the error state; outside the tip is where the base is."""
+        """Row that gives the error of the roll from the error state; outside tissue, roll = base."""
         row = np.zeros(self._size + 6)
         if status is Status.OK:
             tail_rad = self.twist.tail_rad(1.0, sample.inserted_mm)
@@ -192,7 +192,7 @@ class FusedEstimator(FeedforwardEstimator):
         return row
 
     def _propagate(self, last: Sample, now: Sample, row: Array, roll_rad: float) -> None:
-        """Pose and covariance over one sample."""
+        """Advance pose and covariance by one sample."""
         travel = now.inserted_mm - last.inserted_mm
         step = self.pose.advance(travel, roll_rad)
         moved, noise = self._transition.copy(), self._from_noise.copy()
@@ -209,7 +209,7 @@ class FusedEstimator(FeedforwardEstimator):
         self.covariance[self._lag, self._lag] += drift
 
     def _inject(self, error: Array) -> None:
-        """Add the estimated error to the state, and so make it zero."""
+        """Add the estimated error to the state, which sets the error state to zero."""
         self.pose.correct(error[_POSITION], error[_DIRECTION])
         self._p = self._p + error[self._modes]
         self.bias_n_mm += float(error[self._bias])

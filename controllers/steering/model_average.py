@@ -1,12 +1,12 @@
 """Two fused estimators, one that trusts the base and one that doubts it, averaged by probability.
 
-Images are noisy. A filter that may always doubt the base follows their noise even where the base
-is right. So the roll is the mean of both, weighted by the probability of each given the images
+Images are noisy. A filter that always doubts the base follows their noise even when the base
+is right. So the roll is the mean of both filters, weighted by their probabilities given the images
 (a bank of Kalman filters; Bar-Shalom, Li and Kirubarajan 2001, 11.6):
 
     w_i <- w_i * likelihood_i of the image,    then w_i <- (1 - e) w_i + e w_i at the start
 
-The second keeps a model from being given up for good: the base may become wrong on the way.
+The second step keeps every probability above 0: the base may become wrong later.
 """
 
 import math
@@ -23,14 +23,14 @@ _RETURN = 1e-3  # e: probability with which an image starts the choice anew
 
 
 class ModelAverage:
-    """The mean of a filter that trusts the base, and one that does not.
+    """The weighted mean of a filter that trusts the base and one that does not.
 
     Args:
-      trusting, doubting: the same but for their noise.
+      trusting, doubting: two filters that differ only in their assumed noise.
       doubt: probability, before any image, that the base is wrong.
 
     Attributes:
-      doubting_estimate: the last one of the filter that doubts.
+      doubting_estimate: the last estimate of the filter that doubts.
 
     Raises:
       InvalidValue: doubt is not between 0 and 1.
@@ -46,7 +46,7 @@ class ModelAverage:
         self.reset()
 
     def reset(self) -> None:
-        """Both filters as before the first sample."""
+        """Go back to the state before the first sample, in both filters."""
         for one in self.filters:
             one.reset()
         self._weights = self._start.copy()
@@ -70,7 +70,7 @@ class ModelAverage:
             one.expose()
 
     def see(self, position_mm: ArrayLike) -> None:
-        """Correct both by the tip's position, (3,), and weigh them by how well they expected it."""
+        """Correct both by the tip's position, mm, (3,), and weigh them by how well they predicted it."""
         logs = np.array([one.see(position_mm) for one in self.filters])
         posterior = self._weights * np.exp(logs - logs.max())
         posterior /= posterior.sum()

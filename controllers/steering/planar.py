@@ -12,7 +12,7 @@ cos gamma: the three-state system of ref. [8]. The roll rate
     theta' = ((-k0 z - k1 t_z - k2 k d_z) / k + k t_z) / e_z
 
 makes z a linear third-order system with all poles at -1 / settling length (feedback
-linearisation). Insertion speed drops out: a person may set it.
+linearisation). The insertion speed cancels: a person may choose it freely.
 """
 
 import math
@@ -30,7 +30,7 @@ class PlanarState:
     """Where the tip is and points, relative to the plane.
 
     Attributes:
-      height_mm: z.
+      height_mm: height z over the plane.
       slope, pull, facing: t_z, d_z and e_z; together a unit vector.
     """
 
@@ -44,8 +44,8 @@ class PlanarController:
     """Roll rate that brings the tip into the plane z = 0.
 
     Args:
-      radius_mm: of curvature of the needle.
-      settling_mm: length in which errors fall by e.
+      radius_mm: radius of curvature of the needle.
+      settling_mm: travel over which errors fall by a factor e.
       most_roll_rad_per_mm: limit on the roll rate.
 
     Raises:
@@ -68,7 +68,7 @@ class PlanarController:
         self.most = most_roll_rad_per_mm
 
     def roll_rate(self, tip: PlanarState) -> float:
-        """Roll per length, rad/mm, for the tip as it is known."""
+        """Roll per travel, rad/mm, for a known state of the tip."""
         wanted = -float(self.gains @ [tip.height_mm, tip.slope, self.curvature * tip.pull])
         facing = math.copysign(max(abs(tip.facing), _LEAST_FACING), tip.facing or 1.0)
         rate = (wanted / self.curvature + self.curvature * tip.slope) / facing

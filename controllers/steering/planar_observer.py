@@ -1,7 +1,7 @@
 """Pitch and roll against a plane from images of the height alone: an observer after ref. [8].
 
-In x = (z, t_z, d_z) of controllers.steering.planar the needle is linear but for its input, e_z times
-the roll. Over a travel s without roll
+In x = (z, t_z, d_z) of controllers.steering.planar the needle is linear, except for its input, e_z
+times the roll. Over a travel s without roll
 
     x(s) = Phi(s) x,    Phi(s) = [1  sin(ks)/k  (1 - cos(ks))/k;  0  cos(ks)  sin(ks);
                                   0  -sin(ks)  cos(ks)]
@@ -12,8 +12,8 @@ within a quarter turn of lying in the plane. Images, h of travel apart, correct 
 
     e_{j+1} = Phi(h) (I - L C) e_j,    poles of Phi(h) (I - L C) = exp(-h / observer length), thrice
 
-An image arrives late. It is compared with the height that was predicted for its exposure,
-and the correction is carried over the travel since by Phi, which is exact where no roll came
+Images arrive late. An image is compared with the height that was predicted for its exposure,
+and Phi carries the correction over the travel since then; this is exact if the tip did not roll
 in between.
 """
 
@@ -36,8 +36,8 @@ class PlanarObserver:
     """Height, pitch and roll of the tip against the plane z = 0.
 
     Args:
-      radius_mm: of curvature of the needle.
-      settling_mm: travel in which errors of the estimate fall by e.
+      radius_mm: radius of curvature of the needle.
+      settling_mm: travel over which errors of the estimate fall by a factor e.
 
     Raises:
       InvalidValue: one of them is not positive.
@@ -52,7 +52,7 @@ class PlanarObserver:
         self.reset()
 
     def reset(self) -> None:
-        """Before the first image: along the plane, at an unknown height."""
+        """Go back to the state before the first image: parallel to the plane, at an unknown height."""
         self._x = np.zeros(3)
         self._started = False
         self._exposed_height_mm = 0.0
@@ -60,7 +60,7 @@ class PlanarObserver:
 
     @property
     def state(self) -> PlanarState:
-        """The estimate."""
+        """The estimated state."""
         height, slope, pull = (float(value) for value in self._x)
         return PlanarState(height, slope, pull, math.sqrt(max(1.0 - slope**2 - pull**2, 0.0)))
 
@@ -77,7 +77,7 @@ class PlanarObserver:
         self._apart_mm, self._since_mm = self._since_mm, 0.0
 
     def see(self, height_mm: float) -> None:
-        """The height at the last exposure; one that is not finite is left out."""
+        """Correct by the height at the last exposure, mm; a value that is not finite is ignored."""
         if not math.isfinite(height_mm):
             return
         innovation = height_mm - self._exposed_height_mm
@@ -89,13 +89,13 @@ class PlanarObserver:
         self._keep_direction()
 
     def transition(self, travel_mm: float) -> Array:
-        """Phi over a travel, (3, 3)."""
+        """Phi of the module's docstring over a travel, (3, 3)."""
         k = self.curvature
         s, c = math.sin(k * travel_mm), math.cos(k * travel_mm)
         return np.array([[1.0, s / k, (1 - c) / k], [0.0, c, s], [0.0, -s, c]])
 
     def gain(self, apart_mm: float) -> Array:
-        """L for images a travel apart, (3,); made once for every micrometre."""
+        """L for images that are a travel apart, (3,); cached in steps of a micrometre."""
         key = max(1, round(apart_mm * 1000))
         if key not in self._gains:
             step = self.transition(key / 1000)
@@ -105,7 +105,7 @@ class PlanarObserver:
         return self._gains[key]
 
     def _keep_direction(self) -> None:
-        """A unit vector has no component above 1, whatever noise says."""
+        """Keep the components of the unit vector within 1 in spite of noise."""
         length = math.hypot(self._x[1], self._x[2])
         if length > _STEEPEST:
             self._x[1:] *= _STEEPEST / length

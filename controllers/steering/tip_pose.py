@@ -1,4 +1,4 @@
-"""Position and direction of a bevel tip, and how errors of them grow while it goes in.
+"""Position and direction of a bevel tip, and how their errors grow during insertion.
 
 The pose is that of models.bevel: position p and the frame F = (t, n, b) that is carried along
 without turning about t. The error state (true minus estimated) turns the frame from the left,
@@ -42,7 +42,7 @@ class TipPose:
     """The estimated pose of the tip.
 
     Args:
-      radius_mm: of curvature.
+      radius_mm: radius of curvature.
       position_mm: at the start, (3,).
     """
 
@@ -51,7 +51,7 @@ class TipPose:
 
     @property
     def position_mm(self) -> Array:
-        """Where the tip is, (3,)."""
+        """Position of the tip, mm, (3,)."""
         return self._tip.position_mm
 
     @property
@@ -60,7 +60,7 @@ class TipPose:
         return self._tip.frame
 
     def advance(self, travel_mm: float, roll_rad: float) -> PoseJacobian:
-        """Move the tip, and say what this does to its errors."""
+        """Move the tip, and return how the step changes its errors."""
         start = self._tip.position_mm
         toward, onward = self._tip.pointing(roll_rad)
         self._tip.advance(travel_mm, roll_rad)
@@ -72,7 +72,7 @@ class TipPose:
         )
 
     def correct(self, position_mm: Array, direction_rad: Array) -> None:
-        """Add an estimated error, (3,) each."""
+        """Add an estimated error: position, mm, and direction, rad, (3,) each."""
         self._tip.position_mm = self._tip.position_mm + position_mm
         self._tip.frame = Rotation.from_rotvec(direction_rad).as_matrix() @ self._tip.frame
 

@@ -1,1 +1,1 @@
-"""What is told beside the verdict: intervals, detection limits, the next experiment."""
+"""What is reported in addition to the verdict: intervals, detection limits, the next experiment."""

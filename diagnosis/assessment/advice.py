@@ -1,7 +1,7 @@
 """What to do next, in words.
 
-Where one explanation is left: what to change of rig or model, and the run that would narrow its leading
-parameter. Where several are left: the run or the calibration that would tell them apart.
+If one explanation is left: what to change in rig or model, and the run that would narrow the interval of
+its leading parameter. If several are left: the run or the calibration that would tell them apart.
 """
 
 from collections.abc import Sequence
@@ -27,13 +27,13 @@ def advise(
     left: ResidualBreakdown,
     parameters: Parameters,
 ) -> str:
-    """A sentence or two; empty where nothing is left to do.
+    """One or two sentences; empty if nothing is left to do.
 
     Args:
       problem: the decimated log, on which runs are simulated.
-      nominal: the residual of the nominal rig.
-      left: what the best explanation leaves.
-      parameters: of the accepted effects.
+      nominal: breakdown of the residual of the nominal rig.
+      left: breakdown of the residual of the best explanation.
+      parameters: parameters of the accepted effects.
     """
     match verdict.kind:
         case VerdictKind.UNDECIDED:
@@ -46,7 +46,7 @@ def advise(
 
 
 def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> str:
-    """What to change where the log is explained, and what would make it surer."""
+    """What to change if the log is explained, and the run that would make this more certain."""
     remedy = remedies(verdict.effects, parameters, problem.log.rig)
     if verdict.confusable:
         first, *others = (_together(names) for names in verdict.confusable)
@@ -65,7 +65,7 @@ def _together(names: Sequence[str]) -> str:
 
 
 def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
-    """The run that would narrow the leading parameter of the strongest effect; empty: no time."""
+    """The run that would narrow the leading parameter of the strongest effect; empty without time."""
     fit, effect = verdict.best.fit, LIBRARY[verdict.effects[0]]
     feasible = list(experiments(problem.log)) if not stopping() else []
     if not feasible:
@@ -98,7 +98,7 @@ def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
 
 
 def _only_sliding(problem: FitProblem, one: Fit, other: Fit, names: Sequence[str]) -> str:
-    """What a rig that seems to have no axis cannot tell, and a needle that slides would."""
+    """The sliding run that would tell two explanations apart, for a rig that seems to have no axis."""
     if has_axis(problem.log):
         return ""
     found = best_experiment(problem, one, other, sliding_experiments(problem.log))

@@ -1,4 +1,4 @@
-"""Everything that is told beside the verdict."""
+"""Everything that is reported in addition to the verdict."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -47,26 +47,26 @@ TWIST = "twist along the shaft"
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
-    """What is told beside the verdict.
+    """What is reported in addition to the verdict.
 
     Attributes:
       gap: before and after, on held-out trials.
-      nearest: the best that was tried, whatever the verdict.
-      breakdown: of the residual of the nominal rig.
-      breakdown_after: of what the nearest explanation leaves.
-      shape, shape_after: of the same two residuals.
-      parameters: by effect that was accepted.
-      joint: how the parameters of the nearest explanation are uncertain together.
-      imperfections: of sensors that the nearest explanation rests on, with their parameters.
+      nearest: the best explanation that was tried, whatever the verdict.
+      breakdown: breakdown of the residual of the nominal rig.
+      breakdown_after: breakdown of the residual of the nearest explanation.
+      shape, shape_after: shape of the same two residuals.
+      parameters: intervals of parameters, by accepted effect.
+      joint: joint uncertainty of the parameters of the nearest explanation.
+      imperfections: imperfections of sensors in the nearest explanation, with their parameters.
       torque_drift_sigma: largest range of the drift within a trial that was allowed for.
-      with_one_more: gap that one more effect may bring it down to, by effect.
-      detection_limits: parameters at the largest strength that may go unseen, by effect; empty where
-        the log is not explained, or by two effects.
-      next_experiment: in words; empty where nothing is left to tell apart.
-      numerical_error: of the replay, in sigma, by sensor; empty where there was no time for it.
+      with_one_more: gap that the best fit may reach with one more effect, by effect.
+      detection_limits: parameters at the largest strength that may go unseen, by effect; empty if
+        the log is not explained, or explained by two effects.
+      next_experiment: in words; empty if nothing is left to tell apart.
+      numerical_error: numerical error of the replay, in sigma, by sensor; empty if there was no time.
       explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
-      twist: along the shaft where the residual of the nominal rig is largest, by the nominal rig, with
-        each effect alone and with all; None where there was no time for it.
+      twist: twist along the shaft at the time of the largest nominal residual, by the nominal rig, with
+        each effect alone and with all; None if there was no time.
     """
 
     gap: GapReduction
@@ -97,13 +97,13 @@ def assess(
     effects: Sequence[str],
     workers: Workers,
 ) -> Assessment:
-    """Assess a verdict; after a stop, what needs many simulations is left out.
+    """Assess a verdict; after a stop, everything that needs many simulations is left out.
 
     Args:
-      problem: the log itself, as finely replayed and with the noise that the verdict rests on.
+      problem: the log itself, with the resolution and the noise that the verdict is based on.
       coarse: the decimated log, with the same noise.
       nominal: readings that the nominal rig predicts, by trial of the problem.
-      effects: that may be tried.
+      effects: names of effects that may be tried.
 
     Raises:
       SimulationFailed: the best explanation cannot be simulated.
@@ -168,7 +168,7 @@ def _next_experiment(
     parameters: Mapping[str, Mapping[str, Interval]],
     stop: StopSignal,
 ) -> str:
-    """Only what tells two explanations apart has to be simulated to say anything, and takes time."""
+    """The next experiment in words; only the one that tells two explanations apart needs simulations."""
     arguments = (coarse, verdict, *where, parameters)
     if verdict.kind is VerdictKind.EXPLAINED and stop.due:
         stop.leave_out(NEXT)  # what to change stands; the run that would narrow it is not looked for
@@ -180,7 +180,7 @@ def _next_experiment(
 def _twist(
     problem: FitProblem, near: Candidate, effects: Sequence[str], moment: tuple[str, float]
 ) -> ShaftTwist | None:
-    """Along the shaft at a moment, by the nominal rig, with each effect alone and with all."""
+    """Twist along the shaft at a moment, by the nominal rig, with each effect alone and with all."""
     rigs = {"nominal": NOMINAL}
     if len(effects) > 1:
         rigs |= {name: _alone(problem, near, name, effects) for name in effects}
@@ -192,14 +192,14 @@ def _twist(
 
 
 def _alone(problem: FitProblem, near: Candidate, name: str, effects: Sequence[str]) -> RigParameters:
-    """The rig with one of several effects, and with what is open besides."""
+    """The rig with one of several effects, and with the fitted nuisance parameters."""
     nuisance = [e for e in near.fit.parameterization.nuisance if e.name not in effects]
     alone = parameterization_of([name], nuisance, problem.library)
     return alone.rig(alone.joined({e.name: near.fit.parts[e.name] for e in alone.all}))
 
 
 def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
-    """A warning for every parameter that the data would take beyond its bound."""
+    """A warning for every parameter that the fit would move beyond its bound."""
     return tuple(
         f"{parameter} stopped at a bound of its range: the data call for a value beyond it, so its "
         "value and interval mean little"
@@ -208,14 +208,14 @@ def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:
 
 
 def _above_noise(best: Candidate) -> float:
-    """By how much an explanation leaves more than noise, slow parts included; 1 at the floor."""
+    """Factor by which the residual exceeds noise, slow parts included; 1 at the noise floor."""
     return 1.0 if best.floor.reached else max(1.0, best.floor.gap, best.floor.slow)
 
 
 def _further_effects(
     coarse: FitProblem, verdict: Verdict, effects: Sequence[str], workers: Workers
 ) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
-    """The gap with one more effect, and detection limits where the log is explained."""
+    """The gap with one more effect, and detection limits if the log is explained."""
     best, stop = verdict.best.fit, workers.stop
     base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
     if isinstance(base, Failure):

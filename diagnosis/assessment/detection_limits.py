@@ -1,11 +1,11 @@
-"""Detection limits: how strong each further effect may be and go unseen in a log.
+"""Detection limits: how strong each further effect may be and still go unseen in a log.
 
-Beside the best fit, an effect changes the residual by d that the fit cannot take back.
-Fitted, it takes about d'd off the cost, and is named if that is worth its freedom, the
-choice, and the odds that a richer explanation has to lead by; as the second of two, if it
-is worth a search. Noise changes sqrt(d'd) by one standard deviation: an effect whose
-sqrt(d'd) is 1.64 more than asked is seen in 95 of 100 logs. Its strength is found by
-simulating it weaker or stronger until it is that.
+An effect in addition to the best fit changes the residual by d, of which the fit's own parameters can
+take nothing back. Fitted, it reduces the cost by about d'd. It is named if that exceeds the
+complexity penalty and the odds by which a richer explanation has to lead; as the second of two
+effects, if it also exceeds the threshold of the search. Noise changes sqrt(d'd) by one standard
+deviation: an effect whose sqrt(d'd) exceeds the requirement by 1.64 is seen in 95 of 100 logs. The
+strength that gives this value is found by simulating the effect weaker or stronger.
 """
 
 import math
@@ -28,10 +28,10 @@ _MOST = 30.0  # times weaker or stronger in one round
 def detection_limits(
     coarse: FitProblem, best: Fit, base: Fit, effects: Sequence[str], workers: Workers
 ) -> dict[str, dict[str, float]]:
-    """The detection limit of every further effect, by name and parameter; none: any strength.
+    """Detection limits of all further effects, by name and parameter; no parameters: any strength.
 
-    Stiffness and damping are left out, which every fit leaves open, and all effects beside
-    two others: three at once are not searched for.
+    Stiffness and damping are left out, since every fit varies them. Beside two effects nothing is
+    computed: detection limits of a third are not searched for.
     """
     if len(best.names) > 1:
         return {}
@@ -46,12 +46,12 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
 
     Args:
       coarse: the decimated log.
-      best: what explains the log itself, one effect or none.
-      base: the same on the decimated log.
+      best: fit that explains the log itself, of one effect or none.
+      base: the same fit on the decimated log.
 
     Returns:
-      The name and values by parameter, of the shape that fits start from; none if the
-      effect may go unseen at any strength within bounds.
+      The name, and values by parameter, with parameters of shape at the start of fits; no values if
+      the effect may go unseen at any strength within bounds.
 
     Raises:
       SimulationFailed: the effect cannot be simulated.
@@ -73,7 +73,7 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
 
 
 def _asked(best: Fit, base: Fit, name: str) -> float:
-    """What an effect has to take off the cost to be named."""
+    """Reduction of the cost that an effect needs to be named."""
     names = (*best.names, name)
     asked = complexity_penalty(names, best.samples) + SIMPLE_LEAD
     asked -= complexity_penalty(best.names, best.samples)

@@ -1,8 +1,8 @@
 """Runs that a rig can do, as its log shows: depths, free lengths, axial speeds and rates of turning.
 
-A rig whose trials are all equally deep and never slide is taken to have no axis: its runs differ in
-rate, amplitude, reversals and rests alone, and those that slide are kept apart. One that has an axis but
-never slid may be able to: such runs say that they ask for it.
+If all trials have the same depth and never slide, the rig is assumed to have no axis: its runs differ
+only in rate, amplitude, reversals and rests, and sliding runs are listed separately. A rig with an axis
+that never slid may be able to: the words of such runs say that they need sliding.
 """
 
 from collections.abc import Iterator
@@ -36,14 +36,14 @@ class Experiment:
 
 
 def has_axis(log: PreparedLog) -> bool:
-    """Whether a log shows that its rig can move the needle along: it slides, or depths differ."""
+    """Whether the log shows that its rig can move the needle axially: it slides, or depths differ."""
     depths = np.concatenate([trial.inserted_mm for trial in log.trials])
     slides = any(np.abs(trial.speed_mm_s).max() > SLIDING_MM_S for trial in log.trials)
     return slides or bool(np.ptp(depths) >= SAME_DEPTH_MM)
 
 
 def experiments(log: PreparedLog) -> Iterator[Experiment]:
-    """Runs that the rig can do: turns at rest, and with an axis sliding and at two depths as well."""
+    """Runs that the rig can do: turns at rest; with an axis also sliding ones, and at two depths."""
     motions, depths, free = _motions(_fast_deg_s(log)), _depths_mm(log), _free_mm(log)
     if not has_axis(log):
         for words, (time, angle) in (motions | _rotary_motions()).items():
@@ -62,7 +62,7 @@ def experiments(log: PreparedLog) -> Iterator[Experiment]:
 
 
 def sliding_experiments(log: PreparedLog) -> Iterator[Experiment]:
-    """Runs that a rig without an axis cannot do: for what no turn of its base can tell."""
+    """Sliding runs for a rig that seems to have no axis: for what no turn of the base can tell."""
     depth, free = _depths_mm(log)[0], _free_mm(log)
     for words, (time, angle) in _motions(_fast_deg_s(log)).items():
         yield Experiment(
@@ -72,7 +72,7 @@ def sliding_experiments(log: PreparedLog) -> Iterator[Experiment]:
 
 
 def _fast_deg_s(log: PreparedLog) -> float:
-    """Rate at which the base turns in its fastest hundredth."""
+    """Rate of the base that 1 % of the samples exceed, deg/s."""
     each = [np.abs(base_rate(trial.time_s, trial.base_motion_deg)) for trial in log.trials]
     return max(float(np.quantile(np.concatenate(each), 0.99)), _FASTEST_AT_LEAST_DEG_S)
 
@@ -86,7 +86,7 @@ def _free_mm(log: PreparedLog) -> float:
 
 
 def _motions(fast: float) -> dict[str, Motion]:
-    """Turns, staircases, slow ramps and oscillations of the base, by their words.
+    """Turns, staircases, slow ramps and oscillations of the base, by their description.
 
     Args:
       fast: rate, deg/s.
@@ -108,7 +108,7 @@ def _motions(fast: float) -> dict[str, Motion]:
 
 
 def _rotary_motions() -> dict[str, Motion]:
-    """What a rig without an axis can vary further: rate, amplitude, rests and reversals."""
+    """More motions for a rig without an axis, which vary rate, amplitude, rests and reversals."""
     rest = (90.0,) * 10
     return {
         f"turn by 90 deg at {_SLOW_DEG_S:.0f} deg/s, hold, turn back by 45 deg": _ramps(
@@ -132,7 +132,7 @@ def _ramps(rate: float, corners: tuple[float, ...]) -> Motion:
 
 
 def _sawtooth(amplitude: float, rate: float) -> Motion:
-    """To and fro between 0 and an angle, without a hold, for ten seconds."""
+    """Time and angle of turns to and fro between 0 and an angle, without holds, for ten seconds."""
     time = np.arange(0.0, 10.0, SAMPLE_S)
     turned = rate * np.maximum(time - _REST_S, 0.0)
     return time, amplitude - np.abs(turned % (2 * amplitude) - amplitude)
@@ -145,7 +145,7 @@ def _sine(amplitude: float, hertz: float) -> Motion:
 
 
 def _trial(time: Array, angle: Array, depth: float, free: float, speed: float) -> PreparedTrial:
-    """Tissue of constant depth, through which the shaft slides out of the free length."""
+    """A trial at constant depth of tissue, in which the shaft slides out of the free length."""
     return PreparedTrial(
         name="proposal",
         time_s=time,

@@ -1,9 +1,9 @@
-"""Forward steps: what each further effect would add to an explanation.
+"""Forward steps: how much each further effect would improve an explanation.
 
-Real rigs have three to five effects at once, and a library holds few of them. Where a search ends
-with fewer than three and explains nothing, the nearest explanation goes on: one effect at a time,
-the one that promises most, as long as it takes off a good share of what is left and does not come
-down to the noise (by imitation, most likely: the search would have found it otherwise).
+Real rigs have three to five effects at once, and a library holds few of them. If a search ends
+with fewer than three and explains nothing, the nearest explanation is extended by one effect at a
+time, the most promising one, as long as it removes a good share of the residual. It does not go down
+to the noise: such a fit would most likely be imitation, since the search would have found it otherwise.
 """
 
 from collections.abc import Sequence
@@ -23,10 +23,10 @@ _STARTS = 2
 
 
 def on_decimated(coarse: FitProblem, best: Fit) -> Fit:
-    """The best fit, once more on the decimated log.
+    """The best fit, repeated on the decimated log.
 
     Raises:
-      SimulationFailed: it cannot be simulated so coarsely.
+      SimulationFailed: it cannot be simulated with the coarse needle.
     """
     start = coarse.parameterization(best.names).joined(best.parts)
     return fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
@@ -35,7 +35,7 @@ def on_decimated(coarse: FitProblem, best: Fit) -> Fit:
 def gap_with_one_more(
     coarse: FitProblem, best: Fit, base: Fit, effects: Sequence[str], workers: Workers
 ) -> dict[str, float]:
-    """Gap that the best fit may come down to with one more effect, least first.
+    """Gap that the best fit may reach with one more effect, by effect, smallest first.
 
     Args:
       base: the best fit on the decimated log.
@@ -51,7 +51,7 @@ def gap_with_one_more(
 def forward_selection(
     problem: FitProblem, coarse: FitProblem, best: Fit, effects: Sequence[str], workers: Workers
 ) -> Fit:
-    """The best fit with further effects, added while each takes off a good share of the cost.
+    """The best fit with further effects, added while each removes a good share of the cost.
 
     Args:
       problem: the log itself; coarse: the decimated log.
@@ -76,7 +76,7 @@ def forward_selection(
 
 
 def _one_more(coarse: FitProblem, base: Fit, effects: Sequence[str], workers: Workers) -> list[Screened]:
-    """What every further effect promises on top of a fit."""
+    """Screening of all further effects on top of a fit."""
     tasks = [
         Task(effects=(name,), arguments=(coarse, base, name, _STARTS))
         for name in effects

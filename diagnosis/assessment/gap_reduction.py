@@ -1,4 +1,4 @@
-"""How much of a gap is explained, on trials that the fit has not seen."""
+"""How much of the gap is explained, on trials that the fit has not seen."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ _BLOCK = 100  # samples that are resampled together: residuals of a gap are not 
 
 @dataclass(frozen=True, kw_only=True)
 class GapReduction:
-    """Root mean square of residual / sigma before and after, held out; 1 is the noise floor.
+    """Root mean square of residual / sigma before and after, on held-out trials; 1 is the noise floor.
 
     Attributes:
       shrink: 1 - after / before, with a 95 % interval from resampled blocks.
@@ -27,7 +27,7 @@ class GapReduction:
 
 
 def gap_reduction(before: tuple[Array, ...], after: tuple[Array, ...]) -> GapReduction:
-    """Gap before and after on held-out trials, its reduction from resampled blocks."""
+    """Gap before and after on held-out trials, and its reduction with an interval by resampling."""
     squares = [
         np.stack([_blocks(b**2), _blocks(a**2)])
         for b, a in zip(before, after, strict=True)

@@ -1,4 +1,4 @@
-"""Identifiability: what a log cannot tell, whatever its readings are, and why."""
+"""Identifiability: what a log cannot determine, whatever its readings are, and why."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,7 @@ from diagnosis.log.rig_log import RigLog
 
 
 def testable_effects(log: RigLog) -> tuple[str, ...]:
-    """What a fit may use that the columns of a log can show at all."""
+    """Names of the effects and imperfections that the columns of a log can show at all."""
     return tuple(
         name
         for name, effect in FITTED.items()
@@ -17,7 +17,7 @@ def testable_effects(log: RigLog) -> tuple[str, ...]:
 
 
 def unidentifiable(log: RigLog) -> tuple[str, ...]:
-    """Sentences on what a log leaves open."""
+    """Sentences on what the log cannot determine."""
     return (*_not_testable(log), *_alike(log))
 
 

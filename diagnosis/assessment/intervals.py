@@ -1,10 +1,10 @@
-"""Parameters of a fit with intervals that cover.
+"""Parameters of a fit with 95 % intervals.
 
-Three things move a fitted parameter: the noise of the sensors, whose covariance is
-that of least squares, prior included; what is left of the base angle's noise in the
-motion that drives the replay; and the replay's own error. The second is seen by doing
-it again: noise is put on the smoothed motion, smoothed again, and the fit answers by
-a Gauss-Newton step, as it does to a finer replay.
+Three errors move a fitted parameter: the noise of the sensors, with the covariance of least
+squares including the prior; the remaining noise of the base angle in the motion that drives the
+replay; and the numerical error of the replay. The second is found by repetition: noise is added to
+the smoothed motion, which is smoothed again, and one Gauss-Newton step gives the shift of the fit.
+The third is the shift by a Gauss-Newton step for a finer replay.
 """
 
 from collections.abc import Mapping, Sequence
@@ -45,11 +45,11 @@ def covariance(
     *,
     left: float = 1.0,
 ) -> Array:
-    """Covariance of the vector of a fit, (n, n), in the units that it is fitted in.
+    """Covariance of the vector of a fit, (n, n), in the units of the fit.
 
     Args:
-      change: of the prediction with a finer replay, / sigma, by trial and sensor; none: not looked at.
-      left: by how much the residual is above the noise; noise is taken to be as much larger.
+      change: change of the prediction by a finer replay, / sigma, by trial and sensor; empty: ignored.
+      left: factor by which the residual exceeds the noise; the noise is taken to be larger by it.
     """
     if fit.x.size == 0:
         return np.zeros((0, 0))
@@ -61,7 +61,7 @@ def covariance(
 
 
 def intervals(fit: Fit, spread: Array) -> dict[str, dict[str, Interval]]:
-    """By effect and parameter, nuisance included.
+    """Intervals by effect and parameter, including nuisance parameters.
 
     Args:
       spread: covariance of the vector of the fit, (n, n).
@@ -80,16 +80,16 @@ def intervals(fit: Fit, spread: Array) -> dict[str, dict[str, Interval]]:
 
 
 def _interval(parameter: Parameter, value: float, one: float, other: float) -> Interval:
-    """An angle is told in the half periods about 0."""
+    """Value and interval of one parameter; an angle is shifted to within half a period of 0."""
     turns = parameter.turns(value)
     low, high = min(one, other) - turns, max(one, other) - turns
     return Interval(value=value - turns, low=low, high=high, unit=parameter.unit)
 
 
 def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
-    """How far the fit moves with the noise that is left in the base angle, (K, n).
+    """Shifts of the fit by the remaining noise of the base angle, for K draws, (K, n).
 
-    That takes no finer replay than the usual one, also where the fit asked for it.
+    They are computed with the usual resolution, even if the fit needed a finer one.
     """
     rng = np.random.default_rng(_SEED)
     rig, usual = fit.parameterization.rig(fit.x), replace(problem, resolution=FINE)
@@ -104,6 +104,6 @@ def _shifts(problem: FitProblem, fit: Fit, inverse: Array) -> Array:
 
 
 def _answer(fit: Fit, inverse: Array, moved: Sequence[Array]) -> Array:
-    """How far a fit moves when its residuals do, (n,)."""
+    """Shift of a fit when its residuals change, (n,)."""
     pull = sum(slopes.T @ change for slopes, change in zip(fit.jacobian, moved, strict=True))
     return np.asarray(-inverse @ pull)

@@ -1,12 +1,12 @@
-"""How the parameters of a fit are uncertain together.
+"""The joint uncertainty of the parameters of a fit.
 
-Two parameters are known to an ellipse, not to a rectangle: where they are correlated, one may be larger
-if the other is smaller. In 95 of 100 logs both at once lie inside of
+The uncertainty of two parameters is an ellipse, not a rectangle: if they are correlated, one may be
+larger if the other is smaller. In 95 of 100 logs both lie within
 
     (x - fit)' C^-1 (x - fit) = -2 log(1 - 0.95).
 
-C is the covariance of the two, in the units that they are fitted in; a parameter that is fitted in its
-logarithm bends the ellipse.
+C is the covariance of the two in the units of the fit; a parameter that is fitted in its logarithm
+bends the ellipse.
 """
 
 import math
@@ -31,8 +31,8 @@ class JointUncertainty:
     """Parameters with their covariance.
 
     Attributes:
-      owners: effect of each.
-      x: values, (n,), and `covariance`, (n, n), in the units that they are fitted in.
+      owners: effect of each parameter.
+      x: values, (n,); with `covariance`, (n, n), in the units of the fit.
     """
 
     owners: tuple[str, ...]
@@ -42,28 +42,28 @@ class JointUncertainty:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """As effect.parameter."""
+        """Names of the parameters, as effect.parameter."""
         return tuple(f"{o}.{p.name}" for o, p in zip(self.owners, self.parameters, strict=True))
 
     @property
     def values(self) -> Array:
-        """In the units of the parameters, (n,)."""
+        """Values in the units of the parameters, (n,)."""
         return np.array([p.from_fit(float(v)) for p, v in zip(self.parameters, self.x, strict=True)])
 
     @property
     def told(self) -> Array:
-        """Values as a report tells them: angles in the half periods about 0, (n,)."""
+        """Values as in a report, (n,): angles are within half a period of 0."""
         each = zip(self.parameters, self.values, strict=True)
         return np.array([value - p.turns(float(value)) for p, value in each])
 
     @property
     def covariance_of_values(self) -> Array:
-        """Covariance in the units of the parameters, (n, n): slopes' product times that of the fit."""
+        """Covariance in the units of the parameters, (n, n): that of the fit times slopes."""
         slopes = np.array([p.slope(float(v)) for p, v in zip(self.parameters, self.x, strict=True)])
         return np.asarray(slopes[:, None] * self.covariance * slopes)
 
     def correlation(self, i: int, j: int) -> float:
-        """Of two parameters, -1 to 1; 0 where one of them is certain."""
+        """Correlation of two parameters, -1 to 1; 0 if one of them is certain."""
         product = float(self.covariance[i, i] * self.covariance[j, j])
         return float(self.covariance[i, j]) / math.sqrt(product) if product > 0 else 0.0
 
@@ -84,7 +84,7 @@ class JointUncertainty:
 
 
 def joint_uncertainty(fit: Fit, spread: Array, effects: Sequence[str]) -> JointUncertainty:
-    """Of the reported parameters of effects in their order, then of the rig's constants that are open.
+    """Joint uncertainty of the reported parameters of effects, then of nuisance parameters.
 
     Args:
       spread: covariance of the vector of the fit, (n, n).

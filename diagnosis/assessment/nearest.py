@@ -1,12 +1,12 @@
 """The nearest explanation: the best that was tried, whatever the verdict.
 
-No model of a real rig leaves noise alone. Where the verdict is `unknown`, this still says what
-comes nearest, how much of the gap it explains, and which parameters stopped at a bound. Power is
-that of the nominal residual beyond noise,
+No model explains a real rig down to the noise. If the verdict is `unknown`, this still tells the
+nearest explanation, how much of the gap it explains, and which parameters stopped at a bound. The
+power explained is a share of that of the nominal residual beyond noise,
 
     explained = (before^2 - after^2) / (before^2 - 1),    before and after in sigma.
 
-Its intervals are wider than those of an explanation that reaches the noise floor, by what is left.
+The intervals are wider than for an explanation that reaches the noise floor, by residual / sigma.
 """
 
 from collections.abc import Mapping, Sequence
@@ -42,13 +42,13 @@ ONE_MORE = "adding another effect"
 
 @dataclass(frozen=True, kw_only=True)
 class Nearest:
-    """The best that was tried.
+    """The best explanation that was tried.
 
     Attributes:
-      effects: strongest first; none: nothing improves on the nominal rig.
+      effects: strongest first; empty: nothing improves on the nominal rig.
       parameters: intervals by effect and parameter.
-      gap_after: residual / sigma that it leaves, on held-out trials.
-      power_explained_percent: of the nominal residual beyond noise.
+      gap_after: rms of residual / sigma with it, on held-out trials.
+      power_explained_percent: share of the power of the nominal residual beyond noise.
       at_bound: parameters that stopped at a bound, as effect.parameter.
     """
 
@@ -65,10 +65,10 @@ def nearest_of(
     parameters: Mapping[str, Mapping[str, Interval]],
     gap: GapReduction,
 ) -> Nearest:
-    """The best candidate, whose effects are given strongest first.
+    """The record of the best candidate; `effects`: strongest first.
 
     Args:
-      parameters: of everything that its fit left open, by effect.
+      parameters: intervals of all fitted parameters, by effect.
     """
     return Nearest(
         effects=effects,
@@ -80,7 +80,7 @@ def nearest_of(
 
 
 def _power_percent(gap: GapReduction) -> float:
-    """0 where the nominal rig leaves no more than noise."""
+    """Power explained; 0 if the residual of the nominal rig does not exceed noise."""
     beyond = gap.before**2 - 1.0
     if beyond <= 0:
         return 0.0
@@ -95,15 +95,15 @@ def nearest_candidate(
     effects: Sequence[str],
     workers: Workers,
 ) -> tuple[Candidate, HeldOut, tuple[str, ...]]:
-    """The best of the verdict, its residuals on held-out trials, and a warning where there are none.
+    """The best candidate, its residuals on held-out trials, and a warning if there are none.
 
-    Of an unknown log it is the best with the further effects that bring it nearer; or the nominal rig,
-    where that leaves no more on held-out trials.
+    For an unknown log it is the best of the verdict with further effects that improve it; or the nominal
+    rig, if that has no larger residual on held-out trials.
 
     Args:
       problem: the log itself; coarse: the decimated log.
       nominal: readings of the nominal rig by trial.
-      effects: that may be tried.
+      effects: names of effects that may be tried.
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return verdict.best, *_held_out(problem, verdict.best)
@@ -130,7 +130,7 @@ def _with_further_effects(
 
 
 def _held_out(problem: FitProblem, best: Candidate) -> tuple[HeldOut, tuple[str, ...]]:
-    """Residuals of trials that the fit has not seen, and a warning where there are none."""
+    """Residuals of trials that the fit has not seen, and a warning if there are none."""
     if len(problem.log.trials) == 1:
         return best.fit.by_trial, (ONE_TRIAL,)
     if best.held_out is not None:

@@ -1,14 +1,14 @@
 """The run that would best tell two explanations apart, or narrow a parameter, by simulating candidates.
 
-A rig can do what its log shows that it can: depths, free lengths, axial speeds and
-rates of turning are taken from there (experiments.py). Each candidate run is predicted by both
-explanations; their difference d over the noise, less what either could take back by
-moving its parameters within what the log leaves open, is the expected separation
+The log shows what the rig can do: depths, free lengths, axial speeds and rates of turning are
+taken from there (experiments.py). Both explanations predict each candidate run. Their difference d
+/ noise, minus what either could compensate by moving its parameters within the uncertainty that
+the log leaves, gives the expected separation
 
     sqrt(d' (1 + Ja Ca Ja' + Jb Cb Jb')^-1 d),
 
-in standard deviations of a test between the two. Where one explanation is left, the same slopes say
-what a run would make of the covariance of its parameters: C (1 + J' J C)^-1.
+in standard deviations of a test between the two. If one explanation is left, the same slopes give
+the covariance of its parameters after a run: C (1 + J' J C)^-1.
 """
 
 from collections.abc import Iterable
@@ -42,27 +42,27 @@ class Proposal:
 def best_experiment(
     problem: FitProblem, one: Fit, other: Fit, feasible: Iterable[Experiment]
 ) -> Proposal:
-    """Of the runs that the rig can do, the one that separates two fits best."""
+    """The feasible run that separates two fits best."""
     proposals = [Proposal(experiment=e, separation=separation(problem, e, one, other)) for e in feasible]
     return max(proposals, key=lambda p: p.separation)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Narrowing:
-    """A run, and to what times its interval it would bring a parameter."""
+    """A run, and the factor by which it would narrow the interval of a parameter."""
 
     experiment: Experiment
     factor: float
 
 
 def narrowest(problem: FitProblem, fit: Fit, entry: int, feasible: Iterable[Experiment]) -> Narrowing:
-    """Of the runs that the rig can do, the one that narrows one entry of a fit's vector most."""
+    """The feasible run that narrows one entry of a fit's vector most."""
     runs = [Narrowing(experiment=e, factor=narrowing(problem, e, fit, entry)) for e in feasible]
     return min(runs, key=lambda run: run.factor)
 
 
 def narrowing(problem: FitProblem, experiment: Experiment, fit: Fit, entry: int) -> float:
-    """Standard deviation of an entry of the vector after a run, over that before it; 1: no change."""
+    """Standard deviation of an entry of the vector after a run / before it; 1: no change."""
     _, slopes = _outlook(problem, experiment.trial, fit)
     own = _root(fit)[entry]
     after = np.linalg.solve(np.eye(own.size) + slopes.T @ slopes, own)
@@ -70,7 +70,7 @@ def narrowing(problem: FitProblem, experiment: Experiment, fit: Fit, entry: int)
 
 
 def separation(problem: FitProblem, experiment: Experiment, one: Fit, other: Fit) -> float:
-    """Expected standard deviations between two fits on a run of both sensors that the log has."""
+    """Expected separation of two fits by a run, in standard deviations, with the sensors of the log."""
     a, spread_a = _outlook(problem, experiment.trial, one)
     b, spread_b = _outlook(problem, experiment.trial, other)
     d = a - b
@@ -81,7 +81,7 @@ def separation(problem: FitProblem, experiment: Experiment, one: Fit, other: Fit
 
 
 def _outlook(problem: FitProblem, trial: PreparedTrial, fit: Fit) -> tuple[Array, Array]:
-    """Readings / sigma that a fit expects, and how the spread of its parameters changes them."""
+    """Readings / sigma that a fit predicts, and their slopes with the uncertainty of its parameters."""
     steps = np.vstack([np.zeros(fit.x.size), _DIFFERENCE * np.eye(fit.x.size)])
     rigs = [fit.parameterization.rig(fit.x + step) for step in steps]
     per_sample = float(np.sqrt(SAMPLE_S / problem.log.trials[0].sample_s))

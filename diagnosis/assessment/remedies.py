@@ -1,4 +1,4 @@
-"""What to change where an effect is found: the words of its file, with the values that were fitted."""
+"""What to change if an effect is found: the words of its file, with the fitted values."""
 
 from collections.abc import Mapping, Sequence
 
@@ -11,18 +11,18 @@ Parameters = Mapping[str, Mapping[str, Interval]]
 
 
 def remedies(effects: Sequence[str], parameters: Parameters, rig: NominalRig) -> str:
-    """What to change of rig or model, effect by effect, as an order without a full stop.
+    """What to change in rig or model, effect by effect, as an instruction without a full stop.
 
     Args:
-      parameters: of each effect.
+      parameters: intervals of the parameters of each effect.
     """
     return "; ".join(_remedy(LIBRARY[name], parameters.get(name, {}), rig) for name in effects)
 
 
 def check_that_tells(sets: Sequence[Sequence[str]]) -> str:
-    """The measurement that tells sets of effects apart by itself: of what only one of them has.
+    """A separate measurement that tells sets of effects apart: of an effect that only one set has.
 
-    A sensor is the easiest to calibrate, then a constant of the rig, alone and at rest.
+    Sensors are the easiest to calibrate; then come constants of the rig that are measured at rest.
     """
     shared = set.intersection(*(set(names) for names in sets)) if sets else set()
     apart = [LIBRARY[name] for names in sets for name in names if name not in shared]

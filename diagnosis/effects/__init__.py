@@ -1,7 +1,7 @@
-"""The library of effects: one small file each, found by looking into this folder and the user's own.
+"""The library of effects: one small file each, found in this folder and in the user's own.
 
-`LIBRARY` is the vocabulary of verdicts, `IMPERFECTIONS` what sensors do beside noise; fits may use both.
-They are written for needles like the paper's; `library_of` is the same for a rig of another size.
+`LIBRARY` is the vocabulary of verdicts, `IMPERFECTIONS` are errors of sensors other than noise; fits may
+use both. Their bounds suit needles like the paper's; `library_of` scales them for a rig of another size.
 """
 
 import pkgutil
@@ -36,7 +36,7 @@ FITTED: Mapping[str, Effect] = ChainMap(IMPERFECTIONS, LIBRARY)
 
 
 def library_of(scale: RigScale) -> Mapping[str, Effect]:
-    """All that a fit may use, with the bounds and starts of a rig of this size."""
+    """All effects that a fit may use, with bounds and starts for a rig of this size."""
 
     def sized(parameter: Parameter) -> Parameter:
         own = parameter.scaled(torque=scale.torque_scale, rate=scale.rate_scale)

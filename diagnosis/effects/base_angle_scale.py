@@ -1,4 +1,4 @@
-"""What the encoder of the base reads over what the drive shaft turns."""
+"""Gain of the base's encoder: its reading / true angle of the drive shaft."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The true damping over the nominal."""
+"""True damping / nominal damping."""
 
 from dataclasses import replace
 

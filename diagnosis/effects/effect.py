@@ -1,4 +1,4 @@
-"""What an effect is: a name of the vocabulary, its parameters, and what it changes of a rig."""
+"""An effect: a name of the vocabulary, its parameters, and the change that it makes to a rig."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -11,7 +11,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 
 
 class Place(StrEnum):
-    """Where in the machine an effect lives."""
+    """The part of the rig where an effect acts."""
 
     INTERFACE = "interface"
     TISSUE = "tissue"
@@ -28,14 +28,14 @@ class Parameter:
     Attributes:
       name, unit: as in the vocabulary.
       low, high: bounds.
-      start: where fits may start: the values of one start stand in the same place of
-        every parameter of an effect.
+      start: starting values of fits; the first values of all parameters of an effect form one start,
+        the second values another, and so on.
       logarithmic: fitted in its logarithm (positive parameters over decades).
-      scale: what a parameter that is not logarithmic is fitted in units of.
-      period: of an angle, after which it repeats; 0: none.
-      reported: whether it is of the vocabulary; else it is open in a fit and not told.
-      neutral: value at which the effect is not there; None: a shape, at which it always is.
-      prior_sigma: of a normal prior on its coordinate about 0; infinite: none.
+      scale: unit in which a parameter that is not logarithmic is fitted.
+      period: period of an angle; 0: none.
+      reported: whether it is part of the vocabulary; else it is fitted and not reported.
+      neutral: value at which the effect is absent; None: a parameter of shape, without such a value.
+      prior_sigma: standard deviation of a normal prior on its coordinate about 0; infinite: none.
     """
 
     name: str
@@ -51,7 +51,7 @@ class Parameter:
     prior_sigma: float = math.inf
 
     def scaled(self, *, torque: float, rate: float) -> "Parameter":
-        """The same for a rig whose torques and rates are so many times larger."""
+        """The same parameter for a rig with torques and rates that are larger by these factors."""
         factor = torque if "N mm" in self.unit else rate if self.unit == "rad/s" else 1.0
         if factor == 1.0:
             return self
@@ -64,17 +64,17 @@ class Parameter:
         )
 
     def reaching(self, value: float) -> "Parameter":
-        """The same with a highest value of at least this."""
+        """The same parameter with an upper bound of at least this."""
         return self if value <= self.high else replace(self, high=value)
 
     def above(self, low: float) -> "Parameter":
-        """The same with a lowest value of at least this, and starts half way down to it at most."""
+        """The same parameter with a lower bound of at least this, and starts above half of it."""
         if low <= self.low:
             return self
         return replace(self, low=low, start=tuple(max(value, 0.5 * low) for value in self.start))
 
     def to_fit(self, value: float) -> float:
-        """The coordinate of a value that a fit moves in."""
+        """The coordinate of a value in a fit."""
         return float(np.log(value)) if self.logarithmic else value / self.scale
 
     def from_fit(self, x: float) -> float:
@@ -82,15 +82,15 @@ class Parameter:
         return float(np.exp(x)) if self.logarithmic else x * self.scale
 
     def slope(self, x: float) -> float:
-        """Change of the value with its coordinate."""
+        """Derivative of the value with respect to its coordinate."""
         return self.from_fit(x) if self.logarithmic else self.scale
 
     def turns(self, value: float) -> float:
-        """Whole periods of an angle, to take off so that it lies in the half periods about 0."""
+        """Whole periods to subtract from an angle, so that it lies within half a period of 0."""
         return self.period * round(value / self.period) if self.period else 0.0
 
     def towards_neutral(self, value: float, share: float) -> float:
-        """A value moved so far that the effect is a share of what it was."""
+        """A value moved towards the neutral one, so that the effect has this share of its strength."""
         match self.neutral:
             case None:
                 return value
@@ -101,7 +101,7 @@ class Parameter:
         return value * share
 
     def distance_from_neutral(self, value: float) -> float:
-        """How strong the effect is at a value; `towards_neutral` multiplies it. NaN: a shape."""
+        """Strength of the effect at a value, which `towards_neutral` scales; NaN for a shape."""
         match self.neutral:
             case None:
                 return math.nan
@@ -118,17 +118,18 @@ class Effect:
 
     Attributes:
       title: in plain words.
-      apply: the rig with this effect in it, given parameter values in order.
-      contains: simpler effects that this one becomes for some parameters; each with where a fit of
-        this one may start, given the parameter values of the simpler one.
-      needs: column of a log without which it cannot show; empty: none beyond the usual.
-      differences: that slopes are taken over, in the units of the fit, one fit after the
-        other. Where stick and slip make a residual rough, a wide one sees past that.
-      trial: the one trial that it is about; empty: all.
-      remedy: what to change of rig or model where it is found, as an order; values of parameters by
+      apply: adds the effect to a rig, given parameter values in order.
+      contains: simpler effects that are special cases of this one; each with starts for a fit of
+        this one, given the parameter values of the simpler one.
+      needs: column of a log without which the effect is not visible; empty: no further column.
+      differences: steps of finite differences, in the units of the fit, for one fit after the
+        other. A wide step averages over the roughness that stick and slip cause in a residual.
+      trial: the only trial that it concerns; empty: all.
+      remedy: what to change in rig or model if it is found, as an instruction; values of parameters by
         name in braces, that of `corrects` as {constant}.
       corrects: constant of rig.yaml whose true value is the nominal one times the first parameter.
-      check: how to measure it by itself, as an order.
+      check: how to measure it separately, as an instruction.
+      other_forms: names of free-form laws of its kind, which leave less if its law has another form.
     """
 
     name: str
@@ -143,8 +144,9 @@ class Effect:
     remedy: str = ""
     corrects: str = ""
     check: str = ""
+    other_forms: tuple[str, ...] = ()
 
     @property
     def reported(self) -> tuple[Parameter, ...]:
-        """Parameters of the vocabulary."""
+        """Parameters that are part of the vocabulary."""
         return tuple(p for p in self.parameters if p.reported)

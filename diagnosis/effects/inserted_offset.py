@@ -1,4 +1,4 @@
-"""True inserted length less the logged one, the same in all trials."""
+"""True inserted length minus the logged one, the same in all trials."""
 
 from dataclasses import replace
 

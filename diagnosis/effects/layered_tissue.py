@@ -1,4 +1,4 @@
-"""Two layers of different damping, the total nominal."""
+"""Two layers of different damping, with the nominal total."""
 
 from dataclasses import replace
 
@@ -33,5 +33,6 @@ EFFECT = Effect(
         "model two layers of tissue that meet at {boundary} of the inserted length, the deep one "
         "with {ratio} times the damping of the shallow one"
     ),
+    other_forms=("damping over position",),
     check="repeat one turn at several depths: the torque per mm changes where a layer begins",
 )

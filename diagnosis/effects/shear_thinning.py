@@ -1,7 +1,7 @@
 """Viscous torque as a power of the rate, nominal at 1 rad/s.
 
 A power below 1 would be infinitely viscous at rest. Every fluid, and every simulation,
-has a plateau at low rates; where it begins is left open.
+has a plateau at low rates; the rate at which it begins is fitted, too.
 """
 
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Dry friction that shares itself with the axial motion."""
+"""Dry friction that is shared between turning and axial motion."""
 
 from dataclasses import replace
 

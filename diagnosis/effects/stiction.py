@@ -23,7 +23,7 @@ def _apply(rig: RigParameters, kinetic: float, static: float, stribeck: float) -
 
 
 def _beyond_dry_friction(level: float) -> tuple[tuple[float, ...], ...]:
-    """Friction that falls at rates of the motion, with its mean about where constant friction is."""
+    """Starts at which friction falls within the rates of the motion, about the constant level."""
     return ((0.8 * level, 1.5 * level, 0.8), (0.7 * level, 2.5 * level, 0.2))
 
 

@@ -1,4 +1,4 @@
-"""The true torsional stiffness over the nominal."""
+"""True torsional stiffness / nominal stiffness."""
 
 from dataclasses import replace
 

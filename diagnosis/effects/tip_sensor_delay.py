@@ -1,4 +1,4 @@
-"""The tip sensor shows what was."""
+"""The tip sensor is late by a constant delay."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The torque sensor shows what was."""
+"""The torque sensor is late by a constant delay."""
 
 from dataclasses import replace
 

@@ -1,1 +1,1 @@
-"""Who computes many tasks: processes of this machine, or a cluster."""
+"""Engines that compute many tasks: processes of this machine, or a cluster."""

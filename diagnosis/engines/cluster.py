@@ -1,7 +1,7 @@
 """Tasks on an existing cluster of `dask.distributed`.
 
-Workers have this product installed. A worker that is lost costs nothing: the scheduler gives its task
-to another. If the scheduler is lost, this end waits for it to come back and asks for what is missing.
+Workers have this product installed. If a worker is lost, the scheduler gives its task to another. If
+the scheduler is lost, this process waits until it is back, and submits the missing tasks again.
 """
 
 import time
@@ -21,16 +21,16 @@ Tell = Callable[[str], None]
 
 
 def _unheard(news: str) -> None:
-    """What happens to the connection, told to nobody."""
+    """Ignore news of the connection."""
 
 
 def on_cluster(address: str, *, patience_s: float = PATIENCE_S, tell: Tell = _unheard) -> Engine:
-    """The workers of a scheduler.
+    """An engine of the workers of a scheduler.
 
     Args:
-      address: of the scheduler, as `tcp://host:8786`.
-      patience_s: how long to wait for the scheduler, at first and whenever it is lost.
-      tell: is told what happens to the connection.
+      address: address of the scheduler, for example `tcp://host:8786`.
+      patience_s: how long to wait for the scheduler, at first and whenever it is lost, s.
+      tell: called with news of the connection.
 
     Raises:
       InvalidValue: dask.distributed is not installed here.
@@ -61,10 +61,10 @@ def on_cluster(address: str, *, patience_s: float = PATIENCE_S, tell: Tell = _un
 
 
 def _connected(address: str, patience_s: float) -> Any:
-    """A client of the scheduler, as soon as there is one.
+    """A client of the scheduler, as soon as it answers.
 
     Raises:
-      EngineFailed: there is none in time.
+      EngineFailed: it does not answer in time.
     """
     from distributed import Client  # noqa: PLC0415 - an optional extra
 
@@ -83,7 +83,7 @@ def _connected(address: str, patience_s: float) -> Any:
 
 
 def _until_lost(client: Any, job: Job, tasks: Sequence[Task], tell: Tell) -> Iterator[tuple[Task, Any]]:
-    """Results as they come; ends early where the connection is lost."""
+    """Results as they come; ends early if the connection is lost."""
     calls = {client.submit(job, task, pure=False): task for task in tasks}
     deserted = False
     while calls:
@@ -103,9 +103,9 @@ def _until_lost(client: Any, job: Job, tasks: Sequence[Task], tell: Tell) -> Ite
 
 
 def _ended(client: Any, calls: Sequence[Any]) -> list[Any] | None:
-    """Calls that have ended, within a while none; None: the connection is lost.
+    """Calls that have ended; empty if none has for a while; None: the connection is lost.
 
-    A scheduler that is lost cancels calls, and one that came back does not know of them.
+    If the scheduler is lost, calls are cancelled; when it is back, it does not know them.
     """
     from distributed import wait  # noqa: PLC0415 - an optional extra
 
@@ -119,7 +119,7 @@ def _ended(client: Any, calls: Sequence[Any]) -> list[Any] | None:
 
 
 def _has_no_workers(client: Any) -> bool:
-    """False also where nobody answers: the next look will find the connection lost."""
+    """Whether a scheduler without workers answers; False if it does not: then the connection is lost."""
     try:
         return not client.scheduler_info(n_workers=1)["workers"]
     except OSError:

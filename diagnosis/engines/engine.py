@@ -1,7 +1,7 @@
 """What engines have in common: a job, its tasks, and when they give up.
 
-A job names its function, so that only who runs it loads what it needs: the scheduler of a cluster hands
-jobs on and loads nothing but this module.
+A job names its function instead of holding it, so that only workers import it: the scheduler of a
+cluster imports nothing but this module.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,11 +21,11 @@ _DECIDE = ("needle-torsion", "mujoco")  # distributions on whose versions result
 
 
 class EngineFailed(NeedleError):
-    """Nobody is left who could compute."""
+    """No worker is left that could compute."""
 
 
 def _versions() -> tuple[str, ...]:
-    """Of what results depend on, as installed here."""
+    """Versions of the installed packages that results depend on."""
     return tuple(f"{name} {_version(name)}" for name in _DECIDE)
 
 
@@ -38,12 +38,12 @@ def _version(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Job:
-    """What is done with each task, the same wherever it is done.
+    """A function to call with each task, with the same result on any worker.
 
     Attributes:
-      function: as `package.module.name`; is called with the arguments and the task.
-      noun: what a task is of, in messages.
-      versions: where the job was made.
+      function: as `package.module.name`; called with the arguments and the task.
+      noun: word for a task in messages.
+      versions: versions of packages in the process that made the job.
     """
 
     function: str
@@ -55,7 +55,7 @@ class Job:
         """The result of a task.
 
         Raises:
-          EnvironmentMismatch: this process may compute something else.
+          EnvironmentMismatch: other versions are installed here, so that results could differ.
         """
         if self.versions != _versions():
             raise EnvironmentMismatch(
@@ -66,21 +66,21 @@ class Job:
         return getattr(import_module(module), name)(*self.arguments, task)
 
     def about(self, task: Task) -> str:
-        """A task as people say it."""
+        """A task in words, for messages."""
         named = f"{task.start} to {task.stop - 1}" if isinstance(task, range) else task
         return f"{self.noun} {named}"
 
 
 class Engine(Protocol):
-    """Whoever computes."""
+    """Computes the tasks of a job."""
 
     def __call__(self, job: Job, tasks: Sequence[Task]) -> Iterator[tuple[Task, Any]]:
-        """Each task with its result, as soon as it is there, in any order."""
+        """Each task with its result, as soon as it is done, in any order."""
         ...
 
 
 def refuse_more_losses(job: Job, losses: int, missing: Sequence[Task]) -> None:
-    """Raise where workers die of what they compute.
+    """Give up if workers die repeatedly.
 
     Raises:
       EngineFailed: names a task that is missing.

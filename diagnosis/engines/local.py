@@ -11,9 +11,9 @@ from sim.simulation import prepare_processes
 
 
 def on_this_machine(workers: int) -> Engine:
-    """So many processes; 1 works in this one.
+    """An engine of so many processes; with 1, this process computes.
 
-    If one dies, the others are ended too, and what is not there yet is computed by new ones.
+    If a process dies, all are ended, and new ones compute the missing tasks.
     """
 
     def compute(job: Job, tasks: Sequence[Task]) -> Iterator[tuple[Task, Any]]:

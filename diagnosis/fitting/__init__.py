@@ -1,1 +1,1 @@
-"""Fitting a set of effects to a log, and what a fit tells: noise floor, held-out trials, projections."""
+"""Fits of a set of effects to a log, and their analysis: noise floor, held-out trials, projections."""

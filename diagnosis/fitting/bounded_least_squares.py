@@ -10,9 +10,9 @@ _ROOM = 1e-7  # that the solver asks for between bounds, in the units of a fit
 
 
 def bounded_least_squares(matrix: Array, wanted: Array, low: Array, high: Array) -> Array:
-    """The x between `low` and `high`, which may be equal, of least |matrix x - wanted|.
+    """The x between `low` and `high`, which may be equal, that minimises |matrix x - wanted|.
 
-    Clipping a free solution will not do: where one entry is held, others move less.
+    Clipping the free solution would not do: if one entry is at its bound, others move less.
     """
     if not matrix.shape[1]:
         return np.zeros(0)

@@ -1,12 +1,12 @@
-"""A log with fewer samples, on which a coarse needle answers as a fine one does.
+"""A log with fewer samples, on which a coarse needle gives the same results as a fine one.
 
-What effects do is slow beside the samples. Samples are averaged over windows of
-40 ms, and what the averaging and the coarse needle do to the nominal rig is taken off:
+The changes due to effects are slow compared with the samples. Samples are averaged over windows of
+40 ms, and the influence of averaging and of the coarse needle on the nominal rig is removed:
 
     decimated = mean(measured - nominal, fine) + nominal, coarse
 
 so that the residual of the nominal rig on the decimated log is the mean of that on the
-log. Sums of squares / sigma^2 are kept, at a tenth of the cost.
+log. Sums of squares / sigma^2 are preserved, at a tenth of the cost.
 """
 
 from collections.abc import Sequence
@@ -36,10 +36,10 @@ def decimated(
     """The problem for a coarse needle, given the fine nominal predictions of its trials.
 
     Args:
-      nominal_rig: that made these; with what came before trials that began late.
+      nominal_rig: the rig of these predictions, with the pasts of trials that began late.
 
     Raises:
-      SimulationFailed: the nominal rig cannot be simulated so coarsely.
+      SimulationFailed: the nominal rig cannot be simulated with the coarse needle.
     """
     log = problem.log
     each = zip(log.trials, nominal, strict=True)
@@ -50,11 +50,10 @@ def decimated(
 
 
 def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
-    """Noise of the decimated log whose spectral density at frequency 0 is that of the log's.
+    """Noise of the decimated log, with the same spectral density at frequency 0 as that of the log.
 
-    What is white of it falls with the number of samples. What is coloured is slower than a window
-    or not: samples of it at the wider steps keep their correlation time, and as much of their
-    variance as leaves the density what it was.
+    The white part is reduced by averaging. The coloured part keeps its correlation time, with the
+    variance for which the density is preserved.
     """
     share = sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)
     step_s = float(np.median([trial.sample_s for trial in rare.trials]))
@@ -125,7 +124,7 @@ def _means(time_s: Array, values: Array, middles_s: Array, width_s: float) -> Ar
 
 
 def _sparse(at_s: Array, middles_s: Array, half_s: Array) -> NDArray[np.bool_]:
-    """Windows with fewer than half of the usual number of samples."""
+    """Mask of windows with fewer than half of the usual number of samples."""
     reach = half_s + 1e-9
     count = np.searchsorted(at_s, middles_s + reach, "right") - np.searchsorted(at_s, middles_s - reach)
     few = (count < 0.5 * np.median(count)) & (half_s > 1e-9)

@@ -1,6 +1,6 @@
-"""Fitting a set of effects to a log, with what is never known of a rig left open.
+"""Fits of a set of effects to a log, together with the nuisance parameters.
 
-Minimised is
+A fit minimises
 
     sum over trials and sensors ((measured - predicted) / sigma)^2 + prior
 
@@ -33,11 +33,11 @@ class Fit:
     """A fitted set of effects.
 
     Attributes:
-      names: of the effects.
-      x: the vector, (n,); `parameterization` says what it means.
+      names: names of the effects.
+      x: the vector, (n,); `parameterization` gives the meaning of its entries.
       by_trial: residuals / sigma, one array per trial.
       jacobian: d residual / d x, one (N, n) array per trial.
-      cost: sum of squares with the prior.
+      cost: sum of squares, including the prior.
       status: how the optimiser ended.
     """
 
@@ -51,7 +51,7 @@ class Fit:
 
     @property
     def samples(self) -> int:
-        """Residuals in all."""
+        """Number of residuals."""
         return sum(r.size for r in self.by_trial)
 
     @property
@@ -61,17 +61,17 @@ class Fit:
 
     @property
     def size(self) -> int:
-        """Parameters that the named effects have."""
+        """Number of parameters of the named effects."""
         return sum(len(FITTED[n].reported) for n in self.names)
 
     @property
     def prior(self) -> float:
-        """Cost of the nuisance alone."""
+        """Cost of the prior alone."""
         return float(np.sum((self.parameterization.weights * self.x) ** 2))
 
     @property
     def slopes(self) -> Array:
-        """Of residuals and prior, one below the other, (N, n)."""
+        """Jacobian of residuals and prior, one below the other, (N, n)."""
         return np.vstack([*self.jacobian, np.diag(self.parameterization.weights)])
 
     @property
@@ -92,13 +92,13 @@ def fit_effects(
     """Fit a set of effects.
 
     Args:
-      start: the vector to start from; None is neutral.
-      enough: cost that the fit has to come below to be of use: one that cannot is given up.
-      most_iterations: of Gauss-Newton.
-      slopes: of residuals and prior, (N, n), of a fit close by; None: they are taken on the way.
+      start: the vector to start from; None: neutral.
+      enough: cost below which the fit is of use; it is given up if it cannot get there.
+      most_iterations: largest number of Gauss-Newton iterations.
+      slopes: Jacobian of residuals and prior, (N, n), from a similar fit; None: it is computed.
 
     Raises:
-      SimulationFailed: the rig cannot be simulated where the fit starts, or close to where it is.
+      SimulationFailed: the rig cannot be simulated at the start, or near a later iterate.
     """
     parameterization = problem.parameterization(names)
     objective = Objective(problem, parameterization)
@@ -119,7 +119,7 @@ def fit_effects(
 
 
 def nominal_fit(by_trial: Sequence[Array]) -> Fit:
-    """The fit of nothing, given the residuals / sigma of the nominal rig."""
+    """The fit without effects, from the residuals / sigma of the nominal rig."""
     return Fit(
         names=(),
         parameterization=parameterization_of(()),
@@ -134,7 +134,7 @@ def nominal_fit(by_trial: Sequence[Array]) -> Fit:
 def _minimised(
     objective: Objective, start: Array, stopping: Stopping, most_iterations: int
 ) -> tuple[Array, FitStatus]:
-    """Where Gauss-Newton comes to from a start, and how it ended."""
+    """The result of Gauss-Newton from a start, and how it ended."""
     said = io.StringIO()
     try:
         x, _ = minimize.least_squares(

@@ -1,18 +1,18 @@
-"""How a fit ends: in the words of the optimiser, or because it has come far enough or has no hope.
+"""How a fit ends: by the optimiser's own criteria, because it has converged, or because it is hopeless.
 
-At every Jacobian J the linear model promises that the cost S = |r|^2 of N residuals may still fall by
+At every Jacobian J the linear model predicts that the cost S = |r|^2 of N residuals may still fall by
 
     P = S - min |r + J dx|^2,    dx within bounds of the p parameters.
 
 converged   sqrt(P / p) <= tolerance * sqrt(S / (N - p)), the relative offset of Bates and Watts (1981):
             parameters are within so many of their own standard deviations of the minimum. Within
             five times the tolerance one more step is taken, without another Jacobian.
-behind      S - 10 P is above the cost that a fit has to come below to be of use.
-stalled     no step along the search direction reduces the cost: a shorter one would be a hundredth
-            of the difference over which slopes were taken, and these say nothing of it.
+behind      S - 10 P is above the cost that a fit has to reach to be of use.
+stalled     no step along the search direction reduces the cost: shorter ones would be below a hundredth
+            of the finite difference, at which slopes are meaningless.
 
-Where a model leaves much, a gradient that is small beside noise cannot be reached by differences: its
-error grows with what is left. The relative offset is measured against just that.
+If a model leaves a large residual, finite differences cannot give a gradient that is small compared with
+noise: its error grows with the residual. The relative offset is therefore relative to the residual.
 """
 
 import re
@@ -74,7 +74,7 @@ _MEANING = {
 
 
 def in_words(termination: Termination, iterations: int) -> str:
-    """How a fit ended, and what that means for its values."""
+    """How a fit ended, and what this means for its values, in words."""
     count = f"{iterations} iteration{'' if iterations == 1 else 's'}"
     return _MEANING[termination].format(count)
 
@@ -84,7 +84,7 @@ class FitStatus:
     """The end of a fit.
 
     Attributes:
-      message: the same in words, and what it means for the values.
+      message: the end in words, and what it means for the values.
       at_bound: parameters that stopped at a bound, as effect.parameter.
     """
 
@@ -104,7 +104,7 @@ class FitStatus:
 
     @classmethod
     def of_message(cls, said: str, at_bound: tuple[str, ...] = ()) -> "FitStatus":
-        """From what the optimiser printed at its end."""
+        """The status from the optimiser's last message."""
         count = _COUNT.search(said)
         termination = next((end for words, end in _MUJOCO.items() if words in said), Termination.OTHER)
         if count is None or termination is Termination.OTHER:
@@ -114,7 +114,7 @@ class FitStatus:
 
 
 class Ended(Exception):
-    """The end of a fit: where, and why."""
+    """Raised at the end of a fit: with the vector, and the reason."""
 
     def __init__(self, x: Array, termination: Termination, iterations: int) -> None:
         super().__init__(in_words(termination, iterations))
@@ -122,14 +122,14 @@ class Ended(Exception):
 
 
 class Stopping:
-    """An objective that ends its own minimisation, by raising `Ended`."""
+    """An objective that can end its own minimisation, by raising `Ended`."""
 
     def __init__(self, objective: Objective, tolerance: float, enough: float = np.inf) -> None:
-        """Of an objective.
+        """Wrap an objective.
 
         Args:
-          tolerance: relative offset at which it has converged.
-          enough: cost that the fit has to come below to be of use.
+          tolerance: relative offset at which the fit has converged.
+          enough: cost below which the fit is of use.
         """
         self.objective, self.tolerance, self.enough = objective, tolerance, enough
         self._there = self._tried = np.zeros(0)
@@ -147,7 +147,7 @@ class Stopping:
         return self.objective(x)
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
-        """(N, n)."""
+        """Jacobian of residuals and prior, (N, n)."""
         slopes = self.objective.jacobian(x, at_x)
         self._there, self._tries = x.ravel().copy(), 0
         self._jacobians += 1
@@ -163,7 +163,7 @@ class Stopping:
         return slopes
 
     def after_step(self, trace: Sequence[minimize.IterLog]) -> None:
-        """What `mujoco.minimize` calls after every step that reduced the cost."""
+        """Called by `mujoco.minimize` after every step that reduced the cost."""
         if self._last and trace[-1].reduction > 0 and trace[-1].regularizer < _DAMPED:
             raise self._ended(self._tried, Termination.OFFSET, more=1)
 
@@ -171,11 +171,11 @@ class Stopping:
         return bool(np.abs(step).max(initial=0.0) < _SHORT * self.objective.difference)
 
     def _ended(self, x: Array, termination: Termination, more: int = 0) -> Ended:
-        """After as many steps as Jacobians were taken before this one, and perhaps one more."""
+        """The end after as many steps as there were Jacobians before this one, plus `more`."""
         return Ended(x, termination, self._jacobians - 1 + more)
 
     def _promised(self, residual: Array, slopes: Array) -> float:
-        """What the linear model takes off the cost, within bounds."""
+        """Reduction of the cost that the linear model predicts, within bounds."""
         basis, root = np.linalg.qr(slopes)
         seen = basis.T @ residual
         low, high = self.objective.low - self._there, self.objective.high - self._there

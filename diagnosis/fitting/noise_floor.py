@@ -1,13 +1,13 @@
 """Whether a residual is at the noise floor: as small as noise, and as white.
 
-The gap is the root mean square of the residual over its noise. What is left of an
-effect is slow beside the samples: the means of blocks of 25 samples, scaled by 5,
+The gap is the root mean square of residual / sigma. The remainder of an
+effect is slow compared with the samples: the means of blocks of 25 samples, times 5,
 have the same root mean square as the samples if these are white, and a larger one
 if something slow is left.
 
-Chance moves both. Of n white samples, the root mean square / sigma that their
-own first differences tell scatters by 1 / (2 sqrt(n)) (von Neumann's ratio), that of
-m means by 1 / sqrt(2 m). Limits are wide enough for 3.5 of these (criteria.FLOOR_SIGMA).
+Both scatter by chance. For n white samples whose sigma is from their own first differences, the
+root mean square / sigma scatters by 1 / (2 sqrt(n)) (von Neumann's ratio), that of
+m means by 1 / sqrt(2 m). The limits allow 3.5 of these (criteria.FLOOR_SIGMA).
 """
 
 from collections.abc import Sequence
@@ -27,9 +27,9 @@ class NoiseFloor:
 
     Attributes:
       gap: root mean square of residual / sigma.
-      slow: that of means, scaled.
-      gap_limit: largest gap that is at the floor.
-      slow_limit: largest slow part that is.
+      slow: root mean square of block means, scaled.
+      gap_limit: largest gap at the floor.
+      slow_limit: largest slow part at the floor.
     """
 
     gap: float
@@ -38,7 +38,7 @@ class NoiseFloor:
     slow_limit: float = SLOW_LIMIT
 
     def allowing(self, change: "NoiseFloor") -> "NoiseFloor":
-        """The floor where something else, independent of the noise, changes residuals by this."""
+        """The floor if another error, independent of the noise, changes residuals by this."""
         return replace(
             self,
             gap_limit=float(np.hypot(self.gap_limit, change.gap)),
@@ -60,7 +60,7 @@ def floor_of(by_trial: Sequence[Array], block: int = SLOW_BLOCK) -> NoiseFloor:
     """Gap and slow part of residuals / sigma, one array per trial.
 
     Args:
-      block: samples whose mean is slow.
+      block: number of samples per block.
     """
     values = np.concatenate([r for r in by_trial if r.size]) if by_trial else np.zeros(0)
     blocks = [r[: r.size // block * block].reshape(-1, block).mean(axis=1) for r in by_trial]

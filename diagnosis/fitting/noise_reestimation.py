@@ -1,14 +1,14 @@
-"""Noise re-estimated from what the best explanation leaves.
+"""Noise re-estimated from the residual of the best explanation.
 
-Fourth differences see the noise whatever the nominal model lacks, but use the data badly: to 2 %
-from some thousands of samples. What a good explanation leaves is white, and first differences of it
-tell the noise to 1 %. They are believed as far as they are within 8 % of the first estimate: beyond,
+Fourth differences give the noise whatever the nominal model lacks, but with low efficiency: to 2 %
+from some thousands of samples. The residual of a good explanation is white, and its first differences
+give the noise to 1 %. They are used if they are within 8 % of the first estimate: otherwise
 something fast is left in them.
 
-Whether the noise is white at all is looked up in what a fitted effect leaves, and again in what the
-best explanation does: the nominal rig's residual has too much else in it
-(`prepare/noise/noise_spectrum`). Differences of whitened residuals tell the size of coloured noise as
-those of white noise do.
+Whether the noise is white at all is tested on the residual of a fitted effect, and again on that of
+the best explanation: the residual of the nominal rig contains too much else
+(`prepare/noise/noise_spectrum`). Differences of whitened residuals give the size of coloured noise as
+those of residuals do for white noise.
 """
 
 from collections.abc import Sequence
@@ -30,13 +30,13 @@ Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals
 
 
 def with_colour(problem: FitProblem, best: Fit) -> Noise:
-    """Noise of the sensors, with the colour that what a fit leaves shows it to have."""
+    """Noise of the sensors, with the colour that the residual of a fit shows."""
     plain = replace(problem.noise, sigma=dict.fromkeys(problem.noise.sigma, 1.0), colour={})
     return problem.noise.with_colour(_by_sensor(problem, in_units_of(problem, best.by_trial, plain)))
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
-    """Noise of the sensors as the best fit leaves it."""
+    """Noise of the sensors, from the residual of the best fit."""
     first = with_colour(problem, best) if problem.noise.colour else problem.noise
     left = _by_sensor(problem, in_units_of(problem, best.by_trial, first))
     change = {s: _change([values for _, values in own]) for s, own in left.items()}
@@ -45,7 +45,7 @@ def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
 
 
 def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, NoiseFloor]:
-    """Noise floors of the sensors whose noise is coloured, with a slow part over seconds."""
+    """Noise floors of sensors with coloured noise, with blocks of seconds for the slow part."""
     step_s = float(np.median([trial.sample_s for trial in problem.log.trials]))
     block = max(round(COLOURED_BLOCK_S / step_s), SLOW_BLOCK)
     left = _by_sensor(problem, by_trial)
@@ -82,7 +82,7 @@ def _other_units(part: Read, before: Noise, noise: Noise) -> Array:
 
 
 def _change(parts: Sequence[Array]) -> float:
-    """Noise over its first estimate, from residuals in units of that."""
+    """Noise / its first estimate, from residuals in units of that estimate."""
     found = white_noise(parts, order=1)
     return float(np.clip(found if np.isfinite(found) else 1.0, 1 - NOISE_TRUST, 1 + NOISE_TRUST))
 

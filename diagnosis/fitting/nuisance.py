@@ -1,11 +1,11 @@
-"""What is never known exactly of a rig, and is left open in every fit.
+"""Nuisance parameters: what is never known exactly about a rig, and is fitted every time.
 
-Stiffness and damping scatter by a few per cent about the nominal. And where the
-needle slides while it is twisted, it is open which rate the tissue resists: the spatial derivative at
-a fixed place, as in the paper's equation (9), or the material derivative of the shaft that slides past;
-for trials of constant depth and of growing depth apart.
+Stiffness and damping scatter by a few per cent about the nominal values. If the
+needle slides while it is twisted, it is unknown which rate the tissue resists: the spatial derivative at
+a fixed place, as in the paper's equation (9), or the material derivative of the sliding shaft;
+this is fitted separately for trials of constant depth and of growing depth.
 
-What the base turned by before a trial that began late is that trial's own.
+Each trial that began late has its own parameters for the motion of the base before it.
 """
 
 import math
@@ -26,7 +26,7 @@ _START_UNIT_DEG, _MOST_TURN_DEG = 30.0, 3600.0
 
 
 def prior_sigma(effect: Effect) -> float:
-    """One standard deviation of the prior on a nuisance, in the units of the fit; infinite: none."""
+    """Standard deviation of a nuisance effect's prior, in the units of the fit; infinite: none."""
     return START_SPREAD_DEG / _START_UNIT_DEG if effect.trial else PRIOR_SIGMA.get(effect.name, math.inf)
 
 
@@ -70,7 +70,7 @@ def _with_past(trial: str, rig: RigParameters, turned_deg: float, wound_deg: flo
 
 
 def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
-    """What the base turned by before each trial that began late."""
+    """Nuisance effects for the motion of the base before each trial that began late."""
     return tuple(
         Effect(
             name=f"start of {trial.name}",
@@ -86,7 +86,7 @@ def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
 
 
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:
-    """What every fit of a log leaves open."""
+    """All nuisance effects of a log."""
     sliding = [trial for trial in log.trials if (abs(trial.speed_mm_s) > SLIDING_MM_S).any()]
     growing = [trial.schedule.mesh is Mesh.LAGRANGIAN for trial in sliding]
     slips = [SLIP_CONSTANT_DEPTH] if not all(growing) else []

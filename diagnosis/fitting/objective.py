@@ -1,8 +1,8 @@
 """Residuals of a log as a function of the fit's vector, and their slopes.
 
-The nuisance moves by a few per cent at the most: its slopes are taken again only where the
-effects have moved far. What came before a late trial moves as far as effects do, and costs one trial.
-On its way a fit runs the callback alone, which lands where MuJoCo does; its end is simulated by MuJoCo.
+Nuisance parameters move by a few per cent at most: their slopes are computed again only if the
+effects have moved far. The pasts of late trials move as far as effects do, but cost one trial only.
+Iterations of a fit run the callback alone, which takes the same steps; MuJoCo simulates the end.
 """
 
 from collections.abc import Sequence
@@ -25,8 +25,8 @@ class Objective:
     """For `mujoco.minimize`: callable, with a Jacobian by finite differences.
 
     Attributes:
-      difference: that slopes are taken over.
-      slopes: the last Jacobian that was taken, (N, n).
+      difference: step of the finite differences, in the units of the fit.
+      slopes: the last Jacobian, (N, n).
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class Objective:
         """An objective.
 
         Args:
-          slopes: (N, n), known from elsewhere and good enough everywhere; None: they are taken.
+          slopes: a known Jacobian, (N, n), that is used everywhere; None: it is computed.
         """
         self.problem, self.parameterization = problem, parameterization
         self.difference = difference
@@ -53,7 +53,7 @@ class Objective:
         self._known: dict[bytes, tuple[Array, ...]] = {}
 
     def by_trial(self, x: Array) -> tuple[Array, ...]:
-        """Residuals / sigma at one vector, (n,), one array per trial, on the way of a fit.
+        """Residuals / sigma at one vector, (n,), one array per trial, for the iterations of a fit.
 
         Raises:
           SimulationFailed: the rig cannot be simulated.
@@ -66,7 +66,7 @@ class Objective:
         return self._known[key]
 
     def at_the_end(self, x: Array) -> tuple[Array, ...]:
-        """The same where a fit ends: of MuJoCo's run.
+        """Residuals / sigma at the end of a fit, one array per trial, simulated by MuJoCo.
 
         Raises:
           SimulationFailed: the rig cannot be simulated.
@@ -74,9 +74,9 @@ class Objective:
         return tuple(trial[0] for trial in self.problem.residuals([self.parameterization.rig(x)]))
 
     def __call__(self, x: Array) -> Array:
-        """(n,) or (n, 1) to residuals with the prior, (N,) or (N, 1).
+        """Residuals with the prior, (N,) or (N, 1), at a vector, (n,) or (n, 1).
 
-        NaN: one step too far, to be taken back.
+        NaN if the rig cannot be simulated there, so that the optimiser takes the step back.
 
         Raises:
           SimulationFailed: the rig cannot be simulated at the first vector.
@@ -97,7 +97,7 @@ class Objective:
         return np.concatenate([*trials, self.parameterization.weights * x])
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
-        """By differences away from the bounds, (N, n); or those that are known."""
+        """Jacobian by differences, away from the bounds, (N, n); or the known one."""
         if self._known_slopes and self.slopes is not None:
             return self.slopes
         flat = x.ravel()

@@ -1,7 +1,7 @@
-"""Parameters of a set of effects as a vector that a fit can move in.
+"""The parameters of a set of effects as the vector of a fit.
 
-Positive parameters that span decades are fitted in their logarithm, others in a
-unit of their own, so that a step of 0.001 is small for each and not lost in rounding.
+Positive parameters that span decades are fitted in their logarithm, others in their own
+unit, so that a step of 0.001 is small for each, but not lost in rounding.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,11 +22,11 @@ _ROUNDING = 1e-9  # of a vector, whose entries are of the order of one
 
 @dataclass(frozen=True, kw_only=True)
 class Parameterization:
-    """What the entries of a fit's vector mean: effects, then the rig's own scatter.
+    """The meaning of the entries of a fit's vector: parameters of effects, then nuisance parameters.
 
     Attributes:
-      effects: that are fitted freely.
-      nuisance: what is left open in every fit.
+      effects: effects that are fitted.
+      nuisance: effects that every fit includes.
     """
 
     effects: tuple[Effect, ...]
@@ -39,7 +39,7 @@ class Parameterization:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """Of all effects, then of the nuisance."""
+        """Parameters of all effects, then of the nuisance."""
         return tuple(p for e in self.all for p in e.parameters)
 
     def bounds(self) -> tuple[Array, Array]:
@@ -58,12 +58,12 @@ class Parameterization:
         )
 
     def joined(self, parts: Mapping[str, Array]) -> Array:
-        """The vector with these parts; what is not among them stays neutral."""
+        """The vector with these parts; all others are neutral."""
         own = [parts.get(e.name, np.zeros(len(e.parameters))) for e in self.all]
         return np.concatenate(own) if own else np.zeros(0)
 
     def values(self, x: Array) -> list[float]:
-        """Parameter values of a vector; what a fit left beyond a bound by rounding is at the bound."""
+        """Parameter values of a vector, clipped to the bounds against rounding."""
         within = np.clip(x, *self.bounds())
         near = np.where(np.abs(within - x) < _ROUNDING, within, x)
         return [p.from_fit(float(v)) for p, v in zip(self.parameters, near, strict=True)]
@@ -79,7 +79,7 @@ class Parameterization:
 
     @property
     def free(self) -> int:
-        """Entries that belong to the effects; the nuisance follows."""
+        """Number of entries of the effects; those of the nuisance follow."""
         return sum(len(e.parameters) for e in self.effects)
 
     @property
@@ -89,14 +89,14 @@ class Parameterization:
 
     @property
     def weights(self) -> Array:
-        """Of the prior on every entry: one over the spread of what scatters, or is smooth."""
+        """Weights of the prior on every entry, 1 / standard deviation; 0 without a prior."""
         spread = [p.prior_sigma for e in self.effects for p in e.parameters]
         spread += [prior_sigma(effect) for effect in self.nuisance for _ in effect.parameters]
         return np.array([1.0 / own for own in spread])
 
     @property
     def about_one_trial(self) -> NDArray[np.bool_]:
-        """Entries that are about one trial alone."""
+        """Mask of the entries that concern one trial only."""
         return np.array([bool(effect.trial) for effect in self.all for _ in effect.parameters], bool)
 
 
@@ -105,13 +105,13 @@ def parameterization_of(
     nuisance: Sequence[Effect] = (),
     library: Mapping[str, Effect] = FITTED,
 ) -> Parameterization:
-    """Of a set of effects by name; nuisance among them is theirs."""
+    """The parameterization of effects by name; a nuisance effect among them counts as an effect."""
     others = tuple(e for e in nuisance if e.name not in names)
     return Parameterization(effects=tuple(library[n] for n in names), nuisance=others)
 
 
 def starts(effect: Effect) -> list[Array]:
-    """Where a fit of an effect may start: vectors of its own parameters."""
+    """Starts of a fit of an effect: vectors of its own parameters."""
     each = zip(*(p.start for p in effect.parameters), strict=True)
     return [
         np.array([p.to_fit(v) for p, v in zip(effect.parameters, values, strict=True)])

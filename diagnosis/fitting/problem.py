@@ -1,4 +1,4 @@
-"""What a fit rests on: a prepared log, its noise, what is left open, how finely it is replayed."""
+"""The fit problem: a prepared log, its noise, the nuisance parameters, the resolution of the replay."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -22,12 +22,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class FitProblem:
-    """A log that effects can be fitted to.
+    """A log to which effects can be fitted.
 
     Attributes:
-      nuisance: what every fit leaves open.
+      nuisance: effects that every fit includes.
       library: effects with bounds and starts for a rig of this size.
-      tolerance_sigma: within which fits converge, in standard deviations of their parameters.
+      tolerance_sigma: tolerance of fits, in standard deviations of their parameters.
     """
 
     log: PreparedLog
@@ -39,12 +39,12 @@ class FitProblem:
 
     @property
     def samples(self) -> int:
-        """Readings of all sensors."""
+        """Number of readings of all sensors."""
         trials = self.log.trials
         return sum(int(np.isfinite(own).sum()) for trial in trials for own in trial.readings.values())
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
-        """Of a set of effects, with what every fit leaves open."""
+        """The parameterization of a set of effects, with the nuisance parameters."""
         return parameterization_of(names, self.nuisance, self.library)
 
     def residuals(
@@ -53,7 +53,7 @@ class FitProblem:
         """Measured minus predicted / sigma: trial by trial, then rig by rig, (M,) each.
 
         Args:
-          callback_alone: for fits on their way, and differences (sim.needles.callback_loop).
+          callback_alone: for iterations of fits and finite differences (sim.needles.callback_loop).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.
@@ -68,7 +68,7 @@ class FitProblem:
         return side_by_side(of, self.log.trials)
 
     def read_again(self, rng: np.random.Generator) -> "FitProblem":
-        """The problem, the motion of its base read by its encoder and smoothed once more."""
+        """The problem with a motion of the base that was read by its encoder and smoothed once more."""
         sigma_deg = self.noise["base_angle_deg"]
 
         def motion_deg(trial: PreparedTrial) -> Array:
@@ -78,9 +78,9 @@ class FitProblem:
         return self._moving(motion_deg)
 
     def sharpened(self) -> "FitProblem":
-        """The problem with a motion of its base whose corners smoothing rounds to the one it has.
+        """The problem with a motion of the base whose corners are restored.
 
-        What smoothing takes off once more is added (twicing; Tukey, 1977): to first order its bias.
+        The change by a second smoothing, to first order the bias, is added (twicing; Tukey, 1977).
         """
         sigma_deg = self.noise["base_angle_deg"]
 
@@ -95,5 +95,5 @@ class FitProblem:
         return replace(self, log=replace(self.log, trials=trials))
 
     def drifting(self, size_n_mm: float) -> "FitProblem":
-        """The same with a torque sensor that may drift by so much within a trial."""
+        """The same problem with a torque sensor that may drift by so much within a trial, N mm."""
         return replace(self, log=self.log.drifting(size_n_mm / self.noise["base_torque_n_mm"]))

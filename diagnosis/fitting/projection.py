@@ -1,4 +1,4 @@
-"""Orthogonal projection of what an effect changes on what the parameters of a fit could take back."""
+"""Projection of the change by an effect, orthogonal to what the parameters of a fit can compensate."""
 
 from collections.abc import Sequence
 
@@ -12,10 +12,10 @@ Array = NDArray[np.float64]
 
 
 class Projection:
-    """Residuals beside all that the parameters of a fit could explain of them."""
+    """Removes from residuals what the parameters of a fit can explain."""
 
     def __init__(self, base: Fit, name: str) -> None:
-        """Of a fit; nuisance of the name of the effect is its own, not the fit's."""
+        """For a fit and an effect by name; a nuisance effect of that name is left out of the fit."""
         self._kept = np.array([owner != name for owner in base.parameterization.owners], bool)
         self._prior = base.parameterization.weights * base.x
         self._residual = np.concatenate([*base.by_trial, self._prior])
@@ -26,15 +26,15 @@ class Projection:
         )
 
     def beyond(self, by_trial: Sequence[Array]) -> Array:
-        """What residuals, one array a trial, differ by from the fit's, less what it could take back."""
+        """Change of residuals, one array per trial, from those of the fit, minus what it can explain."""
         moved = self._from_fit(by_trial)
         return np.asarray(moved - self._basis @ (self._basis.T @ moved))
 
     def reachable_cost(self, by_trial: Sequence[Array] | None = None) -> float:
-        """Cost that the fit comes down to within its bounds, with any positive amount of a difference.
+        """Lowest cost within the bounds, if any positive multiple of a difference is added to the fit.
 
         Args:
-          by_trial: residuals with the difference, one array a trial; None: without any.
+          by_trial: residuals with the difference, one array per trial; None: no difference.
         """
         moved = np.zeros_like(self._residual) if by_trial is None else self._from_fit(by_trial)
         within = self._basis.T @ moved

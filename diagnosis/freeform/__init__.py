@@ -1,1 +1,1 @@
-"""What an unknown effect is like: free-form laws, fitted through the simulation."""
+"""The law of an unknown effect: free-form laws, fitted by simulation."""

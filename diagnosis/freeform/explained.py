@@ -1,4 +1,4 @@
-"""An assessment whose explanation is a free-form law: readings, gap and what is left are of that."""
+"""An assessment whose explanation is a free-form law, which gives readings, gap and residual."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -25,10 +25,10 @@ def explained_by(
     nominal: Sequence[Prediction],
     told: Assessment,
 ) -> Assessment:
-    """The assessment with what the law explains in place of the nearest explanation.
+    """The assessment with the law in place of the nearest explanation.
 
     Args:
-      problem: the log, with the noise that the assessment rests on.
+      problem: the log, with the noise that the assessment is based on.
       nominal: readings of the nominal rig by trial of the problem.
 
     Raises:

@@ -1,4 +1,4 @@
-"""A family of free-form laws: a place, what the law depends on, and coordinates that a fit moves in."""
+"""A family of free-form laws: its place, the variable that it depends on, its coordinates in a fit."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -16,15 +16,14 @@ FARTHEST = 12.0  # of a coordinate, in its prior's first guess
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Family:
-    """Laws that assume next to nothing.
+    """A family of laws with hardly any assumption on their form.
 
     Attributes:
-      effect: what a fit moves; its name tells the families apart.
-      places: where what it stands for may live, with how likely that is of it.
+      effect: the effect that is fitted; its name identifies the family.
+      places: where the cause of such a law may be, with probabilities.
       says: variable of the vocabulary that the law depends on.
-      title: of the law, in plain words, as what grows or falls.
-      curve: x and y of the law for parameter values, in `unit`.
-      x_unit, unit: of the curve.
+      title: the quantity that the law gives, in plain words.
+      curve: x and y of the law for parameter values, in `x_unit` and `unit`.
     """
 
     effect: Effect
@@ -37,16 +36,16 @@ class Family:
 
     @property
     def name(self) -> str:
-        """Of its effect."""
+        """Name of its effect."""
         return self.effect.name
 
     @property
     def place(self) -> Place:
-        """Where what it stands for most likely lives."""
+        """The most probable place of the cause."""
         return max(self.places, key=lambda place: self.places[place])
 
     def with_prior(self, straight: float, rest: float) -> "Family":
-        """The same, its coordinates with priors of other strengths."""
+        """The same family with other standard deviations of the priors on its coordinates."""
         each = {_STRAIGHT: straight, _REST: rest}
         changed = tuple(
             replace(p, prior_sigma=each[kind_of(p)]) if kind_of(p) else p for p in self.effect.parameters
@@ -55,7 +54,7 @@ class Family:
 
 
 def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter, ...]:
-    """Of a smooth curve, each with a prior of size `scale` at first."""
+    """Coordinates of a smooth curve, with a first prior of standard deviation `scale`."""
     bound = FARTHEST * scale
     names = [f"{_STRAIGHT} {i}" for i in range(straight)] + [f"{_REST} {i}" for i in range(rest)]
     return tuple(
@@ -67,11 +66,11 @@ def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter
 
 
 def coordinates_of(curve: SmoothCurve, scale: float = 1.0) -> tuple[Parameter, ...]:
-    """Of a curve."""
+    """Coordinates of a curve."""
     return coordinates(curve.straight, curve.size - curve.straight, scale)
 
 
 def kind_of(parameter: Parameter) -> str:
-    """Which part of a curve a parameter is a coordinate of; empty: it is none."""
+    """The part of a curve that a parameter is a coordinate of; empty: none."""
     word = parameter.name.split()[0]
     return word if word in (_STRAIGHT, _REST) else ""

@@ -1,4 +1,4 @@
-"""What is missing, in plain words."""
+"""What the library lacks, in plain words."""
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.likeness.likeness import likeness_of
@@ -51,10 +51,10 @@ _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises
 
 
 def what_is_missing(missing: Missing, gap_before: float) -> str:
-    """Where it acts, what it depends on, and how much a law of it explains; one or two sentences.
+    """One or two sentences: where the effect acts, what it depends on, how much its law explains.
 
     Args:
-      gap_before: that the nominal rig leaves, in sigma.
+      gap_before: gap of the nominal rig, in sigma.
     """
     if missing.law is None:
         return f"No free-form law that was tried does better than the library. {DOUBT}."
@@ -72,7 +72,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
 
 
 def _likeness(law: Law) -> str:
-    """What the law looks like; empty: nothing that has a name."""
+    """The plain law that the curve resembles; empty: none."""
     like = likeness_of(law)
     if like is None:
         return ""
@@ -81,7 +81,7 @@ def _likeness(law: Law) -> str:
 
 
 def next_step(missing: Missing) -> str:
-    """What to do next, as an order; empty: there is no law to check."""
+    """What to do next, as an instruction; empty: there is no law to check."""
     if missing.law is None:
         return ""
     check = CHECKS[missing.law.variable]
@@ -93,7 +93,7 @@ def next_step(missing: Missing) -> str:
 
 
 def course_of(law: Law) -> str:
-    """How a law runs, in words."""
+    """The course of a law, in words."""
     low, high = min(law.y), max(law.y)
     if law.variable == "event":
         return f"{law.title}, by {law.y[-1]:.3g} {law.unit} at {law.x[1]:.2f} {law.x_unit}"
@@ -116,7 +116,7 @@ def course_of(law: Law) -> str:
 
 
 def _beside(missing: Missing) -> str:
-    """What laws of other variables leave, as far as they were fitted to the same samples."""
+    """The gaps that laws of other variables leave, if they were fitted to the same samples."""
     fitted = (d for d in missing.depends_on[1:] if not d.decimated and d.gap_after < float("inf"))
     others = list(fitted)[:_OTHERS]
     told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)

@@ -1,12 +1,12 @@
-"""What the log says of what is not in the library: where, what it depends on, and as what law.
+"""What the log tells about an effect that the library lacks: its place, its variable and its law.
 
-Families compete by the gap g that they leave on trials that their fits have not seen,
+Families are weighted by the gap g that they leave on trials that their fits have not seen,
 
     weight = g^(-2 / PATIENCE) exp(-freedom / FREEDOM),
 
-so that a law that leaves 10 % more than another has a seventh of its weight. This is less sure than a
-likelihood would be: no family is the true law, and the best of them may be so by chance. Places that no
-family favours keep a little.
+so that a law that leaves 10 % more than another has a seventh of its weight. A likelihood would decide
+more sharply; but no family is the true law, and the best of them may be so by chance. Places that no
+family favours keep a small probability.
 """
 
 import math
@@ -30,10 +30,10 @@ _DRAWS, _SEED = 400, 17
 
 @dataclass(frozen=True, kw_only=True)
 class Dependence:
-    """A variable with the gap that the best law of it leaves.
+    """A variable, and the gap that its best law leaves.
 
     Attributes:
-      title: what the law is of.
+      title: the quantity that the law gives.
       place: where it acts.
       decimated: whether the gap is that of the decimated log: its samples are means, whose noise is
         less, so gaps are larger, and compare among themselves alone.
@@ -51,7 +51,7 @@ class Law:
     """A free-form law as a curve with a 95 % band; arrays are (K,).
 
     Attributes:
-      beside: effects of the library that are fitted with it.
+      beside: effects of the library that are fitted together with it.
     """
 
     place: Place
@@ -68,14 +68,14 @@ class Law:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Missing:
-    """What is not in the library.
+    """What the log tells about an effect that the library lacks.
 
     Attributes:
-      place: probabilities.
-      depends_on: variables, the one whose law leaves least first.
-      law: that leaves least; None: none leaves visibly less than the library does.
-      best: its fit.
-      closed: whether it leaves little more than noise.
+      place: probabilities of places.
+      depends_on: variables, in the order of the gaps that their laws leave.
+      law: the law that leaves the smallest gap; None: none leaves clearly less than the library.
+      best: the fit of that law.
+      closed: whether the law leaves little more than noise.
     """
 
     place: Mapping[Place, float]
@@ -86,10 +86,10 @@ class Missing:
 
 
 def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
-    """What free-form fits say.
+    """Summarise free-form fits.
 
     Args:
-      nearest_gap: that the library's nearest explanation leaves, on unseen trials.
+      nearest_gap: gap of the library's nearest explanation, on unseen trials.
     """
     ranked = sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
     best = ranked[0]
@@ -104,7 +104,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
 
 
 def _places(fits: Sequence[FreeFit]) -> dict[Place, float]:
-    """Each place by the best family that may live there."""
+    """Probabilities of places, each by the best family that may be there."""
     logs = [_log_weight(f) for f in fits]
     most = dict.fromkeys(Place, 0.0)
     for one, log in zip(fits, logs, strict=True):
@@ -120,7 +120,7 @@ def _log_weight(one: FreeFit) -> float:
 
 
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
-    """The best fit's variable, then the others by what is left."""
+    """The variable of the best fit, then the others in the order of their gaps."""
     found: dict[str, Dependence] = {}
     for one in ranked:
         family = one.family

@@ -1,11 +1,11 @@
-"""How strong the prior of a curve is: estimated from the fit itself.
+"""The standard deviation of a curve's prior, estimated from the fit itself.
 
 With n coordinates c of standard deviation tau a priori, and covariance C after the fit,
 
     well determined = n - trace(C) / tau^2,    tau^2 = c'c / well determined
 
-(MacKay 1992, "Bayesian interpolation", equations 4.8 and 4.9). What a fit leaves above the noise counts
-as noise.
+(MacKay 1992, "Bayesian interpolation", equations 4.8 and 4.9). A residual above the noise counts as
+noise.
 """
 
 import math
@@ -23,10 +23,10 @@ LEAST, MOST = 0.01, 20.0
 
 
 def free_covariance(fit: Fit, *, without: int | None = None) -> Array:
-    """Of the vector of a fit, (n, n), with what is left above the noise taken for noise.
+    """Covariance of the vector of a fit, (n, n), with the whole residual taken for noise.
 
     Args:
-      without: a trial that is left out.
+      without: index of a trial that is left out; None: none.
     """
     weights = np.diag(fit.parameterization.weights**2)
     data = information(fit, without=without) - weights
@@ -34,7 +34,7 @@ def free_covariance(fit: Fit, *, without: int | None = None) -> Array:
 
 
 def well_determined(family: Family, fit: Fit) -> float:
-    """How many of the parameters of a family the data determine."""
+    """Effective number of parameters of a family that the data determine."""
     entries = _entries(family, fit)
     spread = np.diag(free_covariance(fit))[entries]
     weights = fit.parameterization.weights[entries]
@@ -42,7 +42,7 @@ def well_determined(family: Family, fit: Fit) -> float:
 
 
 def with_estimated_prior(family: Family, fit: Fit) -> Family:
-    """The family with the strengths that the fit speaks for, of the straight part and of the rest."""
+    """The family with priors estimated from the fit, for the straight part and for the rest."""
     kinds = np.array([kind_of(p) for p in family.effect.parameters])
     entries = _entries(family, fit)
     spread = np.diag(free_covariance(fit))
@@ -51,7 +51,7 @@ def with_estimated_prior(family: Family, fit: Fit) -> Family:
 
 
 def _strength(fit: Fit, spread: Array, entries: NDArray[np.int_]) -> float:
-    """Standard deviation of some coordinates."""
+    """Estimated standard deviation of the prior on some coordinates."""
     if entries.size == 0:
         return 1.0
     sigma = 1.0 / fit.parameterization.weights[entries]

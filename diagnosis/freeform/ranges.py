@@ -1,4 +1,4 @@
-"""What free laws are drawn to: the ranges that a log covers, and the size of what is missing."""
+"""The ranges of variables that a log covers, and the size of the residual, which scale free laws."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -40,15 +40,15 @@ LEAST_RANGE = {
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LogRanges:
-    """What a log covers.
+    """The ranges that a log covers, and its nominal residual.
 
     Attributes:
-      ends: lowest and highest value of each variable that moves enough.
-      missing: rms of the nominal residual by sensor that was read, in the unit of its name.
+      ends: lowest and highest value of each variable that varies enough.
+      missing: rms of the nominal residual by measured sensor, in the unit of its name.
       nominal: readings of the nominal rig by trial.
-      left: residual of the nominal rig by sensor and trial, in the unit of its name, NaN where none.
+      left: residual of the nominal rig by sensor and trial, in the unit of its name; NaN: no reading.
       library: effects with bounds and starts for a rig of this size.
-      damping_n_mm_s_per_mm: nominal.
+      damping_n_mm_s_per_mm: nominal damping.
     """
 
     problem: FitProblem
@@ -64,7 +64,7 @@ class LogRanges:
 
     @property
     def damping_n_mm_s_per_mm(self) -> float:
-        """Nominal."""
+        """Nominal damping."""
         return float(self.problem.log.rig.tissue.damping_n_mm_s_per_mm)
 
 

@@ -1,7 +1,7 @@
-"""How often in a turn a reading ripples: cogging of a drive, the teeth of a gear, an encoder's disc.
+"""Number of ripples of a reading per turn: cogging of a drive, teeth of a gear, an encoder's disc.
 
-A ripple of n waves takes |sum left exp(i n angle)|^2 / N off the sum of squares of what the nominal rig
-leaves, twice that for real waves; the n that takes most is chosen.
+A ripple of n waves reduces the sum of squares of the nominal residual by |sum residual exp(i n angle)|^2
+/ N, twice that for real waves; the n with the largest reduction is chosen.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ MOST_WAVES = 60
 
 
 def waves_in_a_turn(ranges: LogRanges, sensor: str, variable: Variable) -> int:
-    """Waves in a turn of an angle that take most off what the nominal rig leaves, two at least."""
+    """Waves per turn of an angle that reduce the nominal residual most; at least two."""
     every = zip(ranges.problem.log.trials, ranges.nominal, strict=True)
     read = [(trial, nominal) for trial, nominal in every if trial.has(sensor)]
     taken = np.zeros(MOST_WAVES + 1)

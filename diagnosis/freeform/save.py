@@ -1,4 +1,4 @@
-"""A free-form law that closed a gap, as an effect that later diagnoses know."""
+"""Saves a free-form law that closed a gap, as an effect for later diagnoses."""
 
 from pathlib import Path
 
@@ -10,10 +10,10 @@ from models.errors import InvalidValue
 
 
 def file_of(name: str) -> Path:
-    """Where an effect of this name is saved.
+    """The path of a saved effect of this name.
 
     Raises:
-      InvalidValue: it may not have the name, or the user has no folder for it.
+      InvalidValue: the name is not allowed, or the user has no folder for effects.
     """
     refuse_no_effect_name("--save-effect", name)
     if name in FITTED:
@@ -25,9 +25,9 @@ def file_of(name: str) -> Path:
 
 
 def as_file(missing: Missing | None, name: str) -> str:
-    """The content of the effect's file; empty: there is no law that a library could have.
+    """The content of the effect's file; empty if there is no law that a library could have.
 
-    That is one that closes its gap, of no single event.
+    Such a law closes the gap, and is not about a single event.
     """
     if missing is None or missing.law is None or not missing.closed or missing.law.variable == "event":
         return ""

@@ -1,14 +1,15 @@
 """Smooth curves whose coordinates are a priori independent.
 
-A curve by its values at a few places is a straight line and a smooth rest,
+A curve, by its values at a few places, is the sum of a straight line and a smooth rest,
 
     y = scale [a + b u + sum over k of c_k sqrt(lambda_k) v_k],    u: x scaled to -1 ... 1,
 
-where lambda_k, v_k are what a Gaussian process of covariance exp(-(u - u')^2 / (2 l^2)), l = 0.4, has
-beside straight lines (Rasmussen and Williams 2006, Section 2.7). A curve that has a period is a constant
-and a rest of covariance exp(-2 sin^2((x - x') pi / period) / l^2), their Section 4.2. Straight part and
-rest each have a prior strength of their own, so that a law that is straight goes on straight where no
-trial has been. Where both signs of a variable may differ, |x| belongs to the straight part.
+where lambda_k, v_k are eigenvalues and eigenvectors of a Gaussian process of covariance
+exp(-(u - u')^2 / (2 l^2)), l = 0.4, orthogonal to straight lines (Rasmussen and Williams 2006, Section
+2.7). A curve with a period is a constant and a rest of covariance exp(-2 sin^2((x - x') pi / period) /
+l^2), their Section 4.2. Straight part and rest have separate prior strengths, so that a straight law
+continues straight where no trial has been. If both signs of a variable may differ, |x| belongs to
+the straight part.
 """
 
 from collections.abc import Sequence
@@ -24,13 +25,13 @@ _LENGTH, _PERIODIC_LENGTH = 0.4, 0.6
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SmoothCurve:
-    """A curve by its coordinates.
+    """A curve, given by its coordinates.
 
     Attributes:
-      places: of the variable, increasing, (K,).
-      basis: values at the places for each coordinate, (K, n).
-      straight: coordinates that come first: constant and slope.
-      period: of the variable; 0: none.
+      places: values of the variable, increasing, (K,).
+      basis: values of the curve at the places for each coordinate, (K, n).
+      straight: number of coordinates of the straight part (constant and slope), which come first.
+      period: period of the variable; 0: none.
     """
 
     places: Array
@@ -40,19 +41,23 @@ class SmoothCurve:
 
     @property
     def size(self) -> int:
-        """Coordinates."""
+        """Number of coordinates."""
         return int(self.basis.shape[1])
 
     def values(self, coordinates: Sequence[float]) -> tuple[float, ...]:
-        """At the places."""
+        """Values at the places, (K,)."""
         return tuple(float(v) for v in self.basis @ np.asarray(coordinates, float))
+
+    def factors(self, coordinates: Sequence[float]) -> tuple[float, ...]:
+        """Exponentials of the values at the places, (K,): factors that are always positive."""
+        return tuple(float(v) for v in np.exp(self.values(coordinates)))
 
 
 def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = False) -> SmoothCurve:
     """A curve between two ends of a variable.
 
     Args:
-      fading: what happens near the low end may be faster: places are closer there, as squares.
+      fading: changes near the low end may be faster: places are closer there, as squares.
     """
     u = np.linspace(-1.0, 1.0, count)
     share = (0.5 * (u + 1.0)) ** (2 if fading else 1)
@@ -63,9 +68,9 @@ def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = Fals
 
 
 def bent_curve(low: float, high: float, count: int = 8) -> SmoothCurve:
-    """A smooth curve that may bend at zero, as what differs between both signs of a variable does.
+    """A smooth curve that may bend at zero, where both signs of a variable may differ.
 
-    Its straight part has a slope on each side. Without both signs it is a smooth curve.
+    Its straight part has one slope on each side. If the range has one sign only, it is a smooth curve.
     """
     if not low < 0 < high:
         return smooth_curve(low, high, count)
@@ -79,7 +84,7 @@ def bent_curve(low: float, high: float, count: int = 8) -> SmoothCurve:
 
 
 def periodic_curve(period: float, count: int = 12) -> SmoothCurve:
-    """A curve that repeats."""
+    """A curve that repeats after a period."""
     places = np.arange(count) * period / count
     sine = np.sin((places[:, None] - places) * np.pi / period)
     covariance = np.exp(-2.0 * sine**2 / _PERIODIC_LENGTH**2)
@@ -88,18 +93,18 @@ def periodic_curve(period: float, count: int = 12) -> SmoothCurve:
 
 
 def two_values() -> SmoothCurve:
-    """One value backwards, one forwards."""
+    """One value for the backward direction (-1), one for the forward direction (1)."""
     line = np.array([[1.0, -1.0], [1.0, 1.0]])
     return SmoothCurve(places=np.array([-1.0, 1.0]), basis=line, straight=2)
 
 
 def separate_values(places: Array) -> SmoothCurve:
-    """Values that know nothing of each other."""
+    """Values at the places that are independent of each other."""
     return SmoothCurve(places=places, basis=np.eye(places.size), straight=0)
 
 
 def _beside(line: Array, covariance: Array) -> Array:
-    """A straight part, and what a process has beside it, as columns."""
+    """A straight part, and the part of a process that is orthogonal to it, as columns."""
     onto = line @ np.linalg.pinv(line)
     rest = np.eye(len(line)) - onto
     values, vectors = np.linalg.eigh(rest @ covariance @ rest)

@@ -1,6 +1,8 @@
-"""What is told of an unknown log beside the library's nearest explanation."""
+"""What is reported about an unknown log in addition to the library's nearest explanation."""
 
 from collections.abc import Sequence
+
+import numpy as np
 
 from diagnosis.assessment.assess import Assessment
 from diagnosis.fitting.problem import FitProblem
@@ -27,7 +29,7 @@ def with_what_is_missing(
     companions: Sequence[str],
     workers: Workers,
 ) -> tuple[Missing | None, Assessment]:
-    """What is missing, and the assessment with what its law explains; None: the log is not unknown.
+    """What is missing, and the assessment with its law; None and `told` if the log is not unknown.
 
     Args:
       nominal: readings of the nominal rig by trial of the problem.
@@ -38,7 +40,7 @@ def with_what_is_missing(
     fits = workers.stop.unless_due(FREE_FORM, lambda: _fits(problem, coarse, companions, workers))
     if not fits or not any(fit.final for fit in fits):
         return None, told
-    missing = missing_of(fits, told.nearest.gap_after)
+    missing = missing_of(fits, np.inf if verdict.other_form else told.nearest.gap_after)
     if missing.law is None:
         return missing, told
     return missing, explained_by(missing, log, problem, nominal, told)
@@ -47,7 +49,7 @@ def with_what_is_missing(
 def _fits(
     problem: FitProblem, coarse: FitProblem, companions: Sequence[str], workers: Workers
 ) -> tuple[FreeFit, ...]:
-    """None where the nominal rig cannot be simulated, or there was no time."""
+    """Free-form fits; empty if the nominal rig cannot be simulated, or there was no time."""
     try:
         return free_form_fits(problem, coarse, companions, workers)
     except (SimulationFailed, StoppedEarly):

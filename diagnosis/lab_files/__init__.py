@@ -1,1 +1,1 @@
-"""A lab's files as a rig-log/1 folder: reading them, guessing a mapping, applying one."""
+"""Imports a lab's files as a rig-log/1 folder: reads them, drafts a mapping, applies one."""

@@ -1,4 +1,4 @@
-"""A draft as the text of `mapping.yaml`: guesses with their reasons, blanks where nothing is known."""
+"""A draft as the text of `mapping.yaml`: guesses with their reasons, blanks for what is unknown."""
 
 import json
 from collections.abc import Iterator
@@ -90,7 +90,7 @@ def _constants(draft: Draft) -> Iterator[str]:
 
 
 def _rig(draft: Draft) -> Iterator[str]:
-    """Needle and tissue stay blank: no log says what its rig is believed to be."""
+    """Lines for needle and tissue, left blank: no log contains the nominal constants of its rig."""
     for section, record in (("needle", NominalNeedle), ("tissue", NominalTissue)):
         yield f"{section}:\n" + "".join(f"  {name}:\n" for name in record.model_fields)
     yield "sensors:\n"

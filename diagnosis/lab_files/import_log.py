@@ -1,4 +1,4 @@
-"""A lab's files as a log, in one call: what `needle import --map` does."""
+"""Imports a lab's files as a log, in one call, as `needle import --map` does."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,12 +23,12 @@ def import_log(
     Args:
       files: CSV or other text, Parquet, MAT, MCAP.
       mapping: a `mapping.yaml`, as `needle import` drafts it.
-      folder: where `rig.yaml` and the trials go.
-      accept_guesses: take what a draft guessed for confirmed.
+      folder: where `rig.yaml` and the trials are written.
+      accept_guesses: treat the guesses of a draft as confirmed.
       force: replace a log that exists; an input is never replaced.
 
     Raises:
-      InvalidValue: names the file, the column, or what the mapping leaves open.
+      InvalidValue: names the file, the column, or blanks of the mapping.
       OutputExists: a file exists and `force` is not given.
       UnsafeOutput, UnwritableOutput: the log may not or cannot be written there.
       UnusableLog: the log cannot be used.

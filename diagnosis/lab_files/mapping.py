@@ -2,8 +2,8 @@
 
     rig-log value = sign * factor * (value in the file - zero)
 
-with the factor from the unit, or stated. What may stay blank in a record may not in a mapping that is
-applied: `read_mapping.py`.
+with the factor from the unit, or stated. Fields that may be blank in these records may not be blank in a
+mapping that is applied: `read_mapping.py` checks that.
 """
 
 from typing import Annotated, Any, Literal
@@ -25,7 +25,7 @@ SECTIONS: dict[str, type[Record]] = {
 
 
 class TimeSource(Record):
-    """A column that holds times, and the unit of them."""
+    """A column of times, and their unit."""
 
     column: str
     unit: str | None = None
@@ -40,7 +40,7 @@ class TimeSource(Record):
 
 
 class ColumnSource(Record):
-    """Where the values of one column of rig-log/1 come from."""
+    """The source of one column of rig-log/1."""
 
     column: str | None = None
     file: int | None = None
@@ -61,7 +61,7 @@ class ColumnSource(Record):
     """Guessed by a draft and confirmed by nobody: refused."""
 
     def quantity(self, wanted: str) -> MeasuredQuantity | None:
-        """What the file's column measures, if it is to give the wanted one; None: impossible."""
+        """The quantity of the file's column, if the wanted one can follow from it; else None."""
         own = QUANTITIES[wanted]
         if self.derive == "integrate":
             return RATES.get(own)
@@ -77,7 +77,7 @@ class ColumnSource(Record):
 
 
 class TrialSource(Record):
-    """Which lab files make one trial."""
+    """The lab files of one trial."""
 
     file: str
     """Name of the trial in the log that is written."""
@@ -106,12 +106,12 @@ class ImportMapping(Record):
     sensors: dict[str, float | None]
 
     def constant(self, trial: TrialSource, column: str) -> float | None:
-        """The number that stands for a column in a trial, if one is stated."""
+        """The constant value of a column in a trial, if one is stated."""
         return trial.constants.get(column, self.constants.get(column))
 
 
 def guesses(mapping: ImportMapping) -> list[str]:
-    """Entries that a draft guessed and nobody has confirmed."""
+    """Entries that a draft guessed and the user has not confirmed."""
     found = [f"trials.{t.file}" for t in mapping.trials if t.guess]
     found += [f"times.{t.column}" for t in mapping.times if t.guess]
     return found + [f"columns.{name}" for name, source in mapping.columns.items() if source.guess]

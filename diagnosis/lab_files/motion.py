@@ -1,8 +1,8 @@
-"""Rests and reversals of the base, in whatever unit its angle has.
+"""Rests and reversals of the base, for an angle in any unit.
 
-The rate is the slope of a straight line through the samples of a short window. Where the readings
-scatter by s and a window of width w holds n of them, that slope scatters by sqrt(12) s / (w sqrt(n)):
-slower motion than four of these cannot be told from rest.
+The rate is the slope of a straight line through the samples of a short window. If the readings
+scatter by s and a window of width w has n of them, the slope scatters by sqrt(12) s / (w sqrt(n)):
+motion slower than four of these cannot be distinguished from rest.
 """
 
 from dataclasses import dataclass
@@ -23,12 +23,12 @@ _MOST_SAMPLES = 200_000
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """What the base did.
+    """The motion of the base.
 
     Attributes:
-      time_s: of the readings, (N,).
-      rate_per_s: (N,), in units of the angle per second.
-      resting: whether it stands still, (N,).
+      time_s: times of the readings, (N,).
+      rate_per_s: rate, in units of the angle per second, (N,).
+      resting: whether it is at rest, (N,).
       rests_s: first and last time of each rest.
       reversals: index of each turning point, in order.
     """
@@ -40,14 +40,14 @@ class Motion:
     reversals: tuple[int, ...]
 
     def at_rest(self, time_s: Array) -> Mask:
-        """Which times of another clock fall into a rest."""
+        """Mask of times that lie in a rest."""
         inside = np.zeros(time_s.size, bool)
         for first, last in self.rests_s:
             inside |= (time_s >= first) & (time_s <= last)
         return inside
 
     def in_first_rest(self, time_s: Array) -> Mask:
-        """Which times fall into the rest that the trial starts with; none if it starts in motion."""
+        """Mask of times in the rest at the start of the trial; all False if it starts in motion."""
         if not self.rests_s or self.rests_s[0][0] > self.time_s[0]:
             return np.zeros(time_s.size, bool)
         first, last = self.rests_s[0]
@@ -55,7 +55,7 @@ class Motion:
 
 
 def motion_of(time_s: Array, angle: Array) -> Motion:
-    """Rests and reversals of an angle in any unit, (N,); what is not finite is left out."""
+    """Rests and reversals of an angle in any unit, (N,); values that are not finite are left out."""
     good = np.isfinite(time_s) & np.isfinite(angle)
     time_s, angle = time_s[good], angle[good]
     even = np.linspace(time_s[0], time_s[-1], min(time_s.size, _MOST_SAMPLES))
@@ -84,7 +84,7 @@ def motion_of(time_s: Array, angle: Array) -> Motion:
 
 
 def _reversals(angle: Array, noise: float) -> tuple[int, ...]:
-    """Turning points that stand out by a share of the whole turn, and far out of the noise."""
+    """Indices of turning points that exceed a share of the whole turn, and the noise by far."""
     least = max(REVERSAL_SHARE * float(np.ptp(angle)), 4 * REST_RATE_SIGMA * noise, 1e-12)
     high, low = (find_peaks(sign * angle, prominence=least)[0] for sign in (1, -1))
     return tuple(int(i) for i in np.sort(np.concatenate((high, low))))

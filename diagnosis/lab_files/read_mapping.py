@@ -1,6 +1,6 @@
-"""Reading a mapping: what is blank, impossible or unconfirmed is refused, all of it at once.
+"""Reads a mapping; refuses everything that is blank, impossible or unconfirmed, in one error.
 
-Nothing is filled in here.
+No value is filled in.
 """
 
 from pathlib import Path
@@ -25,10 +25,10 @@ def read_mapping(path: Path, *, accept_guesses: bool) -> ImportMapping:
     """Read and check a mapping.
 
     Args:
-      accept_guesses: take what a draft guessed for confirmed.
+      accept_guesses: treat the guesses of a draft as confirmed.
 
     Raises:
-      InvalidValue: it cannot be read; or names everything that is missing, impossible or unconfirmed.
+      InvalidValue: it cannot be read; or lists all that is missing, impossible or unconfirmed.
     """
     content = read_yaml(path, expected=_EXPECTED)
     mapping = read_record(path, ImportMapping, content)
@@ -75,7 +75,7 @@ def _blanks(mapping: ImportMapping) -> list[str]:
 
 
 def _impossible(mapping: ImportMapping) -> list[str]:
-    """Everything that is stated and cannot be."""
+    """Everything that is stated and impossible."""
     found = []
     for name, source in mapping.columns.items():
         if name not in MEASURED:

@@ -1,8 +1,8 @@
-"""Columns with clocks of their own at common times, only if a rate is stated.
+"""Columns with separate clocks at common times, only if a rate is stated.
 
 A signal that is sampled more often than wanted passes a linear-phase low-pass filter (FIR, zero delay)
-before samples are left out, so that nothing above half the new rate folds back. One that is sampled
-less often is interpolated by straight lines. A pause stays a pause: no reading is made up across it.
+before decimation, so that nothing above half the new rate is aliased. One that is sampled
+less often is interpolated linearly. Pauses stay: no reading is invented across them.
 """
 
 import numpy as np
@@ -22,12 +22,12 @@ def resampled(time_s: Array, values: Array, wanted_s: Array, *, across_gaps: boo
     """A signal at evenly spaced times.
 
     Args:
-      time_s, values: of its own clock, (N,); what is not finite is left out.
+      time_s, values: samples on its own clock, (N,); values that are not finite are left out.
       wanted_s: evenly spaced, (M,).
-      across_gaps: also where its own samples pause, for what moves slowly or drives the replay.
+      across_gaps: interpolate across pauses, too, for signals that move slowly or drive the replay.
 
     Returns:
-      (M,); NaN outside of its own times, and in pauses if these are to be kept.
+      Values, (M,); NaN outside of its own times, and in pauses unless `across_gaps`.
     """
     good = np.isfinite(values) & np.isfinite(time_s)
     time_s, values = time_s[good], values[good]
@@ -47,12 +47,12 @@ def resampled(time_s: Array, values: Array, wanted_s: Array, *, across_gaps: boo
 
 
 def decimation(time_s: Array, wanted_hz: float) -> int:
-    """How many of its own samples make one."""
+    """Number of original samples per wanted one."""
     return max(1, round(rate_hz(time_s) / wanted_hz))
 
 
 def told(time_s: Array, wanted_hz: float) -> str:
-    """What is done to a signal, in words."""
+    """The resampling of a signal, in words."""
     own = rate_hz(time_s)
     if decimation(time_s, wanted_hz) > 1:
         return f"{own:.4g} to {wanted_hz:.4g} Hz, low-pass below {wanted_hz / 2:.4g} Hz without delay"
@@ -60,7 +60,7 @@ def told(time_s: Array, wanted_hz: float) -> str:
 
 
 def _in_gap(time_s: Array, wanted_s: Array, usual_s: float) -> NDArray[np.bool_]:
-    """Between two samples that are far apart, and near neither."""
+    """Mask of times between two samples that are far apart, and near neither."""
     after = np.clip(np.searchsorted(time_s, wanted_s), 1, time_s.size - 1)
     before_s, after_s = time_s[after - 1], time_s[after]
     alone = np.minimum(np.abs(wanted_s - before_s), np.abs(after_s - wanted_s)) > usual_s / 2

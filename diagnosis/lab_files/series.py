@@ -1,4 +1,4 @@
-"""A column of a lab's files with its own times, found by a mapping, values as they are."""
+"""A column of a lab's files with its own times, found by a mapping, with unchanged values."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class Series:
       time_s: (N,), with the offset of its clock.
       values: (N,).
       where: file and column, for messages.
-      clock: of the table and its offset: series of one clock have the same times.
+      clock: identifies the clock of the table with its offset: series of one clock have the same times.
     """
 
     time_s: Array
@@ -30,10 +30,10 @@ class Series:
 def raw_series(
     mapping: ImportMapping, trial: TrialSource, files: Sequence[LabFile], wanted: str
 ) -> Series:
-    """A column of the lab with its times in seconds, its values as in the file.
+    """A column of the lab with its times in seconds, and its values as in the file.
 
     Raises:
-      InvalidValue: the file, the column or its times are not there, or times do not rise.
+      InvalidValue: the file, the column or its times are missing, or times do not increase.
     """
     source = mapping.columns[wanted]
     table = _table_with(trial, files, wanted, source)
@@ -93,10 +93,10 @@ def _times(mapping: ImportMapping, table: LabTable) -> Array:
 
 
 def refuse_unreadable(mapping: ImportMapping, files: Sequence[LabFile]) -> None:
-    """Check that every column of every trial is there, before one is used.
+    """Check that every column of every trial exists, before any is used.
 
     Raises:
-      InvalidValue: names all that are not.
+      InvalidValue: lists all that are missing.
     """
     found: dict[str, InvalidValue] = {}
     for trial in mapping.trials:

@@ -1,6 +1,6 @@
-"""A mapping applied: the lab files of a trial as one table of rig-log/1.
+"""Applies a mapping: the lab files of a trial become one table of rig-log/1.
 
-Columns that share one clock become rows as they are. Columns with clocks of their own need a stated
+Columns that share one clock become rows as they are. Columns with separate clocks need a stated
 rate. Times start at 0.
 """
 
@@ -23,7 +23,7 @@ from models.errors import InvalidValue
 
 @dataclass(frozen=True, kw_only=True)
 class ImportedTrial:
-    """A trial in the columns of rig-log/1, and what was done to get it."""
+    """A trial in the columns of rig-log/1, and how it was made."""
 
     name: str
     table: pd.DataFrame
@@ -36,10 +36,10 @@ def imported_trial(
     """The table of a trial.
 
     Args:
-      files: all that were given; those that the trial names are used.
+      files: all given files; those that the trial names are used.
 
     Raises:
-      InvalidValue: names the file and column, what was expected and found, the fix.
+      InvalidValue: names the file and column, what was expected and found, and the fix.
     """
     raw = {name: raw_series(mapping, trial, files, name) for name in mapping.columns}
     scaled = _scaled(mapping, raw)
@@ -64,7 +64,7 @@ def imported_trial(
 
 
 def _scaled(mapping: ImportMapping, raw: Mapping[str, Series]) -> dict[str, Series]:
-    """In the units of rig-log/1; zeros that are taken from rests need the motion of the base."""
+    """Series in the units of rig-log/1; zeros from rests need the motion of the base."""
     motion = None
     found = {}
     for name, one in raw.items():

@@ -1,6 +1,6 @@
 """Units that labs use, as multiples of those of rig-log/1: deg, deg/s, N mm, mm, mm/s, s.
 
-A unit is written in many ways: `N·mm`, `N mm`, `Nmm` and `[n_mm]` are one. Letters and digits alone
+A unit is written in many ways: `N·mm`, `N mm`, `Nmm` and `[n_mm]` are the same. Only letters and digits
 count, in lower case. The same letters may be two units (`ms` is a millisecond, `m/s` a speed): the
 quantity of the column decides.
 """
@@ -13,7 +13,7 @@ from diagnosis.log.unit_hints import ANGLES, LENGTHS, SPEEDS, TIMES, TORQUES
 
 
 class MeasuredQuantity(StrEnum):
-    """What a column measures; the value is its unit in rig-log/1."""
+    """The quantity of a column; its value is the unit in rig-log/1."""
 
     ANGLE = "deg"
     ANGULAR_RATE = "deg/s"
@@ -92,18 +92,18 @@ _WITHOUT_SCALE = {
 
 
 def factor_of(unit: str, quantity: MeasuredQuantity) -> float | None:
-    """Units of rig-log/1 in one of these; None: not known for this quantity."""
+    """Units of rig-log/1 per unit of this name; None: not known for this quantity."""
     return UNITS[quantity].get(_plain(unit))
 
 
 def is_unit(text: str) -> bool:
-    """Whether a text is a unit of anything that a rig measures, with a known scale or without."""
+    """Whether a text is a unit of any measured quantity, with or without a known factor."""
     plain = _plain(text)
     return plain in _WITHOUT_SCALE or any(plain in units for units in UNITS.values())
 
 
 def unit_in(name: str) -> str:
-    """The unit that the name of a column ends with; empty if it names none.
+    """The unit at the end of a column's name; empty if there is none.
 
     `torque [Nm]`, `disp (in)`, `base_angle_rad`, `speed / rpm`.
     """

@@ -1,4 +1,4 @@
-"""Writing an imported log."""
+"""Writes an imported log."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -26,14 +26,14 @@ def imported(mapping: ImportMapping, files: Sequence[LabFile]) -> tuple[Imported
 
 
 def log_paths(mapping: ImportMapping, folder: Path) -> list[Path]:
-    """What `write_log` writes."""
+    """All files that `write_log` writes."""
     return [folder / "rig.yaml", *(folder / trial.file for trial in mapping.trials)]
 
 
 def write_log(
     mapping: ImportMapping, trials: Sequence[ImportedTrial], destination: Destination
 ) -> ResultSet:
-    """Write one CSV per trial and `rig.yaml`, as one.
+    """Write one CSV per trial and `rig.yaml`, as one set.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.

@@ -1,1 +1,1 @@
-"""Reading `rig-log/1`: the nominal rig, its trials, and what is wrong or doubtful about them."""
+"""Reads `rig-log/1`: the nominal rig and its trials, with errors and warnings."""

@@ -1,4 +1,4 @@
-"""Curves through the neighbours of every sample, over uneven times, many windows at once."""
+"""Curves through the neighbours of every sample, at uneven times, for many windows at once."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +11,10 @@ _SMALL = 0.5  # residuals over the scale, below which they weigh alike
 
 
 def interpolated(time_s: Array, values: Array, near: int, far: int) -> tuple[Array, Array]:
-    """Cubics through two samples on each side (Lagrange), and the noise gain of sample less cubic.
+    """Cubics through two samples on each side (Lagrange), and the noise gain of sample minus cubic.
 
     Args:
-      near, far: neighbours that the cubic goes through, samples away on each side.
+      near, far: distances, in samples, of the neighbours on each side that the cubic goes through.
 
     Returns:
       (N,) each; NaN where a trial has no such neighbours.
@@ -34,10 +34,10 @@ def interpolated(time_s: Array, values: Array, near: int, far: int) -> tuple[Arr
 
 
 def robust_curve(powers: Array, y: Array, scale: Array) -> Array:
-    """Curves of least absolute residuals, by reweighting, (M, W).
+    """Curves of least absolute residuals, by iterative reweighting, (M, W).
 
     Args:
-      powers: of the times in each of M windows of W samples, (M, W, P).
+      powers: powers of the times in each of M windows of W samples, (M, W, P).
       y: readings, (M, W).
       scale: noise of the readings, by window, (M,).
     """
@@ -52,7 +52,7 @@ def robust_curve(powers: Array, y: Array, scale: Array) -> Array:
 def least_squares(
     powers: Array, y: Array, weights: Array | Mask, *, spread: bool = True
 ) -> tuple[Array, Array]:
-    """Weighted fits: curves, (M, W), and their variances in that of one reading, (M, W)."""
+    """Weighted fits: curves, (M, W), and their variances / variance of a reading, (M, W)."""
     weighted = powers * weights[:, :, None]
     normal = np.swapaxes(weighted, 1, 2) @ powers
     normal += 1e-9 * np.eye(powers.shape[2])  # where too few points are left, which is refused

@@ -1,4 +1,4 @@
-"""`rig.yaml`: what the experimenter believes of the rig, the nominal model."""
+"""`rig.yaml`: the nominal model, as the experimenter states it."""
 
 from typing import Literal
 
@@ -9,7 +9,7 @@ from models.record import Record
 
 
 class NominalNeedle(Record):
-    """The needle as the experimenter believes it to be."""
+    """The nominal needle."""
 
     diameter_mm: Positive
     shear_modulus_gpa: Positive
@@ -17,13 +17,13 @@ class NominalNeedle(Record):
 
 
 class NominalTissue(Record):
-    """The tissue as the experimenter believes it to be."""
+    """The nominal tissue."""
 
     damping_n_mm_s_per_mm: Positive
 
 
 class NominalInertia(Record):
-    """Inertia beside that of the shaft, about its axis."""
+    """Inertia in addition to that of the shaft, about its axis."""
 
     base_kg_m2: NonNegative = 0.0
     """Between the torque sensor and the shaft."""
@@ -32,14 +32,14 @@ class NominalInertia(Record):
 
 
 class SensorNoise(Record):
-    """One standard deviation of each sensor, as claimed."""
+    """Claimed standard deviation of each sensor's noise."""
 
     tip_angle_noise_deg: NonNegative
     base_torque_noise_n_mm: NonNegative
     base_angle_noise_deg: NonNegative
 
     def by_column(self) -> dict[str, float]:
-        """Standard deviation by the column that the sensor fills."""
+        """Standard deviation by the column of the sensor."""
         return {
             "base_angle_deg": self.base_angle_noise_deg,
             "base_torque_n_mm": self.base_torque_noise_n_mm,
@@ -48,7 +48,7 @@ class SensorNoise(Record):
 
 
 class TrialEntry(Record):
-    """Where a trial is."""
+    """The file of a trial."""
 
     file: str
 

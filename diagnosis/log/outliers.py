@@ -1,15 +1,15 @@
-"""Outliers: one or a few samples in a row that are off what the samples on both sides say.
+"""Outliers: one or a few successive samples that disagree with the samples on both sides.
 
-Readings move, fast and with corners, so that a sample is compared with a cubic through its own
-neighbours, which is fitted robustly (least absolute residuals) and then by least squares without what
-it leaves out. A sample is an outlier if all of this holds:
+Readings may move fast and with corners, so a sample is compared with a cubic through its
+neighbours, which is fitted robustly (least absolute residuals) and then by least squares without the
+samples far from it. A sample is an outlier if all of these conditions hold:
 
-- it is off by z sigma sqrt(1 + leverage), with z from the chance that white noise is, and sigma not
-  below what the readings about it scatter by (in a fast motion, jitter of the time is noise);
-- the neighbours on both sides agree with one curve: they leave little beside what the sample is off;
-- neither side alone, as a parabola or line, comes near it: at a corner of the motion, one does.
+- it is off by more than z sigma sqrt(1 + leverage), with z for a small chance with white noise, and
+  sigma at least the scatter of the readings near it (in a fast motion, jitter of time acts as noise);
+- the neighbours on both sides agree with one curve: their residual is small compared with the sample's;
+- neither side alone, by a parabola or line, predicts it: at a corner of the motion, one side does.
 
-What was found is taken out, and the rest is looked at again.
+Outliers that were found are removed, and the search is repeated.
 
 Source: robust local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829; Hampel's identifier.
 """
@@ -56,20 +56,20 @@ class Outliers:
     """Outliers of a column.
 
     Attributes:
-      rows: which samples, (N,).
-      expected: what their neighbours say of them; elsewhere the readings, (N,).
+      rows: mask of the outliers, (N,).
+      expected: values from their neighbours; the readings elsewhere, (N,).
     """
 
     rows: Mask
     expected: Array
 
     def without(self, some: Mask, values: Array) -> "Outliers":
-        """The same without some rows, whose readings are what was meant."""
+        """The outliers without some rows, whose readings are valid."""
         return Outliers(rows=self.rows & ~some, expected=np.where(some, values, self.expected))
 
 
 def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
-    """Outliers among readings, (N,) each; what is not finite is none.
+    """Outliers among readings, (N,) each; values that are not finite are none.
 
     Args:
       sigma: white noise of the readings, in their unit.
@@ -86,7 +86,7 @@ def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
 
 
 def _in_long_run(rows: Mask) -> Mask:
-    """What lasts is an event, not an outlier."""
+    """Mask of outliers in long runs: these are events."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], rows.astype(np.int8), [0])))).reshape(-1, 2)
     long = np.zeros(rows.size, bool)
     for start, end in edges[edges[:, 1] - edges[:, 0] > OUTLIER_MOST_RUN]:
@@ -95,7 +95,7 @@ def _in_long_run(rows: Mask) -> Mask:
 
 
 def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
-    """Outliers that are seen beside the samples that are left, and what is expected there."""
+    """Outliers among the remaining samples, and the values expected there."""
     if not sigma > 0 or values.size < 2 * _ABOUT:
         return np.zeros(0, int), np.zeros(0)
     scale = _scatter_about(time_s, values, sigma)
@@ -111,7 +111,7 @@ def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
 
 
 def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
-    """What readings scatter by about each sample where that is more than sigma for certain, (N,)."""
+    """Scatter of the readings near each sample, if it is significantly above sigma; else sigma, (N,)."""
     size = np.full(values.size, np.inf)
     for near, far in _STENCILS[::2]:  # without a neighbour in common, so that an outlier is in one alone
         said, gain = interpolated(time_s, values, near, far)
@@ -124,7 +124,7 @@ def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
 
 
 def _screened(time_s: Array, values: Array, scale: Array) -> Index:
-    """Samples that are worth a fit: all near the ends, and what is off some cubic."""
+    """Indices of samples to examine: all near the ends, and those that are off a cubic."""
     off = np.zeros(values.size)
     for near, far in _STENCILS:
         said, gain = interpolated(time_s, values, near, far)
@@ -137,7 +137,7 @@ def _screened(time_s: Array, values: Array, scale: Array) -> Index:
 def _judged(
     time_s: Array, values: Array, scale: Array, rows: Index, half: int, limit: float
 ) -> tuple[Mask, Array]:
-    """Which of the rows are outliers beside `half` neighbours on each side, and what is expected."""
+    """Which of the rows are outliers among `half` neighbours on each side, and their expected values."""
     width = 2 * half + 1
     first = np.clip(rows - half, 0, values.size - width)
     window = first[:, None] + np.arange(width)

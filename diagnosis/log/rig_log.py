@@ -1,7 +1,7 @@
 """Reading `rig-log/1`: a folder with `rig.yaml` and one CSV per trial.
 
-What cannot be used is an error that says how to fix it; what is doubtful is used
-with a warning, or set aside with one. The files themselves are only ever read.
+Unusable data are an error that says how to fix it; doubtful data are used or left out
+with a warning. The files are never changed.
 """
 
 from dataclasses import dataclass
@@ -28,8 +28,8 @@ class RigLog:
     """A rig's log: the nominal rig and its trials.
 
     Attributes:
-      warnings: what was doubtful, and what was done with it.
-      name: of its folder; empty: it was not read from one.
+      warnings: what is doubtful, and what was done about it.
+      name: name of its folder; empty: it was not read from one.
     """
 
     rig: NominalRig
@@ -78,7 +78,7 @@ def files_of(log: RigLog, folder: Path) -> tuple[Path, ...]:
 
 
 def _readable(path: Path, rig: NominalRig) -> Trial:
-    """A trial as its file has it, that can be a trial of the rig at all."""
+    """Read a trial, and refuse what cannot be a trial of the rig."""
     trial = read_trial(path)
     refuse_wraps(path, trial)
     refuse_impossible_lengths(path, trial, rig.needle.diameter_mm)

@@ -1,4 +1,4 @@
-"""Reading `rig.yaml`: its fields, and the names of its trials."""
+"""Reads `rig.yaml`: its fields, and the names of its trials."""
 
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
@@ -69,7 +69,7 @@ def _refuse_implausible(path: Path, rig: NominalRig) -> None:
 
 
 def _refuse_odd_files(path: Path, files: list[str]) -> None:
-    """A log is read inside its folder alone, and each trial gives one file of predictions."""
+    """Refuse trials outside of the log's folder, and two trials of the same name."""
     names = [PurePosixPath(file.replace("\\", "/")).name for file in files]
     for i, file in enumerate(files):
         place = f"{path}: trials.{i}.file"

@@ -1,9 +1,9 @@
-"""Samples that a sensor cannot have meant: outliers, saturated or frozen ones.
+"""Invalid samples of a sensor: outliers, saturated or frozen ones.
 
-A working sensor scatters. A reading that repeats is frozen only where its scatter
-would have moved it: with white noise of standard deviation s read in steps of q, one
-reading equals the next at most by the chance p = erf(q / (2 sqrt(2) s)), and a run
-of n by p^(n-1). Where s is below q/2, repeats are the rule and nothing is concluded.
+The readings of a working sensor scatter. A repeated reading counts as frozen only if its scatter
+would have changed it: for white noise of standard deviation s, read in steps of q, one
+reading equals the next with a probability of at most p = erf(q / (2 sqrt(2) s)), and a run
+of n with p^(n-1). If s is below q/2, repeats are normal and nothing is concluded.
 """
 
 import math
@@ -42,11 +42,11 @@ _KEPT = "used as it is: correct or cut these rows"
 def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, list[str]]:
     """The trial without faulty readings, in memory, and a warning for each kind of fault.
 
-    Those of a sensor are emptied. The base angle drives the needle and cannot be empty: outliers are
-    replaced by what their neighbours say; where it stands still though it should scatter, it is kept.
+    Faulty readings of a sensor become NaN. The base angle drives the needle and cannot be missing: its
+    outliers are replaced by values from their neighbours, and frozen readings are kept.
 
     Args:
-      trial: as read.
+      trial: the trial as read.
       noise: claimed standard deviation by column.
     """
     table, warnings = trial.table.copy(), []
@@ -75,7 +75,7 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
 
 
 def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
-    """Outliers by column; a pulse of the base that other signals answer to is motion, and none."""
+    """Outliers by column; a pulse of the base to which other signals respond is motion, no outlier."""
     time, having = trial["time_s"], [name for name in noise if trial.has(name)]
     found = {n: find_outliers(time, trial[n], _outlier_scale(trial[n], noise[n])) for n in having}
     base = found[BASE].rows
@@ -90,7 +90,7 @@ def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
 
 
 def _beside(rows: Mask) -> Mask:
-    """The rows, and one on each side."""
+    """The rows, and one more on each side."""
     return np.asarray(np.convolve(rows, np.ones(3), "same") > 0)
 
 
@@ -103,7 +103,7 @@ def scatter(values: Array) -> float:
 
 
 def quantum(values: Array) -> float:
-    """The smallest step between two different readings; 0 if there is one value alone."""
+    """The smallest step between two different readings; 0 if there is only one value."""
     steps = np.diff(np.unique(values[np.isfinite(values)]))
     # Decimal fractions differ by rounding alone in their last bits.
     steps = steps[steps > 1e-9 * np.nanmax(np.abs(values), initial=0.0)]
@@ -126,7 +126,7 @@ def _told(file: str, column: str, what: str, rows: Mask, done: str) -> str:
 
 
 def _as_read(expected: Array, values: Array, claim: float) -> Array:
-    """What is expected in place of empty readings, in the steps of a coarse encoder."""
+    """Expected values for replaced readings, in the steps of a coarse encoder."""
     step = quantum(values)
     whole = np.round((expected - values[np.isfinite(values)][0]) / step) if step > claim > 0 else None
     return (
@@ -137,7 +137,7 @@ def _as_read(expected: Array, values: Array, claim: float) -> Array:
 
 
 def _outlier_scale(values: Array, claim: float) -> float:
-    """White noise of readings, not below half of the claim or what rounding alone makes."""
+    """White noise of readings, at least half of the claim and the noise of rounding."""
     finite = values[np.isfinite(values)]
     fresh = np.concatenate(([True], np.diff(finite) != 0))[: finite.size]
     found = white_noise([finite[fresh]], order=4)
@@ -151,7 +151,7 @@ def _runs(values: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def _seen_scatter(values: Array, claim: float) -> float:
-    """The smaller of claimed and found scatter; 0 where readings do not show any to go by."""
+    """The smaller of claimed and found scatter; 0 if the readings show none."""
     found = scatter(values)
     if not claim > 0 or found < BELIEVED_SCATTER * claim:
         return 0.0
@@ -160,7 +160,7 @@ def _seen_scatter(values: Array, claim: float) -> float:
 
 
 def _saturated(values: Array, claim: float) -> Mask:
-    """More readings are at the end of the range than within one scatter of it."""
+    """Mask of saturated readings: more are at the end of the range than within one scatter of it."""
     rows = np.zeros(values.size, bool)
     width = max(_seen_scatter(values, claim), quantum(values))
     if _seen_scatter(values, claim) == 0 or np.nanmin(values) == np.nanmax(values):

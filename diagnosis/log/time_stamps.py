@@ -1,17 +1,17 @@
-"""Time stamps that jitter: samples taken evenly, and stamped when a computer came to it.
+"""Jitter of time stamps: samples that were taken evenly, but stamped later by a computer.
 
-In a turn of 200 deg/s a stamp that is 1 ms late is an angle that is 0.2 deg off, ten times the noise
+In a turn of 200 deg/s a stamp that is 1 ms late means an error of 0.2 deg, ten times the noise
 of an encoder. If samples were taken evenly, row i was taken at
 
-    t_i = t_0 + h k_i,  k_i whole numbers that increase, by more than one where rows were lost
+    t_i = t_0 + h k_i,  k_i increasing integers, with steps above one where rows were lost
 
-and its stamp is t_i plus an error. h is the period at which the stamps have most in phase, |sum
-exp(2 pi i t / h)|; k_i - i never falls, so that it is the isotonic regression of t_i / h - i, rounded.
+and its stamp is t_i plus an error. h is the period for which the stamps are most in phase, |sum
+exp(2 pi i t / h)|; k_i - i never falls, so it is the rounded isotonic regression of t_i / h - i.
 
-Samples may as well have been taken unevenly and stamped rightly. The data decide: readings of a fast
-motion are smooth over the time at which they were taken. On either axis each is compared with a
-cubic through its neighbours, and where one of them comes nearer so often that chance is out of the
-question, that axis is the true one. What noise alone could tell is not asked.
+Samples may also have been taken unevenly and stamped correctly. The data decide: readings of a fast
+motion are smooth over the true times. On both time axes each reading is compared with a
+cubic through its neighbours; if one axis gives the smaller difference so often that chance is excluded,
+it is the true one. Samples whose difference could be noise are not used.
 """
 
 from collections.abc import Sequence
@@ -38,7 +38,7 @@ _REFINEMENTS = 4
 
 
 def with_even_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
-    """The trials of a log over even times, if its stamps scatter about some and its motion says so."""
+    """The trials with even times, if stamps scatter about such and the motion confirms it; warnings."""
     evens = [max(_even_times(t["time_s"]), key=lambda at: _certainty([t], [at])) for t in trials]
     scatter_s = max(_rms(t["time_s"] - at) for t, at in zip(trials, evens, strict=True))
     step_s = min(float(np.diff(at).min()) for at in evens)
@@ -61,7 +61,7 @@ def _rms(values: Array) -> float:
 
 
 def _even_times(stamps_s: Array) -> tuple[Array, Array]:
-    """When samples were taken if they were taken evenly: no row was lost, or some were; (N,) each."""
+    """Times of evenly taken samples, s, if no row was lost, and if some were; (N,) each."""
     index = np.arange(stamps_s.size, dtype=np.intp)
     return _on_line(stamps_s, index), _on_line(stamps_s, _counts(stamps_s))
 
@@ -72,7 +72,7 @@ def _on_line(stamps_s: Array, counts: Counts) -> Array:
 
 
 def _counts(stamps_s: Array) -> Counts:
-    """The place of each sample on an even grid, lost rows counted, (N,)."""
+    """The index of each sample on an even grid, lost rows included, (N,)."""
     index = np.arange(stamps_s.size, dtype=np.intp)
     period, start, counts = _period(stamps_s), stamps_s[0], index
     for _ in range(_REFINEMENTS):
@@ -83,9 +83,9 @@ def _counts(stamps_s: Array) -> Counts:
 
 
 def _period(stamps_s: Array) -> float:
-    """The period at which stamps have most in phase, near their median step.
+    """The period for which stamps are most in phase, near their median step, s.
 
-    Of their longest stretch without a pause, across which the phase is lost anyway.
+    It is that of their longest stretch without a pause, since a pause loses the phase.
     """
     first = stamps_s[:_FIRST]
     step = float(np.median(np.diff(first)))
@@ -99,7 +99,7 @@ def _period(stamps_s: Array) -> float:
 
 
 def _certainty(trials: Sequence[Trial], evens: Sequence[Array]) -> float:
-    """How certainly readings are smoother over even times than over stamps, standard deviations."""
+    """Significance with which readings are smoother over even times than over stamps, in sigma."""
     wins = np.concatenate(
         [
             _nearer(trial[name], trial["time_s"], even_s)
@@ -112,7 +112,7 @@ def _certainty(trials: Sequence[Trial], evens: Sequence[Array]) -> float:
 
 
 def _nearer(values: Array, stamps_s: Array, even_s: Array) -> Mask:
-    """Whether samples at which noise cannot decide are nearer to a cubic over even times, (M,)."""
+    """Whether samples, where noise cannot decide, are nearer to a cubic over even times, (M,)."""
     rows = np.flatnonzero(np.isfinite(values))
     if rows.size < FEWEST_ROWS:
         return np.zeros(0, bool)

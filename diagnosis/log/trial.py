@@ -1,4 +1,4 @@
-"""A trial of a log: what was done to the needle, and what the sensors read."""
+"""A trial of a log: the inputs of the needle, and the readings of the sensors."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,16 +18,16 @@ COLUMNS = (*REQUIRED, *OPTIONAL)
 
 
 class UnusableLog(NeedleError):
-    """A log that cannot be used: file, line or column, what was expected and found, the fix."""
+    """A log that cannot be used; names file, line or column, what was expected and found, the fix."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FileRows:
-    """The rows of a trial's file, whatever was done with their times and readings, (N,) each.
+    """The rows of a trial's file, whatever was done to their times and readings, (N,) each.
 
     Attributes:
-      stamps_s: their times as the file says.
-      taken_s: when they were taken.
+      stamps_s: their time stamps in the file.
+      taken_s: the times at which they were taken.
     """
 
     stamps_s: Array
@@ -39,9 +39,9 @@ class Trial:
     """One trial as the rig logged it: a table with the columns of the format, one row per sample.
 
     Attributes:
-      name: of the file.
+      name: name of the file.
       table: required columns, and the optional ones that the file has.
-      rows: of the file, where its times are not those of the table; None: they are.
+      rows: rows of the file, if its times are not those of the table; None: they are.
     """
 
     name: str
@@ -49,7 +49,7 @@ class Trial:
     rows: FileRows | None = None
 
     def __getitem__(self, column: str) -> Array:
-        """A column, (N,); `base_angle_deg` is what the encoder read."""
+        """A column, (N,); `base_angle_deg` is the reading of the encoder."""
         return self._columns[column]
 
     @property
@@ -58,7 +58,7 @@ class Trial:
         return self.rows or FileRows(stamps_s=self["time_s"], taken_s=self["time_s"])
 
     def has(self, sensor: str) -> bool:
-        """Whether the trial measured this at all."""
+        """Whether the trial has readings of this sensor."""
         return sensor in self._measured
 
     @property

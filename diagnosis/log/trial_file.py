@@ -1,7 +1,7 @@
-"""Reading a trial: one CSV, one row a sample.
+"""Reads a trial: one CSV, one row per sample.
 
-Nothing is guessed and nothing is repaired: what cannot be read as the format says is an
-error that names the file, the line or column, what was expected, what was found, the fix.
+Nothing is guessed or repaired: a violation of the format is an error that names the file, the
+line or column, what was expected, what was found, and the fix.
 """
 
 import csv
@@ -35,12 +35,12 @@ _NO_TEXT = (
 
 
 def refuse_too_large(paths: Sequence[Path]) -> None:
-    """Check that trials are there and not too many rows together, before one is read.
+    """Check that trials exist and together do not have too many rows, before any is read.
 
-    Lines are counted by chunks, up to the first too many: quick, and in little memory.
+    Lines are counted in chunks, and no further than the limit: fast, with little memory.
 
     Raises:
-      UnusableLog: names the first file that is missing or too much.
+      UnusableLog: names the first file that is missing or exceeds the limit.
     """
     size, lines = 0, 0
     for path in paths:
@@ -149,7 +149,7 @@ def _check_names(place: str, names: Sequence[str]) -> None:
 
 
 def _known_columns(table: pd.DataFrame) -> pd.DataFrame:
-    """The columns of the format; blank lines at the end are no samples."""
+    """The columns of the format, without blank lines at the end."""
     table = table.rename(columns=str.strip)
     table = table[[name for name in COLUMNS if name in table.columns]]
     filled = np.flatnonzero(table.notna().any(axis=1))
@@ -157,7 +157,7 @@ def _known_columns(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _floats(column: pd.Series) -> pd.Series:
-    """What is a number; NaN for words. Integers beyond any float are infinite as text."""
+    """A column as floats; NaN for words. Integers beyond the range of floats become infinite."""
     is_read = pd.api.types.is_float_dtype(column)
     return pd.to_numeric(column if is_read else column.astype(str), errors="coerce").astype(float)
 
@@ -209,7 +209,7 @@ def _check_time(path: Path, time_s: Array) -> None:
 
 
 def _refuse_long_pauses(path: Path, time_s: Array) -> None:
-    """Pauses are replayed row by row: what that would cost is said before it is begun."""
+    """Refuse pauses that are too long: they are replayed step by step, which would take too long."""
     steps = np.diff(time_s)
     lost = steps / np.median(steps)
     row = int(np.argmax(lost))

@@ -1,7 +1,7 @@
-"""Names in another spelling or unit than the format's, and how to fix them.
+"""Names in another spelling or unit than that of the format, and how to fix them.
 
-`Tip Angle [rad]` is not read as `tip_angle_deg`: a unit is never guessed. But it is
-said that the one looks like the other, and by how much to multiply.
+`Tip Angle [rad]` is not read as `tip_angle_deg`: a unit is never guessed. But the error says
+that the two are similar, and by which factor to multiply.
 """
 
 import re
@@ -48,7 +48,7 @@ _ANY_UNIT = {unit for units in _UNITS.values() for unit in units}
 
 @dataclass(frozen=True, kw_only=True)
 class OtherUnit:
-    """A unit that a column may be in, and how many of its own unit one is."""
+    """A unit that a column may be in, and its size in the column's own unit."""
 
     name: str
     factor: float
@@ -65,8 +65,8 @@ class LookAlike:
 
     Attributes:
       found, wanted: the two names.
-      factor: what the values of the one are to be multiplied by; None: no unit is named.
-      likeness: of the quantities, 0 to 1.
+      factor: factor by which the found values have to be multiplied; None: no unit is named.
+      likeness: similarity of the quantities' names, 0 to 1.
     """
 
     found: str
@@ -83,7 +83,7 @@ class LookAlike:
 
 
 def look_alike(found: Iterable[str], wanted: str, known: Iterable[str]) -> LookAlike | None:
-    """The name that most looks like the wanted one, and like no other known name more."""
+    """The name that is most similar to the wanted one, and to no other known name more; None: none."""
     rivals = [name for name in known if name != wanted]
     alike = [_compared(name, wanted) for name in found]
     own = [
@@ -96,7 +96,7 @@ def look_alike(found: Iterable[str], wanted: str, known: Iterable[str]) -> LookA
 
 
 def unit_off_by(column: str, factor: float) -> OtherUnit | None:
-    """The unit in which the readings of a column would be smaller by about this factor."""
+    """The unit in which the readings of a column would be smaller by about this factor; None: none."""
     low, high = NOISE_RATIO
     units = _WHOLE["deg"] if column.endswith("_deg") else _WHOLE["n_mm"]
     near = [OtherUnit(name=name, factor=own) for name, own in units.items() if low < factor / own < high]

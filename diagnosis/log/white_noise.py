@@ -1,12 +1,12 @@
-"""White noise of a signal, from its own differences: the one owner of this estimate.
+"""White noise of a signal, from its own differences. Only this module estimates it.
 
-Differences of order k leave of a slow signal almost nothing, and of white noise of one standard
-deviation sqrt(binom(2k, k)). Where fast motion has a part in the largest of them, only the smaller
-share is used, whose root mean square is known for a normal distribution:
+Differences of order k remove a slow signal almost completely; those of white noise have the
+standard deviation sqrt(binom(2k, k)) sigma. Since fast motion may remain in the largest of them, only
+the smaller ones are used, whose root mean square is known for a normal distribution:
 
-    order 1  of a residual that is white already: best use of the data
-    order 2  of a reading, whose motion is left in a tenth of them
-    order 4  of measured minus nominal, whatever the nominal model lacks
+    order 1  for a residual that is white already: most efficient
+    order 2  for a reading, whose motion remains in a tenth of them
+    order 4  for measured minus nominal, whatever the nominal model lacks
 """
 
 from collections.abc import Sequence
@@ -28,11 +28,11 @@ def white_noise(parts: Sequence[Array], *, order: int) -> float:
     """Standard deviation of the white part of signals, in their unit.
 
     Args:
-      parts: signals, (N,) each; what is not finite is left out.
-      order: of the differences: 1, 2 or 4.
+      parts: signals, (N,) each; values that are not finite are left out.
+      order: order of the differences: 1, 2 or 4.
 
     Returns:
-      NaN from fewer than 20 differences.
+      Standard deviation; NaN from fewer than 20 differences.
     """
     each = [np.diff(values[np.isfinite(values)], n=order) for values in parts]
     sizes = np.sort(np.abs(np.concatenate(each))) if each else np.zeros(0)

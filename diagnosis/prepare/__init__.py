@@ -1,1 +1,1 @@
-"""From what a rig logged to what a replay needs: gaps, the motion of the base, sensor noise."""
+"""Prepares a log for replay: gaps, the motion of the base, sensor noise."""

@@ -1,4 +1,4 @@
-"""From a log to what can be replayed: gaps are filled, and the motion of the base is found."""
+"""Prepares a log for replay: fills gaps and estimates the motion of the base."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 
 
 def prepare(log: RigLog) -> tuple[PreparedLog, float]:
-    """The log to replay, and the noise of the base's encoder, deg, that was taken off."""
+    """The log to replay, and the noise of the base's encoder that was removed, deg."""
     steps = steps_of(log.rig, log.trials)
     rounded = rounded_noise(log.rig, steps)
     sigma_deg = rounded.get(BASE) or base_noise_deg(log.rig, log.trials)
@@ -31,7 +31,7 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
 
 
 def _with_inertia(trial: PreparedTrial, rig: NominalRig) -> PreparedTrial:
-    """The trial with the share of inertia in its torque, if it measured any."""
+    """The trial with the share of inertia in its torque, if it measured the torque."""
     if not trial.has("base_torque_n_mm"):
         return trial
     length_mm = float(np.max(trial.free_mm + trial.inserted_mm))

@@ -1,7 +1,7 @@
-"""A log that can be replayed: the motion that drives the needle, beside what the sensors read.
+"""A log that can be replayed: the motion that drives the needle, and the readings of the sensors.
 
-The encoder's reading (`base_angle_deg` of a logged trial) and the motion of the base that is behind
-it (`base_motion_deg` here) are two things: a replay is driven by the motion.
+The encoder's reading (`base_angle_deg` of a logged trial) differs from the estimated motion of the
+base (`base_motion_deg` here): a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
@@ -30,13 +30,13 @@ class PreparedTrial:
     """A trial to replay; every array has the shape of `time_s`, (N,).
 
     Attributes:
-      name: of its file.
+      name: name of its file.
       base_motion_deg: angle of the drive shaft, without the encoder's noise and across gaps.
       tip_torque_n_mm: known torque at the tip; None: none.
-      readings: by sensor, in the unit of its name; NaN where it gave nothing.
-      logged: rows that are samples of the log; the others fill its gaps.
+      readings: by sensor, in the unit of its name; NaN where there is none.
+      logged: mask of rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
-      torque_drift_sigma: what its torque sensor may drift by, in sigma of its noise.
+      torque_drift_sigma: size of the drift that its torque sensor may have, in sigma of its noise.
       late_start: None: it begins untwisted and at rest.
     """
 
@@ -54,13 +54,13 @@ class PreparedTrial:
     late_start: LateStart | None = None
 
     def has(self, sensor: str) -> bool:
-        """Whether the trial measured this at all."""
+        """Whether the trial has readings of this sensor."""
         return sensor in self._measured
 
     # A fit asks thousands of times for the same; nothing of a trial ever changes.
     @cached_property
     def schedule(self) -> Schedule:
-        """What was done to the needle."""
+        """The inputs of the needle."""
         torque = self.tip_torque_n_mm
         finer = smooth_motion if self.inertia.counts else between_samples
         time, motion = finer(self.time_s, self.base_motion_deg)
@@ -79,7 +79,7 @@ class PreparedTrial:
 
     @cached_property
     def smooth_torque_n_mm(self) -> Array:
-        """Measured base torque without most of its noise, across gaps; 0 where there is none, (N,)."""
+        """Measured base torque without most of its noise, across gaps; 0 if not measured, (N,)."""
         read = np.isfinite(self.readings.get("base_torque_n_mm", np.zeros(0)))
         if not read.any():
             return np.zeros(self.time_s.size)
@@ -93,7 +93,7 @@ class PreparedTrial:
         return float(np.median(np.diff(self.time_s)))
 
     def without_drift(self, sensor: str, left: Array) -> Array:
-        """What is left of a sensor's finite readings, in sigma, less what may be drift, (M,)."""
+        """Residual of a sensor's finite readings, in sigma, without the part that may be drift, (M,)."""
         if not self.torque_drift_sigma or sensor != "base_torque_n_mm":
             return left
         return np.asarray(left - self._drift @ (self._drift.T @ left))
@@ -121,20 +121,20 @@ class PreparedLog:
     rounded: Mapping[str, float] = field(default_factory=dict)
 
     def drifting(self, size_sigma: float) -> "PreparedLog":
-        """The log with a torque sensor that may drift by so much within a trial."""
+        """The log with a torque sensor that may drift by so much within a trial, in sigma."""
         trials = tuple(replace(trial, torque_drift_sigma=size_sigma) for trial in self.trials)
         return replace(self, trials=trials)
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Trials whose samples are too rare for what they have to carry, and that began late."""
+        """Warnings about trials whose sampling rate is too low for inertia, and that began late."""
         each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
         late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
         return tuple(warning for warning in (*each, late_start_warning(late)) if warning)
 
 
 def _steadied(depth_mm: Array) -> Array:
-    """A depth that hardly changes is constant: what is left is the reading of the stage."""
+    """A depth that hardly changes, made constant: the rest is the noise of the stage's reading."""
     if np.ptp(depth_mm) >= STEADY_DEPTH_MM:
         return depth_mm
     return np.full(depth_mm.shape, np.median(depth_mm))

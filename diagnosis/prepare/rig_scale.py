@@ -1,12 +1,12 @@
-"""The size of a rig: what bounds and starts of effects grow with.
+"""The size of a rig, which scales bounds and starts of effects.
 
 The library is written for needles like the paper's. The same rig with all torques c times as large
 (shear modulus, damping, torque sensor) is the same physics, and has to get the same answer: every
-parameter with a unit of torque grows with
+parameter with a unit of torque is multiplied by
 
-    torque = kappa / kappa of the paper's needle,   within what the measured torque allows,
+    torque = kappa / kappa of the paper's needle,   within limits from the measured torque,
 
-which does. Rates grow where the base turns faster than any needle is turned.
+which scales in the same way. Rates are scaled if the base turns faster than needles usually do.
 """
 
 import math
@@ -29,9 +29,9 @@ class RigScale:
     """Factors on the library's bounds and starts.
 
     Attributes:
-      torque_scale: on parameters with a unit of torque.
-      rate_scale: on rates of turning.
-      dry_n_mm_per_mm: dry torque per mm that would hold all torque that was measured.
+      torque_scale: for parameters with a unit of torque.
+      rate_scale: for rates of turning.
+      dry_n_mm_per_mm: dry torque per mm that would hold the whole measured torque.
       shallowest_mm: depth that every trial reaches.
     """
 

@@ -1,1 +1,1 @@
-"""What the sensors of a rig with given parameters would have read."""
+"""Replay: the readings that a rig with given parameters would have."""

@@ -2,8 +2,8 @@
 
     torque = level * z / z_y,    z <- clamp(z + change of the angle, -z_y, z_y)
 
-It sticks until the shaft has turned by the presliding angle z_y, then slides at its level. z follows
-from the motion of the shaft alone, so that no needle has to be simulated for it.
+It sticks until the shaft has turned by the presliding angle z_y, then slides at its level. z depends
+only on the motion of the shaft, so no needle has to be simulated for it.
 """
 
 import numpy as np
@@ -18,13 +18,13 @@ PRESLIDING_DEG: float = Discretisation.model_fields["presliding_deg"].default
 
 
 def bearing_torque_n_mm(shaft_deg: Array, level_n_mm: float) -> Array:
-    """Torque that the bearing takes of a shaft that starts free of it, N mm, (N,)."""
+    """Torque of the bearing on the shaft, N mm, (N,); 0 at the start."""
     return level_n_mm / PRESLIDING_DEG * stopped_at(shaft_deg, PRESLIDING_DEG)
 
 
 @njit(cache=True)
 def stopped_at(angle: Array, limit: float) -> Array:
-    """z at each sample of an angle that runs straight between samples, (N,)."""
+    """z at each sample of an angle that is linear between samples, (N,)."""
     z = np.zeros(angle.size)
     for i in range(1, angle.size):
         z[i] = min(max(z[i - 1] + angle[i] - angle[i - 1], -limit), limit)

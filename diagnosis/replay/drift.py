@@ -1,4 +1,4 @@
-"""The drift of the torque sensor that a prediction leaves, where drift was allowed for."""
+"""The likeliest drift of the torque sensor in the residual of a prediction, if drift is allowed for."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -17,7 +17,7 @@ TORQUE = "base_torque_n_mm"
 
 
 def torque_drift_sigma(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
-    """Drift at every sample, in sigma of the torque, (N,); 0 where none is allowed for."""
+    """Drift at every sample, in sigma of the torque, (N,); 0 if none is allowed for."""
     if not trial.torque_drift_sigma or not trial.has(TORQUE):
         return np.zeros(trial.time_s.size)
     left = (trial.readings[TORQUE] - prediction[TORQUE]) / noise[TORQUE]
@@ -25,7 +25,7 @@ def torque_drift_sigma(trial: PreparedTrial, prediction: Prediction, noise: Nois
 
 
 def with_drift(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Prediction]:
-    """Predictions of what the sensors read, drift included, by trial."""
+    """Predictions of the readings, including drift, by trial."""
     drifts = _by_trial(log, noise, predictions)
     return [
         replace(one, base_torque_n_mm=one.base_torque_n_mm + noise[TORQUE] * drift)

@@ -1,24 +1,24 @@
 """A free-form law in a rig: torques, angles and readings that no effect of the library has.
 
-A curve runs smoothly through its values at some places of a variable and is level beyond them. It acts
-on what its name says:
+A curve is smooth through its values at some places of a variable, and constant beyond them. What it
+acts on:
 
-    tissue          the torque of tissue that varies is times the curve
+    tissue          the torque of tissue that varies is multiplied by the curve
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
-    drive_slip      the needle is left behind by the curve, deg/s, at the chuck
-    drive_torque    the torque sensor reads the curve beside what the needle takes, N mm
+    drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
+    drive_torque    the torque sensor reads the needle's torque + the curve, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
 
-A curve over the past says how much a reading shows of what was so long ago in place of what is,
+A curve over the past gives the weights with which a reading shows past values instead of the present,
 
-    reading += sum over places of value (what was, then - what is).
+    reading += sum over places of value (past value - present value).
 
-A curve over what was turned by since turning back adds hysteresis (Prandtl-Ishlinskii),
+A curve over the turn since the last reversal adds hysteresis (Prandtl-Ishlinskii),
 
     += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
 
-What depends on the rate, angle or place of each piece of the shaft by itself is a law of the tissue.
+Dependence on the rate, angle or place of each piece of the shaft is a law of the tissue.
 """
 
 from dataclasses import dataclass, replace
@@ -64,13 +64,13 @@ class Curve:
     """A curve of one variable.
 
     Attributes:
-      places: increasing, of the variable.
-      values: at the places.
-      period: of the variable, after which the curve repeats; 0: none.
-      trial: the only trial that it is in; empty: all.
+      places: values of the variable, increasing.
+      values: values of the curve at the places.
+      period: period of the variable; 0: none.
+      trial: the only trial that it applies to; empty: all.
 
     Raises:
-      InvalidValue: places do not increase or are farther apart than the period, values are not as many,
+      InvalidValue: places do not increase or span more than the period, there are not as many values,
         or a factor of the tissue's torque is not positive.
     """
 
@@ -106,18 +106,18 @@ class Curve:
         return np.asarray(PchipInterpolator(self.places, self.values)(within))
 
     def with_hysteresis(self, values: Array) -> Array:
-        """What hysteresis adds to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
+        """Hysteresis to add to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
         each = zip(self.places, self.values, strict=True)
         return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
 
     def times(self, strength: float) -> "Curve":
-        """The curve so many times as strong; of a factor, raised to that power."""
+        """The curve multiplied by a strength; factors are raised to that power."""
         if self.acts_on is ActsOn.TISSUE:
             return replace(self, values=tuple(value**strength for value in self.values))
         return replace(self, values=tuple(value * strength for value in self.values))
 
     def of_past(self, time_s: Array, values: Array) -> Array:
-        """What a sensor shows of the past beside what is, (N,)."""
+        """Contribution of past values to a reading, (N,)."""
         each = zip(self.places, self.values, strict=True)
         shown = [share * (np.interp(time_s - ago, time_s, values) - values) for ago, share in each]
         return np.asarray(np.sum(shown, axis=0))
@@ -125,22 +125,22 @@ class Curve:
 
 @dataclass(frozen=True, kw_only=True)
 class FreeLaw:
-    """What is free of a rig.
+    """All parts of a free-form law.
 
     Attributes:
-      curves: of variables that a trial has one value of at a time.
-      tissue_varies: whether the torque of the nominal tissue is times a curve.
-      asymmetry: of it (models.tissue).
+      curves: curves over variables with one value at a time in a trial.
+      tissue_varies: whether the torque of the nominal tissue is multiplied by a curve.
+      asymmetry: asymmetry of the nominal tissue (models.tissue).
       rate_curve: factors of its viscous torque (models.tissue).
-      rate_range_rad_s: that they span.
+      rate_range_rad_s: range of rates that they span.
       damping_along_depth: factors of its viscous torque in equal parts of the inserted length.
-      stiffness_along_depth: of its stiffness, where it is elastic, in as many parts.
+      stiffness_along_depth: factors of its stiffness, if it is elastic, in such parts.
       stiffness_over_torque: factors of the shaft's stiffness (models.needle).
-      stiffness_torque_n_mm: at the last of them.
-      throughout, at_tip: further laws (models.tissue).
+      stiffness_torque_n_mm: torque at the last of them.
+      throughout, at_tip: additional laws (models.tissue).
 
     Raises:
-      InvalidValue: a field is none of an `Interface`, or a factor of the damping is not positive.
+      InvalidValue: a value is not allowed in an `Interface`, or a factor of the damping is not positive.
     """
 
     curves: tuple[Curve, ...] = ()
@@ -166,14 +166,14 @@ class FreeLaw:
 
     @property
     def more_rows(self) -> int:
-        """Of the law table, beside those of any rig."""
+        """Number of additional rows in the law table."""
         parts = max(len(self.damping_along_depth), len(self.stiffness_along_depth))
         return len(self.throughout) + len(self.at_tip) + parts
 
     def times(self, strength: float) -> "FreeLaw":
-        """The law so many times as strong; 0 is none of it, 1 the law itself.
+        """The law multiplied by a strength: 0: no law, 1: the law itself.
 
-        What is added to an angle, a reading or a torque is multiplied; factors are raised to a power.
+        Terms added to an angle, reading or torque are multiplied; factors are raised to a power.
         """
         return FreeLaw(
             curves=tuple(curve.times(strength) for curve in self.curves),
@@ -190,11 +190,11 @@ class FreeLaw:
         )
 
     def on_trial(self, trial: str) -> "FreeLaw":
-        """What one trial sees."""
+        """The parts of the law that apply to one trial."""
         return replace(self, curves=tuple(c for c in self.curves if c.trial in ("", trial)))
 
     def without_sensors(self) -> "FreeLaw":
-        """What the needle feels."""
+        """The parts of the law that act on the needle, without those of the sensors."""
         return replace(self, curves=tuple(c for c in self.curves if c.acts_on not in _SENSORS))
 
     def needle(self, needle: Needle) -> Needle:
@@ -208,7 +208,7 @@ class FreeLaw:
     def tissue(self, tissue: Tissue) -> Tissue:
         """The tissue with the law in it.
 
-        Where damping changes along the depth, the layers are those of the first.
+        If damping changes along the depth, the new layers have the laws of the first layer.
         """
         layers = tissue.layers
         if self.damping_along_depth or self.stiffness_along_depth:
@@ -234,10 +234,10 @@ class FreeLaw:
         return (*(Layer(interface=own, fraction=share) for own in laws[:-1]), Layer(interface=laws[-1]))
 
     def driven(self, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Schedule:
-        """What is done to the needle, and how its tissue varies.
+        """The inputs of the needle, with the variation of its tissue.
 
         Args:
-          torque_n_mm: as measured, without its noise; what the chuck carries is not known before.
+          torque_n_mm: measured torque without its noise, since that of the simulation is not yet known.
         """
         factor, drive = np.ones(inputs.time_s.size), inputs.drive
         for curve in self.curves:
@@ -259,7 +259,7 @@ class FreeLaw:
     def sensed(
         self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array
     ) -> tuple[Array, Array]:
-        """What tip and torque read beside themselves, (N,) each."""
+        """Terms to add to the readings of tip and torque, (N,) each."""
         read = {True: np.zeros(tip_deg.size), False: np.zeros(torque_n_mm.size)}
         for curve in self.curves:
             if curve.acts_on in _SENSORS:
@@ -278,6 +278,6 @@ class FreeLaw:
 
 
 def _stronger(law: Interface, strength: float) -> Interface:
-    """A further law, its torques multiplied."""
+    """An additional law with its torques multiplied."""
     stronger: Interface = law.but(**{name: strength * getattr(law, name) for name in _TORQUES})
     return stronger

@@ -1,4 +1,4 @@
-"""Numerical error of a replay: what half the step and twice the elements change, in sigma."""
+"""Numerical error of a replay: the change by half the step and twice the elements, in sigma."""
 
 from collections.abc import Mapping, Sequence
 
@@ -24,16 +24,16 @@ def refinement_change(
     predictions: Sequence[Prediction],
     resolution: Resolution,
 ) -> list[dict[str, Array]]:
-    """What half the step and twice the elements change, / sigma and whitened, by trial and sensor.
+    """Change by half the step and twice the elements, / sigma and whitened, by trial and sensor.
 
     The method is of second order in the step and of higher order in the elements: the
-    error that is left is about a third of the change.
+    remaining error is about a third of the change.
 
     Args:
-      predictions: of the rig at the resolution, by trial.
+      predictions: predictions of the rig at this resolution, by trial.
 
     Raises:
-      SimulationFailed: the rig cannot be simulated so finely.
+      SimulationFailed: the rig cannot be simulated with the finer resolution.
     """
 
     def change(trial: PreparedTrial, here: Prediction) -> dict[str, Array]:
@@ -53,7 +53,7 @@ def numerical_error(changes: Sequence[Mapping[str, Array]]) -> dict[str, float]:
 
 
 def numerical_warnings(error: Mapping[str, float]) -> tuple[str, ...]:
-    """A warning for every sensor that the replay is too coarse for."""
+    """A warning for every sensor for which the replay is too coarse."""
     return tuple(
         f"{sensor}: the numerical error of the replay is {value:.2f} sigma; gaps below "
         f"{np.hypot(1.0, value):.2f} sigma mean little here"

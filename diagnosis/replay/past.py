@@ -1,15 +1,15 @@
-"""What the base did before a recording began that began late.
+"""The motion of the base before a recording that began late.
 
-A trial that begins twisted or moving has a past that the log does not show. What that left is the
-state of the needle, and two numbers tell enough of it, once the fast modes have faded. From rest, in
-smooth ramps, the base
+A trial that begins twisted or moving has a past that the log does not show. It determines the
+initial state of the needle, which two numbers describe well enough once the fast modes have decayed.
+From rest, in smooth ramps, the base
 
-    turns by `wound`, rests, and turns by `twist + turned` into the first angle of the log,
+    turns by `wound`, rests, and turns by `twist + turned` to the first angle of the log,
 
-where it arrives at the first rate. The twist is that of the first readings; the others are fitted.
-The same needle goes through this as through the trial, so that what is left of it follows the law
-of whatever rig is replayed: in viscous tissue it fades, elastic tissue creeps back, and dry friction
-keeps it until a motion tears it away.
+where it arrives with the first rate. The twist is from the first readings; the others are fitted.
+The past is simulated with the same needle as the trial, so its effect follows the laws of the
+replayed rig: in viscous tissue it decays, elastic tissue creeps back, and dry friction
+holds it until a motion releases it.
 """
 
 import numpy as np
@@ -27,7 +27,7 @@ _COLUMNS = ("free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm")
 
 
 def schedule_with_past(rig: RigParameters, trial: PreparedTrial) -> Schedule:
-    """The inputs of a trial; before those of a late one the base turns, at its first depth and speed."""
+    """The inputs of a trial; a late trial is preceded by its past, at the first depth and speed."""
     start, logged = trial.late_start, trial.schedule
     if start is None:
         return logged

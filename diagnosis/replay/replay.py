@@ -1,8 +1,8 @@
-"""Replaying trials: what the sensors of rigs with given parameters would have read.
+"""Replays trials: predicts the readings of rigs with given parameters.
 
 The simulated needle is driven by the motion of the base, the depth, the free length and the axial
-speed of each trial. One batch of MuJoCo needles per trial: all rigs side by side. Rigs that differ in
-their sensors alone share a needle.
+speed of each trial. All rigs of a trial are one batch of MuJoCo needles; rigs that differ only in
+their sensors share a needle.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Prediction:
-    """Readings of one rig on one trial: by sensor, at the samples, (N,)."""
+    """Predicted readings of one rig in one trial: by sensor, at the samples, (N,)."""
 
     tip_angle_deg: Array
     base_torque_n_mm: Array
@@ -41,7 +41,7 @@ class Prediction:
         return Prediction(**{sensor: self[sensor][kept] for sensor in SENSORS})
 
     def at(self, wanted_s: Array, time_s: Array) -> "Prediction":
-        """The prediction at other times, given those of its samples."""
+        """The prediction at other times, given the times of its samples."""
         return Prediction(**{s: np.interp(wanted_s, time_s, self[s]) for s in SENSORS})
 
 
@@ -67,7 +67,7 @@ def predict(
     """Predictions of one trial by several rigs, in their order.
 
     Args:
-      callback_alone: without MuJoCo's steps, for differences between predictions.
+      callback_alone: without MuJoCo's steps, for finite differences.
 
     Raises:
       SimulationFailed: one of them cannot be simulated.
@@ -84,7 +84,7 @@ def predict(
 def shape_of(
     nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
 ) -> Run:
-    """The simulated run of one trial, on its own steps, with the shape of the shaft."""
+    """The simulated run of one trial, at its own time steps, with the shape of the shaft."""
     run = _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
     return run.since(float(trial.time_s[0]))
 

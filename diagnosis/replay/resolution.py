@@ -1,4 +1,4 @@
-"""How finely a replay cuts needle and time."""
+"""The resolution of a replay in space and time."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ class Resolution:
     step_s: float
 
     def step_of(self, trial: PreparedTrial) -> float:
-        """That of the trial's samples, or the longest if those are rarer."""
+        """Time step for a trial, s: its sampling interval, or the longest step if that is shorter."""
         return min(self.step_s, trial.sample_s)
 
 

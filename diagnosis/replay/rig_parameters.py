@@ -1,8 +1,8 @@
 """The parameters of a rig that effects change, and the MuJoCo needle that they make of a nominal rig.
 
 Every field is neutral by default: `RigParameters()` is the nominal rig. Units are in the names;
-scales, shares, ratios, exponents and coefficients have none. From the motor to the needle there are
-drive shaft with its encoder, torque sensor, bearing, chuck.
+scales, shares, ratios, exponents and coefficients have none. The order from motor to needle is: drive
+shaft with encoder, torque sensor, bearing, chuck.
 """
 
 from dataclasses import dataclass, replace
@@ -21,12 +21,12 @@ LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
 
 @dataclass(frozen=True, kw_only=True)
 class Past:
-    """What the base turned by before a trial began late.
+    """The turns of the base before a trial that began late.
 
     Attributes:
-      trial: its name.
-      wound_deg: before a rest.
-      turned_deg: into the first sample, beyond the twist that its readings show.
+      trial: name of the trial.
+      wound_deg: turn before a rest.
+      turned_deg: turn up to the first sample, in addition to the twist that its readings show.
     """
 
     trial: str
@@ -36,23 +36,23 @@ class Past:
 
 @dataclass(frozen=True, kw_only=True)
 class RigParameters:
-    """What may differ from the nominal rig.
+    """Parameters that may differ from the nominal rig.
 
     Attributes:
-      static_excess_n_mm_per_mm: static over kinetic level of dry friction.
-      shared_n_mm_per_mm: dry friction that shares itself with the axial motion.
-      tissue_stiffness_n_mm_per_rad_per_mm: of Kelvin-Voigt tissue; 0: rigid.
-      layer_ratio: damping of the deep layer over that of the shallow one.
-      layer_boundary_fraction: of the inserted length.
-      base_stiffness_n_mm_per_rad: of a spring between drive shaft and needle; 0: rigid.
+      static_excess_n_mm_per_mm: static minus kinetic level of dry friction.
+      shared_n_mm_per_mm: dry friction that is shared between turning and axial motion.
+      tissue_stiffness_n_mm_per_rad_per_mm: stiffness of Kelvin-Voigt tissue; 0: rigid.
+      layer_ratio: damping of the deep layer / that of the shallow one.
+      layer_boundary_fraction: depth of the boundary / inserted length.
+      base_stiffness_n_mm_per_rad: stiffness of a spring between drive shaft and needle; 0: rigid.
       drive_friction_n_mm: dry friction of the bearing, which the torque sensor reads.
-      base_scale: what the encoder reads over what the drive shaft turns.
-      inserted_offset_mm: true inserted length less the logged one.
+      base_scale: reading of the encoder / true angle of the drive shaft.
+      inserted_offset_mm: true inserted length minus the logged one.
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
-      pasts: of trials that began late.
-      free: a law of free form; None: none.
+      pasts: turns of the base before trials that began late.
+      free: a free-form law; None: none.
     """
 
     stiffness_scale: float = 1.0
@@ -93,7 +93,7 @@ class RigParameters:
     free: FreeLaw | None = None
 
     def needle(self, rig: NominalRig, length_mm: float) -> Needle:
-        """The needle, of the length that a trial needs."""
+        """The needle, with the length that a trial needs."""
         nominal = dict(rig.needle)
         nominal["shear_modulus_gpa"] *= self.stiffness_scale
         needle = Needle(
@@ -108,7 +108,7 @@ class RigParameters:
         return self.free.needle(needle) if self.free else needle
 
     def tissue(self, rig: NominalRig) -> Tissue:
-        """The tissue; two layers keep the total damping nominal."""
+        """The tissue; with two layers, the total damping is the nominal one."""
         damping = rig.tissue.damping_n_mm_s_per_mm * self.damping_scale
         if self.layer_ratio == 1.0:
             layers: tuple[Layer, ...] = (Layer(interface=self._interface(damping)),)
@@ -136,7 +136,7 @@ class RigParameters:
         )
 
     def drive(self, rig: NominalRig) -> Drive:
-        """Chuck and sheath."""
+        """The drive, with chuck and sheath."""
         return Drive(
             rotor_inertia_kg_m2=rig.inertia.base_kg_m2,
             stiffness_n_mm_per_rad=self.base_stiffness_n_mm_per_rad or None,
@@ -145,7 +145,7 @@ class RigParameters:
         )
 
     def without_sensors(self) -> "RigParameters":
-        """The rig whose sensors show what the needle does."""
+        """The same rig with ideal sensors."""
         return replace(
             self,
             tip_bias_deg=0.0,
@@ -162,16 +162,16 @@ class RigParameters:
         )
 
     def past_of(self, trial: str) -> Past:
-        """What came before a trial that began late."""
+        """The past of a trial that began late."""
         return next((past for past in self.pasts if past.trial == trial), Past(trial=trial))
 
     def on_trial(self, trial: str) -> "RigParameters":
-        """The rig that one trial sees: without the pasts of others."""
+        """The rig for one trial, without the pasts of others."""
         own = tuple(past for past in self.pasts if past.trial == trial)
         return replace(self, pasts=own, free=self.free.on_trial(trial) if self.free else None)
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
-        """The MuJoCo needle that goes through a schedule, which is what the rig was `driven` by."""
+        """The MuJoCo needle for a schedule, as returned by `driven`."""
         shaft = max(schedule.longest_mm, 1.0)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]

@@ -1,11 +1,11 @@
-"""What sensors and constants of a rig make of what it does.
+"""The sensors of a rig: from readings to inputs, and from outputs to readings.
 
-What goes in: the encoder of the drive shaft and the logged depth say what is done to the needle:
+Inputs of the needle follow from the encoder of the drive shaft and the logged depth:
 
     drive shaft = reading / base_scale,    inserted length = logged + inserted_offset
 
-What comes out: the sensors of tip and torque say what it does, a delay ago, by clocks of their own; that
-of the torque may have a low pass of first order:
+The sensors of tip and torque show its outputs, with a delay and with separate clocks; that
+of the torque may have a first-order low pass:
 
     reading = bias + scale * (tip angle),    reading = bias + scale * (torque at chuck + of bearing)
 """
@@ -27,11 +27,11 @@ Array = NDArray[np.float64]
 def driven(
     rig: RigParameters, logged: Schedule, start_s: float = 0.0, torque_n_mm: Array | None = None
 ) -> Schedule:
-    """What is done to the needle; a tip outside of the tissue has the depth 0.
+    """The inputs of the needle; a tip outside of the tissue has the depth 0.
 
     Args:
-      start_s: of the trial.
-      torque_n_mm: measured, without its noise, at the times of the schedule; None: not at all.
+      start_s: start of the trial.
+      torque_n_mm: measured torque without its noise, at the times of the schedule; None: not measured.
 
     Raises:
       SimulationFailed: the needle never reaches the tissue.
@@ -57,12 +57,12 @@ def sensed(
     torque_n_mm: Array,
     start_s: float = 0.0,
 ) -> tuple[Array, Array]:
-    """What the sensors show of tip and torque, (N,) each.
+    """Readings of tip and torque, (N,) each.
 
     Args:
-      inputs: of the needle.
-      torque_n_mm: that the needle takes at the chuck.
-      start_s: of the trial.
+      inputs: inputs of the needle.
+      torque_n_mm: torque on the needle at the chuck.
+      start_s: start of the trial.
     """
     time_s, torque = inputs.time_s, torque_n_mm
     if rig.drive_friction_n_mm != 0.0:
@@ -79,7 +79,7 @@ def sensed(
 
 
 def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:
-    """What was, a delay ago, by a clock that runs off; before the first sample, that sample."""
+    """Values a delay ago, by a clock that drifts; before the first sample, that sample."""
     if clock_ratio == 1.0 and delay_s == 0.0:
         return values
     start_s = time_s[0]
@@ -87,7 +87,7 @@ def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> A
 
 
 def _low_passed(time_s: Array, values: Array, time_constant_s: float) -> Array:
-    """A low pass of first order, exact for values that run straight between even times."""
+    """A first-order low pass, exact for values that are linear between even times."""
     if time_constant_s <= 0.0 or values.size < 2:
         return values
     step = (time_s[1] - time_s[0]) / time_constant_s

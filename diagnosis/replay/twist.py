@@ -1,4 +1,4 @@
-"""How far each place of the shaft has turned at one moment of a trial."""
+"""The angle along the shaft at one time of a trial."""
 
 from dataclasses import dataclass
 
@@ -18,12 +18,12 @@ _ABOUT_S = 0.05
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ShaftTwist:
-    """Angles along the shaft at one moment, by several rigs.
+    """Angles along the shaft at one time, by several rigs.
 
     Attributes:
-      trial: its name, and `at_s` the time in it.
-      free_mm, inserted_mm: length of the shaft before and in the tissue at that moment.
-      measured_tip_deg: what the tip sensor read, averaged about that moment; None: nothing.
+      trial: name of the trial; `at_s`: time in it.
+      free_mm, inserted_mm: length of the shaft before and in the tissue at that time.
+      measured_tip_deg: reading of the tip sensor, averaged about that time; None: none.
       along: by rig, distance from the chuck in mm and angle in deg, (2, n + 1).
     """
 
@@ -41,7 +41,7 @@ def shaft_twist(
     at_s: float,
     rigs: dict[str, RigParameters],
 ) -> ShaftTwist:
-    """Simulate one trial with several rigs, as finely as usual; the shape of the shaft at one moment.
+    """Simulate one trial with several rigs at the usual resolution; returns the shape of the shaft.
 
     Raises:
       SimulationFailed: one of the rigs cannot be simulated.

@@ -1,4 +1,4 @@
-"""What a free law may depend on, from the inputs of a trial and what its needle does.
+"""The variables that a free law may depend on, from the inputs and outputs of a trial.
 
 time           since the trial began, s
 base_angle     of the drive shaft, deg
@@ -6,15 +6,15 @@ rate           at which the drive shaft turns, rad/s
 direction      in which it last turned: 1 forwards, -1 backwards, straight between over a short time
 axial_speed    of the needle into the tissue, mm/s
 depth          inserted length, mm
-history        angle that the drive shaft has turned by so far, to and fro, turns
+history        total angle that the drive shaft has turned so far, in both directions, turns
 rest           time since it last turned, s, as log(1 + time)
 tip_angle      deg
 tip_rate       rad/s
 tip_direction  in which the tip last turned, as direction
-torque         that the needle takes at the chuck, N mm
+torque         torque on the needle at the chuck, N mm
 torque_rate    N mm / s
-past           how long ago, s, of a reading that shows what was
-turned_by      since it turned back, of a reading with hysteresis, in its own unit
+past           age of the value, s, for a reading that shows past values
+turned_by      turn since the last reversal, for a reading with hysteresis, in its own unit
 """
 
 from collections.abc import Callable
@@ -34,7 +34,7 @@ _RATE_S = 0.05  # over which rates are taken
 
 
 class Variable(StrEnum):
-    """What a free law is a curve of."""
+    """A variable of a free law."""
 
     TIME = "time"
     BASE_ANGLE = "base_angle"
@@ -84,13 +84,13 @@ def of_inputs(variable: Variable, inputs: Schedule, start_s: float) -> Array:
     """Values at the times of the inputs, (N,).
 
     Args:
-      start_s: of the trial; inputs before it are of its past.
+      start_s: start of the trial; earlier inputs are its past.
     """
     return _OF_INPUTS[variable](inputs, start_s)
 
 
 def of_needle(variable: Variable, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> Array:
-    """Values of what is known once the needle was simulated, (N,)."""
+    """Values of a variable that is known once the needle has been simulated, (N,)."""
     match variable:
         case Variable.TIP_ANGLE:
             return tip_deg
@@ -121,7 +121,7 @@ def _direction(inputs: Schedule, _: float) -> Array:
 
 
 def _last_direction(rate: Array, time_s: Array) -> Array:
-    """Held at rest; before the first turn as in it."""
+    """The direction, kept at rest; before the first turn, that of the first turn."""
     turning = np.flatnonzero(np.abs(rate) > STILL_DEG_S)
     if turning.size == 0:
         return np.zeros(rate.size)
@@ -130,7 +130,7 @@ def _last_direction(rate: Array, time_s: Array) -> Array:
 
 
 def _rest(inputs: Schedule, start_s: float) -> Array:
-    """A trial begins rested for as long as it has not turned."""
+    """Time at rest; before the first turn, as if the trial had begun with the rest."""
     turns = np.abs(_base_rate_deg_s(inputs)) > STILL_DEG_S
     last_s = np.maximum.accumulate(np.where(turns, inputs.time_s, min(start_s, inputs.time_s[0])))
     return np.log1p(inputs.time_s - last_s)

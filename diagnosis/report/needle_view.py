@@ -14,7 +14,7 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from diagnosis.log.trial import Trial
-from sim.recording.rerun_log import time_column
+from sim.recording.rerun_series import time_column
 
 Array = NDArray[np.float64]
 

@@ -18,7 +18,8 @@ from diagnosis.replay.replay import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
 from diagnosis.result import Diagnosis
 from sim.recording.rerun_file import recorded
-from sim.recording.rerun_log import APPLICATION, log_series
+from sim.recording.rerun_layout import APPLICATION
+from sim.recording.rerun_series import log_series
 
 Array = NDArray[np.float64]
 

@@ -46,6 +46,12 @@ def _verdict(found: Diagnosis) -> str:
         case _:
             near = found.assessment.nearest
             best = f"at best {near.gap_after:.2f} σ" if near.effects else "which none of them lowers"
+            if found.verdict.other_form:
+                return (
+                    f"Unknown: residual {before}. {_capital(titles(near.effects))} would leave "
+                    f"{near.gap_after:.2f} σ (σ = sensor noise), but {found.verdict.other_form} leaves "
+                    "clearly less"
+                )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
                 f"residual {before}, {best} (σ = sensor noise)"

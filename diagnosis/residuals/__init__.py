@@ -1,1 +1,1 @@
-"""What is left of readings when predictions are taken off: by part, in frequency and along time."""
+"""Residuals, measured minus predicted: by part, over frequency and over time."""

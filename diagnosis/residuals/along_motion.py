@@ -1,7 +1,7 @@
 """Residuals along the motion of the base: against its angle, its rate, and the time since it reversed.
 
-What is missing shows its law there: dry friction steps with the sign of the rate, damping grows with
-it, play and dry friction stand in the seconds after a reversal, a bent shaft in the angle.
+This shows the law of a missing effect: dry friction changes with the sign of the rate, damping grows
+with it, play and dry friction appear in the seconds after a reversal, a bent shaft over the angle.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,11 +24,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Coordinate:
-    """What a residual is looked at against.
+    """A coordinate of the motion, over which residuals are averaged.
 
     Attributes:
-      of: its value at the samples of a trial, (N,).
-      edges: of its parts, from its values in all trials.
+      of: returns its values at the samples of a trial, (N,).
+      edges: returns the edges of its parts, from its values in all trials.
     """
 
     of: Callable[[Trial], Array]
@@ -58,8 +58,8 @@ def part_means(
     """Mean place and mean value in each part of a coordinate; parts of a few samples are left out.
 
     Args:
-      places, values: by trial, (N,) each; what is not finite is left out.
-      edges: of the parts, ascending.
+      places, values: by trial, (N,) each; values that are not finite are left out.
+      edges: edges of the parts, ascending.
     """
     place, value = np.concatenate(places), np.concatenate(values)
     fine = np.isfinite(place) & np.isfinite(value)

@@ -1,13 +1,13 @@
-"""Autocorrelation of a residual: how long it remembers itself.
+"""Autocorrelation of a residual.
 
 With values r at even steps, over the pairs that were both read,
 
     rho(k) = mean(r[i] r[i + k]) / mean(r[i]^2),    T = step (1 + 2 sum_k rho(k)).
 
 White noise has |rho| < 1.96 / sqrt(N), of N pairs, at 95 of 100 lags and T of one step; duration / T
-is the number of independent samples. The mean is not taken off: a residual is expected to have none.
-The sum ends at the first lag beyond five T (Sokal 1996), since later lags add noise alone; a residual
-that remembers itself for too long to say so has no T.
+is the number of independent samples. The mean is not subtracted: a residual should have none.
+The sum ends at the first lag beyond five T (Sokal 1996), since later lags only add noise; if the
+correlation is too long for the length of the trials, there is no T.
 """
 
 from collections.abc import Sequence
@@ -28,13 +28,13 @@ _SHOWN = 40  # lags, evenly in their logarithm
 
 @dataclass(frozen=True, kw_only=True)
 class Autocorrelation:
-    """How long a residual remembers itself.
+    """The autocorrelation of a residual.
 
     Attributes:
-      lag_one_correlation: from one sample to the next.
-      integral_s: T; None: longer than these trials can tell.
-      white_limit: within which white noise stays at 95 of 100 lags; of the lag with the fewest pairs.
-      by_lag_s: some lags, and rho there.
+      lag_one_correlation: rho from one sample to the next.
+      integral_s: T; None: too long for these trials.
+      white_limit: limit of |rho| for white noise at 95 of 100 lags; for the lag with the fewest pairs.
+      by_lag_s: some lags, and rho at these.
     """
 
     lag_one_correlation: float
@@ -44,10 +44,10 @@ class Autocorrelation:
 
 
 def autocorrelation(parts: Sequence[Array], step_s: float) -> Autocorrelation | None:
-    """Of a residual at even steps, one array for each trial; NaN where nothing was read.
+    """Autocorrelation of a residual at even steps, one array per trial; NaN where nothing was read.
 
     Returns:
-      None for trials of fewer than eight samples, or without a residual.
+      None if the trials have fewer than eight samples, or no residual.
     """
     most = min(round(LONGEST_LAG_S / step_s), max(part.size for part in parts) // _SHARE)
     products, pairs = _products(parts, most)
@@ -64,7 +64,7 @@ def autocorrelation(parts: Sequence[Array], step_s: float) -> Autocorrelation | 
 
 
 def _products(parts: Sequence[Array], most: int) -> tuple[Array, Array]:
-    """Sums of r[i] r[i + k], and how many pairs they are of, by lag k from 0 to `most`."""
+    """Sums of r[i] r[i + k], and their numbers of pairs, for lags k from 0 to `most`."""
     products, pairs = np.zeros(most + 1), np.zeros(most + 1)
     for part in parts:
         read = np.isfinite(part)

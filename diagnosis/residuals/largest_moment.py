@@ -1,4 +1,4 @@
-"""The moment of a log at which its residual is largest, as short as noise allows."""
+"""The time of a log at which its residual is largest."""
 
 from collections.abc import Sequence
 
@@ -13,9 +13,9 @@ _WINDOW_S = 0.25
 
 
 def largest_moment(residuals: Sequence[TrialResidual]) -> tuple[str, float]:
-    """Trial and time, s, about which a quarter of a second leaves most, of both sensors' means.
+    """Trial and time, s, at which means of both sensors over a quarter of a second are largest.
 
-    Noise averages out within the window, so that a lone outlier is no moment.
+    Noise averages out within the window, and a single outlier does not count.
     """
     found = [(*_largest(residual), residual.trial.name) for residual in residuals]
     _, at_s, name = max(found, key=lambda one: one[0])
@@ -33,7 +33,7 @@ def _largest(residual: TrialResidual) -> tuple[float, float]:
 
 
 def _running_mean(values: Array, width: int) -> Array:
-    """Mean of what was read in the window about each sample, (N,); 0 where nothing was."""
+    """Mean of the readings in a window around each sample, (N,); 0 where there are none."""
     read, window = np.isfinite(values), np.ones(width)
     count = np.convolve(read, window, mode="same")
     return np.asarray(

@@ -1,9 +1,9 @@
 """Which of two residuals leads the other, and by how long.
 
-Their cross-correlation over lags of up to two seconds peaks where one is a late copy of the other.
-Three things make the peak a lead: it is higher than chance lets two residuals with these
-autocorrelations be (Bartlett: the variance is sum_k rho_1(k) rho_2(k) / N); its 95 % interval, from
-resampled blocks of two seconds, leaves out zero; and it is not at the longest lag.
+Their cross-correlation over lags of up to two seconds has a peak if one is a late copy of the other.
+Three conditions make the peak a lead: it is higher than chance allows for residuals with these
+autocorrelations (Bartlett: the variance is sum_k rho_1(k) rho_2(k) / N); the 95 % interval of its lag,
+from resampled blocks of two seconds, excludes zero; and it is not at the longest lag.
 """
 
 from collections.abc import Sequence
@@ -27,11 +27,11 @@ class Lead:
     """Which residual leads.
 
     Attributes:
-      signal: that leads; empty: that cannot be said.
-      by_s: time by which it leads, or by which the first leads the second where that is not certain.
+      signal: the signal that leads; empty: uncertain.
+      by_s: time by which it leads; if uncertain, that by which the first leads the second.
       low_s, high_s: its 95 % interval.
-      correlation: at the peak; negative where one has the opposite sign.
-      chance_limit: its size that chance alone does not reach.
+      correlation: correlation at the peak; negative if the signs are opposite.
+      chance_limit: size of the correlation that chance alone does not reach.
     """
 
     signal: str
@@ -50,7 +50,7 @@ def lead(signals: tuple[str, str], parts: Sequence[tuple[Array, Array]], step_s:
       parts: both at even steps, for each trial that has both; NaN where nothing was read.
 
     Returns:
-      None where there is less than four blocks of both.
+      None if there are fewer than four blocks of both.
     """
     most = round(LONGEST_LEAD_S / step_s)
     blocks = _blocks(parts, max(1, round(_BLOCK_S / step_s)), most)
@@ -77,7 +77,7 @@ def lead(signals: tuple[str, str], parts: Sequence[tuple[Array, Array]], step_s:
 
 
 def _blocks(parts: Sequence[tuple[Array, Array]], size: int, most: int) -> list[tuple[Array, Array]]:
-    """Of every block of the first: sums of products with the second at lags -most..most, and pairs."""
+    """For each block of the first: sums of products with the second at lags -most..most, and pairs."""
     found = []
     for first, second in parts:
         (x, x_read), (y, y_read) = _centred(first), _centred(second)
@@ -90,7 +90,7 @@ def _blocks(parts: Sequence[tuple[Array, Array]], size: int, most: int) -> list[
 
 
 def _centred(values: Array) -> tuple[Array, Array]:
-    """A residual less its mean, 0 where nothing was read; and 1 where something was."""
+    """A residual minus its mean, 0 where nothing was read; and a mask of the readings."""
     read = np.isfinite(values)
     mean = values[read].mean() if read.any() else 0.0
     return np.where(read, values - mean, 0.0), read.astype(float)
@@ -126,7 +126,7 @@ def _resampled_peaks(products: Array, pairs: Array) -> Array:
 
 
 def _chance(parts: Sequence[tuple[Array, Array]], most: int) -> float:
-    """Standard deviation of the correlation of two unrelated residuals with these memories."""
+    """Standard deviation of the correlation of two independent residuals with these autocorrelations."""
     memories = [_memory(own, most) for own in zip(*parts, strict=True)]
     samples = min(
         sum(int(np.isfinite(values).sum()) for values in own) for own in zip(*parts, strict=True)

@@ -34,7 +34,7 @@ def phases(trial: Trial) -> dict[str, Mask]:
 
 
 def direction(trial: Trial) -> Array:
-    """+1 or -1, the way the base turns or turned last, (N,); 0 before it first turns."""
+    """+1 or -1, the direction in which the base turns or last turned, (N,); 0 before its first turn."""
     rate = _rate(trial)
     turning = np.abs(rate) > TURNING_DEG_S
     last = np.maximum.accumulate(np.where(turning, np.arange(rate.size), -1))
@@ -42,7 +42,7 @@ def direction(trial: Trial) -> Array:
 
 
 def since_reversal(trial: Trial) -> Array:
-    """Time since the base began to turn the other way, s, (N,); infinite before it first does."""
+    """Time since the last reversal of the base, s, (N,); infinite before the first one."""
     time, way = trial["time_s"], direction(trial)
     turned = np.flatnonzero(np.diff(way) * way[:-1]) + 1
     began = np.concatenate([[-np.inf], time[turned]])

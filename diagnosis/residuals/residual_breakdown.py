@@ -81,7 +81,7 @@ def residual_breakdown(residuals: Sequence[TrialResidual]) -> ResidualBreakdown:
 
 
 def _stretches(time: Array, left: Array) -> list[tuple[float, Array]]:
-    """Residuals of every 5 s, with the time at which these begin."""
+    """Residuals in intervals of 5 s, with their starting times."""
     begins = np.floor(time / STRETCH_S) * STRETCH_S
     return [(float(begin), left[begins == begin]) for begin in np.unique(begins)]
 
@@ -91,7 +91,7 @@ def _rms(parts: list[Array]) -> float:
 
 
 def _bands(time: Array, left: Array) -> dict[tuple[float, float], float]:
-    """Power in each band over that of white noise of one unit."""
+    """Power in each band / that of white noise of one unit."""
     step = float(np.median(np.diff(time)))
     power = np.abs(np.fft.rfft(left)) ** 2 / left.size
     frequency = np.fft.rfftfreq(left.size, step)

@@ -1,4 +1,4 @@
-"""The shape of a residual: along the motion, its memory, its spectrum, and which signal leads."""
+"""The shape of a residual: along the motion, its autocorrelation, its spectrum, which signal leads."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class ResidualShape:
       since_reversal_s: mean time since the base last began to turn the other way, and the residual.
       rate_deg_s: mean rate of the base, with its sign, and the residual.
       autocorrelation, spectrum: by sensor.
-      leads: which sensor's residual does; None without both sensors.
+      leads: which sensor's residual leads; None without both sensors.
     """
 
     base_angle_deg: list[tuple[float, float]]

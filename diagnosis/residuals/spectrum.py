@@ -23,7 +23,7 @@ class Spectrum:
     """Power of a residual over frequency.
 
     Attributes:
-      white_per_hz: of white noise of one sigma, sigma^2 / Hz.
+      white_per_hz: density of white noise of one sigma, sigma^2 / Hz.
       power_per_hz: middle of a third of an octave in Hz, and the density there in sigma^2 / Hz.
     """
 
@@ -32,10 +32,10 @@ class Spectrum:
 
 
 def spectrum(parts: Sequence[Array], step_s: float) -> Spectrum | None:
-    """Of a residual at even steps, one array for each trial; NaN where nothing was read.
+    """Spectrum of a residual at even steps, one array per trial; NaN where nothing was read.
 
     Returns:
-      None for trials of a few samples.
+      None if the trials have only a few samples.
     """
     longest = max(part.size for part in parts)
     size = min(max(round(_SEGMENT_S / step_s), _SEGMENT_SAMPLES), longest)

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TrialResidual:
-    """What predictions leave of a trial.
+    """Residuals of one trial.
 
     Attributes:
       left: residual / sigma by sensor that the trial has, (N,); NaN where nothing was read.
@@ -65,7 +65,7 @@ def sample_s(residuals: Sequence[TrialResidual]) -> float:
 def on_even_steps(residual: TrialResidual, sensor: str, step_s: float) -> Array:
     """A residual at even steps, (M,): each sample at the nearest; NaN where none was read.
 
-    Pauses are cut to the longest lag that is looked at, so that nothing is compared across them.
+    Pauses are shortened to the longest lag in use, so that nothing is compared across them.
     """
     steps = np.minimum(np.diff(residual.trial["time_s"], prepend=np.nan), LONGEST_LAG_S)
     place = np.rint(np.nancumsum(steps) / step_s).astype(int)

@@ -41,6 +41,8 @@ class Verdict:
       rivals: candidates that explain the log as well as the best.
       ranking: explanations with probabilities that add up to 1, most probable first: every effect of
         the library alone, sets of several that were fitted, `NOTHING` and `UNEXPLAINED`.
+      other_form: free-form law that leaves clearly less than the best, in plain words; empty: none is
+        known.
     """
 
     kind: VerdictKind
@@ -49,6 +51,7 @@ class Verdict:
     best: Candidate
     rivals: tuple[Candidate, ...] = ()
     ranking: tuple[tuple[tuple[str, ...], float], ...]
+    other_form: str = ""
 
     @property
     def settled(self) -> bool:
@@ -101,6 +104,22 @@ def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
         sets.setdefault(frozenset(names), names)
     confusable = tuple(sets.values())
     return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
+
+
+def refuted(verdict: Verdict, form: str) -> Verdict:
+    """The verdict where a law that no library holds leaves clearly less than the explanation.
+
+    Args:
+      form: of that law, in plain words.
+    """
+    return Verdict(
+        kind=VerdictKind.UNKNOWN,
+        effects=(),
+        confusable=(),
+        best=verdict.best,
+        ranking=_ranking((), known=False),
+        other_form=form,
+    )
 
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:

@@ -1,9 +1,9 @@
-"""Where the installed command `needle` begins, under a name of its own: `needle_torsion_console`.
+"""The entry point of the installed command `needle`, in a package with a unique name.
 
-Our packages have names that others use too. A folder `models/` or `scripts/` on PYTHONPATH (an empty
-entry there is the current folder), or one that another project left among the installed packages, would
-be found before ours. So ours are loaded here, from beside this package, before anything else asks for
-them. Worker processes that start anew (spawn, forkserver) import this module first, like the command.
+Other projects use the same package names as this one. A folder `models/` or `scripts/` on PYTHONPATH (an
+empty entry is the current folder), or one of another installed project, would be found first. So this
+module loads our packages from its own location before anything else imports them. New worker processes
+(spawn, forkserver) import this module first, like the command.
 """
 
 import sys

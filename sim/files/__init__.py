@@ -1,4 +1,4 @@
-"""Results as files: whole or not at all, one set at a time, and never over what is the user's."""
+"""Results as files: complete or not at all, one set at a time, never over the user's own files."""
 
 from sim.files.claim import claiming as claiming
 from sim.files.destination import Destination as Destination

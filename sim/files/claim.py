@@ -1,8 +1,8 @@
-"""A place that a run has chosen for its results before it has any, so that no other run chooses it too.
+"""A run claims the folder for its results before it has any, so that no other run chooses the same.
 
-While a run lasts it holds the lock of a file beside the place, `.needle-claim-NAME`, which it removes in
-the end. What a run that was killed leaves of it is nobody's. Where a file system knows no locks, every
-run goes on as if it were alone.
+While it runs it holds a lock on a file beside the folder, `.needle-claim-NAME`, and removes the file
+at the end. A file that is left by a killed run is not locked and claims nothing. On a file system
+without locks, every run proceeds as if it were alone.
 """
 
 import os
@@ -18,7 +18,7 @@ PREFIX = ".needle-claim-"
 
 @contextmanager
 def claiming(place: Path) -> Iterator[bool]:
-    """Whether a place is this run's while the block lasts; False: another one has it.
+    """Claim a path while the block lasts; False: another run has claimed it.
 
     Raises:
       UnwritableOutput: nothing can be written beside it.
@@ -41,7 +41,7 @@ def claiming(place: Path) -> Iterator[bool]:
 
 
 def _is_still_there(claim: Path, handle: int) -> bool:
-    """Whether the file was not removed by its former owner before its lock was taken here."""
+    """Whether the file still exists: its former owner may have removed it before we took the lock."""
     with suppress(FileNotFoundError):
         return os.path.samestat(claim.stat(), os.fstat(handle))
     return False

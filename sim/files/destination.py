@@ -1,6 +1,6 @@
-"""Where results may go: inside their folder, over results alone, never over or through the user's own.
+"""Where results may be written: inside their folder, over earlier results, never over the user's files.
 
-The one owner of this rule: every command asks here, before it works and again before files get their
+Only this module decides that: every command asks before it computes, and again before files get their
 names. `--force` replaces results; it replaces no input of the run, follows no link inside the folder,
 and touches nothing outside of it.
 """
@@ -20,9 +20,9 @@ class Destination:
     """A folder for results.
 
     Attributes:
-      folder: need not exist; may be a link to a folder, for the user names it.
-      inputs: files that the run reads, which stay as they are whatever their names.
-      force: whether results that exist are replaced.
+      folder: need not exist; may be a link to a folder, since the user named it.
+      inputs: files that the run reads; they are never replaced, whatever their names.
+      force: whether existing results are replaced.
     """
 
     folder: Path
@@ -30,12 +30,12 @@ class Destination:
     force: bool = False
 
     def check(self, paths: Sequence[Path]) -> None:
-        """Refuse, before any work is done, results that may not be written.
+        """Refuse results that may not be written; called before any work is done.
 
         Raises:
           OutputExists: a result exists, and `force` is not given.
-          UnsafeOutput: a path leaves the folder, goes through a link, is an input, or is there twice.
-          UnwritableOutput: the system would not let it be written.
+          UnsafeOutput: a path leaves the folder, goes through a link, is an input, or is listed twice.
+          UnwritableOutput: the system does not allow to write it.
         """
         with failures_of(self.folder):
             there = _nearest_folder(self.folder)
@@ -52,7 +52,7 @@ class Destination:
             raise UnsafeOutput(f"{path}: outside of {self.folder}, where results go; give a plain name")
 
     def _refuse_what_stands(self, path: Path) -> None:
-        """Look at each folder on the way, then at the path itself."""
+        """Check each folder on the way, then the path itself."""
         parts = path.relative_to(self.folder).parts
         for i in range(1, len(parts) + 1):
             place = self.folder.joinpath(*parts[:i])
@@ -89,7 +89,7 @@ class Destination:
 
 
 def _nearest_folder(folder: Path) -> Path:
-    """The folder, or the nearest one above it that exists; results can be written there."""
+    """The folder, or the nearest existing one above it; checked to be writable."""
     if "\0" in str(folder):
         raise UnwritableOutput(f"{str(folder)!r}: a path cannot hold the character NUL; leave it out")
     for place in (folder, *folder.parents):
@@ -111,14 +111,14 @@ def _refuse_unwritable(place: Path) -> None:
 
 
 def _refuse_long_names(path: Path, longest: int) -> None:
-    """The system says so only where all folders on the way exist."""
+    """Refuse names that are too long: the system reports them only if all folders on the way exist."""
     for part in path.parts:
         if len(os.fsencode(part)) > longest:
             raise UnwritableOutput(f"{path}: a name of more than {longest} bytes; give a shorter one")
 
 
 def _status(path: Path) -> os.stat_result | None:
-    """What is at a path, links not followed; None: nothing."""
+    """Status of a path, links not followed; None: nothing is there."""
     if "\0" in str(path):
         raise UnwritableOutput(f"{str(path)!r}: a path cannot hold the character NUL; leave it out")
     try:

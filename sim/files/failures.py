@@ -1,4 +1,4 @@
-"""What a system says when a file cannot be written, as a sentence that names the path and what to do."""
+"""Errors of the system on writing a file, as sentences that name the path and the way out."""
 
 import errno
 from collections.abc import Iterator
@@ -26,13 +26,13 @@ _ADVICE = {
 
 
 def is_of_the_place(error: BaseException) -> bool:
-    """Whether the disk or the path is at fault, and not what was to be written there."""
+    """Whether the disk or the path is at fault, and not the content."""
     return isinstance(error, OSError) and error.errno in _ADVICE
 
 
 @contextmanager
 def failures_of(folder: Path) -> Iterator[None]:
-    """What cannot be written inside is an `UnwritableOutput` that names the path, or the folder.
+    """Turn an OSError in the block into an `UnwritableOutput` that names the path, or the folder.
 
     Raises:
       UnwritableOutput: in place of an OSError.

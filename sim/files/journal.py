@@ -1,10 +1,10 @@
-"""The moment at which a set of results becomes the result, and what happens if a run dies around it.
+"""The commit of a set of results by a journal, and the recovery after a run that died.
 
 A run writes its files into a folder of its own, `.needle-part-XXXXXXXX`, inside the folder of the
-results. Once all of them are on the disk it writes a journal beside them: which files get their names,
-and which old ones go. From then on the new set is decided. A run that dies before leaves the old set as
-it was; what one that dies after has left to do, the next one does. Whoever is alive holds the lock of
-its folder, so that nobody else clears it away.
+results. Once all of them are on the disk, it writes a journal beside them: which files get their final
+names, and which old ones are removed. This commits the new set. If a run dies before, the old set is
+unchanged; if it dies after, the next run completes the journal. A live run holds the lock of
+its folder, so that no other run removes it.
 """
 
 import os
@@ -26,7 +26,7 @@ _OF_A_RUN = re.compile(re.escape(PREFIX) + r"\w{8}")
 
 
 class Journal(BaseModel):
-    """Paths below the folder of the results: files that get their names, and old ones that go."""
+    """Files to move into place and old ones to remove, relative to the folder of the results."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -35,12 +35,12 @@ class Journal(BaseModel):
 
 
 def is_of_a_run(name: str) -> bool:
-    """Whether a folder of this name is one that a run writes into."""
+    """Whether this is the name of a folder that a run writes into."""
     return bool(_OF_A_RUN.fullmatch(name))
 
 
 def on_disk(path: Path) -> None:
-    """Wait until a file, or what a folder lists, is on the disk.
+    """Flush a file, or the entries of a folder, to the disk.
 
     Raises:
       OSError: the disk is full or broken.
@@ -53,7 +53,7 @@ def on_disk(path: Path) -> None:
 
 
 def decide(part: Path, journal: Journal) -> None:
-    """From here on the results of a run are those of its journal."""
+    """Commit the results of a run by writing its journal."""
     draft = part / f"{_JOURNAL}.draft"
     draft.write_text(journal.model_dump_json(), encoding="utf-8")
     on_disk(draft)
@@ -62,10 +62,10 @@ def decide(part: Path, journal: Journal) -> None:
 
 
 def finish(part: Path) -> None:
-    """Do what is decided and not done yet, then remove the folder of the run; again does no harm.
+    """Complete a journal, then remove the folder of the run; may be called again after a failure.
 
     Raises:
-      UnsafeOutput: something stands there now that no result may replace.
+      UnsafeOutput: there is something now that no result may replace.
     """
     journal = decided(part)
     if journal:
@@ -75,7 +75,7 @@ def finish(part: Path) -> None:
 
 
 def decided(part: Path) -> Journal | None:
-    """What a run has decided; None if it has not yet."""
+    """The journal of a run; None if it has not committed yet."""
     try:
         return Journal.model_validate_json((part / _JOURNAL).read_text(encoding="utf-8"))
     except (FileNotFoundError, ValueError):
@@ -97,9 +97,9 @@ def _carry_out(journal: Journal, part: Path) -> None:
 
 
 def sweep(folder: Path) -> None:
-    """Finish what runs that died had decided, and clear away what they had only begun.
+    """Complete the journals of runs that died, and remove what runs left that died before the commit.
 
-    To be called by who holds the folder. Runs of other users are left alone.
+    The caller must hold the lock of the folder. Runs of other users are left alone.
     """
     for part in sorted(folder.glob(f"{PREFIX}*")):
         if is_of_a_run(part.name) and part.is_dir() and not part.is_symlink():
@@ -109,10 +109,10 @@ def sweep(folder: Path) -> None:
 
 
 def finish_interrupted(folder: Path) -> None:
-    """Before results of a folder are read: finish what a run that died had decided.
+    """Complete the journal of a run that died; to be called before results of a folder are read.
 
     Raises:
-      UnwritableOutput: it cannot be finished.
+      UnwritableOutput: the journal cannot be completed.
     """
     if folder.is_dir() and any(is_of_a_run(path.name) for path in folder.glob(f"{PREFIX}*")):
         with failures_of(folder), holding(folder):

@@ -1,6 +1,6 @@
-"""Who is at work in a folder: locks of the system, which end with the process that holds them.
+"""Locks on folders, by the operating system: they end with the process that holds them.
 
-Some file systems know no locks. There a run goes on as if it were alone, and clears nothing away.
+On a file system without locks, a run proceeds as if it were alone, and removes nothing of others.
 """
 
 import fcntl
@@ -12,16 +12,16 @@ from pathlib import Path
 
 from models.errors import UnwritableOutput
 
-_MOST_S = 60.0  # for which another run may hold a folder: it moves a few files meanwhile
+_MOST_S = 60.0  # longest wait for another run that holds a folder: it only moves a few files
 _LOOK_S = 0.02
 
 
 @contextmanager
 def holding(folder: Path) -> Iterator[None]:
-    """Alone in a folder among all runs, once the others that hold it are done.
+    """Hold the lock of a folder while the block lasts; wait up to a minute for other runs.
 
     Raises:
-      UnwritableOutput: another run holds it for a minute.
+      UnwritableOutput: another run has held it for a minute.
       OSError: there is no such folder.
     """
     handle = os.open(folder, os.O_RDONLY)
@@ -29,7 +29,9 @@ def holding(folder: Path) -> Iterator[None]:
         ends_s = time.monotonic() + _MOST_S
         while taken(handle) is False:
             if time.monotonic() > ends_s:
-                raise UnwritableOutput(f"{folder}: another run writes here and does not end; stop it")
+                raise UnwritableOutput(
+                    f"{folder}: another run has written here for {_MOST_S:g} s; wait for it, or stop it"
+                )
             time.sleep(_LOOK_S)
         yield
     finally:
@@ -38,7 +40,7 @@ def holding(folder: Path) -> Iterator[None]:
 
 @contextmanager
 def left_alone(folder: Path) -> Iterator[bool]:
-    """Whether nobody holds a folder any more, which is then held by this process."""
+    """Whether no other run holds a folder; if so, this one holds it while the block lasts."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         yield taken(handle) is True
@@ -47,7 +49,7 @@ def left_alone(folder: Path) -> Iterator[bool]:
 
 
 def taken(handle: int) -> bool | None:
-    """Whether the lock of an open file is ours now; None where there are no locks."""
+    """Try to lock an open file; returns whether that worked, None where there are no locks."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -1,4 +1,4 @@
-"""A set of results that becomes the result as one: all of it, or what was there before."""
+"""A set of results that is published as a whole: either all of it, or what was there before."""
 
 import os
 import shutil
@@ -15,38 +15,38 @@ from sim.files.locks import holding, left_alone
 
 
 class ResultSet:
-    """Where the files of one result are written before they get their names.
+    """The files of one result, written to a temporary folder before they get their final names.
 
     Attributes:
-      paths: of all results.
-      left_out: those that could not be made, with the reason; the others stand without them.
-      lacks: parts that could not be made of results that are there, with the reason.
+      paths: final paths of all results.
+      left_out: optional results that could not be made, with the reason.
+      lacks: results of which parts could not be made, with the reasons.
     """
 
     def __init__(self, folder: Path, paths: Sequence[Path], part: Path) -> None:
-        """The results of a folder, now in the folder of a run."""
+        """`folder`: of the results; `part`: temporary folder of the run."""
         self.paths, self.left_out = tuple(paths), dict[Path, str]()
         self.lacks = dict[Path, tuple[str, ...]]()
         self._folder, self._part = folder, part
 
     @property
     def made(self) -> list[Path]:
-        """Results that are there, or will be."""
+        """All results but those that were left out."""
         return [path for path in self.paths if path not in self.left_out]
 
     def at(self, path: Path) -> Path:
-        """Where to write now what will be `path`."""
+        """The temporary path of what will be `path`."""
         place = self._part / RESULTS / path.relative_to(self._folder)
         place.parent.mkdir(parents=True, exist_ok=True)
         return place
 
     def optional(self, path: Path, write: Callable[[Path], object]) -> None:
-        """Write what is for looking at, after all results that others are computed from.
+        """Write a result that is only for display, such as a picture; call it after all numbers.
 
-        Where it fails the results stand without it. A disk that is full is no such failure.
+        If `write` fails, the other results are published without it. A full disk is an error, however.
 
         Raises:
-          OSError: the disk is at fault, not the picture.
+          OSError: the disk is at fault, not the content.
         """
         draft = self.at(path)
         try:
@@ -58,7 +58,7 @@ class ResultSet:
             self.left_out[path] = f"{type(error).__name__}: {error}"
 
     def become(self, check: Callable[[], None]) -> None:
-        """Give the files their names; `check` is asked once no other run can interfere."""
+        """Give the files their names; `check` is called once no other run can interfere."""
         for path in self.made:
             _all_on_disk(self.at(path))
         with holding(self._folder):
@@ -77,7 +77,7 @@ class ResultSet:
 
 
 def _all_on_disk(path: Path) -> None:
-    """A file, or a folder with all that is in it, and the folders that list them."""
+    """Flush a file, or a folder with all its content, and the folders that contain them."""
     for folder, _, files in os.walk(path):
         for name in (*files, "."):
             on_disk(Path(folder, name))
@@ -88,15 +88,15 @@ def _all_on_disk(path: Path) -> None:
 
 @contextmanager
 def publishing(destination: Destination, paths: Sequence[Path]) -> Iterator[ResultSet]:
-    """A set of files that become the results when the block ends well; else nothing changes.
+    """A set of files that are published when the block ends without an error; else nothing changes.
 
     Args:
-      paths: all results, files or new folders, inside the destination's folder. Each is written in
-        the block, or is optional and fails.
+      paths: all results, files or new folders, inside the destination's folder. The block has to
+        write each of them, except optional ones that fail.
 
     Raises:
       OutputExists, UnsafeOutput: a result may not be written there.
-      UnwritableOutput: the disk is full, or something else that the system says.
+      UnwritableOutput: the disk is full, or the system reports another error.
     """
     destination.check(paths)
     folder = destination.folder
@@ -113,6 +113,6 @@ def publishing(destination: Destination, paths: Sequence[Path]) -> Iterator[Resu
 
 
 def _abandon(part: Path) -> None:
-    """Remove what came to no result; what is decided is for the next run to finish."""
+    """Remove the files of a failed run; after the commit, leave them to the next run."""
     if not decided(part):
         shutil.rmtree(part, ignore_errors=True)

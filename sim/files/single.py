@@ -1,4 +1,4 @@
-"""One file, whole or not at all."""
+"""One file, written completely or not at all."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,9 +11,9 @@ from sim.files.publish import publishing
 
 @contextmanager
 def writing(path: Path, *, force: bool = False) -> Iterator[Path]:
-    """A path to write to, whose content is that of `path` when the block ends well.
+    """A temporary path whose content becomes that of `path` when the block ends without an error.
 
-    Within a set that is being published it is the path itself: the set is whole or not at all.
+    Within a set that is being published it is `path` itself, since the set is published as a whole.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: it may not or cannot be written.
@@ -27,6 +27,6 @@ def writing(path: Path, *, force: bool = False) -> Iterator[Path]:
 
 
 def write_text(path: Path, text: str, *, force: bool = False) -> None:
-    """Write a text file whole."""
+    """Write a text file, completely or not at all."""
     with writing(path, force=force) as part:
         part.write_text(text, encoding="utf-8")

@@ -1,1 +1,1 @@
-"""The hardware around a simulated needle: delays, sensors and the drive's servo."""
+"""The hardware of a simulated closed loop: delays, sensors and the drive's servo."""

@@ -6,8 +6,8 @@ A delay of 2 samples, as values go in at one end and come out at the other:
     in          a  b  c  d  e  f
     out         a  a  a  b  c  d
 
-Until the first value has come through, it is what comes out; where something else was
-there before (a drive that has received no command yet stands at 0),
+Until the first value has passed, it is repeated; or another value comes out before it (a drive
+that has received no command yet is at 0):
 
     out         0  0  a  b  c  d        with first=0
 """
@@ -18,12 +18,12 @@ from models.errors import InvalidValue
 
 
 class DelayLine:
-    """Hands out each value some samples later; see the module.
+    """Returns each value some samples later; see the module.
 
     Args:
       delay_s: rounded to whole samples.
-      sample_s: from one sample to the next.
-      first: what comes out before the first value; None: the first value.
+      sample_s: sampling interval.
+      first: output before the first value has passed; None: the first value.
 
     Raises:
       InvalidValue: the delay is negative or not finite.
@@ -36,7 +36,7 @@ class DelayLine:
         self._held = deque([] if first is None else [first] * self.samples)
 
     def __call__(self, value: float) -> float:
-        """Put in the value of this sample, take out that of `samples` earlier."""
+        """Store the value of this sample; return that of `samples` earlier."""
         self._held.append(value)
         while len(self._held) <= self.samples:
             self._held.append(value)

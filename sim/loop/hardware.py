@@ -1,10 +1,9 @@
-"""The hardware of a closed loop: what lies between controller and needle.
+"""The hardware of a closed loop, between controller and needle.
 
     command --latency--> servo --> shaft --> needle
     shaft, torque, tip --noise, bias--> quantised --delay--> measurement
 
-The default is ideal: the shaft is where it was commanded to be, and sensors show
-what is.
+The default is ideal: the shaft is at the commanded angle, and sensors have neither noise nor delay.
 """
 
 from models.needle import NonNegative
@@ -30,9 +29,9 @@ class Sensors(Record):
 class LoopHardware(Record):
     """Drive and sensors of a loop.
 
-    Where the needle is driven by angle, the shaft moves as the servo's second-order
-    dynamics say; where it is driven by torque, a digital servo of the same natural
-    frequency turns the rotor (`sim.loop.servo_loop`).
+    If the needle is driven by angle, the shaft has the servo's second-order dynamics; if it is
+    driven by torque, a digital servo of the same natural frequency turns the rotor
+    (`sim.loop.servo_loop`).
     """
 
     sensors: Sensors = Sensors()

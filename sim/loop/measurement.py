@@ -1,4 +1,4 @@
-"""What a controller is shown: readings with noise, bias, quantisation and delay.
+"""The readings that a controller receives, with noise, bias, quantisation and delay.
 
 reading(t) = step round((value(t - delay) + bias + noise) / step)
 """
@@ -16,7 +16,7 @@ CHANNELS = ("base_deg", "torque_n_mm", "tip_deg")
 
 @dataclass(frozen=True, kw_only=True)
 class Measurement:
-    """What the sensors of the rig show at one sample: s, deg, N mm, mm."""
+    """Readings of all sensors at one sample: s, deg, N mm, mm."""
 
     time_s: float
     base_deg: float
@@ -28,7 +28,7 @@ class Measurement:
 
 @dataclass(frozen=True, kw_only=True)
 class MeasurementNoise:
-    """One standard deviation of each sensor's white noise, and the seed of a run."""
+    """Standard deviation of each sensor's white noise, and the seed of a run."""
 
     base_deg: float = 0.0
     torque_n_mm: float = 0.0
@@ -45,8 +45,8 @@ class SensorReadings:
     """The sensors of one run: call `read` once a sample.
 
     Args:
-      samples: of the run; the noise of all of them is drawn at once, from the seed.
-      step_s: from sample to sample.
+      samples: number of samples of the run; the noise of all is drawn at once, from the seed.
+      step_s: sampling interval.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class SensorReadings:
         self._lines = [DelayLine(delay, step_s) for delay in delays]
 
     def read(self, sample: int, values: tuple[float, float, float]) -> tuple[float, float, float]:
-        """What base, torque and tip sensor show; values in the order of `CHANNELS`."""
+        """Readings of base, torque and tip; true `values` in the order of `CHANNELS`."""
         base, torque, tip = (
             line(quantised(value + bias + noise, step))
             for line, value, bias, noise, step in zip(

@@ -1,20 +1,20 @@
 """The digital servo of a torque-driven rotor: a PD law, with feed-forward of the needle's torque.
 
-A rotor of inertia J carries the needle, whose torque T a sensor between the two measures:
-J a = u - T. At every step the servo reads the encoder and gives the motor
+A rotor of inertia J carries the needle; a sensor between the two measures the needle's torque T:
+J a = u - T. At every step the servo reads the encoder and sets the motor torque
 
     u = J (w^2 (command - x) - 2 d w v) + T,
 
-so that the shaft moves as models.servo says, whatever the needle does: the gains are the
-natural frequency w and the damping ratio d times the rotor's inertia, and T leaves no
-error. A bias b of the torque sensor does: (10/9 + 4 d / 3) b / (J w^2) at w h << 1, for PD law and
-observer both take it for a torque. Angle x and rate v are those of an
+so that the shaft moves as in models.servo, whatever the needle does: the gains follow from
+the natural frequency w, the damping ratio d and the rotor's inertia, and T causes no
+error. A bias b of the torque sensor does: (10/9 + 4 d / 3) b / (J w^2) at w h << 1, since PD law and
+observer both take it for a torque. Angle x and rate v are estimates of an
 observer of the rotor, which follows the encoder with two equal poles p = e^(-3 w h):
 
     e = encoder - x,   x += (1 - p^2) e,   v += (1 - p)^2 e / h
 
-since differences of quantised angles would be mostly quantisation. What the motor cannot give,
-MuJoCo's actuator clips; the observer is told the clipped torque.
+since differences of quantised angles would be mostly quantisation noise. MuJoCo's actuator clips
+the torque to the motor's limit; the observer uses the clipped torque.
 """
 
 import math
@@ -39,9 +39,11 @@ class ServoLoop:
 
     def __init__(self, hardware: LoopHardware, drive: Drive, *, step_s: float) -> None:
         if hardware.servo is None:
-            raise InvalidValue("hardware.servo", None, "a servo, because the needle is driven by torque")
+            raise InvalidValue("hardware.servo", None, "a servo, because drive.kind is torque")
         if drive.rotor_inertia_kg_m2 == 0:
-            raise InvalidValue("drive.rotor_inertia_kg_m2", 0.0, "a rotor that the servo can turn")
+            raise InvalidValue(
+                "drive.rotor_inertia_kg_m2", 0.0, "above 0, because a servo turns the rotor"
+            )
         w, h = hardware.servo.rate_rad_s, step_s
         if w * h > 0.5:
             raise InvalidValue(

@@ -1,8 +1,8 @@
 """The drive shaft of an angle-driven needle: latency, then a servo.
 
-The command of a sample is held until the next. Without a servo the shaft is there at
-the end of the step; with one it has moved by the servo's exact response to it. Within
-a step MuJoCo takes the shaft from one angle to the other at constant rate.
+A command is held until the next sample. Without a servo the shaft reaches it at the end of the
+step; with one it moves by the servo's exact response. Within a step MuJoCo turns the shaft
+from one angle to the other at constant rate.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ class CommandedShaft:
         self._state = np.array([start_deg, 0.0])
 
     def follow(self, command_deg: float) -> float:
-        """Angle at the end of the step for which a command is given."""
+        """Apply a command; returns the angle of the shaft at the end of the step, deg."""
         received = self._latency(command_deg)
         if self._servo is None:
             return received

@@ -1,1 +1,1 @@
-"""Needles side by side: what is kept between runs, and steps without MuJoCo."""
+"""Models and batches that are kept between runs, and steps without MuJoCo."""

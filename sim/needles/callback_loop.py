@@ -1,9 +1,9 @@
-"""The steps of the tissue callback by itself, without MuJoCo: for fits on their way.
+"""Steps of the tissue callback by itself, without MuJoCo: for the iterations of a fit.
 
-The callback finds the end of a step, and MuJoCo's step lands there: within 1e-8 rad, or the run is
-refused, and usually within 1e-13 rad. What a change of a parameter changes is therefore the same
-whether MuJoCo steps or nobody does, and a step costs a fraction. What is told is MuJoCo's; what leads
-there (the iterations of a fit, differences between runs) may be the callback's.
+The callback computes the end of a step, and MuJoCo's step arrives there: within 1e-8 rad, or the run
+is refused; usually within 1e-13 rad. So the sensitivity to a parameter is the same with and without
+MuJoCo, at a fraction of the cost. Reported results are MuJoCo's; intermediate ones (iterations of a
+fit, differences between runs) may be the callback's.
 """
 
 import ctypes
@@ -62,7 +62,7 @@ def _loop(
     """Step through `inputs`, (N, inputs); `shown` receives the outputs, (N, outputs).
 
     Args:
-      at: of the block that receives the end of a step in `user`.
+      at: offset in `user` of the block that receives the end of a step.
     """
     nodes = qpos.size - 1
     for k in range(inputs.shape[0]):
@@ -80,7 +80,7 @@ def _loop(
 
 
 def prepare() -> None:
-    """Compile the loop, or load what was compiled before: without a step."""
+    """Compile the loop, or load it from the cache, without a step."""
     one, none, bare = np.zeros(1), np.zeros((0, memory_map.INPUTS)), np.zeros((0, memory_map.OUTPUTS))
     _loop(0, 0, 0, 0, False, 1.0, one, one, one, one, one, one, none, bare)
 

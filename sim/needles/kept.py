@@ -1,8 +1,8 @@
-"""Models, batches and data of MuJoCo that are kept: making them costs as much as seconds of simulation.
+"""Models, batches and data of MuJoCo, kept for reuse: making one costs as much as simulating seconds.
 
-A fit simulates a handful of needles thousands of times, with other numbers each time. Set-ups of the
-same bodies (`Setup.bodies`) use the same models one after the other, whose numbers are written anew;
-needles of the same size the same batches. What is in use is taken out: threads do not share it.
+A fit simulates a few needles thousands of times, with other numbers each time. Set-ups with the
+same bodies (`Setup.bodies`) reuse the same models, in which new numbers are written; needles of the
+same size reuse the same batches. An object in use is not available to other threads.
 """
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
@@ -19,16 +19,16 @@ T = TypeVar("T")
 
 
 class Kept(Generic[T]):
-    """Things that are made once and used again, by what they may be used for."""
+    """A cache of objects by key, each of which one thread uses at a time."""
 
     def __init__(self, most: int = 64) -> None:
-        """Of at most so many kinds; the oldest kind makes room."""
+        """`most`: number of keys; the oldest key is dropped for a new one."""
         self._most = most
         self._free: dict[Hashable, list[T]] = {}
 
     @contextmanager
     def taken(self, kind: Hashable, make: Callable[[], T]) -> Iterator[tuple[T, bool]]:
-        """One of a kind, and whether it was made just now."""
+        """An object for a key, and whether it was made just now."""
         free = self._free.setdefault(kind, [])
         try:
             one, new = free.pop(), False
@@ -53,7 +53,7 @@ def compile_model(setup: Setup) -> mujoco.MjModel:
 
 @contextmanager
 def models_of(setups: Sequence[Setup]) -> Iterator[list[mujoco.MjModel]]:
-    """A model for each set-up, to be used inside of the `with` alone."""
+    """A model for each set-up; use them only inside the `with` block."""
     with ExitStack() as stack:
         yield [stack.enter_context(_model_of(setup)) for setup in setups]
 
@@ -74,7 +74,7 @@ def _model_of(setup: Setup) -> Iterator[mujoco.MjModel]:
 def batch_of(models: Sequence[mujoco.MjModel], threads: int) -> Iterator[Batch]:
     """A batch that runs these models of one size.
 
-    Threads of MuJoCo do not survive a fork of the process: a batch that has some is not kept.
+    MuJoCo's threads do not survive a fork of the process: a batch that has threads is not kept.
     """
     first = models[0]
     if threads != 1:
@@ -90,7 +90,7 @@ def batch_of(models: Sequence[mujoco.MjModel], threads: int) -> Iterator[Batch]:
 
 @contextmanager
 def data_of(model: mujoco.MjModel) -> Iterator[mujoco.MjData]:
-    """Data of a model, as they are at the start."""
+    """Data of a model in its initial state."""
     with _DATA.taken(_size(model), lambda: mujoco.MjData(model)) as (data, _):
         mujoco.mj_resetData(model, data)
         yield data

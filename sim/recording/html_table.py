@@ -6,6 +6,6 @@ import pandas as pd
 
 
 def html_table(title: str, table: pd.DataFrame) -> str:
-    """HTML of a table below a line of text; numbers by four digits, nothing for NaN and None."""
+    """HTML of a table below a title; numbers with four digits, empty cells for NaN and None."""
     shown = table.to_html(border=0, na_rep="", float_format="{:.4g}".format, escape=True)
     return f"<p>{escape(title)}</p>{shown}"

@@ -63,7 +63,7 @@ def _title(recording: Recording) -> str:
 
 
 def _draw_lag(axis: Axes, recording: Recording) -> None:
-    """The lag where the shaft is at that time; lines of equal lag, dashed if it is negative."""
+    """Draw the lag along the shaft over time, with lines of equal lag, dashed if negative."""
     lag = recording["base_angle_deg"][:, None] - recording.group("shaft")
     limit = max(1.0, float(np.abs(lag).max()))
     places = node_places_mm(recording)

@@ -1,7 +1,7 @@
-"""A recording: named signals over time, units in their names, and what was run.
+"""A recording: named signals over time, with units in their names, and the parameters of the run.
 
-The first columns are those of a rig's trial, so that simulated and measured data
-are read by the same tools.
+The first columns are those of a rig's trial, so that the same tools read simulated and measured
+data.
 """
 
 import json
@@ -49,7 +49,7 @@ class Recording:
 
     Attributes:
       table: `time_s` first; every name ends in its unit.
-      parameters: what was run, in plain JSON values.
+      parameters: everything that the run depended on, as plain JSON values.
     """
 
     table: pd.DataFrame
@@ -69,7 +69,7 @@ class Recording:
 
     @property
     def names(self) -> list[str]:
-        """Names of the signals that are not numbered along the shaft."""
+        """Names of all signals except those that are numbered along the shaft."""
         return [str(c) for c in self.table.columns if not _NUMBERED.match(str(c))]
 
     def group(self, prefix: str) -> Array:
@@ -78,7 +78,7 @@ class Recording:
         return np.asarray(self.table[names], float)
 
     def _repr_html_(self) -> str:
-        """What was run, and the range of every signal, for a notebook."""
+        """The run and the range of every signal, for a notebook."""
         time = self["time_s"]
         what = self.parameters.get("description") or self.parameters.get("protocol") or "a recording"
         ranges = {n: (self[n].min(), self[n].max(), self[n][-1]) for n in self.names[1:]}
@@ -86,7 +86,7 @@ class Recording:
         return html_table(f"{what}: {time.size} samples, {time[0]:g} to {time[-1]:g} s", shown)
 
     def write(self, path: Path, *, force: bool = False) -> None:
-        """Write as CSV or Parquet, by the ending of the path.
+        """Write as CSV or Parquet, according to the ending of the path.
 
         Raises:
           InvalidValue: another ending.

@@ -1,8 +1,8 @@
-"""A rerun recording as a file that is whole.
+"""A rerun recording as a complete file.
 
-Output only: nothing that computes imports this module. The library writes files in a thread of its own,
-which logs that a disk is full and goes on, or waits for ever. So it records into memory, and the bytes
-are written here: 4 MB for a gap report, 1 MB for an insertion.
+Output only: nothing that computes imports this module. rerun writes files in a thread of its own,
+which only logs a full disk, or waits for ever. So it records into memory here, and this module
+writes the bytes: 4 MB for a gap report, 1 MB for an insertion.
 """
 
 from collections.abc import Iterator
@@ -21,14 +21,14 @@ from sim.files import writing
 def recorded(
     application: str, layout: Any, path: Path, *, force: bool = False
 ) -> Iterator[rr.RecordingStream]:
-    """A stream whose content is that of `path` when the block ends well.
+    """A stream that is written to `path` when the block ends without an error.
 
     Args:
-      layout: a blueprint that the viewer starts with.
+      layout: blueprint with which the viewer starts.
 
     Raises:
       OutputExists: the path exists and `force` is not given.
-      UnwritableOutput: the file cannot be written, or is not whole when read back.
+      UnwritableOutput: the file cannot be written, or is incomplete when read back.
     """
     rr.set_strict_mode(True)
     with writing(path, force=force) as part:
@@ -42,7 +42,7 @@ def recorded(
 
 
 def _refuse_incomplete(part: Path, path: Path) -> None:
-    """The list of its content is the last that a recording holds, and says how long it has to be."""
+    """Check the length of a recording by its footer, which is written last and lists the content."""
     try:
         RrdReader(str(part)).store()
     except Exception as error:  # rerun documents no type

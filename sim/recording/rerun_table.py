@@ -11,7 +11,7 @@ from rerun.chunk import RrdReader
 from models.errors import InvalidValue, NeedleError
 from models.names import is_file
 from sim.recording.recording import unit_of
-from sim.recording.rerun_log import TIMELINE
+from sim.recording.rerun_series import TIMELINE
 
 _SIGNAL = "Scalars:scalars"
 _STYLES = ("SeriesLines:", "SeriesPoints:")
@@ -29,9 +29,9 @@ class Entry:
 
     Attributes:
       rows: values over time, or 1 for a static one.
-      start_s, end_s: first and last time on the recording's own clock; None for a static component.
-      last: the last value of a signal.
-      unit: of a signal, as its name says; empty where it does not.
+      start_s, end_s: first and last time on the recording's timeline; None for a static component.
+      last: last value of a signal.
+      unit: unit of a signal, from its name; empty if the name has none.
     """
 
     entity: str
@@ -46,7 +46,7 @@ class Entry:
 def entries(path: Path) -> list[Entry]:
     """Every component in the file that holds data, in the order of entities.
 
-    Left out: colours and names of lines, and what rerun notes of the file itself.
+    Colours and names of lines, and rerun's own properties of the file, are left out.
 
     Raises:
       NotARecording: the file is missing or not a rerun recording.
@@ -103,7 +103,7 @@ def _times_s(batch: pa.RecordBatch) -> list[float]:
 
 
 def _clock(schema: pa.Schema) -> str | None:
-    """The timeline of a recording: ours, or another that counts from its beginning."""
+    """The timeline of a recording: this project's, or another one of durations."""
     durations = [f.name for f in schema if pa.types.is_duration(f.type)]
     return TIMELINE if TIMELINE in schema.names else next(iter(durations), None)
 

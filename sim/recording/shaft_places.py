@@ -1,4 +1,4 @@
-"""Where the nodes of the shaft are in a recording."""
+"""Positions of the nodes of the shaft in a recording."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +9,10 @@ Array = NDArray[np.float64]
 
 
 def node_places_mm(recording: Recording) -> Array:
-    """Places of the nodes along the shaft at every sample, mm from the entry, (N, nodes).
+    """Positions of the nodes along the shaft at every sample, mm from the entry, (N, nodes).
 
-    Negative in front of the tissue. Where `stretching` elements share the free length, the others stand
-    still in the tissue; without, all nodes move with the needle.
+    Negative in front of the tissue. If `stretching` elements share the free length, the others are
+    fixed in the tissue; otherwise all nodes move with the needle.
     """
     nodes = np.array(recording.parameters["nodes_mm"], float)
     free = recording["free_mm"][:, None]

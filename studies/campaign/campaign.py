@@ -1,4 +1,4 @@
-"""A campaign: what is run again and again, what varies, and how often. One YAML file."""
+"""A campaign: what is run, what varies, and how often. One YAML file."""
 
 import hashlib
 from enum import StrEnum
@@ -23,7 +23,7 @@ _SPREAD_OVER = 100  # cases of the usual piece: a piece is written whole, or run
 
 
 class Kind(StrEnum):
-    """What a case is."""
+    """What one case of a campaign is."""
 
     INSERTION = "insertion"
     CONTROL = "control"
@@ -39,7 +39,7 @@ _VARIES_ITSELF = {
 
 
 class Campaign(Record):
-    """Cases that differ in what varies: grids are crossed, distributions are drawn for each case."""
+    """Many cases of one kind: grids are crossed, distributions are drawn anew for each case."""
 
     name: str
     kind: Kind
@@ -102,17 +102,17 @@ class Campaign(Record):
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """What cases differ in: paths into the protocol, or parameters of a posterior."""
+        """Names of what varies: paths into the protocol, or parameters of a posterior."""
         return self.posterior.parameters if self.posterior else tuple(self.vary)
 
     @property
     def fingerprint(self) -> str:
-        """Of all that results depend on. Samples may grow: a case does not depend on their number."""
+        """Digest of all that a case depends on; not of the number of samples, which may grow."""
         about = f"{self.model_dump_json(exclude={'samples'})} MuJoCo {mujoco.__version__}"
         return hashlib.sha256(about.encode()).hexdigest()[:16]
 
     def as_yaml(self) -> str:
-        """Everything resolved, as a campaign file whose first line ends in the fingerprint."""
+        """The campaign as YAML, with paths and defaults; its first line ends in the fingerprint."""
         content = self.model_dump(mode="json", exclude_none=True)
         note = f"# resolved campaign, computed with MuJoCo {mujoco.__version__}; {self.fingerprint}\n"
         return note + yaml.safe_dump(content, sort_keys=False, width=100)
@@ -122,7 +122,7 @@ def read_campaign(path: Path, *, samples: int | None = None) -> Campaign:
     """Read and check a campaign; paths in it are relative to its file.
 
     Args:
-      samples: in place of the file's.
+      samples: replaces the number in the file; None: as in the file.
 
     Raises:
       InvalidValue: names the field.
@@ -144,7 +144,7 @@ def read_campaign(path: Path, *, samples: int | None = None) -> Campaign:
 
 
 def _folders(patterns: Any, beside: Path) -> tuple[str, ...]:
-    """Folders with a log, sorted."""
+    """Folders of logs that match the patterns, sorted."""
     found: set[Path] = set()
     for pattern in [patterns] if isinstance(patterns, str) else patterns:
         inside = Path(pattern).is_absolute()

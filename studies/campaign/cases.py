@@ -1,7 +1,7 @@
-"""From a campaign to its cases: case k is the same whatever their number, their order, or who runs it.
+"""The cases of a campaign: case k does not depend on their number, on their order or on the engine.
 
-The grid's points take turns, the last path fastest; draws of case k come from `SeedSequence([seed, k])`.
-More samples are more rounds through the grid, so that they add cases at the end.
+Cases go through the points of the grid, the last path fastest; case k draws from
+`SeedSequence([seed, k])`. More samples are more rounds through the grid: they add cases at the end.
 """
 
 import math
@@ -22,9 +22,9 @@ class Case:
     """A case to run.
 
     Attributes:
-      varied: values by dotted path.
-      protocol: None where the values make none, or for a diagnosis; of a posterior, the motion.
-      refused: why there is no protocol.
+      varied: values of what varies, by dotted path.
+      protocol: None if the values are refused, or for a diagnosis; the motion for a posterior.
+      refused: reason why there is no protocol; empty if there is one.
       log: folder of the log, for a diagnosis.
     """
 
@@ -36,20 +36,20 @@ class Case:
 
 
 def case_count(campaign: Campaign) -> int:
-    """How many cases there are."""
+    """Number of cases."""
     if campaign.kind is Kind.DIAGNOSIS:
         return len(campaign.logs)
     return campaign.samples * math.prod(_grid_shape(campaign))
 
 
 def pieces(campaign: Campaign) -> list[range]:
-    """Cases by piece: what is computed and written together."""
+    """Numbers of the cases of each piece; a piece is computed and written at once."""
     count, size = case_count(campaign), campaign.cases_per_piece
     return [range(first, min(first + size, count)) for first in range(0, count, size)]
 
 
 def cases_of(campaign: Campaign, numbers: Sequence[int]) -> list[Case]:
-    """Cases by number."""
+    """The cases with these numbers."""
     if campaign.kind is Kind.DIAGNOSIS:
         return [Case(number=number, log=campaign.logs[number]) for number in numbers]
     base = _plain(campaign)
@@ -67,7 +67,7 @@ def _case(campaign: Campaign, base: dict[str, Any], number: int) -> Case:
 
 
 def varied_values(campaign: Campaign, number: int) -> dict[str, Any]:
-    """What a case has of everything that varies, by path or parameter."""
+    """Values of what varies in a case, by path or parameter."""
     rng = np.random.default_rng(np.random.SeedSequence([campaign.seed, number]))
     if campaign.posterior:
         return campaign.posterior.drawn(rng)
@@ -80,7 +80,7 @@ def varied_values(campaign: Campaign, number: int) -> dict[str, Any]:
 
 
 def check_values(campaign: Campaign) -> None:
-    """Refuse paths that lead nowhere, and values that the protocol refuses beside the base's others.
+    """Refuse paths that do not exist, and values that the base protocol does not accept.
 
     Raises:
       InvalidValue: names the path and the value.

@@ -40,7 +40,7 @@ RESULTS: dict[Kind, dict[str, pa.DataType]] = {
 
 
 def schema(campaign: Campaign) -> pa.Schema:
-    """Names and types of all columns; the fingerprint says of which campaign."""
+    """Names and types of all columns; the metadata hold the campaign's fingerprint."""
     columns = {"case": pa.int64(), "status": pa.string(), "error": pa.string()}
     columns |= {path: _type_of(variation) for path, variation in campaign.vary.items()}
     columns |= dict.fromkeys(campaign.posterior.parameters if campaign.posterior else (), pa.float64())

@@ -1,7 +1,7 @@
-"""Results of a campaign on disk: a Parquet data set, written whole piece by piece.
+"""Results of a campaign on disk: a Parquet data set, written piece by piece.
 
-A folder has `campaign.yaml`, what is run, and `results/`, one file per piece. A piece is there as a
-whole or not at all, so that a campaign that was ended in any way goes on with those that are missing.
+A folder has `campaign.yaml`, the resolved campaign, and `results/`, one file per piece. A piece is
+complete or absent, so that an interrupted campaign continues with the missing ones.
 """
 
 import os
@@ -35,13 +35,13 @@ class ResultFolder:
 
     @property
     def outputs(self) -> list[Path]:
-        """What a campaign writes."""
+        """All files that a campaign writes."""
         names = ("summary.csv", "summary.png", "bands.csv", "bands.png")
         return [self._described, self.dataset, *(self.folder / name for name in names)]
 
     @property
     def begun_at_s(self) -> float | None:
-        """When this campaign was last begun or continued here, Unix time; None: never."""
+        """Unix time at which this campaign was last started or continued here, s; None: never."""
         return self._described.stat().st_mtime if self._is_this_campaign() else None
 
     @property
@@ -49,14 +49,14 @@ class ResultFolder:
         return self.folder / "campaign.yaml"
 
     def begin(self, *, resume: bool = False, force: bool = False) -> None:
-        """Make the folder this campaign's.
+        """Prepare the folder for this campaign.
 
         Args:
-          resume: go on with results that are there; force: remove them.
+          resume: continue with existing results; force: remove them.
 
         Raises:
-          OutputExists: there are results, and neither is asked for.
-          InvalidValue: they are of another campaign, or of more samples.
+          OutputExists: there are results, and neither `resume` nor `force` is given.
+          InvalidValue: the results are of another campaign, or of more samples.
         """
         described = self._described
         if described.exists() and resume:
@@ -98,7 +98,7 @@ class ResultFolder:
         return sorted(self.dataset.glob("piece-*.parquet"))
 
     def missing(self) -> list[range]:
-        """Pieces that are not there, or not as they were written."""
+        """Pieces that are missing or damaged."""
         return [piece for piece in pieces(self.campaign) if not self._is_there(piece)]
 
     def _path(self, piece: range) -> Path:
@@ -113,7 +113,7 @@ class ResultFolder:
         return bool(whole and table["case"].to_pylist() == list(piece))
 
     def write(self, piece: range, rows: Sequence[Row]) -> None:
-        """Write a piece: on disk before it has its name."""
+        """Write a piece: it gets its name once it is on the disk."""
         table = pa.Table.from_pylist(list(rows), schema=schema(self.campaign))
         with writing(self._path(piece), force=True) as part, part.open("wb") as file:
             pq.write_table(table, file, write_page_checksum=True)

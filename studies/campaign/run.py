@@ -1,4 +1,4 @@
-"""A campaign from its first missing piece to its last."""
+"""Runs the missing pieces of a campaign."""
 
 import time
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from studies.campaign.run_case import job_of
 
 @dataclass(frozen=True, kw_only=True)
 class Finished:
-    """Cases that were computed now, and how many of them failed."""
+    """Number of cases that were computed now, and how many of them failed."""
 
     computed: int
     failed: int
@@ -34,10 +34,10 @@ def run_campaign(
 
     Args:
       resume, force: see `ResultFolder.begin`.
-      progress: is told after every piece.
+      progress: called after every piece.
 
     Raises:
-      NeedleError: the campaign cannot run, or the folder is not its own; nothing is lost.
+      NeedleError: the campaign cannot run, or the folder has other results; nothing is lost.
     """
     check_values(results.campaign)
     results.begin(resume=resume, force=force)

@@ -1,4 +1,4 @@
-"""From cases to rows of results."""
+"""Runs cases; each gives a row of results."""
 
 import json
 from collections.abc import Callable, Mapping, Sequence
@@ -34,7 +34,7 @@ _EXPECTED = (NeedleError, mujoco.FatalError, ArithmeticError, LinAlgError)
 
 
 def job_of(campaign: Campaign) -> Job:
-    """Rows of pieces, for an engine; the campaign goes along as text."""
+    """The job of an engine: rows of pieces. The campaign is sent as text."""
     function = f"{rows_of_text.__module__}.{rows_of_text.__name__}"
     return Job(function=function, arguments=(campaign.model_dump_json(),), noun="cases")
 
@@ -52,7 +52,7 @@ def _campaign(text: str) -> Campaign:
 def rows_of(campaign: Campaign, numbers: Sequence[int]) -> list[Row]:
     """Run cases, in one process and one thread: one row each, in their order.
 
-    A case that fails is a row with its error; a mistake in the program is raised.
+    A case that fails gives a row with its error; an error of the program is raised.
     """
     prepare_processes()
     cases = cases_of(campaign, numbers)
@@ -78,7 +78,7 @@ def _plain(value: Any) -> Any:
 
 
 def _attempt(case: Case, run: Callable[[], dict[str, Any]]) -> Attempt:
-    """Results of a case by itself, or why there are none."""
+    """Results of one case, or the reason why it failed."""
     if case.refused:
         return case.refused
     try:
@@ -101,7 +101,7 @@ def _drawn_rigs(campaign: Campaign, cases: Sequence[Case]) -> list[Attempt]:
 def _simulated(
     cases: Sequence[Case], insertions: Mapping[int, Protocol] | Mapping[int, DrawnRig]
 ) -> list[Attempt]:
-    """Results of the insertions of cases, by their numbers."""
+    """Results of cases that are insertions, simulated together."""
     runs = simulate_each(list(insertions.values()), threads=1)
     found = dict(zip(insertions, runs, strict=True))
 
@@ -117,7 +117,7 @@ def _simulated(
 
 
 def drawn_rig_results(run: Run, drawn: DrawnRig) -> dict[str, Any]:
-    """What a run of a drawn rig is summed up to: the base is where its encoder shows it to be."""
+    """Results of a run of a drawn rig; the base angle is the one that its encoder shows."""
     summed_up = _summed_up(
         time_s=run.time_s,
         base_deg=drawn.wanted_deg(run.time_s),
@@ -129,7 +129,7 @@ def drawn_rig_results(run: Run, drawn: DrawnRig) -> dict[str, Any]:
 
 
 def insertion_results(run: Run, protocol: Protocol | None = None) -> dict[str, Any]:
-    """What a run is summed up to.
+    """Results of a run of a protocol.
 
     Raises:
       InvalidValue: the step causes more error than the protocol allows.

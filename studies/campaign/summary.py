@@ -1,4 +1,4 @@
-"""What a campaign found: figures of every result, and what varies with what."""
+"""Summary of a campaign: statistics of every result, and its correlation with what varies."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ _WIDTH, _HEIGHT = 3.2, 2.6  # of a picture's panel, inches
 
 
 def summarise(results: ResultFolder) -> list[Path]:
-    """Write `summary.csv` and `summary.png`, of a posterior `bands.csv` and `bands.png`, too; returns
+    """Write `summary.csv` and `summary.png`, and for a posterior `bands.csv` and `bands.png`; returns
     their paths."""
     table = results.read()
     csv, png = results.folder / "summary.csv", results.folder / "summary.png"
@@ -43,7 +43,7 @@ def _write_bands(results: ResultFolder, table: pd.DataFrame) -> list[Path]:
 
 
 def tip_error_bands(campaign: Campaign, table: pd.DataFrame) -> pd.DataFrame:
-    """Of a campaign over a posterior: see `bands.bands`."""
+    """Bands of the tip error, for a campaign over a posterior: see `bands.bands`."""
     if campaign.posterior is None or campaign.base is None:
         raise InvalidValue("kind", campaign.kind.value, "posterior")
     errors = table["tip_error_deg"][table["status"] == DONE]
@@ -86,12 +86,12 @@ def _numeric(results: ResultFolder) -> list[str]:
 
 
 def numeric_varied(results: ResultFolder, table: pd.DataFrame) -> list[str]:
-    """Paths that vary and are numbers."""
+    """Paths of what varies and is a number."""
     return [path for path in results.campaign.varied if pd.api.types.is_float_dtype(table[path])]
 
 
 def draw(results: ResultFolder, table: pd.DataFrame, path: Path) -> None:
-    """Each result that differs over each varied value; where none varies, its distribution."""
+    """Draw each result over each varied value; if none varies, its distribution."""
     done = table[table["status"] == DONE]
     across = list(results.campaign.varied) or [""]
     down = [name for name in _numeric(results) if done[name].nunique() > 1] or _numeric(results)[:1]

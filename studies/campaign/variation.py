@@ -1,4 +1,4 @@
-"""How one number of a protocol varies over a campaign: on a grid, or drawn for every case."""
+"""How one value of a protocol varies in a campaign: on a grid, or drawn for every case."""
 
 from typing import Annotated, Any
 
@@ -12,7 +12,7 @@ _STEPS, _DRAWS = ("grid", "linspace"), ("uniform", "log_uniform", "normal", "cho
 
 
 class Variation(Record):
-    """Exactly one of these; values are in the unit of what varies."""
+    """Exactly one of these fields is given; values are in the unit of what varies."""
 
     grid: Annotated[tuple[Any, ...], Field(min_length=1)] | None = None
     """Each of these values."""
@@ -34,7 +34,7 @@ class Variation(Record):
             raise InvalidValue("vary", given, "exactly one of " + ", ".join((*_STEPS, *_DRAWS)))
         for name in ("uniform", "log_uniform"):
             if (ends := getattr(self, name)) and not ends[0] < ends[1]:
-                raise InvalidValue(name, ends, "a least value below the largest one")
+                raise InvalidValue(name, ends, "two numbers, the lower one first")
         if self.log_uniform and self.log_uniform[0] <= 0:
             raise InvalidValue("log_uniform", self.log_uniform, "values above 0")
         if self.normal and self.normal[1] <= 0:
@@ -51,12 +51,12 @@ class Variation(Record):
 
     @property
     def support(self) -> tuple[Any, ...]:
-        """Values that have to be possible: all, or the ends of a range; of a normal one the mean."""
+        """Values that have to be possible: all of a grid, the ends of a range, the mean of a normal."""
         ends = self.steps or self.choice or self.uniform or self.log_uniform
         return ends or (self.normal or ())[:1]
 
     def drawn(self, rng: np.random.Generator) -> Any:
-        """A value of a distribution."""
+        """Draw a value from the distribution."""
         if self.uniform:
             return float(rng.uniform(*self.uniform))
         if self.log_uniform:

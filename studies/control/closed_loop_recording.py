@@ -1,4 +1,4 @@
-"""A closed-loop run as a recording: what is, what the sensors show, the estimate, the command."""
+"""A closed-loop run as a recording: true values, readings, estimate and command."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from sim.recording.recording import Recording, record
 
 
 def record_closed_loop(controlled: ClosedLoopRun, parameters: dict[str, Any] | None = None) -> Recording:
-    """Signals of the run, of the sensors and of the controller, and the tip's path where it goes in."""
+    """Signals of the run, the sensors and the controller; the tip's path if the needle is inserted."""
     base = record(controlled.run, parameters)
     columns = {"wanted_tip_deg": controlled.reference_deg}
     columns |= {f"measured_{name}": values for name, values in controlled.measured.items()}

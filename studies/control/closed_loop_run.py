@@ -16,13 +16,13 @@ _LOOP_STEP_S = 0.002  # a controller acts at every step
 def perform_closed_loop(
     protocol: Protocol, controller: str, progress: Callable[[float], None] = lambda share: None
 ) -> Recording:
-    """Run a protocol in closed loop, by the name of a tip controller.
+    """Run a protocol in closed loop with a tip controller, given by name.
 
-    The estimator assumes viscous tissue, with the first layer's damping (or the paper's,
-    where that layer has none).
+    The estimator assumes viscous tissue with the damping of the first layer, or the paper's
+    if that layer has none.
 
     Args:
-      progress: called now and then with the share that is done.
+      progress: called from time to time with the share that is done.
 
     Raises:
       InvalidValue: the protocol drives the base by torque.

@@ -1,8 +1,8 @@
 """Step responses of several controllers on one rig, beside two baselines.
 
-`base_only_at_limit` turns the base alone under the very motor limits that the controllers have: what
-a controller is worth is its improvement on that. `base_only` is the paper's slow turn of the base, in
-about 0.3 s, to which the paper's own improvements refer.
+`base_only_at_limit` only turns the base, with the same motor limits as the controllers: the benefit of
+a controller is its improvement on that. `base_only` is the paper's slow turn of the base, in
+about 0.3 s, to which the paper's improvements refer.
 """
 
 import math
@@ -36,14 +36,14 @@ class StepResponse:
     """Metrics of the step response of one controller on one rig.
 
     Attributes:
-      plant: the rig, by its name.
-      settle_s: NaN where the tip does not settle while the reference is held.
+      plant: name of the rig.
+      settle_s: NaN if the tip does not settle while the reference is held.
       settle_better, integral_better: improvement on base_only, %.
-      published_settle_s, published_integral_deg_s: of the paper, where it has them.
-      shear_stress_mpa: largest in the shaft.
-      final_error_deg: largest of the last second.
+      published_settle_s, published_integral_deg_s: values of the paper, if it states them.
+      shear_stress_mpa: largest shear stress in the shaft.
+      final_error_deg: largest tip error of the last second.
       settle_better_same_limits, integral_better_same_limits: improvement on base_only_at_limit, %;
-        NaN where that was not run.
+        NaN if that was not run.
     """
 
     tissue: str
@@ -72,7 +72,7 @@ class StepResponse:
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """What failed, in words; nothing where the tip settled sooner than with the base alone."""
+        """What failed, in words; empty if the tip settled sooner than with the base alone."""
         compared = self.controller not in (SLOW_BASELINE, SAME_LIMITS)
         found = {
             f"never settles, final error {self.final_error_deg:.1f} deg": math.isnan(self.settle_s),
@@ -96,7 +96,7 @@ def compare_on(
     """Every controller on one rig; improvements are relative to the baselines among them.
 
     Args:
-      hold_s: how long the reference is held: a tip that has not settled then never does.
+      hold_s: how long the reference is held; a tip that does not settle within it never does.
     """
     responses = []
     for name in controllers:
@@ -178,7 +178,7 @@ def _printed(plant: ControlPlant, table: Any, depth_cm: float, controller: str) 
 
 
 def as_row(response: StepResponse) -> dict[str, Any]:
-    """The metrics in plain values, by the names of the CSV's columns."""
+    """The metrics as plain values, by the column names of the CSV."""
     failed = {"failed": "; ".join(response.failures)}
     return asdict(response) | {"worse_than_none": response.worse_than_none} | failed
 

@@ -18,7 +18,7 @@ _SHOWN_S, _ROBUST_SHOWN_S = 2.0, 3.0
 
 @dataclass(frozen=True, kw_only=True)
 class StepRecording:
-    """A file to be: its stem, what it shows in words, and how to simulate it."""
+    """A recording to make: the stem of its file, what it shows in words, and how to simulate it."""
 
     stem: str
     results: tuple[str, ...]
@@ -26,7 +26,7 @@ class StepRecording:
 
 
 def stems() -> list[str]:
-    """Of every file that `step_recordings` describes."""
+    """Stems of all files that `step_recordings` describes."""
     tables = [f"turn_{name}" for name in CONTROLLERS]
     return tables + [f"robust_{_slug(name)}_{end}" for name in plants() for end in ("best", "worst")]
 
@@ -55,7 +55,7 @@ def step_recordings(
 
 
 def _badness(response: StepResponse) -> tuple[bool, int, float]:
-    """Never settled, then how many failures, then how late."""
+    """Sort key: never settled, then number of failures, then settling time."""
     never = math.isnan(response.settle_s)
     late = response.final_error_deg if never else response.settle_s
     return never, len(response.failures), late

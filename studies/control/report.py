@@ -63,7 +63,7 @@ class ControlStudy:
         )
 
     def as_json(self) -> dict[str, Any]:
-        """`table_iv`, `table_v`, `steered_mm` and the rest, in plain values."""
+        """The contents of `control.json`: `table_iv`, `table_v`, `steered_mm` and more."""
         return {
             "format": "needle-control/1",
             "table_iv": [_iv(o) for o in self.tables],
@@ -75,7 +75,7 @@ class ControlStudy:
 
 
 def hankel(depth_mm: float = 200.0, modes: int = 6) -> list[float]:
-    """Hankel values of torque to tip at a depth, over the largest: why order 4 is enough."""
+    """Hankel values from torque to tip at a depth, relative to the largest: order 4 is enough."""
     needle = closed_form_needle(depth_mm, 0.0, DriveKind.TORQUE)
     return [float(x) for x in hankel_ratios(needle, modes=modes)]
 
@@ -121,7 +121,7 @@ def _or_none(value: Any) -> Any:
 
 
 def write_study(study: ControlStudy, results: ResultSet, folder: Path) -> None:
-    """Write all of `FILES` into the results of a folder; a picture that fails is left out."""
+    """Write all of `FILES` as results of a folder; a picture that fails is left out."""
     told, turns, robustness, *pictures = (folder / name for name in FILES)
     write_text(results.at(told), json.dumps(study.as_json(), indent=1, allow_nan=False))
     for path, responses in ((turns, study.tables), (robustness, study.robustness)):

@@ -1,8 +1,8 @@
 """The step response on rigs that differ from what the controllers were designed for.
 
-A plant differs in the tissue, in the needle, or in the hardware of the loop; the last have all
-of it. Delays and servo are known to the predictive controllers, as a rig's builder knows
-them; everything else is known to none.
+A plant differs in the tissue, in the needle or in the hardware of the loop; the last ones in all
+of them. The predictive controllers know delays and servo, as the builder of a rig does;
+no controller knows the other differences.
 """
 
 import math
@@ -71,7 +71,7 @@ def unmodelled_tissues() -> dict[str, Tissue]:
 
 
 def _layered(name: str, factor: float = 1.0, dry_n_mm_per_mm: float = 0.0) -> Tissue:
-    """Half the depth four times as viscous as the other half, the mean as assumed times a factor."""
+    """Two layers, one four times as viscous as the other; the mean is a factor times the assumed one."""
     shallow = factor * 2.0 / (1.0 + 4.0) * DAMPING
     interfaces = [
         Interface(viscous_n_mm_s_per_mm=viscous, kinetic_n_mm_per_mm=dry_n_mm_per_mm)
@@ -88,7 +88,7 @@ def _late(**sensors: float) -> LoopHardware:
 
 
 def _known(hardware: LoopHardware) -> LoopTiming:
-    """Delays and servo of the hardware, as its builder knows them."""
+    """Delays and servo of the hardware, as known to the builder of the rig."""
     return LoopTiming(
         measurement_delay_s=hardware.sensors.base_delay_s,
         command_latency_s=hardware.command_latency_s,
@@ -97,7 +97,7 @@ def _known(hardware: LoopHardware) -> LoopTiming:
 
 
 def plants() -> dict[str, ControlPlant]:
-    """Every rig, by name; the first is the one that the controllers were designed for."""
+    """All rigs by name; the first is the one that the controllers were designed for."""
     servo = LoopHardware(command_latency_s=_LATENCY_S, servo=_SERVO)
     biased = LoopHardware(sensors=Sensors(torque_bias_n_mm=_BIAS_N_MM))
     coarse = LoopHardware(sensors=Sensors(base_step_deg=_ENCODER_DEG))
@@ -141,7 +141,7 @@ def plants() -> dict[str, ControlPlant]:
 
 
 def _informed(plant: ControlPlant) -> ControllerDesign:
-    """The design of somebody who knows delays, servo, encoder and the noise of his sensors."""
+    """A design with known delays, servo, encoder resolution and sensor noise."""
     noise = plant.noise or MeasurementNoise()
     timing, limits = _known(plant.hardware), plant.design.limits
     if limits.shaft is not None:
@@ -157,7 +157,7 @@ def _informed(plant: ControlPlant) -> ControllerDesign:
 
 
 def misjudged_delays() -> dict[str, ControlPlant]:
-    """The rig whose sensors are late, for controllers that are wrong about it."""
+    """The rig with late sensors, with controllers that assume wrong delays."""
     late = plants()["delay 40 ms"]
     return {
         name: replace(late, name=name, design=replace(late.design, timing=timing))

@@ -1,9 +1,8 @@
-"""The step response of a tip controller on the MuJoCo needle, and how it is measured.
+"""The step response of a tip controller on the MuJoCo needle, and its metrics.
 
 The reference steps by 90 deg. Settling is the time after which the tip stays within 3 deg; the
-integral is that of (reference - tip) over 2 s, signed. The paper does not say which free length
-it had; two are run: none, and the 50 mm of its set-up, which grow as the needle retracts at
-2.5 mm/s.
+integral is that of (reference - tip) over 2 s, signed. The paper does not state its free length;
+two are run: none, and the 50 mm of its set-up, which grow as the needle retracts at 2.5 mm/s.
 """
 
 from dataclasses import dataclass
@@ -37,11 +36,11 @@ NOISE = MeasurementNoise(base_deg=0.02, torque_n_mm=0.015, tip_deg=0.2, seed=1)
 
 @dataclass(frozen=True, kw_only=True)
 class ControlPlant:
-    """A rig that a controller meets: it may differ from what the controller was designed for.
+    """A simulated rig, which may differ from the one that the controllers were designed for.
 
     Attributes:
-      needle, tissue, drive, hardware, noise: what is simulated.
-      design: of the controllers on this rig.
+      needle, tissue, drive, hardware, noise: the simulated rig.
+      design: design of the controllers on this rig.
     """
 
     name: str
@@ -130,7 +129,7 @@ def response_metrics(run: Run) -> tuple[float, float, float, float]:
 
 
 def largest_shear_stress_mpa(run: Run) -> float:
-    """At the surface of the element of the shaft that carries the largest torque, of all times."""
+    """Largest shear stress at the surface of the shaft, over all elements and times, MPa."""
     torque_n_mm = float(run.outputs[:, memory_map.O_SHAFT_TORQUE].max()) / units.N_MM
     return run.setup.needle.shear_stress_mpa(torque_n_mm)
 

@@ -1,4 +1,4 @@
-"""Every stage of `needle control`, its independent parts spread over processes."""
+"""Every stage of `needle control`, with its independent parts in several processes."""
 
 from collections.abc import Callable
 from concurrent.futures import Executor
@@ -28,7 +28,7 @@ _PERCENT = {
 
 
 def stage_parts() -> dict[str, list[Part]]:
-    """The parts of every stage, in order; none needs what another made."""
+    """The independent parts of every stage, in order."""
     rigs = (*plants(), *misjudged_delays())
     return {
         "Tables IV and V": [tables_iv_v],
@@ -41,9 +41,9 @@ def run_study(progress: Progress = lambda stage, share: None, *, workers: int = 
     """Run everything; about two minutes on two cores.
 
     Args:
-      progress: called with the stage whose results are waited for, and the share of the time that
-        has usually passed by then.
-      workers: processes.
+      progress: called with the stage that is awaited, and the share of the whole time that has
+        usually passed by then.
+      workers: number of processes.
     """
     prepare_processes()
     with process_pool(workers) as processes:
@@ -59,7 +59,7 @@ def run_study(progress: Progress = lambda stage, share: None, *, workers: int = 
 def collected(
     stages: dict[str, list[Part]], pool: Executor | None, progress: Progress
 ) -> dict[str, list[Any]]:
-    """What every part of every stage returns, in order."""
+    """Results of the parts of every stage, in order."""
     waiting = {
         stage: [pool.submit(part).result if pool else part for part in parts]
         for stage, parts in stages.items()
@@ -73,7 +73,7 @@ def collected(
 
 
 def _share(stage: str, of_stage: float) -> float:
-    """Of the time of all stages that has usually passed."""
+    """Share of the whole time that has usually passed when a stage is done to the share `of_stage`."""
     if stage not in _PERCENT:
         return 0.0
     names = list(_PERCENT)

@@ -1,4 +1,4 @@
-"""Tip controllers by name: an estimator and a control law as one `sim.closed_loop` controller."""
+"""Tip controllers by name: estimator and control law, combined for `sim.closed_loop`."""
 
 import math
 from collections.abc import Callable
@@ -33,13 +33,13 @@ _BIAS_DRIFT_N_MM = 0.002  # in a root second: a sensor's zero that wanders by 0.
 class TipController:
     """Output feedback: an estimator of the tip, and a control law on the estimate.
 
-    The last estimate and command are kept for the log.
+    It keeps the last estimate and command for the log.
 
     Attributes:
-      law: from reference and estimate to a base command.
-      estimator: None: the tip is taken to be where the base is.
+      law: computes a base command from reference and estimate.
+      estimator: None: the tip is assumed to have the angle of the base.
       uses_tip_sensor: whether the estimator receives the measured tip angle.
-      advance_mm: axial motion wanted in addition to the scheduled one, mm.
+      advance_mm: axial motion in addition to the scheduled one, mm.
     """
 
     law: Controller
@@ -67,7 +67,7 @@ class TipController:
         return self._command.base_deg
 
     def reset(self) -> None:
-        """Law and estimator as before the first sample."""
+        """Go back to the state before the first sample, in law and estimator."""
         self.law.reset()
         if self.estimator is not None:
             self.estimator.reset()
@@ -99,12 +99,12 @@ class ControllerDesign:
     """What a tip controller is designed for: a model, a motor, and the sensors of a loop.
 
     Attributes:
-      needle, damping_n_mm_s_per_mm: of the modal model.
-      limits: of the motor.
-      order: modes of the estimator, with mode 0.
+      needle, damping_n_mm_s_per_mm: parameters of the modal model.
+      limits: limits of the motor.
+      order: number of modes of the estimator, including mode 0.
       timing: delays and servo, as the predictive controllers know them.
-      base_noise_deg, torque_noise_n_mm: what the adaptive estimators expect of the sensors.
-      bias_spread_n_mm: how far the torque sensor's zero may be off, for those that estimate it.
+      base_noise_deg, torque_noise_n_mm: noise that the adaptive estimators assume.
+      bias_spread_n_mm: standard deviation of the torque bias, for estimators that identify it.
     """
 
     needle: Needle
@@ -119,7 +119,7 @@ class ControllerDesign:
     def off_by(
         self, *, stiffness_factor: float = 1.0, damping_factor: float = 1.0
     ) -> "ControllerDesign":
-        """The design of somebody who is wrong about the needle by these factors."""
+        """The same design with needle constants that are wrong by these factors."""
         modulus = self.needle.shear_modulus_gpa * stiffness_factor
         return replace(
             self,

@@ -1,4 +1,4 @@
-"""Results of the cross-check: bounds that hold or fail, and published figures beside ours."""
+"""Results of the cross-check: bounds that hold or fail, and published figures beside computed ones."""
 
 import math
 from dataclasses import asdict, dataclass, field
@@ -11,7 +11,7 @@ from sim.recording.html_table import html_table
 
 
 def _or_none(value: Any) -> Any:
-    """JSON has no NaN: what does not exist is null."""
+    """None instead of NaN, which JSON does not have."""
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
@@ -41,7 +41,7 @@ class Check:
 
 @dataclass(frozen=True, kw_only=True)
 class Comparison:
-    """A published figure beside ours. It is shown, never tuned, and fails nothing."""
+    """A published figure beside the computed one. It is only shown: nothing is tuned to it."""
 
     item: str
     published: float
@@ -52,12 +52,12 @@ class Comparison:
 
     @property
     def ratio(self) -> float:
-        """Ours over published; NaN where the published figure is 0."""
+        """Computed / published; NaN if the published figure is 0."""
         return self.ours / self.published if self.published else float("nan")
 
 
 class PoleSource(StrEnum):
-    """Which needle in MuJoCo a pole was measured from."""
+    """The needle in MuJoCo from which a pole was measured."""
 
     SECOND_ORDER = "second_order"
     """Ours, with the step that is corrected to second order: the default."""
@@ -68,7 +68,7 @@ class PoleSource(StrEnum):
 
     @property
     def words(self) -> str:
-        """As text."""
+        """The source in words."""
         return self.value.replace("_", " ")
 
 
@@ -77,7 +77,7 @@ class Pole:
     """A pole measured from MuJoCo beside its closed form, rad/s.
 
     Attributes:
-      bound: relative error that its source may have.
+      bound: largest relative error that is accepted.
     """
 
     length_mm: float
@@ -91,7 +91,7 @@ class Pole:
 
     @property
     def error(self) -> float:
-        """Relative difference."""
+        """Relative difference to the closed form."""
         return abs(self.measured / self.closed_form - 1.0)
 
 

@@ -1,9 +1,9 @@
 """Poles identified from the steps of a simulator.
 
-Every node in turn is twisted by a small angle and let go, and the simulator steps
-them all. The map from one set of angles to the next is X_{k+1} X_k^{-1}; its
-eigenvalues z belong to the poles p of the motion. Nothing here knows the matrices of
-the chain: only how the method of the step makes z of p,
+In one run per node, that node is twisted by a small angle and released. With the angles after
+k steps as columns of X_k, the map from one step to the next is X_{k+1} X_k^{-1}; its
+eigenvalues z belong to the poles p of the motion. The matrices of the chain are not used: only
+the relation between z and p that the method of the step has,
 
     exact in time               z = exp(p h)
     backward Euler              z = 1 / (1 - p h)
@@ -24,13 +24,13 @@ _SETTLING = 2  # steps before the map is read: inertia forgets that it was at re
 
 
 def pole_of_exact_step(multiplier: Array, step_s: float) -> Array:
-    """Where the step is exact in time, or its error is negligible."""
+    """Pole of an eigenvalue if the step is exact in time, or its error is negligible."""
     pole: Array = np.log(multiplier) / step_s
     return pole
 
 
 def pole_of_backward_euler(multiplier: Array, step_s: float) -> Array:
-    """Inverts the step of backward Euler: no error of the step is left."""
+    """Pole of an eigenvalue of backward Euler's step, free of the step's error."""
     return (1.0 - 1.0 / multiplier) / step_s
 
 
@@ -45,8 +45,8 @@ def slow_poles_rad_s(
     """The slowest `count` poles other than 0, rad/s, slowest first.
 
     Args:
-      resolution: step over the time constant of the fastest of these poles.
-      guess_s: a step that finds that time constant roughly.
+      resolution: step / time constant of the fastest of these poles.
+      guess_s: a step with which that time constant is found roughly.
     """
     rough = _poles(release, pole_of, guess_s)[:count]
     return _poles(release, pole_of, resolution / abs(float(rough[-1])))[:count]

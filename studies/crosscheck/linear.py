@@ -1,14 +1,14 @@
 """MuJoCo's needle in the two other linear cases with a closed form: yielding tissue, drag at the tip.
 
-Yielding tissue remembers its twist, which the angles of one instant do not show; those of two
-instants do. So the poles come from angles alone, by the eigensystem realisation algorithm (Juang
-and Pappa 1985): every node in turn is twisted by a small angle and let go, and with S_k the
-angles after k steps, nodes by releases,
+Yielding tissue has its own twist, which the angles at one time do not show, but those at two
+times do. So the poles are identified from angles alone, by the eigensystem realisation algorithm
+(Juang and Pappa 1985): in one run per node, that node is twisted by a small angle and released;
+with S_k the angles after k steps, (nodes, releases),
 
     H_k = [[S_k, S_k+j], [S_k+j, S_k+2j]],        H_k+1 = M H_k,
 
-where the eigenvalues of M are exp(p h). A needle with a given torque is taken without free
-length: its free shaft then carries no torque and adds no pole.
+where the eigenvalues of M are exp(p h). A needle with a given torque has no free length here:
+free shaft would then carry no torque and add no pole.
 """
 
 import mujoco
@@ -58,7 +58,7 @@ def needle_setup(
     tissue: Tissue = YIELDING,
     **discretisation: float,
 ) -> Setup:
-    """MuJoCo's needle of one case, at the default discretisation but for what is given."""
+    """MuJoCo's needle of one case, at the default discretisation except for what is given."""
     return Setup(
         needle=needle,
         tissue=tissue,
@@ -71,7 +71,7 @@ def needle_setup(
 
 
 def _viscous_setup(length_mm: float, free_mm: float, kind: DriveKind) -> Setup:
-    """A needle with drag at its tip, in tissue that is viscous and nothing else."""
+    """A needle with drag at its tip, in purely viscous tissue."""
     viscous = Tissue.uniform(viscous_n_mm_s_per_mm=YIELDING.layers[0].interface.viscous_n_mm_s_per_mm)
     return needle_setup(length_mm, free_mm, kind, needle=DRAGGED, tissue=viscous)
 
@@ -141,7 +141,7 @@ def measure_yielding(setup: Setup, expected: YieldingTissueNeedle) -> tuple[Arra
     """The first four slow and fast poles of MuJoCo's needle, rad/s, slowest first.
 
     Args:
-      expected: sets the step and what separates slow from fast; no pole is taken from it.
+      expected: poles that set the step and separate slow from fast; they do not enter the result.
     """
     first = 0 if setup.drive.kind is DriveKind.ANGLE else 1
     fast = expected.poles_rad_s(first + COUNT)[first:, 1]
@@ -171,7 +171,7 @@ def _released(setup: Setup, steps: int) -> Array:
 
 
 def _realised_poles(angles: Array, apart: int) -> Array:
-    """Real poles times step of the least system with these angles, slowest first."""
+    """Real poles times step of the smallest system with these angles, slowest first."""
 
     def hankel(k: int) -> Array:
         now, then, later = angles[k], angles[k + apart], angles[k + 2 * apart]

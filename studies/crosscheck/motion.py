@@ -45,7 +45,7 @@ def base_turn(time_s: Array, angle_deg: Array, *, inserted_mm: float, free_mm: f
 
 
 def viscous_setup(*, free_mm: float = 0.0, **discretisation: object) -> Setup:
-    """The paper's needle 20 cm deep in tissue that is viscous and nothing else."""
+    """The paper's needle 20 cm deep in purely viscous tissue."""
     return Setup(
         needle=NITINOL,
         tissue=Tissue.uniform(viscous_n_mm_s_per_mm=_DAMPING),
@@ -57,13 +57,13 @@ def viscous_setup(*, free_mm: float = 0.0, **discretisation: object) -> Setup:
 
 
 def fast_turn(*, free_mm: float = 0.0) -> Schedule:
-    """90 deg in 0.3 s, then held: 8 s in all."""
+    """A turn by 90 deg in 0.3 s, then held: 8 s in all."""
     time = np.array([0.0, TURN_S, HOLD_S])
     return base_turn(time, np.array([0.0, 90.0, 90.0]), inserted_mm=_LENGTH_MM, free_mm=free_mm)
 
 
 def exact_tip_deg(run: Run) -> Array:
-    """The closed form of a viscous, base-driven run, deg."""
+    """Tip of the closed form for a viscous, base-driven run, deg, (N,)."""
     response = closed_form(run.setup).respond(run.time_s, np.radians(run.inputs.drive), count=200)
     return np.degrees(response.tip_rad)
 
@@ -118,7 +118,7 @@ def order_in_step() -> list[Check]:
 
 
 def check_first_order_turn() -> Check:
-    """The fast turn by MuJoCo's own step: it converges to the same."""
+    """The fast turn by MuJoCo's own first-order step: it converges to the same result."""
     step_s = 0.001
     error = tip_error_deg(viscous_setup(order=1, step_s=step_s), fast_turn())
     return Check(
@@ -131,7 +131,7 @@ def check_first_order_turn() -> Check:
 
 
 def check_arrangements() -> Check:
-    """Chain and siblings land on the same angles."""
+    """Check that chain and siblings give the same angles."""
     schedule = fast_turn()
     chain, siblings = (
         simulate([viscous_setup(arrangement=a)], schedule)[0].tip_deg for a in Arrangement
@@ -181,7 +181,7 @@ def check_steady_twist() -> list[Check]:
 
 
 def elastic_gelatin() -> Tissue:
-    """Gelatin that yields as plastisol does: its own elasticity is not stated."""
+    """Gelatin with the elasticity of plastisol: the paper does not state gelatin's own."""
     return Tissue.uniform(
         name="gelatin, elastic as plastisol",
         shared_n_mm_per_mm=tissue_named("porcine-gelatin").layers[0].interface.shared_n_mm_per_mm,
@@ -242,7 +242,7 @@ def check_balances() -> list[Check]:
 
 
 def _strain_energy_j(run: Run) -> Array:
-    """Torsion stored in the shaft, J, (N,)."""
+    """Elastic energy of torsion in the shaft, J, (N,)."""
     assert run.angles_rad is not None
     lengths = np.diff(run.setup.nodes_mm) * 1e-3
     twist = np.diff(run.angles_rad, axis=1)

@@ -1,7 +1,7 @@
 """An independent needle: MuJoCo's own inertia, dampers, springs and actuators, and no callback.
 
 The shaft is cut at nodes a apart. Every node is a body on a hinge about the shaft's
-axis, so that joint angles are absolute, and has half of the shaft on either side:
+axis, so that joint angles are absolute, and represents half an element on either side:
 rotary inertia eta a, and beta a of the tissue's damping as `joint.damping`. Torsion
 kappa / a between neighbours is a position actuator that holds 0 on a fixed tendon, whose
 length is theta_{i+1} - theta_i. (A tendon's own spring is slack at exactly its rest length,
@@ -14,13 +14,13 @@ base's own node.
 The chain is lumped (3), and every pole is that of the continuous needle times
 (sin x / x)^2, x = w a / 2 with w the mode's wavenumber: smaller by less than x^2 / 3. Base-
 driven with a free length, w solves tan(w l) sin(w a) / a = 1 / f instead of w tan(w l) = 1 / f,
-and is larger by at most x^2 / 3: the pole is off by x^2 / 3 at most, either way. MuJoCo's
+and is larger by at most x^2 / 3: the error of the pole is at most x^2 / 3, of either sign. MuJoCo's
 integrator `discrete` is implicit in position and velocity; on a linear model its step is that
 of backward Euler,
 
     (M s^2 + D s + K) theta = 0,   s = (1 - 1/z) / h,   z = theta(t + h) / theta(t),
 
-so that poles follow from steps without an error of the step.
+so that the identified poles are free of the step's error.
 
 Units are mm, N mm, s, rad. In N m, the absolute residual at which MuJoCo stops iterating is
 too coarse: rates are then off by 0.2 % at angles of a degree, and here by 2e-8.
@@ -54,7 +54,7 @@ def pole_bound(mode: int, elements: int = ELEMENTS) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class _Node:
-    """A body: shaft that turns with it, and the part of it that is in tissue, mm."""
+    """A body: the length of shaft that turns with it, and how much of it is in tissue, mm."""
 
     shaft_mm: float
     covered_mm: float
@@ -63,7 +63,7 @@ class _Node:
 def native_spec(rig: InsertedNeedle, *, step_s: float, elements: int = ELEMENTS) -> mujoco.MjSpec:
     """The needle as an editable MuJoCo specification.
 
-    Its first input is the base's angle, rad, or torque, N mm; the others are to stay 0.
+    Its first input is the base's angle, rad, or torque, N mm; the others have to stay 0.
 
     Args:
       rig: needle, tissue, lengths and drive.
@@ -86,7 +86,7 @@ def native_spec(rig: InsertedNeedle, *, step_s: float, elements: int = ELEMENTS)
 
 
 def _nodes(rig: InsertedNeedle, elements: int) -> list[_Node]:
-    """From the base to the tip; a base whose angle is given is none of them."""
+    """Bodies from the base to the tip; a base with a given angle is not among them."""
     a, half_free = rig.inserted_mm / elements, rig.free_mm / 2
     inner = [_Node(shaft_mm=a, covered_mm=a)] * (elements - 1)
     tip = _Node(shaft_mm=a / 2, covered_mm=a / 2)
@@ -97,7 +97,7 @@ def _nodes(rig: InsertedNeedle, elements: int) -> list[_Node]:
 
 
 def _springs_n_mm(rig: InsertedNeedle, elements: int) -> list[float]:
-    """Torsion of free length and elements, from the base on, N mm / rad."""
+    """Torsional stiffness of free length and elements, from the base on, N mm / rad."""
     kappa = rig.needle.rigidity_n_mm2
     free = [kappa / rig.free_mm] if rig.free_mm else []
     return free + [kappa * elements / rig.inserted_mm] * elements
@@ -122,7 +122,7 @@ def _add_node(spec: mujoco.MjSpec, rig: InsertedNeedle, node: _Node, i: int) -> 
 
 
 def _add_spring(spec: mujoco.MjSpec, stiffness: float, i: int) -> None:
-    """Torsion between node i and the next."""
+    """Add a torsional spring between node i and the next."""
     tendon = spec.add_tendon(name=f"twist_{i}")
     tendon.wrap_joint(f"node_{i}", -1.0)
     tendon.wrap_joint(f"node_{i + 1}", 1.0)
@@ -131,7 +131,7 @@ def _add_spring(spec: mujoco.MjSpec, stiffness: float, i: int) -> None:
 
 
 def released(rig: InsertedNeedle, *, step_s: float, steps: int, elements: int = ELEMENTS) -> Array:
-    """Angles after each step, (steps, nodes, releases): column j had node j twisted and let go."""
+    """Angles after each step, (steps, nodes, releases); in column j, node j was twisted and released."""
     model = native_spec(rig, step_s=step_s, elements=elements).compile()
     angles: Array = _stepped(model, np.eye(model.nq), np.zeros(steps)).transpose(1, 2, 0)
     return angles
@@ -160,14 +160,14 @@ def _stepped(model: mujoco.MjModel, start: Array, drive: Array) -> Array:
 
 
 def tip_rad(rig: InsertedNeedle, time_s: Array, drive: Array, *, substeps: int = 2) -> Array:
-    """The tip from rest, rad, (N,): extrapolated to steps of no length.
+    """The tip from rest, rad, (N,), extrapolated to a step of 0.
 
     Steps of h and h / 2 give 2 theta_{h/2} - theta_h (Richardson), which is second order.
 
     Args:
       time_s: equidistant times from 0, (N,).
       drive: base angle, rad, or base torque, N mm, at those times, straight between them, (N,).
-      substeps: h is the distance of the times over this number.
+      substeps: h is the distance of the times / this number.
     """
     coarse, fine = (_steps_to_tip(rig, time_s, drive, substeps=k * substeps) for k in (1, 2))
     extrapolated: Array = 2 * fine - coarse

@@ -1,6 +1,6 @@
-"""The published figures beside what follows from the paper's own constants.
+"""The published figures beside values that follow from the paper's own constants.
 
-Nothing is tuned: where the two differ, the ratio says so and the note says why, as
+Nothing is tuned. The ratio shows how far the two differ, and the note explains why, as
 far as it is known.
 """
 
@@ -26,7 +26,7 @@ _TURN_DEG, _TURN_S = 90.0, 0.3
 
 
 def compare_all() -> list[Comparison]:
-    """Every published figure that the models here can compute."""
+    """All published figures that the models here can compute."""
     return [
         *needle_constants(),
         *lags(),
@@ -40,7 +40,7 @@ def compare_all() -> list[Comparison]:
 
 
 def compare(item: str, figure: published.PublishedFigure, ours: float, note: str = "") -> Comparison:
-    """A published figure beside ours; without a note of our own, with the paper's."""
+    """A published figure beside the computed one; by default with the paper's note."""
     return Comparison(
         item=item,
         published=figure.value,
@@ -101,7 +101,7 @@ def _r2(by_depth_cm: dict[float, float]) -> float:
 
 
 def table_iii() -> list[Comparison]:
-    """Eigenvalues and Hankel ratios for 20 cm, b = 3.45 N mm s, as the paper states."""
+    """Eigenvalues and Hankel ratios for 20 cm and b = 3.45 N mm s, as in the paper."""
     needle = InsertedNeedle(
         needle=NITINOL, damping_n_mm_s_per_mm=published.DAMPING_200_MM.value / 200, inserted_mm=200
     )
@@ -211,7 +211,7 @@ def figure_8() -> list[Comparison]:
 
 
 def tables_iv_v() -> list[Comparison]:
-    """Base only columns: what the stated viscous model gives, in both readings."""
+    """The base-only columns: the stated viscous model, with both possible free lengths."""
     time = np.arange(0.0, 8.0, 1e-3)
     rows = []
     for depth_cm in published.TABLE_IV_SETTLE_S:

@@ -1,7 +1,7 @@
-"""Published figures that the text gives in words, beside ours: Figs. 3 and 5, and torque per lag.
+"""Figures that the paper gives in words, beside computed ones: Figs. 3 and 5, and torque per lag.
 
-As in `studies.crosscheck.paper` nothing is tuned, and the notes say why figures differ, as far
-as it is known.
+As in `studies.crosscheck.paper`, nothing is tuned, and the notes explain differences, as far as
+they are understood.
 """
 
 import numpy as np
@@ -22,12 +22,12 @@ _FIG_5_TURN_BEGINS_S, _FIG_5_ENDS_S = 1.0, 8.3  # in the protocol; after the tur
 
 
 def compare_text() -> list[Comparison]:
-    """Every one of these figures."""
+    """All of these figures."""
     return [*figure_3(), *figure_5(), *torque_feedback()]
 
 
 def figure_3() -> list[Comparison]:
-    """The lag at the end of the slow turn, 10 cm deep; of gelatin the text gives no number."""
+    """The lag at the end of the slow turn, 10 cm deep; the text gives no number for gelatin."""
     table_ii = published.DAMPING_PLASTISOL_N_MM_S[10.0] * np.radians(_TURN_DEG) / _SLOW_TURN_S
     own = lag_deg(NITINOL, base_torque_n_mm=table_ii, free_mm=_SLOW_FREE_MM, inserted_mm=_SLOW_DEPTH_MM)
     plastisol = (
@@ -60,7 +60,7 @@ def _slow_lag_deg(material: str) -> float:
 
 
 def figure_5() -> list[Comparison]:
-    """The quick turn while retracting, 20 cm deep: when the tip settles, and what it is short of."""
+    """The quick turn while retracting, 20 cm deep: settling time and final error of the tip."""
     protocol = protocol_named("fig5-20cm")
     yields = "with the spring and damper of Section IV-A2, tissue turns too and creeps back (0.2 rad/s)"
     slow = (
@@ -95,7 +95,7 @@ def figure_5() -> list[Comparison]:
 
 
 def torque_feedback() -> list[Comparison]:
-    """Section VI: the torque that a hand, or a display, has for each degree of lag."""
+    """Section VI: torque per degree of lag, for a hand at the base or for a display."""
     note = "the torsional stiffness that Section VI would amplify; no gain or human threshold is stated"
     return [
         Comparison(

@@ -1,7 +1,7 @@
 """Poles of MuJoCo's needles, by source, beside those of the continuous needle.
 
-A source is a needle and the method of its steps: ours in second order, ours with MuJoCo's
-first-order step, and one of MuJoCo's own springs and dampers. Each has a bound of its own.
+A source is a needle and the method of its steps: ours with second-order steps, ours with MuJoCo's
+first-order step, and one made of MuJoCo's own springs and dampers. Each has its own bound.
 """
 
 import math
@@ -48,7 +48,7 @@ def measure(setup: Setup, count: int, *, pole_of: PoleOfMultiplier = pole_of_exa
     """The slowest `count` poles of our needle other than 0, rad/s, slowest first.
 
     Args:
-      pole_of: how the method of the step makes eigenvalues of poles.
+      pole_of: the pole of an eigenvalue, by the method of the step.
     """
     return slow_poles_rad_s(
         lambda step_s, steps: _released(setup, step_s, steps),
@@ -71,12 +71,12 @@ def measure_native(rig: InsertedNeedle, count: int, *, elements: int = native_ne
 
 
 def _guess_s(length_mm: float) -> float:
-    """A step near which the slowest poles are found: they go as 1 / length^2."""
+    """A step, s, for a first guess of the slowest poles, which scale with 1 / length^2."""
     return 1e-3 * (length_mm / 200.0) ** 2
 
 
 def _released(setup: Setup, step_s: float, steps: int) -> Array:
-    """Angles after each step, (steps, nodes, releases): column j had node j twisted and let go."""
+    """Angles after each step, (steps, nodes, releases); in column j, node j was twisted and released."""
     model = compile_model(replace(setup, discretisation=setup.discretisation.but(step_s=step_s)))
     nodes = model.nq - 1
     batch = Batch(model, nodes, 1)
@@ -115,12 +115,12 @@ def chain(length_mm: float, free_mm: float, kind: DriveKind, **discretisation: i
 
 @dataclass(frozen=True, kw_only=True)
 class PoleMeasurement:
-    """How the poles of one source are measured, and how far off they may be.
+    """How the poles of one source are measured, and their accepted error.
 
     Attributes:
       measure: length, mm; free length, mm; drive -> the slowest `COUNT` poles, rad/s.
-      bound: relative error of any of them.
-      why: where the bound comes from.
+      bound: largest relative error of any of them.
+      why: origin of the bound.
     """
 
     measure: Callable[[float, float, DriveKind], Array]
@@ -195,7 +195,7 @@ def _check_worst(source: PoleSource, poles: list[Pole]) -> Check:
 
 
 def order_in_elements() -> list[Check]:
-    """Order of convergence of the fourth pole as the elements shrink."""
+    """Order of convergence of the fourth pole with the length of the elements."""
     bounds = {
         DriveKind.ANGLE: (3.7, 4.5, "error x^4 / 240 + O(x^6) between a held base and a free tip"),
         DriveKind.TORQUE: (1.9, 4.5, "any other covered end costs two orders"),

@@ -1,4 +1,4 @@
-"""Runs of the cross-check as recordings: fast turns beside what they are checked against, and Fig. 4."""
+"""Runs of the cross-check as recordings: fast turns beside their references, and Fig. 4."""
 
 from functools import partial
 from pathlib import Path
@@ -17,7 +17,7 @@ NAMES = (*FILES.values(), REVERSAL_FILE)
 
 
 def write_recordings(results: ResultSet, folder: Path) -> None:
-    """Write all of `NAMES` into the results of a folder; one that fails is left out."""
+    """Write all of `NAMES` as results of a folder; one that fails is left out."""
     for free, name in FILES.items():
         results.optional(folder / name, partial(_write_turn, free))
     results.optional(folder / REVERSAL_FILE, _write_reversal)

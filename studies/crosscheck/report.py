@@ -47,7 +47,7 @@ def cross_check(progress: Callable[[str, float], None] = lambda what, share: Non
     """Run every check; about ten seconds.
 
     Args:
-      progress: called with what begins, and the share of the time that has usually passed by then.
+      progress: called with the check that begins, and the share of the time that has usually passed.
     """
     progress("poles", 0.0)
     measured = poles.compare_poles()
@@ -61,7 +61,7 @@ def cross_check(progress: Callable[[str, float], None] = lambda what, share: Non
 
 
 def write_report(findings: Findings, destination: Destination) -> ResultSet:
-    """Write every file of the report as one; a picture or recording that fails is left out.
+    """Write all files of the report as one set; a picture or recording that fails is left out.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
@@ -78,7 +78,7 @@ def write_report(findings: Findings, destination: Destination) -> ResultSet:
 
 
 def output_paths(folder: Path) -> list[Path]:
-    """What `write_report` will write."""
+    """All files that `write_report` writes."""
     return [folder / name for name in FILES]
 
 
@@ -103,7 +103,7 @@ def _draw(findings: Findings, path: Path) -> None:
 
 
 def _draw_poles(axis: Axes, findings: Findings) -> None:
-    """Errors of every case beside the bound of each source, side by side at each mode."""
+    """Draw the errors of every case and the bound of each source, side by side for each mode."""
     beside = np.linspace(-0.25, 0.25, len(_MARKERS))
     for shift, (source, (colour, marker)) in zip(beside, _MARKERS.items(), strict=True):
         found = [p for p in findings.poles if p.source is source]
@@ -120,7 +120,7 @@ def _draw_poles(axis: Axes, findings: Findings) -> None:
 
 
 def _draw_turn(axis: Axes, differences: Axes) -> None:
-    """Base and tip; below, what the tips of both needles differ from the closed form by."""
+    """Draw base and tip; below, the differences of both needles' tips from the closed form."""
     shown = turn.turned(turn.FREE_MM[0])
     run, native, exact = shown.run, shown.native_tip_deg, shown.exact_tip_deg
     axis.plot(run.time_s, run.inputs.drive, color="0.5", ls="--", label="base")

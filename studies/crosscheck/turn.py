@@ -1,4 +1,4 @@
-"""One fast turn, three times: our needle, the native needle and the closed form.
+"""One fast turn by our needle, by the native needle and by the closed form.
 
 As in Fig. 5: the base turns by 90 deg in 0.3 s, 20 cm deep, and is then held. The native
 needle's error has two parts of known size, both by t theta_tt <= 99 deg/s on this turn, with
@@ -29,7 +29,7 @@ NATIVE_BOUND_DEG = 0.005
 
 @dataclass(frozen=True, kw_only=True)
 class Turn:
-    """The tip of all three, deg, (N,), at the times of the run of our needle."""
+    """The tip of all three, deg, (N,), at the times of our needle's run."""
 
     run: Run
     native_tip_deg: Array

@@ -1,6 +1,6 @@
 """The published Tables II, IV and V as measurements of a rig (`needle diagnose --paper`).
 
-Rooms, each of which imports only those before it:
+Packages, each of which imports only those before it:
 
     experiments   the paper's experiments, its figures, and their replay on the MuJoCo needle
     fitting       mechanisms, hypotheses, and their fits to the figures

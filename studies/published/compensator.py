@@ -1,7 +1,7 @@
 """The columns of Tables IV and V that the paper measured with its torsion compensator.
 
-Its gains and its motor are not stated, so these figures cannot judge the rig: they are
-printed beside what this project's compensators do on the stated one.
+The paper states neither gains nor motor, so these figures cannot test the rig: they are
+printed beside results of this project's compensators on the stated rig.
 """
 
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ _TABLES = (
 
 @dataclass(frozen=True, kw_only=True)
 class CompensatorFigure:
-    """A figure of the compensator's columns beside ours, whose gain and motor are our own.
+    """A figure of the compensator's columns beside ours, with this project's gain and motor.
 
     Attributes:
       name: table, controller and depth.

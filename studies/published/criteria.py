@@ -1,7 +1,7 @@
-"""Every number that decides something in this study, with its scale and where it is from.
+"""Every number that decides something in this study, with its scale and its origin.
 
-"Chosen" means chosen for this study by argument, on the 28 printed figures that it judges:
-there is no second set of published figures on which a choice could have been tested.
+"Chosen" means chosen for this study by argument, with the 28 printed figures known: there is no
+second set of published figures on which a choice could have been tested.
 """
 
 # --- Standard deviations of the figures -----------------------------------------------------

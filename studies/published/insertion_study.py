@@ -1,9 +1,9 @@
-"""Figs. 11 and 12: what each hypothesis makes of both insertions, and of Figs. 3 and 5.
+"""Figs. 11 and 12: predictions of each hypothesis for both insertions, and for Figs. 3 and 5.
 
-A hypothesis with a parameter takes the value at which the base alone deviates by the published
-12 mm; the deviation with compensation is then a prediction, to stand beside 4 mm. Two figures
-test no more than that. Where a hypothesis changes the shaft or the tissue, it also says something
-of the lag in Fig. 3 and of the settling in Fig. 5, if the tissue was the same plastisol.
+The parameter of a hypothesis gets the value at which the base alone deviates by the published
+12 mm; the deviation with compensation is then a prediction, to compare with 4 mm. Two figures
+allow no further test. A hypothesis that changes the shaft or the tissue also predicts
+the lag in Fig. 3 and the settling in Fig. 5, if the tissue was the same plastisol.
 """
 
 import math
@@ -39,11 +39,11 @@ _ROUNDING_MM = 1.0 / math.sqrt(12)
 
 @dataclass(frozen=True, kw_only=True)
 class InsertionPrediction:
-    """What a hypothesis makes of Figs. 11 and 12, and of the text's figures of plastisol.
+    """Predictions of a hypothesis for Figs. 11 and 12, and for the text's figures of plastisol.
 
     Attributes:
-      value: of its parameter; NaN where it has none, or where no value gives 12 mm.
-      alone_mm, compensated_mm: deviations; the first is fitted where there is a parameter.
+      value: value of its parameter; NaN if it has none, or if no value gives 12 mm.
+      alone_mm, compensated_mm: deviations; the first is fitted if there is a parameter.
       text: predictions of `TEXT_FIGURES_PLASTISOL`, in their units.
     """
 
@@ -55,7 +55,7 @@ class InsertionPrediction:
 
     @property
     def residual(self) -> tuple[float, float]:
-        """Predicted minus published over sigma, of both deviations."""
+        """(Predicted - published) / sigma of both deviations."""
         return (
             (self.alone_mm - _ALONE_MM.value) / sigma_mm(_ALONE_MM.value),
             (self.compensated_mm - _COMPENSATED_MM.value) / sigma_mm(_COMPENSATED_MM.value),
@@ -84,9 +84,9 @@ class InsertionStudy:
     """Figs. 11 and 12 under every hypothesis.
 
     Attributes:
-      predictions: nearest to both deviations first.
-      one_way_mm: deviations of the stated rig, base alone and compensated, if all half turns go
-        one way.
+      predictions: the best for both deviations first.
+      one_way_mm: deviations of the stated rig, base alone and compensated, if all half turns have
+        the same sense.
     """
 
     predictions: tuple[InsertionPrediction, ...]
@@ -116,11 +116,11 @@ def study_insertions(
     *,
     hypotheses: Sequence[InsertionHypothesis] = ALL_INSERTION_HYPOTHESES,
 ) -> InsertionStudy:
-    """Every hypothesis, and what fits to the tables predict.
+    """Predict both insertions with every hypothesis, and with fits to the tables.
 
     Args:
-      fits: of Tables II, IV and V, best first, that stand as hypotheses without a parameter, with the
-        shaft of this study and with that of the slow turns; the best also with a prebent tip.
+      fits: fits to Tables II, IV and V, best first. Each becomes a hypothesis without a parameter, with
+        the shaft of this study and with that of the slow turns; the best one also with a prebent tip.
 
     Raises:
       SimulationFailed: a rig cannot be simulated.
@@ -147,7 +147,7 @@ def of_fit(fit: FigureFit, shaft_mm: float) -> InsertionHypothesis:
 
 
 def in_channel(hypothesis: InsertionHypothesis) -> InsertionHypothesis:
-    """A hypothesis without a parameter, and a prebent tip in a channel that gives as Fig. 12 asks."""
+    """A hypothesis without a parameter, plus a prebent tip in a channel that is fitted to Fig. 12."""
     most = prebend_torque_n_mm()
     return InsertionHypothesis(
         name=f"{hypothesis.name}, prebent tip in the channel that it cuts",
@@ -182,9 +182,9 @@ def _through_tissue(rig: InsertionRig) -> PublishedRig:
 
 
 def value_for_base_alone(hypothesis: InsertionHypothesis) -> float:
-    """The least change of the parameter with which the base alone deviates by 12 mm.
+    """The value of the parameter, nearest to neutral, at which the base alone deviates by 12 mm.
 
-    NaN: there is no parameter, or no value within its bounds does.
+    NaN if there is no parameter, or no such value within its bounds.
     """
     p = hypothesis.parameter
     if p is None:

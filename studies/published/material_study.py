@@ -1,4 +1,4 @@
-"""One material: its figures, what was fitted to them, and what that allows to be concluded."""
+"""The study of one material: its figures, the fits to them, and the verdict."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,13 +14,13 @@ from studies.published.selection.verdict import FigureVerdict
 
 @dataclass(frozen=True, kw_only=True)
 class TextComparison:
-    """A figure that the text gives in words, beside what the stated rig and every fit predict.
+    """A figure that the text gives in words, beside the predictions of the stated rig and of every fit.
 
     Attributes:
-      stated: by the first stated rig, in the figure's unit.
-      yielding: by the same rig in tissue with the spring and damper of Section IV-A2.
-      predicted: by each leading fit, in the verdict's order.
-      by_fit: by every fit, in the order of the study's fits.
+      stated: prediction of the first stated rig, in the figure's unit.
+      yielding: prediction of the same rig in tissue with the spring and damper of Section IV-A2.
+      predicted: prediction of each leading fit, in the verdict's order.
+      by_fit: prediction of every fit, in the order of the study's fits.
     """
 
     figure: MeasuredFigure
@@ -41,7 +41,7 @@ class MaterialStudy:
     Attributes:
       stated: the stated rig, with each free length.
       fits: single mechanisms, then pairs, each in the order of AICc.
-      unattainable: figures that a single mechanism cannot explain, by hypothesis.
+      unattainable: by hypothesis, figures that its single mechanism cannot explain.
       text: figures that the text gives in words.
     """
 
@@ -73,7 +73,7 @@ def compare_with_text(
     verdict: FigureVerdict,
     replay: FigureReplay,
 ) -> tuple[TextComparison, ...]:
-    """Figures of the text beside the stated rig, also with tissue that yields, and the fits."""
+    """Figures of the text beside the stated rig, also in yielding tissue, and beside the fits."""
     rig = stated.hypothesis.base
     shown = [f.hypothesis.rig(f.x) for f in (*verdict.leading, *fits)]
     predicted = replay(figures, [rig, _yielding(rig), *shown])

@@ -24,7 +24,7 @@ def study_plastisol(
     """Fit single mechanisms, then pairs, to Tables II, IV and V.
 
     Args:
-      progress: called with what begins and the share of this study that is done.
+      progress: called with the stage that begins, and the share of this study that is done.
 
     Raises:
       SimulationFailed: a rig cannot be simulated.
@@ -53,7 +53,7 @@ def study_plastisol(
 def _fit_singles(
     fitter: FigureFitter, singles: Sequence[Hypothesis], progress: Progress
 ) -> list[FigureFit]:
-    """Fits of single mechanisms; the first with each stated rig is that of the damping."""
+    """Fits of single mechanisms; for each stated rig, that of the damping comes first."""
     fits: list[FigureFit] = []
     damping: dict[PublishedRig, FigureFit] = {}
     for i, single in enumerate(singles):

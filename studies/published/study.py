@@ -1,4 +1,4 @@
-"""`needle diagnose --paper`: everything that is simulated and fitted, stage by stage."""
+"""`needle diagnose --paper`: all simulations and fits, stage by stage."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -22,12 +22,12 @@ _PLASTISOL_BEGINS, _PLASTISOL_ENDS, _INSERTIONS_BEGIN = 0.05, 0.65, 0.7  # share
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedStudy:
-    """Everything that was found.
+    """All results of the study.
 
     Attributes:
-      insertions: Figs. 11 and 12 under hypotheses of their own.
-      compensator: the figures that judge nothing, beside ours.
-      proposed: experiments with plastisol, by how many hypotheses they separate.
+      insertions: Figs. 11 and 12 under their own hypotheses.
+      compensator: figures of the compensator, which test nothing, beside ours.
+      proposed: experiments with plastisol, in the order of how many hypotheses they separate.
       warnings: of fits whose simulation did not converge.
     """
 
@@ -49,10 +49,10 @@ def run_published_study(
     """Run everything; about a minute and a half on one core.
 
     Args:
-      progress: called with what begins and the share that is done.
-      hypotheses: to be fitted.
+      progress: called with the stage that begins, and the share that is done.
+      hypotheses: hypotheses to fit.
       insertions: hypotheses on the steered insertions.
-      compensator: gives the figures of the compensator.
+      compensator: computes the figures of the compensator.
 
     Raises:
       SimulationFailed: a rig cannot be simulated.

@@ -76,7 +76,7 @@ def test_elements_too_light_for_mujoco_are_refused_with_how_to_fix_it():
 
 
 @pytest.mark.parametrize(
-    ("free", "inserted", "field"), [(-1, 10, "free_mm"), (5, math.nan, "inserted_mm"), (0, 0, "some")]
+    ("free", "inserted", "field"), [(-1, 10, "free_mm"), (5, math.nan, "inserted_mm"), (0, 0, "above 0")]
 )
 def test_impossible_lengths_are_refused(free, inserted, field):
     with pytest.raises(InvalidValue, match=field):

@@ -1,8 +1,8 @@
 """Alternative explanations of a gap: how well wrong modelled effects can explain it.
 
-Every effect is fitted by its strength to what the true ones change; other parameters take typical
-values. A residual well below sigma (1) means that the log can hardly tell the alternative from the
-truth. It is an upper bound, as alternatives are not fitted in full. Pairs scale two fitted effects.
+The strength of every effect is fitted to the change that the true effects cause; its other parameters
+have typical values. A residual well below sigma (1) means that the log can hardly tell the alternative
+from the truth. It is an upper bound, since only the strength is fitted. Pairs scale two fitted effects.
 """
 
 import math
@@ -34,9 +34,9 @@ class Alternatives:
 def find_alternatives(
     comparison: RigComparison, rig: IndependentRig, names: Sequence[str], among: Sequence[str] = ()
 ) -> Alternatives:
-    """Fit effects (`among`; all by default) to what the named ones change.
+    """Fit effects (`among`; all by default) to the change that the named ones cause.
 
-    A single true effect is not its own alternative; each one of a pair is.
+    A single true effect is no alternative to itself; one effect of a true pair is an alternative.
     """
     without_them = rig
     for name in names:
@@ -70,7 +70,7 @@ def _fitted(
     by: ByStrength,
     target: Array,
 ) -> Array:
-    """The best fit of a few strengths, each the last one times its least-squares factor."""
+    """The best fit of a few strengths; each is the last one times its least-squares factor."""
     family = ALL_FAMILIES[name]
     strength = float(np.sqrt(family.low * family.high))
     best = np.zeros_like(target)

@@ -1,12 +1,11 @@
 """One validation case: a rig, its trials and sensors, and effects of a drawn signature.
 
-The signature of an effect is the root mean square of what it changes / sigma, over all samples and
-signals that the log has. For each effect one is drawn, and the strength that gives it is searched for.
-The gap is sqrt(1 + signature^2) of everything that is not nominal.
+The signature of an effect is the root mean square of the change that it causes / sigma, over all samples
+and signals of the log. It is drawn for each effect, and the strength that gives it is searched for.
+The gap is sqrt(1 + signature^2) of all changes together.
 
-An unmodelled effect that a modelled one, or a pair, would explain as well is no case of "unknown", three
-effects that a pair would explain are none of three, and stiction that Coulomb friction would explain is
-none of stiction: such draws are rejected.
+Draws that have a simpler explanation are rejected: an unmodelled effect that a modelled one, or a pair,
+would explain; three effects that a pair would explain; stiction that Coulomb friction would explain.
 """
 
 from collections.abc import Sequence
@@ -48,12 +47,12 @@ DRAWS = 100
 
 
 class ImpossibleDraw(Exception):
-    """No draw has given the effects signatures in the range that was asked for."""
+    """No draw has given the effects signatures in the required range."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ValidationCase:
-    """The true rig, its trials, and the signatures that its effects have in them."""
+    """The true rig, its trials, and the signatures of its effects in them."""
 
     rig: IndependentRig
     plan: LogPlan
@@ -79,8 +78,8 @@ def draw_case(
     """Draw until every effect's signature is in its range.
 
     Args:
-      alternatives: look for all alternatives of explained cases, too (slow).
-      roughness: names of what is rough in the recording; sensors are plain otherwise.
+      alternatives: search for all alternatives in explained cases, too (slow).
+      roughness: names of the roughnesses of the recording; sensors are plain otherwise.
 
     Raises:
       ImpossibleDraw: no draw has given these effects such signatures.
@@ -145,7 +144,7 @@ def _alternatives(
     least: float,
     all_of_them: bool,
 ) -> Alternatives | None:
-    """The alternatives, as far as they were looked for; None if one explains the case as well."""
+    """The alternatives, as far as they are searched for; None if one explains the case equally well."""
     unexplained = bool(rig.outside) and not as_effects(rig)
     for name in names:
         if name in NEAREST:

@@ -19,8 +19,8 @@ COARSE_STEP_S = 0.01
 class RigComparison:
     """Signals of rigs on the same trials; every rig is simulated once.
 
-    A coarse comparison, with long steps and few cells, is ten times faster, and good to a few
-    hundredths of an effect. It is for searches; the final values come from a fine one.
+    A coarse comparison, with long steps and few cells, is ten times faster, with an error of a few
+    percent of an effect. It serves searches; the final values come from a fine one.
     """
 
     def __init__(self, motions: list[TrialMotion], sensors: LogSensors, *, coarse: bool = False) -> None:
@@ -32,7 +32,7 @@ class RigComparison:
     def signals(
         self, rig: IndependentRig, driven_as: list[IdealSignals] | None = None
     ) -> list[IdealSignals]:
-        """Ideal signals of every trial; `driven_as`: with the shown base angles of these instead."""
+        """Ideal signals of every trial; `driven_as`: signals whose base angles drive it instead."""
         key = json.dumps([rig.effects, rig.outside], sort_keys=True)
         if driven_as is not None:
             scale = rig.sensor("base_angle_scale", "scale")
@@ -45,7 +45,7 @@ class RigComparison:
         return self._known[key]
 
     def difference(self, rig: IndependentRig, other: IndependentRig) -> Array:
-        """Signals of `rig` minus those of `other` driven by the base angle that `rig` shows.
+        """Signals of `rig` minus those of `other`, which is driven by the base angle that `rig` shows.
 
         Returns:
           In units of sigma, the noise of each sensor; all samples of all trials and signals, (N,).
@@ -72,7 +72,7 @@ def rms(values: Array) -> float:
 
 
 def _decimated(motion: TrialMotion) -> TrialMotion:
-    """The same motion on a coarse time grid, all of whose points count as samples."""
+    """The same motion on a coarse time grid; all its points count as samples."""
     every = max(round(COARSE_STEP_S / motion.dt_s), 1)
     tip_torque = motion.tip_torque_n_mm
     return TrialMotion(

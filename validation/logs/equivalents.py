@@ -1,13 +1,13 @@
-"""Which sets of effects no log can tell from the true ones, and which wrong constants are effects.
+"""Sets of effects that no log can tell from the true ones, and wrong constants that equal effects.
 
-Without a known torque at the tip, every law is one of angles and of torques over torques. So
+Without a known torque at the tip, all laws contain only angles and ratios of torques. So
 
-- a torque sensor of gain s reads what a rig reads whose stiffness and damping are both s times as high;
-- an encoder of the base that reads s theta has the log of a rig that turns s theta, with a tip sensor of
-  gain s and torques of gain 1/s: a tip gain of s times the true one, seen from there 1/s of the nominal.
+- a torque sensor of gain s gives the same log as a rig with s times the stiffness and damping;
+- a base encoder that reads s theta gives the same log as a rig that turns by s theta, with a tip sensor
+  of gain 1/s and torques of gain 1/s.
 
-A free length that is d longer than logged is a spring of stiffness rigidity / d before the needle. A
-diameter (1 + e) times as large is a stiffness (1 + e)^4 times as high.
+A free length that is d longer than logged equals a spring of stiffness rigidity / d before the needle.
+A diameter that is (1 + e) times as large equals a stiffness that is (1 + e)^4 times as high.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,10 +27,10 @@ SCALE_OF_ANGLES = {"base_angle_scale": {"needle_curvature"}}
 
 
 def acceptable(effects: Sequence[str], *, loaded: bool) -> list[list[str]]:
-    """Other sets of effects that fit the log as well, whatever its noise.
+    """Other sets of effects that fit the log equally well, whatever its noise.
 
     Args:
-      loaded: a known torque acts at the tip in some trial: torques then have a scale.
+      loaded: a known torque acts at the tip in some trial, which sets the scale of torques.
     """
     if loaded:
         return []
@@ -43,7 +43,7 @@ def acceptable(effects: Sequence[str], *, loaded: bool) -> list[list[str]]:
 
 
 def as_effects(rig: IndependentRig) -> Mapping[str, Mapping[str, float]]:
-    """The effects that the rig's unlisted wrong constants are; empty if there is none for it."""
+    """The effects that are equal to the rig's unlisted wrong constants; empty if there are none."""
     longer_mm = rig.outside.get("free_length_error", {}).get("offset", 0.0)
     if longer_mm > 0:
         return {"base_compliance": {"stiffness": rig.law().rigidity / longer_mm}}

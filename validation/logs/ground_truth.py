@@ -1,4 +1,4 @@
-"""The ground truth of a log, as it stands in answers.json."""
+"""The ground truth of a log, as an entry of answers.json."""
 
 from typing import Any
 
@@ -56,7 +56,7 @@ def ground_truth(kind: str, case: ValidationCase) -> Answer:
 
 
 def _wrong_outside(case: ValidationCase) -> Answer:
-    """What is unknown to the library; a refusal is as right if it names a flipped trial and column."""
+    """What the library does not have; a flipped sign may also be refused, with trial and column."""
     if not case.roughness:
         return {"verdict": "explained" if as_effects(case.rig) else "unknown"}
     fault = case.roughness[0]
@@ -71,7 +71,7 @@ def _wrong_outside(case: ValidationCase) -> Answer:
 
 
 def _missing(outside: str) -> dict[str, list[str]]:
-    """Where the effect acts, and what it depends on: the leading variable, then what is as right."""
+    """Where the effect acts, and on what it depends: the leading variable, then equally right ones."""
     effect = (EFFECTS | UNLISTED_CONSTANTS)[outside]
     return {"place": [*effect.place], "variables": [*effect.variables]}
 

@@ -57,13 +57,13 @@ def make_logs(
 
     Args:
       kinds: some of `schedule.ALL_KINDS`, or "all"; `schedule.KINDS` by default; in their shares.
-      short: three trials of about 40 s in all, at 50 or 100 Hz.
-      signature: least and greatest signature of every effect: rms of what it changes / sigma.
-      effects: only these, modelled or unmodelled.
-      roughness: of the rough kinds, each of these in turn and alone; by default pairs of all.
+      short: three trials of about 40 s in total, at 50 or 100 Hz.
+      signature: smallest and largest signature of every effect: rms of the change / sigma.
+      effects: draw only these, modelled or unmodelled.
+      roughness: for the rough kinds, each of these alone, in turn; by default pairs of all.
       alternatives: add to all answers which wrong effects would nearly explain the gap (slow);
         answers of unmodelled effects always have it.
-      workers: processes.
+      workers: number of processes.
       watched: iterates over the logs as they are made, and may show progress.
 
     Raises:

@@ -1,4 +1,4 @@
-"""The motions of a log: how its trials turn and slide, how deep, how long, how finely sampled."""
+"""The motions of a log: how its trials turn and slide, their depth, duration and sampling rate."""
 
 import math
 from dataclasses import dataclass, replace
@@ -18,11 +18,11 @@ LEAST_FREE_MM, MOST_FREE_MM = 20.0, 200.0
 
 @dataclass(frozen=True, kw_only=True)
 class LogPlan:
-    """What a log's trials have in common.
+    """The common properties of a log's trials.
 
     Attributes:
-      sliding, growing, loaded: shares of trials that slide, that change the inserted length, and on
-        whose tip a known torque acts.
+      sliding, growing, loaded: shares of trials that slide, that change the inserted length, and that
+        have a known torque at the tip.
     """
 
     trials: int
@@ -34,7 +34,7 @@ class LogPlan:
 
 
 def draw_plan(rng: np.random.Generator, *, short: bool, slides: bool, loads: bool) -> LogPlan:
-    """A plan; `slides` and `loads`: what the effect needs in order to show."""
+    """Draw a plan; `slides`, `loads`: the effect is only visible if trials slide, or are loaded."""
     rates, weights = ((50, 100), (0.4, 0.6)) if short else ((50, 100, 200), (0.12, 0.78, 0.1))
     sliding = rng.choice([0.0, 0.4, 0.8], p=[0.35, 0.35, 0.3])
     growing = 0.4 if rng.random() < 0.15 else 0.0
@@ -66,7 +66,7 @@ def draw_motions(rng: np.random.Generator, plan: LogPlan) -> list[TrialMotion]:
 
 
 def _some(rng: np.random.Generator, count: int, share: float) -> Array:
-    """That share of the trials, at least one if the share is above 0."""
+    """A share of the trials, drawn at random: at least one if the share is above 0."""
     chosen = np.zeros(count, bool)
     chosen[: math.ceil(share * count)] = True
     return np.asarray(rng.permutation(chosen))
@@ -99,7 +99,7 @@ def _draw_motion(
 def _slide(
     rng: np.random.Generator, time_s: Array, depth: float, sliding: bool, growing: bool
 ) -> tuple[Array, Array, Array]:
-    """Axial speed, inserted and free length."""
+    """Axial speed, mm/s, inserted and free length, mm."""
     free = rng.uniform(40, 160)
     if not (sliding or growing):
         rest = np.zeros_like(time_s)
@@ -119,7 +119,7 @@ def _slide(
 
 
 def _speed(rng: np.random.Generator, time_s: Array) -> Array:
-    """Constant, in part of the trial, or forth and back; edges take a tenth of a second."""
+    """Axial speed: constant, during part of the trial, or forth and back; edges take 0.1 s."""
     size = rng.choice([-1, 1]) * log_uniform(rng, 0.5, 5.0)
     kind = rng.choice(["always", "part", "both ways"], p=[0.4, 0.35, 0.25])
     end = time_s[-1]
@@ -136,7 +136,7 @@ def _speed(rng: np.random.Generator, time_s: Array) -> Array:
 
 
 def _load(rng: np.random.Generator, time_s: Array) -> Array:
-    """A known torque at the tip: a tone, or steps with smooth edges."""
+    """A known torque at the tip, N mm: a sine, or steps with smooth edges."""
     size = log_uniform(rng, 0.3, 2.0)
     if rng.random() < 0.5:
         frequency = log_uniform(rng, 1.0 / time_s[-1], 0.3)

@@ -1,4 +1,4 @@
-"""Which modelled effects look most like another one: a draw that they explain is rejected at once."""
+"""Which modelled effects are most like another one: a draw that these explain is rejected at once."""
 
 NEAREST = {
     "tip_sensor_lag": ("tip_sensor_delay",),

@@ -1,6 +1,6 @@
 """How the drive shaft turns: profiles of base angle over time, deg, all starting at 0 at rest.
 
-Each takes a generator, a time grid, s, and the largest rate that the rig should see, deg/s.
+Each takes a generator, a time grid, s, and the largest rate, deg/s; it returns (N,), deg.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ def steady(share: Array) -> Array:
 def moves(
     time_s: Array, turns: list[tuple[float, float, float]], shape: Callable[[Array], Array]
 ) -> Array:
-    """Turns after one another: (by deg, in s, then hold s)."""
+    """Successive turns: (angle, deg; duration, s; hold, s)."""
     base, start = np.zeros_like(time_s), 0.0
     for by, duration, hold in turns:
         base += by * shape((time_s - start) / duration)
@@ -51,7 +51,7 @@ def staircase(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
 
 
 def back_and_forth(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
-    """To one side and back, again and again, with or without holds."""
+    """To one side and back, repeatedly, with or without holds."""
     amplitude = log_uniform(rng, 30, 500)
     duration = max(amplitude / rate * rng.uniform(1, 3), 0.3)
     hold = rng.choice([0.0, 0.0, 0.5, 2.0])
@@ -64,7 +64,7 @@ def back_and_forth(rng: np.random.Generator, time_s: Array, rate: float) -> Arra
 
 
 def sine(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
-    """One tone, starting at rest."""
+    """A sine, starting at rest."""
     frequency = log_uniform(rng, 1.5 / time_s[-1], 0.8)
     amplitude = min(rate / (2 * np.pi * frequency), 500) * rng.uniform(0.4, 1)
     onset = min_jerk(time_s * frequency)
@@ -72,7 +72,7 @@ def sine(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
 
 
 def multisine(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
-    """Some tones of like rate, starting at rest."""
+    """A sum of sines of similar rate, starting at rest."""
     frequencies = [log_uniform(rng, 1.0 / time_s[-1], 1.2) for _ in range(int(rng.integers(3, 6)))]
     base = np.zeros_like(time_s)
     for frequency in frequencies:
@@ -82,7 +82,7 @@ def multisine(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
 
 
 def chirp(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
-    """A tone that rises, with a falling amplitude."""
+    """A sine of rising frequency and falling amplitude."""
     low, high = 1.0 / time_s[-1], rng.uniform(0.4, 1.5)
     growth = np.log(high / low) / time_s[-1]
     frequency = low * np.exp(growth * time_s)
@@ -112,7 +112,7 @@ def fast_turns(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
 
 
 def wander(rng: np.random.Generator, time_s: Array, rate: float) -> Array:
-    """Smooth turns to random targets, some of them far, with some holds."""
+    """Smooth turns to random targets, some of them distant, with some holds."""
     turns: list[tuple[float, float, float]] = []
     where = 0.0
     while sum(duration + hold for _, duration, hold in turns) < time_s[-1]:

@@ -1,4 +1,4 @@
-"""Draws a rig whose effects have drawn signatures: the strength that gives each is searched for."""
+"""Draws a rig: the signature of each effect is drawn, and its strength is searched for."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -23,10 +23,10 @@ def draw_rig(
     names: Sequence[str],
     ends: tuple[float, float],
 ) -> IndependentRig | None:
-    """A rig whose effects, each alone, have drawn signatures; None where these trials cannot show them.
+    """A rig whose effects, each alone, have drawn signatures; None if these trials cannot show them.
 
     Args:
-      ends: least and greatest signature.
+      ends: smallest and largest signature.
     """
     rig = IndependentRig(damping_n_mm_s_per_mm=round(rng.uniform(0.015, 0.025), 6))
     if kind == "off_nominal":

@@ -1,6 +1,6 @@
 """The kind and the effects of every log: fixed shares in blocks, shuffled by the seed.
 
-What log i is depends on the seed and i alone, not on how many logs are made.
+Log i depends only on the seed and on i, not on how many logs are made.
 """
 
 from collections.abc import Sequence
@@ -70,7 +70,7 @@ def kind_of(seed: int, case: int, kinds: Sequence[str] = KINDS) -> tuple[str, in
 
 
 def _block(seed: int, block: int, kinds: Sequence[str]) -> list[str]:
-    """Kinds of one block: shares by largest remainder, shuffled."""
+    """Kinds of one block: numbers by largest remainder, shuffled."""
     total = sum(SHARES_OF_ALL[kind] for kind in kinds)
     ideal = {kind: BLOCK * SHARES_OF_ALL[kind] / total for kind in kinds}
     counts = {kind: int(value) for kind, value in ideal.items()}
@@ -88,7 +88,7 @@ def name_in_turn(seed: int, earlier: int, names: Sequence[str]) -> str:
 
 
 def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None) -> tuple[str, ...]:
-    """Names of the effects of a log; of kind `outside`, of an unmodelled one."""
+    """Names of the effects of a log; for kind `outside`, of an unmodelled effect."""
     if kind in ("none", "rough_none"):
         return ()
     if kind == "wrong_outside":
@@ -108,7 +108,7 @@ def effects_of(seed: int, kind: str, earlier: int, allowed: Sequence[str] | None
 
 
 def _partner(rng: np.random.Generator, chosen: Sequence[str]) -> str:
-    """One effect more, mostly elsewhere in the machine than each of those that are there."""
+    """One more effect, mostly in another part of the machine than the chosen ones."""
     elsewhere = rng.random() >= SAME_LOCATION
     taken = {LOCATIONS[name] for name in chosen}
     fit = [
@@ -123,14 +123,14 @@ def _partner(rng: np.random.Generator, chosen: Sequence[str]) -> str:
 
 
 def _cause(seed: int, earlier: int) -> str:
-    """What is wrong in a log of kind `wrong_outside`: a constant or the recording."""
+    """The fault in a log of kind `wrong_outside`: a wrong constant, or one of the recording."""
     return name_in_turn(seed, earlier, (*UNLISTED, *FAULTS))
 
 
 def roughness_of(
     seed: int, kind: str, earlier: int, case: int, asked: Sequence[str] | None
 ) -> tuple[str, ...]:
-    """Names of the roughnesses of a log: each pair in turn, or each one that is asked for, alone."""
+    """Names of the roughnesses of a log: each pair in turn, or each of those in `asked` alone."""
     if kind == "wrong_outside":
         return tuple(name for name in (_cause(seed, earlier),) if name in FAULTS)
     if kind not in ROUGH_SHARES:

@@ -28,10 +28,10 @@ class LogSensors:
 
     Attributes:
       noise: standard deviation (sigma) per signal, in the unit of its column.
-      claims: noise that rig.yaml states / true noise.
-      steps: quantisation step / noise, of quantised signals.
-      dropped: share of rows that are lost at random; `gaps`: also some tenths of a second at once.
-      missing: a column that is not there; `blank`: one with a stretch of empty cells.
+      claims: noise stated in rig.yaml / true noise.
+      steps: quantisation step / noise, for quantised signals.
+      dropped: share of rows that are lost at random; `gaps`: also gaps of some tenths of a second.
+      missing: a column that does not exist; `blank`: one with a stretch of empty cells.
     """
 
     noise: dict[str, float]
@@ -48,12 +48,12 @@ class LogSensors:
         return tuple(signal for signal in MEASURED if signal != self.missing)
 
     def details(self) -> dict[str, Any]:
-        """For the ground truth: every attribute that is not neutral."""
+        """Every attribute that is not neutral, for the ground truth."""
         return {name: value for name, value in asdict(self).items() if value}
 
 
 def draw_sensors(rng: np.random.Generator) -> LogSensors:
-    """Most logs are plain; each defect is rare, and several may coincide."""
+    """Draw sensors: most are plain; each defect is rare, and several may occur together."""
     noise = {TIP: log_uniform(rng, 0.2, 0.6), TORQUE: log_uniform(rng, 0.01, 0.02), BASE: 0.02}
     claims = {signal: rng.uniform(0.87, 1.15) for signal in noise}
     defect = rng.random(5) < (0.06, 0.15, 0.15, 0.05, 0.04)
@@ -73,13 +73,13 @@ def draw_sensors(rng: np.random.Generator) -> LogSensors:
 
 
 def plain(sensors: LogSensors) -> LogSensors:
-    """The same noise with claims that are good to 15 %, and no defect."""
+    """Sensors with the same noise, claims within 15 %, and no defect."""
     claims = {signal: min(max(claim, 0.87), 1.15) for signal, claim in sensors.claims.items()}
     return LogSensors(noise=sensors.noise, claims=claims, steps={})
 
 
 def channels(motion: TrialMotion, ideal: IdealSignals) -> dict[str, Array]:
-    """What a trial's CSV has columns of, on the fine grid, in their order."""
+    """The columns of a trial's CSV on the fine grid, in their order."""
     shown = {
         "time_s": motion.time_s,
         BASE: ideal.base_deg,
@@ -96,7 +96,7 @@ def channels(motion: TrialMotion, ideal: IdealSignals) -> dict[str, Array]:
 def measure(
     rng: np.random.Generator, sensors: LogSensors, motion: TrialMotion, ideal: IdealSignals
 ) -> dict[str, Array]:
-    """The columns of a trial's CSV, in their order."""
+    """The columns of a trial's CSV as measured, in their order."""
     columns = {name: values[motion.recorded] for name, values in channels(motion, ideal).items()}
     for signal in (BASE, TORQUE, TIP):
         noisy = columns[signal] + rng.normal(0, sensors.noise[signal], columns[signal].size)
@@ -123,7 +123,7 @@ def _drop_samples(
 
 
 def as_csv(columns: dict[str, Array], formats: Mapping[str, str] = FORMATS) -> str:
-    """A header and a line per row; cells without a number stay empty."""
+    """A CSV with a header; cells without a number stay empty."""
     cells = [
         ["" if np.isnan(value) else formats.get(name, "%.3f") % value for value in values]
         for name, values in columns.items()

@@ -1,7 +1,7 @@
 """The balance of torques at the end of one step in time, and its linearisation.
 
-Every node: torque from the chuck's side - torque to the tip's side = friction on it. The twist of the
-tissue follows the interface torque, with compliance c, retardation time r and hardening h
+For every node, torque from the chuck's side - torque to the tip's side = friction on it. The twist of
+the tissue follows from the interface torque, with compliance c, retardation time r and hardening h:
 
     (1 + r lead) twist + h twist^3 = c torque - r past,
 
@@ -30,7 +30,7 @@ def linearise(
     work: NewtonWorkspace,
     lagged: bool,
 ) -> float:
-    """Fill the rows of a Newton step at the sought angles and twists; returns the norm of the residual.
+    """Fill the rows of a Newton step at the present angles and twists; returns the norm of the residual.
 
     Args:
       lagged: take the dry level at the lagged slip rates, which makes the balance monotone.
@@ -120,7 +120,7 @@ def _add_sheath_and_curvature(
 
 @njit(cache=True)
 def entry_turn(chain: CellChain, state: RigState, work: NewtonWorkspace) -> float:
-    """How far the shaft turns within the step where it enters, rad."""
+    """Turn of the shaft at the entry within the step, rad."""
     travel = 0.0
     for i in range(work.angle.size):
         if chain.passing[i] > 0.0:

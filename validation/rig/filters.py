@@ -1,4 +1,4 @@
-"""What trails behind a signal: a first-order low pass, and a coupling with play."""
+"""Filters of a signal: a first-order low pass, and a coupling with play."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,7 +7,7 @@ Array = NDArray[np.float64]
 
 
 def low_passed(values: Array, dt_s: float, time_constant_s: float) -> Array:
-    """First order, settled at the first value; exact for values that run straight within each step."""
+    """First-order low pass, settled at the first value; exact if values are linear within steps."""
     decay = np.exp(-dt_s / time_constant_s)
     shown = values.copy()
     ramp = time_constant_s / dt_s * (1 - decay)
@@ -18,7 +18,7 @@ def low_passed(values: Array, dt_s: float, time_constant_s: float) -> Array:
 
 
 def followed_with_play(values: Array, half_width: float) -> Array:
-    """What trails values with play, from the middle of it, (N,)."""
+    """Values that follow with play, starting in the middle of it, (N,)."""
     followed = values.copy()
     for i in range(1, values.size):
         low, high = values[i] - half_width, values[i] + half_width

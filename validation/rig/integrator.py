@@ -1,4 +1,4 @@
-"""Integration in time: BDF2 (variable steps), a step being halved where Newton's method fails.
+"""Integration in time: BDF2 with variable steps; a step is halved if Newton's method fails.
 
 A trial starts untwisted and at rest, in the middle of the chuck's play. The inputs are linear between
 the points of the time grid. Coefficients: Hairer, Norsett and Wanner,
@@ -72,7 +72,7 @@ def _advance(
     end: Array,
     steps: tuple[float, float],
 ) -> bool:
-    """One step; the state is untouched if no balance is found.
+    """Take one step; the state is unchanged if no balance is found.
 
     Args:
       start, end: inputs at both ends of the step, (6,).

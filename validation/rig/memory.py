@@ -1,8 +1,8 @@
 """Internal variables after a step: presliding, age and wear of nodes, set of links, twist of the tissue.
 
 The twist belongs to points of the tissue: the nodes themselves in an Eulerian mesh, else a finer grid
-through which the needle slides. Each point carries the torque of the shaft that is there; tissue without
-a needle creeps back.
+through which the needle slides. Each point carries the torque of the shaft at its place; tissue without
+needle creeps back.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ POINTS_PER_CELL = 4
 
 @njit(cache=True)
 def tissue_point_count(mesh: MeshSize, total: float, deepest: float) -> int:
-    """How many points of the tissue a needle of that total length reaches, lengths in mm."""
+    """Number of points of the tissue that a needle of that total length can reach; lengths in mm."""
     if not mesh.lagrangian:
         return mesh.nodes
     return int(np.ceil(deepest / total * (mesh.nodes - 1) * POINTS_PER_CELL)) + 2
@@ -54,7 +54,7 @@ def commit(
     tissue_past: Array,
     step_and_depth: tuple[float, float],
 ) -> None:
-    """Make the solution in `work` the state.
+    """Write the solution in `work` into the state.
 
     Args:
       tissue_past: past part of the rates of the tissue's twist, (points,).

@@ -1,4 +1,4 @@
-"""The chain of finite volumes at one moment: where its nodes are and what acts on them.
+"""The chain of finite volumes at one time: the places of its nodes, and the coefficients at each.
 
 At constant inserted length the mesh is Eulerian, fixed in the tissue: free cells (if a sheath rubs), the
 entry, inserted cells, the tip. If the inserted length changes, the mesh is Lagrangian, fixed to the
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 class MeshSize(NamedTuple):
-    """Number of nodes.
+    """Numbers of cells, and the frame of the mesh.
 
     Attributes:
       free_cells: cells of the free shaft in an Eulerian mesh; 0 without a sheath.
@@ -36,11 +36,11 @@ class CellChain(NamedTuple):
     Attributes:
       link_mm, link: length and torsional stiffness (N mm/rad) of the links; `link` has one more entry,
         0, for what lies behind the tip.
-      depth: of the part that is in the tissue, mm.
+      depth: depth of the part that is in the tissue, mm.
       tissue, sheath: length in the tissue and in the sheath, mm.
       damping: viscous torque per rad/s and mm of tissue.
       entry: shares of the nodes in the entry friction at the end of the step.
-      passing: weights of the nodes in the turn of what passes the entry, in the middle of the step.
+      passing: weights of the nodes in the turn of the shaft at the entry, in the middle of the step.
     """
 
     link_mm: Array

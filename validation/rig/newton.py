@@ -1,10 +1,10 @@
 """Newton's method for the balance of torques.
 
-It is semismooth: kinks of dry friction and backlash give one of their slopes. If full steps do not
-settle, a line search halves them until the residual falls. Friction that falls with the slip rate faster
-than viscous torque rises may have several balances, or jump between them: then the level is taken at
-lagged slip rates, which follow the solution (a fixed-point iteration) until Newton's method settles from
-there. If it never does, the level lags a little behind the rate for that step.
+It is semismooth: at kinks of dry friction and backlash it uses one of the two slopes. If full steps
+do not converge, a line search halves them until the residual falls. Friction that falls faster with
+the slip rate than viscous torque rises may have several balances, or jump between them: then the level
+is taken at lagged slip rates, which follow the solution (a fixed-point iteration) until Newton's method
+converges from there. If it never does, the level lags slightly behind the rate in that step.
 """
 
 import math
@@ -60,10 +60,10 @@ def _iterate(
     most: tuple[int, int],
     lagged: bool,
 ) -> bool:
-    """Newton's iteration, whether it converged.
+    """Newton's iteration; returns whether it converged.
 
     Args:
-      most: halvings of each step, and how many steps.
+      most: largest number of halvings of each step, and of steps.
       lagged: take the dry level at `work.lagged_rate`.
     """
     for _ in range(most[1]):
@@ -118,7 +118,7 @@ def _backtrack(
     halvings: int,
     lagged: bool,
 ) -> None:
-    """Line search: take back half of the step again and again until the residual has fallen."""
+    """Line search: take back half of the step repeatedly until the residual has fallen."""
     increment, twist_increment = work.increment.copy(), work.twist_increment.copy()
     part = 1.0
     for _ in range(halvings):

@@ -21,7 +21,7 @@ class IndependentRig:
 
     Attributes:
       effects: modelled effects, as in `modelled`.
-      outside: effects outside the diagnosis' models, parameters as in `unmodelled`.
+      outside: effects that the diagnosis does not model, with parameters as in `unmodelled`.
 
     Raises:
       ValueError: an effect is unknown, or its parameters are not those of `modelled`.
@@ -60,11 +60,11 @@ class IndependentRig:
         return law
 
     def sensor(self, effect: str, parameter: str) -> float:
-        """A parameter of an effect that is in no law, or its neutral value."""
+        """A parameter of an effect of the sensors, which is in no law; or its neutral value."""
         return float(self.effects.get(effect, NEUTRAL[effect])[parameter])
 
     def unlisted(self, constant: str, parameter: str) -> float:
-        """How wrong a constant is, 0 if it is right."""
+        """Error of a constant; 0 if it is right."""
         return float(self.outside.get(constant, {}).get(parameter, 0.0))
 
 

@@ -1,4 +1,4 @@
-"""A trial of the rig: the motion of the needle, and what ideal sensors read of it."""
+"""A trial of the rig: the motion of the needle, and the readings of ideal sensors."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class CellCounts(NamedTuple):
-    """Cells: of the inserted shaft, of the free one under a sheath; of all if its depth changes."""
+    """Numbers of cells: inserted shaft; free shaft in a sheath; whole shaft if the depth changes."""
 
     inserted: int
     sheath: int
@@ -36,7 +36,7 @@ def simulate_twist(
     """Tip angle, rad, and drive torque, N mm, on the fine grid, (N,) each.
 
     Raises:
-      RuntimeError: no balance of torques was found at a time, which it names.
+      RuntimeError: no balance of torques was found; the message names the time.
     """
     sheath = cells.sheath if law.sheath > 0 else 0
     mesh = MeshSize(sheath + cells.inserted + 2, sheath, False)
@@ -55,7 +55,7 @@ def simulate_twist(
 def ideal_signals(rig: IndependentRig, motion: TrialMotion, cells: CellCounts = FINE) -> IdealSignals:
     """Readings of noise-free sensors in the trial, on the fine grid.
 
-    `motion` has the base angle that the drive shaft really turns, and the lengths that the log states.
+    `motion` has the true base angle of the drive shaft, and the lengths that the log states.
     """
     law = rig.law()
     tip, torque = simulate_twist(law, _at_chuck(rig, _true_lengths(rig, motion)), cells)
@@ -99,7 +99,7 @@ def _true_lengths(rig: IndependentRig, motion: TrialMotion) -> TrialMotion:
 
 @njit(cache=True)
 def presliding_shares(turned: Array, limit: float) -> Array:
-    """Share of its level that a dry bearing holds against a shaft that turns so, rad, (N,)."""
+    """Torque of a dry bearing / its level, for a shaft with these angles, rad, (N,)."""
     shares = np.zeros_like(turned)
     for i in range(1, turned.size):
         travel = turned[i] - turned[i - 1]

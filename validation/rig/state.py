@@ -13,7 +13,7 @@ ENTRY, TIP, CHUCK = 0, 1, 2
 
 
 class RigState(NamedTuple):
-    """What is remembered from step to step; lengths (nodes,), (points,) and (3,).
+    """The internal variables between steps; shapes (nodes,), (points,) and (3,).
 
     Attributes:
       angle, angle_before: rad, after this step and after the one before it.
@@ -39,10 +39,10 @@ class RigState(NamedTuple):
 
 
 class NewtonWorkspace(NamedTuple):
-    """Of one step, per node, (nodes,).
+    """Arrays of one step, per node, (nodes,).
 
     Attributes:
-      angle, twist: sought, of shaft and tissue, rad.
+      angle, twist: unknowns: angle of the shaft and twist of the tissue, rad.
       angle_past, twist_past: past part of their rates, rad/s; twist_now: twist at the start, rad.
       torque: of the interface, N mm / mm.
       lower, diagonal, upper, residual: rows of the tridiagonal system.
@@ -68,12 +68,12 @@ class NewtonWorkspace(NamedTuple):
 
 
 class StepInput(NamedTuple):
-    """What acts on the needle at the end of a step; rates are lead * value + past.
+    """The inputs at the end of a step; rates are lead * value + past.
 
     Attributes:
       base, tip_torque: rad, N mm.
       lead: coefficient of the new value in a rate, 1/s.
-      axial_travel: within the step, over the radius.
+      axial_travel: axial travel within the step / radius.
       time, speed: s, mm/s.
     """
 

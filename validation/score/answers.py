@@ -1,4 +1,4 @@
-"""The ground truth that a set of logs comes with: `answers/answers.json`, read and checked."""
+"""The ground truth of a set of logs: reads and checks `answers/answers.json`."""
 
 import json
 from pathlib import Path
@@ -19,7 +19,7 @@ def read_answers(folder: Path) -> dict[str, dict[str, Any]]:
     """Ground truth of every log in `folder`, by the name of the log's own folder.
 
     Raises:
-      InvalidValue: the file is no JSON object with an entry per log, or an entry lacks a key.
+      InvalidValue: the file is not a JSON object with an entry per log, or an entry lacks a key.
     """
     path = folder / FILE
     try:

@@ -1,4 +1,4 @@
-"""Accuracy and calibration over many logs: how often exact, and whether stated probabilities hold."""
+"""Accuracy and calibration over many logs: share of exact reports, reliability of probabilities."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ GAP_GOAL = 1.03
 
 
 def summary(scores: pd.DataFrame) -> pd.DataFrame:
-    """By kind: number of logs and of those confidently wrong, shares, median and worst seconds."""
+    """By kind: numbers of logs and of confidently wrong ones, shares, median and longest time, s."""
     grouped = scores.groupby("kind")
     return pd.DataFrame(
         {
@@ -24,7 +24,7 @@ def summary(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def confidently_wrong(scores: pd.DataFrame) -> "pd.Series[bool]":
-    """By log; of tables of before the column: what is explained or none, and not exact."""
+    """Per log; for tables without that column: `explained` or `none`, and not exact."""
     if "confidently_wrong" in scores:
         return scores["confidently_wrong"].astype(bool)
     return scores["verdict"].isin(["explained", "none"]) & ~scores["exact"].astype(bool)
@@ -43,9 +43,9 @@ def undetected_within_limit(scores: pd.DataFrame) -> tuple[float, int]:
 
 
 def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
-    """By bin of probability: mean predicted and observed share of right first ranks, and logs.
+    """By bin of probability: predicted and observed share of right first ranks, and number of logs.
 
-    Where several effects are true, the predicted share is the probability of all of them together.
+    If several effects are true, the predicted share is the probability of all of them together.
     """
     scores = scores[scores["probability"].notna()]
     share = np.where(scores["top_right"], scores["probability_right"], scores["probability"])

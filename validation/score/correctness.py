@@ -1,14 +1,14 @@
-"""Whether the report on one log is right, and whether it is wrong with confidence.
+"""Whether the report on one log is right, and whether it is confidently wrong.
 
-A report is exact if its verdict and its set of effects are those of the ground truth. Where stiffness or
-damping are off by up to 3 % beside an effect, they may be named or not. Where the laws themselves make
-two effects indistinguishable in the log, so that no method could decide, exact is `undecided` with the
-truth among the confusable sets; that is exact, too, where a rough recording or a wrong constant may hide
-what there is. Of a trial with the wrong sign, a refusal is exact that names trial and column.
+A report is exact if its verdict and its set of effects are those of the ground truth. Errors of
+stiffness or damping of up to 3 % beside an effect may be named or not. If the laws make two effects
+indistinguishable in the log, so that no method could decide, the exact report is `undecided` with the
+truth among the confusable sets; this is also exact if a rough recording or a wrong constant may hide
+the effects. For a trial with the wrong sign, a refusal that names trial and column is exact.
 
-A report is confidently wrong if its verdict is `explained` or `none` and that is not so. Naming a set
-that no log can tell from the truth is not wrong; if it is of more effects than the truth, which happen
-to be equal, it is, unless the report says what else it may be.
+A report is confidently wrong if its verdict is `explained` or `none`, and not true. Naming a set
+that no log can tell from the truth is not wrong, unless it has more effects than the truth (which only
+happen to be equal to it) and the report names no alternative.
 """
 
 from collections.abc import Mapping
@@ -27,10 +27,10 @@ TOLERATED = 0.03
 
 @dataclass(frozen=True, kw_only=True)
 class Correctness:
-    """What a report is against the ground truth.
+    """The comparison of a report with the ground truth.
 
     Attributes:
-      confused: `undecided` with the truth among what it may be.
+      confused: `undecided`, with the truth among the confusable sets.
       undecidable: no trial can distinguish the true effect from another one.
     """
 
@@ -68,7 +68,7 @@ def correctness(
 
 
 def _optional(answer: Mapping[str, Any], true: set[str]) -> set[str]:
-    """What may be named or not: small errors of stiffness and damping beside an effect."""
+    """Effects that may be named or not: small errors of stiffness and damping beside another effect."""
     scales = {n: p["scale"] for n, p in answer["parameters"].items() if n in PARAMETER_ERRORS}
     return {
         name

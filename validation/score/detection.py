@@ -1,8 +1,8 @@
-"""How weak an effect may be and still be named: its detection limit.
+"""The detection limit of an effect: how weak it may be and still be named.
 
-Logs of one effect are sorted by its signature (root mean square of what it changes / sigma). The limit
-splits them into not named below and named above with the fewest logs on the wrong side; it lies half-way
-between its neighbours on a logarithmic scale.
+Logs of one effect are sorted by its signature (root mean square of the change / sigma). The limit
+separates logs below, where it is not named, from logs above, where it is, with the fewest logs on the
+wrong side; it lies half-way between its neighbours on a logarithmic scale.
 """
 
 import numpy as np
@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 
 def detection_limits(scores: pd.DataFrame) -> pd.DataFrame:
-    """By effect: logs, share of them that was named, smallest signature and detection limit / sigma.
+    """By effect: number of logs, share in which it is named, smallest signature, detection limit.
 
-    The limit is NaN where the logs do not enclose it: all, or none, were named, or no order is seen.
+    The limit is NaN if the logs do not enclose it: all or none were named, or in no clear order.
     """
     grouped = of_one_effect(scores).groupby("truth")
     rows = {

@@ -9,9 +9,9 @@ from validation.score.missing import missing_summary
 
 
 def as_json(scores: pd.DataFrame) -> dict[str, Any]:
-    """Figures by kind, calibration, and what was said of effects outside; None where there is none.
+    """Figures by kind, calibration, and results on unmodelled effects; None if there are none.
 
-    `scores` as `read_scores` returns them. `missing` has pairs: how many, of how many.
+    `scores` as from `read_scores`. The values of `missing` are pairs: how many, of how many.
     """
     share, count = calibration.coverage(scores)
     return {

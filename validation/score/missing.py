@@ -1,8 +1,8 @@
-"""Whether a report of `unknown` says rightly what is missing: the place, and what it depends on.
+"""Whether a report of `unknown` is right about what is missing: its place, and what it depends on.
 
-Of logs whose ground truth is `unknown` and names both. The place is right if the likeliest one is among
-the true ones, the variable if the first one is; a law closes the gap if it leaves at most `CLOSED` sigma
-on trials that its fit has not seen. Reports on other logs should not speak of it.
+This counts logs whose ground truth is `unknown` and names both. The place is right if the likeliest
+one is among the true ones, the variable if the first one is; a law closes the gap if it leaves at most
+`CLOSED` sigma on trials that its fit has not seen. Reports on other logs should name nothing missing.
 """
 
 from collections.abc import Mapping
@@ -17,12 +17,12 @@ ELSEWHERE_GOAL = 0.01
 
 
 def missing_scores(answer: Mapping[str, Any], report: Mapping[str, Any]) -> dict[str, Any]:
-    """Columns of one log; empty words and False where the report says nothing.
+    """Columns of one log; empty text and False if the report says nothing.
 
     Returns:
       outside: the true effect; missing_told: whether the ground truth says what is missing;
-      missing_said: whether the report does; missing_place, missing_variable: what it says first, and
-      whether that is right; missing_gap: what its first law leaves, over sigma; missing_closed.
+      missing_said: whether the report does; missing_place, missing_variable: its first answer, and
+      whether that is right; missing_gap: residual / sigma with its first law; missing_closed.
     """
     told = answer.get("missing", {"place": [], "variables": []})
     said = report.get("missing") or {}
@@ -44,10 +44,11 @@ def missing_scores(answer: Mapping[str, Any], report: Mapping[str, Any]) -> dict
 
 
 def missing_summary(scores: pd.DataFrame) -> dict[str, tuple[int, int]]:
-    """What was counted -> how many, of how many; `scores` as `read_scores` returns them.
+    """Counts by what is counted: how many, of how many; `scores` as from `read_scores`.
 
-    Of logs whose ground truth is `unknown` and says what is missing: reports that say so, too, and of
-    these the right ones. Of logs whose ground truth is `none` or `explained`: reports that say so.
+    Among logs whose ground truth is `unknown` and says what is missing: reports that say so, too, and
+    how many of these are right. Among logs whose ground truth is `none` or `explained`: reports that
+    name something missing.
     """
     beyond = scores[(scores["expected"] == "unknown") & scores["missing_told"]]
     said = beyond[beyond["missing_said"]]

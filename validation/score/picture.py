@@ -1,4 +1,4 @@
-"""The score as a figure: true vs diagnosed, reliability, detection, and the gap left.
+"""The score as a figure: true vs diagnosed, reliability, detection limits, and the remaining gap.
 
     python -m validation.score.picture docs/blind_scores.csv docs/images/blind_score.png
 
@@ -43,7 +43,7 @@ def draw(scores: pd.DataFrame, path: Path) -> None:
 
 
 def _confusion(axis: Axes, scores: pd.DataFrame) -> None:
-    """Rows: true; columns: diagnosed. Several effects at once are left out: they are right or not."""
+    """Draw true (rows) vs diagnosed (columns); logs with several effects are left out."""
     one = scores[~scores["kind"].isin(EFFECTS_OF_KIND)]
     if one.empty:
         axis.set(title="True vs diagnosed: all logs have several effects", xticks=[], yticks=[])
@@ -92,7 +92,7 @@ def _reliability(axis: Axes, scores: pd.DataFrame) -> None:
 
 
 def _detection(axis: Axes, scores: pd.DataFrame) -> None:
-    """Every log of one effect at its signature, and the detection limits."""
+    """Draw every log of one effect at its signature, and the detection limits."""
     one = of_one_effect(scores)
     if one.empty:
         axis.set(title="Detection: no log of one effect of known signature", xticks=[], yticks=[])

@@ -1,7 +1,7 @@
 """Diagnoses every log of a folder, without reading the ground truth.
 
-An engine does it, on this machine or on a cluster; a report is written whole as soon as it is there, and
-those that exist are kept: a run that was ended in any way continues where it was.
+An engine runs the diagnoses, on this machine or on a cluster. Each report is written as soon as it is
+done, and existing ones are kept: an interrupted run continues where it stopped.
 """
 
 import json
@@ -40,14 +40,14 @@ def score_logs(
 
     Args:
       folder: with `logs/` and `answers/`, as `make_logs` writes them.
-      workers, engine, trials, limit_s, progress: as of `diagnose_all`.
+      workers, engine, trials, limit_s, progress: as in `diagnose_all`.
 
     Returns:
       One row per log, as `read_scores`.
 
     Raises:
-      InvalidValue: the ground truth is unusable; that is seen before anything is diagnosed.
-      EngineFailed: nobody is left who could diagnose; reports that were written stay.
+      InvalidValue: the ground truth is unusable; this is checked before any diagnosis.
+      EngineFailed: no worker is left; reports that were written are kept.
     """
     read_answers(folder)  # checked before the diagnosis, which takes long and never sees them
     diagnose_all(
@@ -75,15 +75,15 @@ def diagnose_all(
     """Write `reports/<case>.json` for every folder in `logs`.
 
     Args:
-      workers: processes of this machine.
-      engine: in place of them; workers of a cluster find the logs at the paths that they have here.
-      trials: number of trials to use of every log, the first ones; None: all.
-      limit_s: time for each diagnosis; None: no limit.
-      progress: is told how many logs are done.
+      workers: number of processes on this machine.
+      engine: replaces them; workers of a cluster need the logs at the same paths as here.
+      trials: use only so many first trials of every log; None: all.
+      limit_s: time limit of each diagnosis, s; None: no limit.
+      progress: called with the number of logs that are done.
 
     Raises:
-      UnsafeOutput, UnwritableOutput: a report may not or cannot be written; those before it stay.
-      EngineFailed: nobody is left who could diagnose; reports that were written stay.
+      UnsafeOutput, UnwritableOutput: a report may not or cannot be written; earlier ones are kept.
+      EngineFailed: no worker is left; reports that were written are kept.
     """
     paths = {str(case.resolve()): reports / f"{case.name}.json" for case in sorted(logs.iterdir())}
     missing = {case: path for case, path in paths.items() if not path.exists()}
@@ -97,7 +97,7 @@ def diagnose_all(
 
 
 def report_of(trials: int | None, limit_s: float | None, case: str) -> dict[str, Any]:
-    """The report of a log, as `report.json` with the `seconds` it took; one that failed says `why`."""
+    """The report of a log as in `report.json`, with `seconds`; of a refused log the reason, `why`."""
     limit: dict[str, Any] = {} if limit_s is None else {"limit_s": limit_s}
     start = time.perf_counter()
     try:

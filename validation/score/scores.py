@@ -1,4 +1,4 @@
-"""Compares the reports of the diagnosis with the ground truth: a table with one row per log."""
+"""Compares reports of the diagnosis with the ground truth, in a table with one row per log."""
 
 import json
 from pathlib import Path
@@ -19,10 +19,10 @@ def read_scores(folder: Path, trials: int | None = None, limit_s: float | None =
 
     Args:
       trials: number of trials that the reports are based on; None: all.
-      limit_s: time that each diagnosis had; None: no limit.
+      limit_s: time limit of each diagnosis, s; None: no limit.
 
     Raises:
-      InvalidValue: the ground truth is unusable, or is of none of the logs.
+      InvalidValue: the ground truth is unusable, or belongs to none of the logs.
     """
     answers, reports = read_answers(folder), reports_in(folder, trials, limit_s)
     rows = {
@@ -37,7 +37,7 @@ def read_scores(folder: Path, trials: int | None = None, limit_s: float | None =
 
 
 def reports_in(folder: Path, trials: int | None = None, limit_s: float | None = None) -> Path:
-    """Folder of the reports on all trials, or on the first few, of every log, made within a limit."""
+    """Folder of the reports for these numbers of trials and this time limit."""
     few = "" if trials is None else f"_of_{trials}"
     return folder / f"reports{few}{'' if limit_s is None else f'_in_{limit_s:g}_s'}"
 
@@ -76,7 +76,7 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
 
 
 def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
-    """Strength of the one true effect / the reported detection limit; NaN: none is reported."""
+    """Strength of the one true effect / its reported detection limit; NaN if none is reported."""
     if len(answer["effects"]) != 1 or answer["effects"][0] not in LIBRARY:
         return float("nan")
     effect = answer["effects"][0]

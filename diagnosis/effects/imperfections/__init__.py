@@ -1,5 +1,5 @@
-"""What sensors of a lab do beside noise: a clock that runs off, a filter.
+"""Imperfections of a lab's sensors other than noise: a clock that drifts, a low-pass filter.
 
-Each is fitted like an effect where a log asks for it, and told in the report, but a verdict never names
-it: it says nothing about needle, tissue or drive. Bounds end where a sensor is broken rather than rough.
+Each is fitted like an effect if a log needs it, and reported, but a verdict never names it, since it
+says nothing about needle, tissue or drive. Beyond the bounds a sensor would be broken.
 """

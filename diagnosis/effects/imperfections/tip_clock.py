@@ -1,4 +1,4 @@
-"""A clock of the tip sensor that runs off: at time t it shows what was at t (1 + rate)."""
+"""Drift of the tip sensor's clock: at time t it shows the value at t (1 + rate)."""
 
 from dataclasses import replace
 

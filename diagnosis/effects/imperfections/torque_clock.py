@@ -1,4 +1,4 @@
-"""A clock of the torque sensor that runs off: at time t it shows what was at t (1 + rate)."""
+"""Drift of the torque sensor's clock: at time t it shows the value at t (1 + rate)."""
 
 from dataclasses import replace
 

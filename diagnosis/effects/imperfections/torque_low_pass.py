@@ -1,4 +1,4 @@
-"""A low pass of the torque sensor, of first order: time_constant d(shown)/dt = torque - shown."""
+"""First-order low pass of the torque sensor: time_constant d(shown)/dt = torque - shown."""
 
 from dataclasses import replace
 

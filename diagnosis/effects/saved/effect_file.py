@@ -38,7 +38,7 @@ _STRENGTH = Parameter(
 
 
 class SavedEffect(Record):
-    """What a file holds."""
+    """The content of the file of a saved effect."""
 
     format: Literal["effect/1"] = "effect/1"
     name: str
@@ -58,7 +58,7 @@ class SavedEffect(Record):
 
     @property
     def effect(self) -> Effect:
-        """As one of the library."""
+        """The saved effect as an effect of the library."""
         return Effect(
             name=self.name,
             title=self.title,
@@ -71,10 +71,10 @@ class SavedEffect(Record):
 
 
 def refuse_no_effect_name(field: str, name: str) -> None:
-    """Check that a name is one that an effect may have.
+    """Check that an effect may have this name.
 
     Raises:
-      InvalidValue: names the field, and what is expected.
+      InvalidValue: names the field and what is expected.
     """
     if not re.fullmatch(_NAME, name):
         expected = "3 to 41 small letters, digits and underscores, the first a letter"
@@ -84,7 +84,7 @@ def refuse_no_effect_name(field: str, name: str) -> None:
 
 
 def read_effect(path: Path) -> Effect:
-    """The effect that a file holds.
+    """Read the effect of a file.
 
     Raises:
       InvalidValue: names file and field.

@@ -1,4 +1,4 @@
-"""Where saved effects are: a folder of the user, which every diagnosis reads.
+"""The user's folder of saved effects, which every diagnosis reads.
 
 `$NEEDLE_EFFECTS`, else `needle-torsion/effects` in `$XDG_DATA_HOME` or `~/.local/share`. Without a home
 there is none. To forget an effect, delete its file.
@@ -18,7 +18,7 @@ _BELOW = Path("needle-torsion") / "effects"
 
 
 def effects_folder() -> Path | None:
-    """The user's folder of effects, whether it is there or not; None: the user has no home."""
+    """The user's folder of effects, which need not exist; None: the user has no home."""
     if own := os.environ.get(OWN_FOLDER):
         return Path(own)
     if data := os.environ.get("XDG_DATA_HOME"):
@@ -30,13 +30,13 @@ def effects_folder() -> Path | None:
 
 
 def saved_effects(taken: Collection[str]) -> dict[str, Effect]:
-    """Effects of the user's folder by name; none where there is no such folder.
+    """Effects of the user's folder by name; empty if there is no such folder.
 
     Args:
-      taken: names of the library.
+      taken: names of the library, which are not allowed.
 
     Raises:
-      InvalidValue: a file is no effect, or its name is taken or not that of its file.
+      InvalidValue: a file holds no effect, or its name is taken or differs from that of the file.
     """
     folder = effects_folder()
     if folder is None or not is_folder(folder):

@@ -1,1 +1,1 @@
-"""What a fit predicts on trials that it has not seen."""
+"""Predictions of a fit on trials that it has not seen."""

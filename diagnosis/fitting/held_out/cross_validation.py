@@ -1,9 +1,9 @@
-"""Cross-validation: what a fit predicts on trials that it has not seen.
+"""Cross-validation: predictions of a fit on trials that it has not seen.
 
 Each trial is left out in turn: one Gauss-Newton step on the others moves the
 parameters, and the left-out trial is simulated with them. Which rate the tissue
-resists is a convention of the rig, not a finding: it stays as fitted. What came before a trial that
-began late shows in that trial alone: it is fitted there to what the others say of the rest.
+resists is a convention of the rig, not a result: it stays as fitted. The past of a trial that
+began late only affects that trial: it is fitted there, with the other parameters from the others.
 """
 
 import numpy as np
@@ -36,10 +36,10 @@ def _slopes(fit: Fit, *, without: int | None) -> Array:
 
 
 def held_out_residuals(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
-    """Residuals / sigma of each trial, simulated with what the others say.
+    """Residuals / sigma of each trial, simulated with the parameters from the others.
 
     Raises:
-      SimulationFailed: the others lead to where the needle cannot be simulated.
+      SimulationFailed: the needle cannot be simulated with the parameters from the others.
     """
 
     def left(trial: PreparedTrial, step: Array) -> Array:
@@ -52,11 +52,10 @@ def held_out_residuals(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
 
 
 def shift_statistic(fit: Fit) -> float:
-    """How far predictions of held-out trials move, over what noise in the parameters explains.
+    """Change of the predictions of held-out trials / change that parameter noise explains.
 
-    About 1 or less where all trials tell the same: sum of |J step|^2 over that of the
-    trace of J C J', with C the covariance of the parameters without the trial, of those
-    that are not held by a bound.
+    About 1 or less if all trials are consistent: sum of |J step|^2 / sum of trace(J C J'), with C
+    the covariance, without the trial, of the parameters that are not at a bound.
     """
     moved, explained = 0.0, 0.0
     low, high = fit.parameterization.bounds()
@@ -72,20 +71,20 @@ def shift_statistic(fit: Fit) -> float:
 
 
 def _own(fit: Fit, trial: int) -> NDArray[np.int_]:
-    """Entries that show in one trial alone."""
+    """Indices of entries that affect this trial only."""
     seen = fit.jacobian[trial].any(axis=0)
     return np.flatnonzero(fit.parameterization.about_one_trial & seen)
 
 
 def _known(fit: Fit, without: int) -> NDArray[np.int_]:
-    """Entries that are found again without a trial."""
+    """Indices of entries that are fitted again without a trial."""
     found = np.array([owner not in CONVENTIONS for owner in fit.parameterization.owners], bool)
     found[_own(fit, without)] = False
     return np.flatnonzero(found)
 
 
 def _answers(fit: Fit, trial: int, known: NDArray[np.int_]) -> Array:
-    """How a trial's own entries move with the others, (own, known): least squares on that trial."""
+    """Derivative of a trial's own entries by the others, (own, known): least squares on the trial."""
     own = _own(fit, trial)
     slopes = np.vstack([fit.jacobian[trial][:, own], np.diag(fit.parameterization.weights[own])])
     moved = np.vstack([fit.jacobian[trial][:, known], np.zeros((own.size, known.size))])
@@ -93,7 +92,7 @@ def _answers(fit: Fit, trial: int, known: NDArray[np.int_]) -> Array:
 
 
 def _steps(fit: Fit) -> list[Array]:
-    """How the parameters move without each trial: the least squares of the others, within bounds."""
+    """Steps of the parameters without each trial: least squares on the others, within bounds."""
     found = [np.zeros(fit.x.size) for _ in fit.by_trial]
     for i, step in enumerate(found):
         known = _known(fit, i)
@@ -104,7 +103,7 @@ def _steps(fit: Fit) -> list[Array]:
 
 
 def _bounded(fit: Fit, known: NDArray[np.int_], without: int) -> Array:
-    """The step of some entries that the other trials ask for."""
+    """The step of some entries by least squares on the other trials, within bounds."""
     seen = [residual for i, residual in enumerate(fit.by_trial) if i != without]
     left = np.concatenate([*seen, fit.parameterization.weights * fit.x, np.zeros(fit.x.size)])
     basis, root = np.linalg.qr(_slopes(fit, without=without)[:, known])

@@ -1,4 +1,4 @@
-"""Held-out trials, each predicted by a fit to the others: where one step from the fit leads too far."""
+"""Held-out trials, each predicted by a fit to the others, if one step from the fit is not enough."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -28,10 +28,10 @@ def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_ga
     """Residuals / sigma of trials that the fit has not seen: by one step, or by refits if there is time.
 
     Args:
-      gap_of: of a fit and its held-out residuals; far above that of the fit, the step is not trusted.
+      gap_of: gap of a fit's held-out residuals; if it is far above that of the fit, refits are made.
 
     Raises:
-      SimulationFailed: the others lead to where the needle cannot be simulated.
+      SimulationFailed: the needle cannot be simulated with the parameters from the others.
     """
     held_out = held_out_residuals(problem, fit)
     if gap_of(fit, held_out) <= FAR_STEP * fit.gap:
@@ -46,7 +46,7 @@ def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
     """Residuals / sigma of each trial, simulated with a fit to the others.
 
     Raises:
-      SimulationFailed: the others lead to where the needle cannot be simulated.
+      SimulationFailed: the needle cannot be simulated with the parameters from the others.
     """
     left = []
     for i, trial in enumerate(problem.log.trials):

@@ -1,7 +1,7 @@
-"""Something that happened once: an angle or a reading that steps by an unknown size at an unknown time.
+"""A single event: an angle or a reading that steps by an unknown size at an unknown time.
 
-The time is first looked for in what the nominal rig leaves: where its mean before and after a time
-differ most, in units of what both halves leave (a two-sample test), over all times of all trials.
+The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
+one at which the means before and after differ most, in units of their scatter (two-sample test).
 """
 
 import math
@@ -33,14 +33,14 @@ _PLACES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Moment:
-    """When something happened: in which trial, s after it began."""
+    """The time of an event: its trial, and s after the start of it."""
 
     trial: str
     time_s: float
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """One step of each angle or reading, if a log is long enough."""
+    """One step for each angle or reading, if the log is long enough."""
     found = []
     for acts_on, (sensor, place, title) in _PLACES.items():
         moment = largest_step(ranges, sensor) if sensor in ranges.missing else None
@@ -50,7 +50,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def largest_step(ranges: LogRanges, sensor: str) -> Moment | None:
-    """Where the mean of what the nominal rig leaves changes most; None: all trials are too short."""
+    """Where the mean of the nominal residual changes most; None: all trials are too short."""
     trials = [t for t in ranges.problem.log.trials if t.has(sensor)]
     best, found = 0.0, None
     for trial, left in zip(trials, ranges.left[sensor], strict=True):
@@ -63,7 +63,7 @@ def largest_step(ranges: LogRanges, sensor: str) -> Moment | None:
 
 
 def _largest_change(time_s: Array, left: Array) -> tuple[float, float]:
-    """Share of the variance that a step takes off at best, times the samples, and where."""
+    """Largest share of the variance that a step explains, times the samples, and its time."""
     count = np.arange(1, left.size)
     total = np.cumsum(left)
     before, after = total[:-1] / count, (total[-1] - total[:-1]) / (left.size - count)

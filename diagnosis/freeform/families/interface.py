@@ -1,9 +1,9 @@
 """Free laws of the interface between shaft and tissue, per mm of shaft.
 
-damping times a curve of time, axial speed, depth, angle turned by, or place along the shaft
-dry friction beside it, as strong as a curve of these, or of the time at rest, says
-damping times a curve of the rate, and dry friction beside it
-damping and dry friction stronger one way than the other
+- damping times a curve of time, axial speed, depth, angle turned so far, or place along the shaft
+- nominal damping, and dry friction as a curve of these, of the time at rest, or of the base angle
+- damping times a curve of the rate, and dry friction
+- damping and dry friction that differ between the directions
 """
 
 from collections.abc import Sequence
@@ -33,19 +33,19 @@ _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """What may be missing between shaft and tissue."""
+    """Families of laws that may be missing between shaft and tissue."""
     damping = (_damping_over(v, ranges) for v in DAMPING_OVER if v in ranges.ends)
     friction = (_friction_over(v, ranges) for v in FRICTION_OVER if v in ranges.ends)
     return (*damping, *friction, _rate(ranges), _direction(ranges), _position(ranges))
 
 
 def tissue_curve(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> Curve:
-    """A factor of the tissue, always positive."""
+    """A curve of factors on the tissue's torque, which are always positive."""
     return Curve(
         acts_on=ActsOn.TISSUE,
         variable=variable,
         places=tuple(curve.places),
-        values=tuple(np.exp(curve.values(c))),
+        values=curve.factors(c),
     )
 
 
@@ -110,7 +110,7 @@ def _dry_level(curve: SmoothCurve, level: float, *c: float) -> Points:
 
 
 def _from_neutral(own: Sequence[Parameter], level: Parameter) -> tuple[Parameter, ...]:
-    """As many starts as the level has, neutral each."""
+    """The parameters with as many starts as the level has, all neutral."""
     return tuple(replace(p, start=(0.0,) * len(level.start)) for p in own)
 
 
@@ -155,9 +155,8 @@ def _friction(
 def _apply_rate(
     curve: SmoothCurve, rates: tuple[float, float], rig: RigParameters, level: float, *c: float
 ) -> RigParameters:
-    factors = tuple(float(v) for v in np.exp(curve.values(c)))
     law = Interface(kinetic_n_mm_per_mm=level)
-    free = FreeLaw(rate_curve=factors, rate_range_rad_s=rates, throughout=(law,))
+    free = FreeLaw(rate_curve=curve.factors(c), rate_range_rad_s=rates, throughout=(law,))
     return replace(rig, free=free)
 
 
@@ -222,7 +221,7 @@ def _along_depth(curve: SmoothCurve, beta: float, *c: float) -> Points:
 
 
 def _parts(curve: SmoothCurve, c: Sequence[float]) -> tuple[float, ...]:
-    """Factors of equal parts of the inserted length: 1 + curve, so that an even gradient is straight."""
+    """Factors of equal parts of the inserted length: 1 + curve; a linear gradient is straight."""
     return tuple(max(1.0 + v, LEAST_PART) for v in curve.values(c))
 
 

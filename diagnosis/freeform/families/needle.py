@@ -1,8 +1,9 @@
 """Free laws of the needle itself.
 
-the stiffness of the shaft as a curve of the torque that it carries
-at the tip, in one place: drag and dry friction, stronger one way than the other
-at the tip, or along the inserted shaft: a torque of the angle, as waves once and twice a turn
+- the stiffness of the shaft as a curve of the torque that it carries
+- at the tip: drag and dry friction, which may differ between the directions
+- at the tip, or along the inserted shaft: a torque that depends on the angle, with one and two
+  waves per turn
 """
 
 import math
@@ -28,7 +29,7 @@ _AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start 
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """What may be missing of the needle."""
+    """Families of laws that the needle may lack."""
     turned = Variable.BASE_ANGLE in ranges.ends
     angles = (_angle(ranges, tip=True), _angle(ranges, tip=False)) if turned else ()
     stiffness = (_stiffness(ranges),) if Variable.TORQUE in ranges.ends else ()
@@ -88,18 +89,18 @@ def _stiffness(ranges: LogRanges) -> Family:
 
 
 def _factors(curve: SmoothCurve, *c: float) -> Points:
-    return curve.places, np.exp(curve.values(c))
+    return curve.places, curve.factors(c)
 
 
 def _apply_stiffness(
     curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
 ) -> RigParameters:
-    factors = tuple(float(v) for v in np.exp(curve.values(c)))
-    return replace(rig, free=FreeLaw(stiffness_over_torque=factors, stiffness_torque_n_mm=most_n_mm))
+    law = FreeLaw(stiffness_over_torque=curve.factors(c), stiffness_torque_n_mm=most_n_mm)
+    return replace(rig, free=law)
 
 
 def _drag(ranges: LogRanges, starts: int) -> Parameter:
-    """Drag at the tip, which may be none."""
+    """Drag at the tip, which may be 0."""
     own = ranges.library["tip_drag"].parameters[0]
     return Parameter(
         name=own.name, unit=own.unit, low=0.0, high=own.high, start=(0.0,) * starts, scale=own.start[0]
@@ -107,7 +108,7 @@ def _drag(ranges: LogRanges, starts: int) -> Parameter:
 
 
 def _dry(ranges: LogRanges) -> Parameter:
-    """Dry friction in one place, as strong as that of a stretch of shaft."""
+    """Dry friction at the tip, in the range of what `_AT_TIP_MM` of shaft have."""
     along = ranges.library["coulomb_friction"].parameters[0]
     each = {k: getattr(along, k) * _AT_TIP_MM for k in ("low", "high")}
     start = tuple(v * _AT_TIP_MM for v in along.start)
@@ -120,7 +121,7 @@ def _apply_tip_rate(rig: RigParameters, damping: float, level: float, asymmetry:
 
 
 def _angle(ranges: LogRanges, *, tip: bool) -> Family:
-    """Sine and cosine of each wave."""
+    """A torque over the angle, with sine and cosine of each wave as coordinates."""
     level = ranges.library["coulomb_friction"].parameters[0].start[-1]
     size = level * _AT_TIP_MM if tip else level
     where = "tip torque" if tip else "torque along the shaft"
@@ -156,7 +157,7 @@ def _apply_angle(tip: bool, rig: RigParameters, *c: float) -> RigParameters:
 
 
 def _wave(cycles: int, sine: float, cosine: float) -> Interface:
-    """a sin x + b cos x = hypot(a, b) sin(x + atan2(b, a))."""
+    """The law of one wave: a sin x + b cos x = hypot(a, b) sin(x + atan2(b, a))."""
     return Interface(
         orientation_n_mm_per_mm=math.hypot(sine, cosine),
         orientation_phase_deg=-math.degrees(math.atan2(cosine, sine)),

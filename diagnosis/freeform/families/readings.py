@@ -1,11 +1,11 @@
-"""Free laws that add to an angle or a reading: of the drive, and of both sensors.
+"""Free laws that are added to an angle or a reading: of the drive, and of both sensors.
 
-    the drive shaft turns the needle by its angle + a curve of time, angle, orientation or direction
-    the torque sensor reads a torque of the drive: a curve of its angle, orientation, rate or direction
-    a sensor reads what there is + a curve of it, or of time, axial speed, depth or another signal
+    drive angle    needle at the chuck = drive shaft + a curve of time, angle, orientation or direction
+    drive torque   the torque sensor also reads a curve of the drive's angle, rate or direction
+    sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal
 
-An offset that depends on the torque is a twist that torsion by the nominal stiffness does not give:
-more likely of the needle than of the sensor that shows it.
+An offset of the tip that depends on the torque is a twist in addition to that of the nominal stiffness:
+it is more likely due to the needle than to the sensor.
 """
 
 from collections.abc import Mapping
@@ -48,12 +48,12 @@ DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
 
 @dataclass(frozen=True, kw_only=True)
 class Added:
-    """Something added to an angle or a reading.
+    """A term that is added to an angle or a reading.
 
     Attributes:
-      sensor: whose residual shows it most.
+      sensor: the sensor whose residual shows it most.
       says: variable of the vocabulary.
-      period_deg: after which it repeats; 0: it does not; RIPPLE: as often in a turn as shows most.
+      period_deg: period; 0: none; RIPPLE: that of the strongest ripple per turn in the residual.
     """
 
     acts_on: ActsOn
@@ -117,7 +117,7 @@ ADDED = (
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """What may be added to an angle or a reading."""
+    """Families of terms that may be added to an angle or a reading."""
     seen = (a for a in ADDED if a.variable in ranges.ends and a.sensor in ranges.missing)
     return tuple(family_of(a, curve_of(a, ranges), ranges) for a in seen)
 

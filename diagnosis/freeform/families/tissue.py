@@ -1,5 +1,6 @@
-"""Free laws of the tissue: elastic (Kelvin-Voigt), as stiff as a curve of time, depth or place says."""
+"""Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -18,77 +19,68 @@ OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """What may be missing in the tissue."""
+    """Families of laws that the tissue may lack."""
     over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
     return (*over, _elastic_along_depth(ranges))
 
 
 def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
     curve = smooth_curve(*ranges.ends[variable], fading=variable in FADING)
-    elastic = ranges.library["tissue_viscoelasticity"]
-    neutral = (0.0,) * len(elastic.parameters[0].start)
-
-    return Family(
-        effect=Effect(
-            name=f"elastic tissue over {variable}",
-            title=f"elastic tissue that changes with {variable}",
-            place=Place.TISSUE,
-            parameters=(
-                *elastic.parameters,
-                *(replace(p, start=neutral) for p in coordinates_of(curve)),
-            ),
-            apply=partial(_apply, variable, curve),
-        ),
-        places={Place.TISSUE: 1.0},
-        says=variable,
-        title="stiffness of the tissue",
-        curve=partial(_stiffness, curve),
-        x_unit=UNITS[variable],
-        unit="N mm / rad / mm",
-    )
+    law = partial(_law_over, variable, curve)
+    return _elastic(ranges, curve, law, over=variable, words=f"with {variable}", unit=UNITS[variable])
 
 
 def _elastic_along_depth(ranges: LogRanges) -> Family:
-    curve, elastic = smooth_curve(0.0, 1.0, PARTS), ranges.library["tissue_viscoelasticity"]
-    neutral = (0.0,) * len(elastic.parameters[0].start)
+    curve = smooth_curve(0.0, 1.0, PARTS)
+    law = partial(_law_along_depth, curve)
+    unit = "of the inserted length"
+    return _elastic(ranges, curve, law, over="position", words="along the inserted shaft", unit=unit)
+
+
+def _elastic(
+    ranges: LogRanges,
+    curve: SmoothCurve,
+    law: Callable[[Sequence[float]], FreeLaw],
+    *,
+    over: str,
+    words: str,
+    unit: str,
+) -> Family:
+    """Elastic tissue that changes as a curve; `law` makes the law from the curve's coordinates."""
+    elastic = ranges.library["tissue_viscoelasticity"].parameters
+    neutral = (0.0,) * len(elastic[0].start)
+    own = (replace(p, start=neutral) for p in coordinates_of(curve))
     return Family(
         effect=Effect(
-            name="elastic tissue over position",
-            title="elastic tissue that changes along the inserted shaft",
+            name=f"elastic tissue over {over}",
+            title=f"elastic tissue that changes {words}",
             place=Place.TISSUE,
-            parameters=(
-                *elastic.parameters,
-                *(replace(p, start=neutral) for p in coordinates_of(curve)),
-            ),
-            apply=partial(_apply_along_depth, curve),
+            parameters=(*elastic, *own),
+            apply=partial(_apply, law),
         ),
         places={Place.TISSUE: 1.0},
-        says="position",
+        says=over,
         title="stiffness of the tissue",
         curve=partial(_stiffness, curve),
-        x_unit="of the inserted length",
+        x_unit=unit,
         unit="N mm / rad / mm",
     )
 
 
-def _apply_along_depth(
-    curve: SmoothCurve, rig: RigParameters, stiffness: float, time_constant: float, *c: float
-) -> RigParameters:
-    return replace(
-        rig,
-        tissue_stiffness_n_mm_per_rad_per_mm=stiffness,
-        tissue_time_constant_s=time_constant,
-        free=FreeLaw(stiffness_along_depth=tuple(float(v) for v in np.exp(curve.values(c)))),
-    )
+def _law_over(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
+    return FreeLaw(tissue_varies=True, curves=(tissue_curve(variable, curve, c),))
+
+
+def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
+    return FreeLaw(stiffness_along_depth=curve.factors(c))
 
 
 def _stiffness(curve: SmoothCurve, stiffness: float, _: float, *c: float) -> Points:
-    return curve.places, stiffness * np.exp(curve.values(c))
+    return curve.places, stiffness * np.array(curve.factors(c))
 
 
 def _apply(
-    variable: Variable,
-    curve: SmoothCurve,
+    law: Callable[[Sequence[float]], FreeLaw],
     rig: RigParameters,
     stiffness: float,
     time_constant: float,
@@ -98,5 +90,5 @@ def _apply(
         rig,
         tissue_stiffness_n_mm_per_rad_per_mm=stiffness,
         tissue_time_constant_s=time_constant,
-        free=FreeLaw(tissue_varies=True, curves=(tissue_curve(variable, curve, c),)),
+        free=law(c),
     )

@@ -1,1 +1,1 @@
-"""From a free-form curve to the name of a plain law."""
+"""Names for free-form curves: the plain law that a curve resembles."""

@@ -1,12 +1,12 @@
-"""From a curve to a name: which plain law a free-form one looks like.
+"""The plain law that a free-form curve resembles.
 
-Each shape is fitted to the curve's points by least squares over the half width of its band, and that of
-least
+Each shape is fitted to the points of the curve by least squares of differences / half width of the band.
+The shape with the smallest
 
     chi-square + 2 (parameters)                                        (Akaike 1974)
 
-is named if it runs within the band: a root mean square of at most one half width. Where the library has
-a law of that shape, at that place and of that variable, it is named too.
+is named if it lies within the band: a root mean square of at most one half width. If the library has
+a law of that shape, at that place and of that variable, it is named, too.
 """
 
 import warnings
@@ -42,11 +42,11 @@ LIBRARY_LAWS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Likeness:
-    """A plain law that a curve looks like.
+    """A plain law that a curve resembles.
 
     Attributes:
-      says: in words, with its values.
-      library: effects of the library with a law of that shape; may be none.
+      says: the law in words, with its values.
+      library: effects of the library with a law of that shape; may be empty.
     """
 
     shape: str
@@ -55,7 +55,7 @@ class Likeness:
 
 
 def likeness_of(law: Law) -> Likeness | None:
-    """The plain law that a curve looks like; None: none that is known here, or it is no curve."""
+    """The plain law that a curve resembles; None: none of the known ones, or the law is no curve."""
     if law.variable in ("direction", "event"):
         return None
     x, y = np.array(law.x), np.array(law.y)

@@ -1,6 +1,6 @@
-"""Plain laws that a curve may look like: of any variable, of a rate, of an angle.
+"""Plain laws that a curve may resemble: of any variable, of a rate, of an angle.
 
-Each is y(x) with few parameters, and a start for a fit of it to points of a curve.
+Each is y(x) with few parameters, and a start for a fit to the points of a curve.
 """
 
 from collections.abc import Callable
@@ -21,9 +21,9 @@ class Shape:
     """A plain law.
 
     Attributes:
-      says: in words, with values of the parameters in braces by their place.
-      law: of x and the parameters.
-      start: of the parameters, from x and y.
+      says: the law in words, with values of the parameters in braces, by position.
+      law: y from x and the parameters.
+      start: starting values of the parameters, from x and y.
     """
 
     name: str
@@ -70,13 +70,13 @@ def _slope(x: Array, y: Array) -> float:
 
 
 def _largest_jump(x: Array, y: Array) -> float:
-    """Where y changes most from one point to the next."""
+    """The x at which y changes most from one point to the next."""
     i = int(np.argmax(np.abs(np.diff(y))))
     return float(0.5 * (x[i] + x[i + 1]))
 
 
 def _waves(x: Array, y: Array, cycles: int) -> tuple[float, tuple[float, ...]]:
-    """What is left beside the best wave of so many cycles in a turn, a sum of squares, and that wave."""
+    """Residual sum of squares for the best wave of so many cycles per turn, and that wave."""
     angle = np.radians(cycles * x)
     columns = np.stack([np.ones(x.size), np.sin(angle), np.cos(angle)], axis=1)
     mean, sine, cosine = np.linalg.lstsq(columns, y)[0]

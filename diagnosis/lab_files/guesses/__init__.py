@@ -1,1 +1,1 @@
-"""What a lab's columns probably are: every guess with its reason, none believed unseen."""
+"""Guesses what a lab's columns are: each with its reason, and none used before it is confirmed."""

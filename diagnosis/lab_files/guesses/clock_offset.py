@@ -1,10 +1,10 @@
-"""How far the clocks of a sensor and of the base are apart, by cross-correlation.
+"""The offset between the clocks of a sensor and of the base, by cross-correlation.
 
-A shaft that is twisted and relaxes within a time tau reads as a spring: the torque is what a low-pass
-filter of tau takes off the base's angle, the tip is what it leaves. Of several tau the one is taken
-whose rates match best; the lag of the highest product is the offset. So the needle's own lag is mostly
-taken off. How uncertain the rest is, is seen from leaving out one block of time after the other
-(jackknife): with m blocks and lags l_i without block i, the variance is (m - 1) / m sum (l_i - mean)^2.
+The model is a shaft that relaxes within a time tau: the tip is a low-pass filtered base angle, and the
+torque is proportional to the difference. Of several tau the one whose rates match best is used; the lag
+with the largest product is the offset. This removes most of the needle's own lag. The uncertainty is
+from leaving out one block of time after the other (jackknife): with m blocks and lags l_i without block
+i, the variance is (m - 1) / m sum (l_i - mean)^2.
 """
 
 from dataclasses import dataclass
@@ -28,11 +28,11 @@ _RELAXES_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0)
 
 @dataclass(frozen=True, kw_only=True)
 class ClockOffset:
-    """How much later a column shows what another one shows.
+    """The time by which one column is later than another one.
 
     Attributes:
-      late_s: positive: it lags; None: they do not look alike.
-      uncertainty_s: one standard deviation.
+      late_s: positive: it lags; None: the columns are not similar.
+      uncertainty_s: standard deviation.
       reason: in words.
     """
 
@@ -46,7 +46,7 @@ def clock_offset(
 ) -> ClockOffset:
     """Lag of a torque, or of the tip, behind the base's angle; each with its own times, (N,) and (M,).
 
-    Clocks without a common stretch are laid on top of each other at their first samples first.
+    If the clocks have no common interval, their first samples are aligned before.
     """
     shift = 0.0
     if time_s[0] > base_time_s[-1] or time_s[-1] < base_time_s[0]:
@@ -98,7 +98,7 @@ def _rate(even: Array, time_s: Array, values: Array) -> Array:
 
 
 def _low_pass(values: Array, share: float) -> Array:
-    """First-order low-pass filter that takes so much of the difference in each step."""
+    """First-order low-pass filter that removes this share of the difference in each step."""
     gain = 1 - np.exp(-share)
     return np.asarray(values[0] + lfilter([gain], [1, gain - 1], values - values[0]))
 
@@ -117,7 +117,7 @@ def _products(own: Array, other: Array, block: slice, reach: int) -> Array:
 def _highest(products: Array) -> int | None:
     """Index of the largest product; None if it is at an end of the lags.
 
-    A motion that repeats has many products that are about as large: the one of the least lag is taken.
+    A periodic motion has many products of about this size: the one with the smallest lag is used.
     """
     sizes, zero = np.abs(products), (products.size - 1) // 2
     inside = np.arange(1, sizes.size - 1)

@@ -1,4 +1,4 @@
-"""Trials, times and columns of a draft: what can be said from names and numbers, without the motion."""
+"""Trials, times and columns of a draft: what names and numbers tell, without the motion."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -23,10 +23,10 @@ Open = list[str]
 
 
 def guessed_trials(files: Sequence[LabFile], open_: Open) -> list[TrialSource]:
-    """Files of one kind are trials; of several kinds with as many files each, one of each make a trial.
+    """Each file of one kind is a trial; if there are as many files of other kinds, one of each is.
 
     Args:
-      open_: gets what the user has to decide.
+      open_: list to which open questions for the user are added.
     """
     kinds: dict[Any, list[str]] = {}
     for file in files:
@@ -116,7 +116,7 @@ def _guessed_column(guess: NameGuess, derive: Any, open_: Open) -> GuessedColumn
 
 
 def _rates_of_the_base(guesses: Sequence[NameGuess]) -> list[NameGuess]:
-    """What is called a speed and is the rate of what is called the angle."""
+    """Columns that are named a speed and are the rate of the column that is named the angle."""
     by_name = {guess.wanted: guess for guess in guesses}
     speed, base = by_name.get("speed_mm_s"), by_name.get("base_angle_deg")
     if speed is None or base is None or speed.table is not base.table:

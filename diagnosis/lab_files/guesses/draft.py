@@ -1,4 +1,4 @@
-"""A draft of a mapping: what the columns probably are, why, and what is open. Nothing is refused."""
+"""A draft of a mapping: guesses with their reasons, and open questions. Nothing is refused."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -37,16 +37,16 @@ NOISES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Draft:
-    """Everything that is guessed, and everything that is open.
+    """All guesses, and all open questions.
 
     Attributes:
-      resample_hz: rows per second, where columns have clocks of their own.
-      noise: by field of `sensors`, in its unit; None: scale open, or no such sensor.
-      noise_in_files: where the scale is open, in the unit of the file, in words.
-      loops: of torque over base angle, in `loop_units`; None: no torque or no reversals.
+      resample_hz: rows per second, if columns have separate clocks.
+      noise: by field of `sensors`, in its unit; None: unknown scale, or no such sensor.
+      noise_in_files: if the scale is unknown: in the unit of the file, in words.
+      loops: loops of torque over base angle, in `loop_units`; None: no torque or no reversals.
       open: what the user has to decide or add.
-      unused: columns that nothing was found for.
-      motions: of the base, by trial.
+      unused: columns for which no use was found.
+      motions: motions of the base, by trial.
       series: guessed columns as they are in the files, by trial.
     """
 
@@ -65,7 +65,7 @@ class Draft:
 
 
 def drafted(files: Sequence[LabFile]) -> Draft:
-    """Guess a mapping for lab files; what cannot be told is in `open`, all of it."""
+    """Guess a mapping for lab files; everything that cannot be guessed is listed in `open`."""
     open_: Open = []
     trials = guessed_trials(files, open_)
     tables = [table for file in files if file.path.name in trials[0].lab_files for table in file.tables]
@@ -110,7 +110,7 @@ def _series(
     columns: Sequence[GuessedColumn],
     open_: Open,
 ) -> dict[str, dict[str, Series]]:
-    """The guessed columns as they are in the files; what cannot be read is open."""
+    """The guessed columns as they are in the files; unreadable ones are added to `open_`."""
     mapping = ImportMapping(
         format="rig-import/1",
         trials=tuple(trials),

@@ -1,4 +1,4 @@
-"""Zeros, signs, offsets of clocks, noise and loops: what the motion of the base tells of the columns."""
+"""Zeros, signs, clock offsets, noise and loops of the columns, from the motion of the base."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -30,7 +30,7 @@ Motions = Mapping[str, Motion]
 
 
 def with_zero(column: GuessedColumn, trials: Trials, motions: Motions) -> GuessedColumn:
-    """Zero of an angle or a torque, from the rests that trials start with."""
+    """The column with a zero of angle or torque, from the rests at the start of trials."""
     if column.wanted not in (*SENSORS, "base_angle_deg") or column.source.derive:
         return column
     found = []
@@ -51,7 +51,7 @@ def with_zero(column: GuessedColumn, trials: Trials, motions: Motions) -> Guesse
 
 
 def with_sign(column: GuessedColumn, trials: Trials) -> GuessedColumn:
-    """The sign that most trials suggest."""
+    """The column with the sign that most trials suggest."""
     guesses = [guess for own in trials.values() if (guess := _sign_in(column, own))]
     told = [guess for guess in guesses if guess.sign is not None]
     if not told:
@@ -64,7 +64,7 @@ def with_sign(column: GuessedColumn, trials: Trials) -> GuessedColumn:
 
 
 def with_offset(column: GuessedColumn, trials: Trials) -> GuessedColumn:
-    """Offset of a sensor's clock. Filled in for another clock alone; the tip's own lag is no offset."""
+    """The column with a clock offset, if its clock is another one; the tip's own lag is no offset."""
     if column.wanted not in SENSORS:
         return column
     found = []
@@ -96,7 +96,7 @@ def with_offset(column: GuessedColumn, trials: Trials) -> GuessedColumn:
 
 
 def needed_rate_hz(columns: Sequence[GuessedColumn], trials: Trials) -> float | None:
-    """The base's own rate, where columns have clocks of their own."""
+    """The sampling rate of the base, if columns have separate clocks; else None."""
     offsets = {column.wanted: column.source.time_offset_s for column in columns}
     for own in trials.values():
         if len({(one.clock[0], offsets[name]) for name, one in own.items()}) > 1:
@@ -106,10 +106,10 @@ def needed_rate_hz(columns: Sequence[GuessedColumn], trials: Trials) -> float | 
 
 
 def noise_of(column: GuessedColumn | None, trials: Trials, motions: Motions) -> float | None:
-    """Standard deviation: at rest, or of whole trials where there is no rest.
+    """Standard deviation of white noise: at rest, or in whole trials if there is no rest.
 
     Returns:
-      In units of rig-log/1, or of the file where its scale is open; None without such a column.
+      In units of rig-log/1, or of the file if its scale is unknown; None without such a column.
     """
     if column is None or column.source.derive:
         return None
@@ -127,7 +127,7 @@ def noise_of(column: GuessedColumn | None, trials: Trials, motions: Motions) -> 
 def loops_of(
     base: GuessedColumn, torque: GuessedColumn, trials: Trials, motions: Motions
 ) -> LoopShape | None:
-    """Shape of all loops of torque over angle together; None without torque or reversals."""
+    """Common shape of all loops of torque over angle; None without torque or reversals."""
     branches, kept, noise = [], list[float](), 0.0
     for name, motion in motions.items():
         own, angle = trials[name].get(torque.wanted), trials[name][base.wanted]
@@ -141,24 +141,24 @@ def loops_of(
 
 
 def scatter(parts: Sequence[Array]) -> float:
-    """White noise of readings; 0 where they are too few."""
+    """Standard deviation of the white noise of readings; 0 if they are too few."""
     noise = white_noise(parts, order=2)
     return noise if np.isfinite(noise) else 0.0
 
 
 def at_times(series: Series, time_s: Array) -> Array:
-    """A column at other times, by straight lines."""
+    """A column at other times, by linear interpolation."""
     good = np.isfinite(series.values)
     return np.interp(time_s, series.time_s[good], series.values[good])
 
 
 def _on_time(column: GuessedColumn, series: Series) -> Series:
-    """A column by the base's clock, which is the one that the others are compared with."""
+    """A column with its times on the clock of the base, to which all others are compared."""
     return replace(series, time_s=series.time_s + column.source.time_offset_s)
 
 
 def _zero(torque: GuessedColumn, series: Series) -> float:
-    """The guessed zero of the torque; where there is none, half way between its directions."""
+    """The guessed zero of the torque; without one, the middle between both directions."""
     return float(torque.source.zero) or float(np.nanquantile(series.values, (0.1, 0.9)).mean())
 
 

@@ -1,4 +1,4 @@
-"""A guess: where a column probably comes from, and why."""
+"""A guess: the probable source of a column, and the reasons."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ from diagnosis.lab_files.mapping import ColumnSource, TimeSource
 
 @dataclass(frozen=True, kw_only=True)
 class GuessedTimes:
-    """A column with times, and the reason of its unit."""
+    """A column of times, and the reason for its unit."""
 
     source: TimeSource
     reason: str
@@ -31,10 +31,10 @@ class GuessedColumn:
 
     @property
     def scale(self) -> float:
-        """Units of rig-log/1 per unit of the file, with the sign; 1 where it is open."""
+        """Units of rig-log/1 per unit of the file, with the sign; 1 if unknown."""
         return self.source.scale(self.wanted)
 
     def with_guess(self, field: str, reason: str, **change: Any) -> "GuessedColumn":
-        """The same with one more guess."""
+        """The same column with one more guess."""
         reasons = {**self.reasons, field: reason}
         return replace(self, source=self.source.but(**change), reasons=reasons)

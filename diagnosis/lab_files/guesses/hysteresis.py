@@ -1,8 +1,8 @@
-"""What the loops of torque over base angle look like: stiffness, play, dry level.
+"""The shape of the loops of torque over base angle: stiffness, play, dry level.
 
-After a reversal a dry contact holds what lies behind it: the torque falls from one level to the opposite
-one, first along the stiffness of what the drive winds up, flat where there is play, and along the
-stiffness again.
+After a reversal dry friction holds the needle behind it: the torque falls from one level to the
+opposite one, first along the stiffness of the part that the drive twists, then flat within play,
+then along the stiffness again.
 
          level  ----.                      u = 0
                      \\   stiffness
@@ -10,11 +10,11 @@ stiffness again.
                          play    \\
                                   '-----   u = 1
 
-With u the share of that way, a straight line is put through the torque where u is between 0.1 and 0.3,
-another between 0.7 and 0.9. Their slopes are the stiffness, the angle between them at u = 1/2 the play,
-half of the whole way the level. Each is the median over the reversals, with their scatter. This is
-what the loops look like, not a model: viscous torque widens them too. What torque is kept at rest has no
-viscous part: dry friction alone holds it.
+With u the share of that change, one straight line is fitted to the torque at u between 0.1 and 0.3,
+another between 0.7 and 0.9. Their slopes give the stiffness, their distance in angle at u = 1/2 the
+play, half of the whole change the level. Each is the median over the reversals, with their scatter. This
+describes the loops, and is no model: viscous torque widens them, too. The torque that is kept at rest
+has no viscous part: only dry friction holds it.
 """
 
 from collections.abc import Sequence
@@ -30,12 +30,12 @@ from diagnosis.lab_files.readers.lab_table import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Branch:
-    """From one reversal to the next.
+    """The part of a loop from one reversal to the next.
 
     Attributes:
       angle, torque: (N,).
-      rate_per_s: mean, angle per second.
-      first: of a trial: no reversal before it.
+      rate_per_s: mean rate, angle per second.
+      first: whether it is the first of a trial, without a reversal before it.
     """
 
     angle: Array
@@ -46,14 +46,14 @@ class Branch:
 
 @dataclass(frozen=True, kw_only=True)
 class LoopValue:
-    """A quantity of the loops: median over reversals and scatter (1.48 median absolute deviations)."""
+    """A quantity of the loops: median over reversals, and scatter (1.48 median absolute deviations)."""
 
     value: float | None
     scatter: float | None
     reversals: int
 
     def told(self, unit: str) -> str:
-        """In words, with a unit."""
+        """The value in words, with a unit."""
         if self.value is None or self.scatter is None:
             return "not seen"
         if self.reversals == 1:
@@ -63,12 +63,12 @@ class LoopValue:
 
 @dataclass(frozen=True, kw_only=True)
 class LoopShape:
-    """What the loops of torque over angle look like, in the units of both.
+    """The shape of the loops of torque over angle, in the units of both.
 
     Attributes:
       stiffness: slope after a reversal, torque per angle.
       play: angle over which torque stays at the middle after a reversal.
-      level: half of what the torque changes by from one direction to the other.
+      level: half of the torque's change between the directions.
       middle: torque halfway between both directions.
       kept: torque at the end of a rest, along the turn before it.
       rates_per_s: slowest and fastest turn of these loops, angle per second.
@@ -88,7 +88,7 @@ def loop_shape(branches: Sequence[Branch], kept: Sequence[float], noise: float) 
     Args:
       branches: from one reversal to the next, in the order of time.
       kept: torque at the end of rests, along the turn before each.
-      noise: standard deviation of the torque; branches that change it by little more are left out.
+      noise: standard deviation of the torque; branches with hardly more change than noise are left out.
     """
     stiffness, play, level, middle, rates = [], [], [], [], []
     ends = [_plateau(branch) for branch in branches]

@@ -1,7 +1,7 @@
-"""Which column of a lab probably is which column of rig-log/1, by the words of its name and its unit.
+"""Matches a lab's columns to those of rig-log/1, by the words of their names and their units.
 
-Words count for and against; a unit of the right quantity counts for. A column that is only the rate of
-the base's angle is not the axial speed, whatever its name says: the data decide.
+Words count for or against a match; a unit of the right quantity counts for it. A column that is only the
+rate of the base's angle is not the axial speed, whatever its name: the data decide.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -32,11 +32,11 @@ _NONE = -100.0
 
 @dataclass(frozen=True, kw_only=True)
 class NameGuess:
-    """A column of the lab for one of rig-log/1.
+    """A lab's column that matches one of rig-log/1.
 
     Attributes:
-      table: that holds it.
-      alike: other columns that would do as well by name.
+      table: title of its table.
+      alike: other columns whose names match equally well.
     """
 
     wanted: str
@@ -46,7 +46,7 @@ class NameGuess:
 
 
 def guessed_times(table: LabTable) -> str | None:
-    """The column that holds the times of a table: rising, and called like it; None: none."""
+    """The column of times of a table, by its name and increasing values; None: none."""
     rising = [name for name, values in table.columns.items() if _rises(values)]
     scored = {name: _weight(words_of(name), _TIME) for name in rising}
     best = max(scored, key=lambda name: scored[name], default=None)
@@ -57,8 +57,8 @@ def guessed_columns(tables: Sequence[LabTable], taken: Iterable[str]) -> tuple[N
     """The best columns for rig-log/1, each used once.
 
     Args:
-      tables: of one trial.
-      taken: columns that are something else: times, rates of others.
+      tables: tables of one trial.
+      taken: columns with another use: times, rates of others.
     """
     taken = set(taken)
     scored = [
@@ -80,7 +80,7 @@ def guessed_columns(tables: Sequence[LabTable], taken: Iterable[str]) -> tuple[N
 
 
 def angular_rate(tables: Sequence[LabTable], used: Iterable[str]) -> tuple[LabTable, str] | None:
-    """A rate of the base, from which its angle could be integrated."""
+    """Table and name of a rate of the base, from which its angle could be integrated; None: none."""
     used = set(used)
     for table in tables:
         for name in table.columns:
@@ -106,7 +106,7 @@ def is_rate_of(values: Array, time_s: Array, position: Array) -> bool:
 
 
 def _score(wanted: str, table: LabTable, name: str) -> float:
-    """How well a name and its unit fit; the weights of words, 2 for a unit, less what speaks against."""
+    """Score of a name and its unit: weights of words for it, 2 for a unit, minus words against it."""
     words, unit = _all_words(table, name), unit_in(name)
     known = [quantity for quantity in MeasuredQuantity if factor_of(unit, quantity) is not None]
     foreign = bool(known) and QUANTITIES[wanted] not in known

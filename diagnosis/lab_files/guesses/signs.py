@@ -1,7 +1,7 @@
-"""Signs and zeros of the columns, from what a passive needle does.
+"""Signs and zeros of the columns, from the behaviour of a passive needle.
 
-The drive puts work into the needle, so torque times rate is mostly positive. The tip follows the base.
-Depth grows by the axial speed. Which way the base counts as positive is free: it is kept.
+The drive does work on the needle, so torque times rate is mostly positive. The tip follows the base.
+Depth grows with the axial speed. The positive direction of the base is free: it is kept.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ _SAMPLES = 1500
 
 @dataclass(frozen=True, kw_only=True)
 class SignGuess:
-    """A sign and how it was found; None: the columns do not tell."""
+    """A sign, and how it was found; None: the columns do not determine it."""
 
     sign: Literal[1, -1] | None
     reason: str
@@ -27,7 +27,7 @@ class SignGuess:
 
 @dataclass(frozen=True, kw_only=True)
 class ZeroGuess:
-    """What a sensor reads when it should read 0, in its own unit, and how it was found."""
+    """The reading of a sensor that should be 0, in its own unit, and how it was found."""
 
     value: float | None
     reason: str
@@ -75,7 +75,7 @@ def speed_sign(time_s: Array, speed: Array, depth: Array, *, depth_grows: bool) 
 
 
 def zero_at_rest(values: Array, time_s: Array, motion: Motion, noise: float) -> ZeroGuess:
-    """Mean of the rest that a trial starts with, where it is off 0 for certain."""
+    """Mean reading of the rest at the start of a trial, if it differs from 0 significantly."""
     resting = values[motion.in_first_rest(time_s)]
     resting = resting[np.isfinite(resting)]
     if resting.size < 2:

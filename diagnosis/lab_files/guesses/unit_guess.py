@@ -1,4 +1,4 @@
-"""The unit of a column: from its name; else from its magnitude, as a question; else it stays open."""
+"""The unit of a column: from its name; else from its magnitude, as a question; else unknown."""
 
 from dataclasses import dataclass
 
@@ -26,10 +26,10 @@ _ROS = {
 
 @dataclass(frozen=True, kw_only=True)
 class UnitGuess:
-    """A unit and how it was found.
+    """A unit, and how it was found.
 
     Attributes:
-      unit: as the file writes it; None: open.
+      unit: as the file writes it; None: unknown.
       known: whether its factor is known for the quantity; else the user has to state one.
       asked: whether the reason ends in a question that the user should answer.
     """

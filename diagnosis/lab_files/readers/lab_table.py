@@ -1,4 +1,4 @@
-"""What every reader returns: columns of numbers under the names that the lab gave them."""
+"""The result of every reader: columns of numbers, with the lab's names."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -15,10 +15,10 @@ class LabTable:
     """Columns that were sampled together.
 
     Attributes:
-      title: file, and topic where a file has several, as messages name it.
+      title: file, and topic if the file has several, for messages.
       columns: values by name, (N,) each; NaN where the file has none.
-      words: what else the file says of a column (the name of a joint), by name of the column.
-      ros_units: the numbers are in rad, N m, m and s, as ROS asks for (REP 103).
+      words: other text of the file on a column (the name of a joint), by name of the column.
+      ros_units: the numbers are in rad, N m, m and s, as ROS requires (REP 103).
     """
 
     title: str
@@ -38,7 +38,7 @@ class LabFile:
 
     Attributes:
       tables: one, or one for each topic or length.
-      scalars: single numbers beside the tables, such as a sampling rate.
+      scalars: single numbers, such as a sampling rate.
       notes: what was left out, and why.
     """
 
@@ -54,7 +54,7 @@ class LabFile:
 
 
 def unique_names(names: Iterable[str]) -> list[str]:
-    """The names, those that return with a number behind: `torque`, `torque #2`."""
+    """The names; repeated ones get a number: `torque`, `torque #2`."""
     seen: dict[str, int] = {}
     found = []
     for name in names:

@@ -47,7 +47,7 @@ def read_mat_file(path: Path) -> LabFile:
 
 
 def _leaves(value: Any, name: str = "") -> Iterator[tuple[str, Array | None]]:
-    """Vectors by their path; None for what is none."""
+    """Vectors by their path; None for anything else."""
     fields = value if isinstance(value, dict) else _fields(value)
     if fields is not None:
         for key, inner in fields.items():

@@ -1,8 +1,8 @@
 """MCAP: every number of every topic as a column `topic.field[index]`, one table for each topic.
 
-ROS 2 messages carry their definition in the file, so that any type is read; channels of JSON as well.
-A topic has two times: that of the header (when it was measured), if its type has one, and `log_time`
-(when it was written).
+ROS 2 messages have their definition in the file, so any type can be read; so can channels of JSON.
+A topic has two times: that of the header (of the measurement), if its type has one, and `log_time`
+(of the recording).
 """
 
 import json
@@ -28,7 +28,7 @@ Decode = Callable[[bytes], Any]
 
 @dataclass(frozen=True, kw_only=True)
 class _Topic:
-    """What was read of a topic so far: rows of numbers, and what texts were seen."""
+    """A topic as far as it has been read: rows of numbers, and texts."""
 
     ros: bool
     rows: list[dict[str, float]] = field(default_factory=list)
@@ -39,7 +39,7 @@ def read_mcap_file(path: Path) -> LabFile:
     """Read all topics that can be decoded; the others are named in the notes.
 
     Raises:
-      InvalidValue: names the file, where it is no MCAP, is cut off, or has no numbers.
+      InvalidValue: the file is not MCAP, is cut off, or has no numbers; names it.
     """
     try:
         topics, unknown = _topics(path)
@@ -129,7 +129,7 @@ def _table(path: Path, name: str, topic: _Topic) -> LabTable:
 
 
 def _words(names: list[str], topic: _Topic) -> dict[str, str]:
-    """`position[0]` belongs to the joint that `name[0]` names."""
+    """Joint names by column: `position[0]` belongs to the joint `name[0]`."""
     found = {}
     for text, seen in topic.texts.items():
         stem, mark, index = text.rpartition(".name[")

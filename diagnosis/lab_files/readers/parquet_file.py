@@ -1,4 +1,4 @@
-"""Parquet: a table with names and types; times of a calendar become seconds."""
+"""Parquet: a table with names and types; dates and times become seconds."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ def read_parquet_file(path: Path) -> LabFile:
     """Read the columns of numbers and times.
 
     Raises:
-      InvalidValue: names the file, where it is not Parquet or has no numbers.
+      InvalidValue: the file is not Parquet or has no numbers; names it.
     """
     try:
         table = pd.read_parquet(path)

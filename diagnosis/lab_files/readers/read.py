@@ -1,4 +1,4 @@
-"""Which reader reads which file."""
+"""Chooses the reader of a file."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -28,7 +28,7 @@ _OTHER = {
 
 
 def read_lab_files(paths: Sequence[Path]) -> tuple[LabFile, ...]:
-    """Read files, each by its ending; without a known one, as text.
+    """Read files, each according to its ending; as text if that is unknown.
 
     Raises:
       InvalidValue: names the first file that cannot be read, and how to fix it.

@@ -1,4 +1,4 @@
-"""CSV and its relatives: any separator, decimal comma, comment lines, any names, any usual encoding."""
+"""CSV and similar text files: any separator, decimal comma, comments, any names, usual encodings."""
 
 import codecs
 import io
@@ -77,7 +77,7 @@ def _table(path: Path, lines: list[str], layout: TextLayout) -> pd.DataFrame:
 
 
 def _numbers(column: pd.Series, decimal: str) -> tuple[Array | None, str]:
-    """Values of a column, NaN where empty, and what is to be said of it."""
+    """Values of a column, NaN where empty, and a note on it; None: no numbers."""
     text = column.fillna("").str.strip().str.strip("\"'")
     empty = text.map(is_empty).to_numpy(bool)
     if empty.all():
@@ -98,7 +98,7 @@ def _numbers(column: pd.Series, decimal: str) -> tuple[Array | None, str]:
 
 
 def _seconds(text: pd.Series) -> Array:
-    """Times of day, or of a calendar, as seconds since 1970: files of one clock stay together."""
+    """Times of day, or dates, as seconds since 1970, so that files of one clock stay aligned."""
     times = pd.to_datetime(
         text.str.replace(",", ".", regex=False), errors="coerce", format="mixed", utc=True
     )

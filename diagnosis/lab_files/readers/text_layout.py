@@ -1,8 +1,8 @@
-"""How a text file of numbers is laid out: separator, decimal sign, header, first row of numbers.
+"""The layout of a text file of numbers: separator, decimal sign, header, first row of numbers.
 
-Nothing of it has to be stated: of all combinations of separator and decimal sign the one is taken
-under which most cells are numbers and fewest are not. The header is the line above the numbers that
-has as many cells, be it marked as a comment or not; a line of units below it belongs to it.
+Nothing has to be stated: of all combinations of separator and decimal sign, the one with the most
+numeric and the fewest other cells is used. The header is the line above the numbers with
+as many cells, marked as a comment or not; a line of units below it belongs to it.
 """
 
 import re
@@ -32,7 +32,7 @@ class TextLayout:
       separator: between cells; a blank stands for any run of blanks.
       decimal: `.` or `,`.
       first_row: index of the first line of numbers.
-      names: of the columns.
+      names: names of the columns.
       named: whether the file has a header.
     """
 
@@ -43,7 +43,7 @@ class TextLayout:
     named: bool
 
     def is_comment(self, line: str) -> bool:
-        """Whether a line between the numbers is none of them."""
+        """Whether a line between the numbers is a comment."""
         return not line.strip() or (line.lstrip()[0] in _COMMENTS and not _quoted(line))
 
 
@@ -83,7 +83,7 @@ def cells(line: str, separator: str) -> list[str]:
 
 
 def is_empty(cell: str) -> bool:
-    """Whether a cell says that there is no number."""
+    """Whether a cell is empty or a word for a missing number."""
     return cell.lower() in _EMPTY
 
 
@@ -93,7 +93,7 @@ def is_date(cell: str) -> bool:
 
 
 def _score(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, int]:
-    """Numbers less other cells of the most frequent kind of row, and its number of cells."""
+    """Numeric minus other cells in rows of the most frequent length, and that length."""
     rows = [row for line in lines[-_PROBED:] if _is_row(row := cells(line, separator), decimal)]
     if not rows:
         return 0, 0
@@ -134,7 +134,7 @@ def _header(above: Sequence[str], separator: str, count: int) -> list[str]:
 
 
 def _split(line: str, separator: str, count: int) -> list[str]:
-    """A line of the header as so many cells; a mark of a comment before them is none of them."""
+    """A line of the header as so many cells, without a leading comment mark."""
     plain = line.strip() if separator != "\t" else line.strip("\r\n ")
     if plain[:1] in _COMMENTS and not _quoted(plain):
         plain = plain.lstrip(_COMMENTS).strip()

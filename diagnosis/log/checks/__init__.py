@@ -1,1 +1,1 @@
-"""What a log is checked for once it has been read: signs, units, lengths, repeats."""
+"""Checks of a log that has been read: signs, units, lengths, repeats."""

@@ -1,9 +1,9 @@
-"""Angles that start again where a turn ends: +-180 deg (360), or +-90 deg of a sensor that cannot
-tell the two ends of an axis apart (180).
+"""Angles that wrap at the end of their range: +-180 deg (period 360), or +-90 deg for a sensor that
+cannot tell the two ends of an axis apart (period 180).
 
-At a wrap the reading jumps by a period against the direction in which it moves, before and after;
-or, while it holds at the end of the range, to and fro. No motion of a needle does that: a slip
-goes on in its own direction, and a turn from one hold to another has no motion at its ends.
+At a wrap the reading jumps by a period against the direction in which it moves before and after;
+or it jumps to and fro while it holds at the end of the range. No needle moves like this: a slip
+continues in its own direction, and a turn from one hold to another has no motion at its ends.
 """
 
 from pathlib import Path
@@ -62,7 +62,7 @@ def wraps(time_s: Array, values_deg: Array, period_deg: float) -> NDArray[np.boo
 
 
 def _moves_on(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:
-    """At one jump at least the angle moves against it, before and after."""
+    """Whether at one jump at least the angle moves against it, before and after."""
     unwrapped = np.unwrap(read, period=period_deg)
     noise = np.nan_to_num(white_noise([unwrapped], order=2))
     for i in at.tolist():
@@ -80,13 +80,13 @@ def _moves_on(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:
 
 
 def _advance(values: Array) -> float:
-    """Mean of the second half less mean of the first."""
+    """Mean of the second half minus mean of the first."""
     half = values.size // 2
     return float(values[half:].mean() - values[:half].mean())
 
 
 def _flickers(jump: Array, at: Rows) -> bool:
-    """To and fro between the ends of the range again and again, each within a few samples."""
+    """Whether the angle repeatedly jumps to and fro between the ends of its range in a few samples."""
     signs, beside = np.sign(jump[at]), np.diff(at) <= min(_WINDOWS)
     back = beside & (signs[1:] == -signs[:-1])
     in_a_row = np.convolve(back, np.ones(WRAP_FLICKERS), "valid") if back.size >= WRAP_FLICKERS else back

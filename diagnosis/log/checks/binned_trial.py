@@ -1,8 +1,8 @@
 """A trial in equal bins of time, and lagging copies of its signals.
 
-Bins keep checks of a long log quick, and take most of the noise off. A passive needle's
-tip is near a lagging copy of its base: that says which column leads, with which sign,
-and how late.
+Bins keep checks of a long log fast, and remove most of the noise. The tip of a passive needle
+is nearly a lagging copy of its base: this tells which column leads, with which sign,
+and by how much time.
 """
 
 from dataclasses import dataclass
@@ -82,6 +82,6 @@ def misfit(driving: Array, following: Array, bin_s: float) -> tuple[float, float
 
 
 def lagging(driving: Array, lag_s: float, bin_s: float) -> Array:
-    """What a first-order lag makes of a signal that starts at rest, (N,)."""
+    """A signal after a first-order lag, starting at rest, (N,)."""
     gain = 1 - np.exp(-bin_s / lag_s) if lag_s else 1.0
     return np.asarray(lfilter([gain], [1, gain - 1], driving - driving[0]))

@@ -1,8 +1,8 @@
 """Columns that a passive needle, driven at its base, cannot have produced together.
 
 The tip follows the base: a lagging copy of the base angle explains it, with a gain
-above 0. The drive puts work into the needle and gets at most some of it back. Wrong
-signs and swapped columns break this grossly, so that only gross breaks are refused:
+above 0. The drive does work on the needle and gets only part of it back. Wrong
+signs and swapped columns violate this grossly. Only gross violations are refused:
 friction, play, delays and gains of a real rig are far from them.
 """
 
@@ -42,8 +42,8 @@ def refuse_contradictions(
     """Refuse a trial with wrong signs or swapped columns.
 
     Args:
-      path: of the trial, for the message.
-      trial: without its faulty readings.
+      path: file of the trial, for the message.
+      trial: the trial without faulty readings.
       noise: claimed standard deviation by column.
       rigidity_n_mm2: nominal torsional rigidity.
 
@@ -63,7 +63,7 @@ def refuse_contradictions(
 
 
 def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) -> None:
-    """Each of two columns scatters as rig.yaml claims of the other."""
+    """Refuse two columns if each scatters as rig.yaml claims for the other."""
     measured = [name for name in ("base_angle_deg", *SENSORS) if trial.has(name) and noise[name] > 0]
     for one, other in combinations(measured, 2):
         if 1 / DISTINCT_NOISES < noise[one] / noise[other] < DISTINCT_NOISES:
@@ -73,7 +73,7 @@ def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) 
 
 
 def _refuse_swapped_lengths(path: Path, trial: Trial) -> None:
-    """No needle goes deeper while it moves out."""
+    """Refuse a needle that gets deeper while it is pulled out."""
     travel, deeper = travelled_mm(trial), trial["inserted_mm"] - trial["inserted_mm"][0]
     moved = np.ptp(deeper)
     if moved > BACKWARD_TRAVEL_MM and np.abs(deeper + travel).max() < BACKWARD_SHARE * moved:
@@ -85,7 +85,7 @@ def _refuse_swapped_lengths(path: Path, trial: Trial) -> None:
 
 
 def _refuse_swapped_torque(path: Path, turning: BinnedTrial, stiffness_n_mm_per_rad: float) -> None:
-    """A torque far beyond what the twist gives, unless it changes places with an angle."""
+    """Refuse a torque far beyond that of the twist, if swapping it with an angle makes it plausible."""
     base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
     too_much = torque_over_twist(base, tip, torque, stiffness_n_mm_per_rad) > TORQUE_OVER_TWIST
     if not too_much or np.ptp(torque) < LARGE_TURN_DEG:
@@ -100,7 +100,7 @@ def _refuse_swapped_torque(path: Path, turning: BinnedTrial, stiffness_n_mm_per_
 
 
 def _refuse_swapped_angles(path: Path, turning: BinnedTrial) -> None:
-    """The base follows the tip, and torque rises as the tip runs ahead."""
+    """Refuse a base that follows the tip, with a torque that rises as the tip runs ahead."""
     base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
     if not _both_turn(turning) or (torque.size and _correlation(torque, base - tip) > 0):
         return
@@ -121,7 +121,7 @@ def _refuse_opposite_angles(path: Path, turning: BinnedTrial) -> None:
 
 
 def _refuse_negative_work(path: Path, turning: BinnedTrial) -> None:
-    """Work on the needle, with an offset of the torque taken off or not, is far below zero."""
+    """Refuse work on the needle that is far below zero, with or without an offset of the torque."""
     base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
     if torque.size == 0 or np.ptp(base) < LARGE_TURN_DEG:
         return
@@ -146,7 +146,7 @@ def _both_turn(turning: BinnedTrial) -> bool:
 
 
 def _agrees(values: Array, claim: float) -> bool:
-    """Whether a reading scatters as a claim says."""
+    """Whether the scatter of a reading agrees with a claim."""
     low, high = NOISE_RATIO
     return low < scatter(values) / claim < high
 

@@ -1,6 +1,6 @@
-"""Lengths that no needle can have: far shorter than any, or jumping faster than the shaft can move.
+"""Impossible lengths: far shorter than any needle, or jumping faster than the shaft can move.
 
-The shortest are those in metres under a name in millimetres: READING_RANGE ends at 1000 mm, so that
+Lengths in metres in a column of millimetres are too short: READING_RANGE ends at 1000 mm, so
 any length in metres is below 1. A shaft is many diameters long, in any unit.
 """
 
@@ -61,7 +61,7 @@ def _refuse_metres(path: Path, trial: Trial, diameter_mm: float) -> None:
 
 
 def _refuse_jumps(path: Path, trial: Trial, column: str) -> None:
-    """A shaft moves at its axial speed; a stage that is read rarely may lag by a hold."""
+    """Refuse lengths that jump more than the axial speed allows; a stage may be read rarely."""
     steps, moved = np.diff(trial["time_s"]), np.abs(np.diff(trial[column]))
     fastest = float(np.abs(trial["speed_mm_s"]).max())
     allowed = LENGTH_JUMP_MM + fastest * np.maximum(steps, LENGTH_HOLD_S)
@@ -86,7 +86,7 @@ def _tiny_free_length(trial: Trial) -> list[str]:
 
 
 def _speed_and_free_length(trial: Trial) -> list[str]:
-    """Free length and axial speed: the one shrinks by what the other goes in."""
+    """Warnings if the free length does not shrink by the axial travel."""
     travel = travelled_mm(trial)
     shrunk = trial["free_mm"][0] - trial["free_mm"]
     slack = LENGTH_SLACK_MM + LENGTH_SLACK * max(np.ptp(travel), np.ptp(shrunk))
@@ -107,7 +107,7 @@ def _speed_and_free_length(trial: Trial) -> list[str]:
 
 
 def _beyond_the_shaft(trial: Trial) -> list[str]:
-    """What goes into the tissue comes out of the free length."""
+    """Warnings if the inserted length grows by more than the free length loses."""
     deeper = trial["inserted_mm"] - trial["inserted_mm"][0]
     given = np.maximum(trial["free_mm"][0] - trial["free_mm"], 0.0)
     end = int(np.argmax(deeper - given))

@@ -1,9 +1,9 @@
 """Readings that scatter far less than rig.yaml claims: the quickest sign of a wrong unit.
 
-A column in radians or newton metres scatters by as many times less as it has fewer units. The white
-part of a reading is told from its motion by its own differences, before anything is simulated.
-Motion only adds to it: whether a reading scatters too much, or a little too little, only what the
-nominal rig leaves of it can say (prepare/noise/sensor_noise.py).
+The scatter of a column in radians or newton metres is smaller by the ratio of units. Differences of a
+reading separate its white part from its motion, before anything is simulated.
+Motion can only increase them: whether a reading scatters too much, or slightly too little, is
+decided on the residual of the nominal rig (prepare/noise/sensor_noise.py).
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,7 +23,7 @@ _ORDER = 4  # of differences: motion is in few of the largest
 
 
 def far_claims(trials: Sequence[Trial], noise: Mapping[str, float]) -> dict[str, str]:
-    """Warnings by column whose claimed noise is far above what its readings scatter by.
+    """Warnings, by column, if the claimed noise is far above the scatter of the readings.
 
     Args:
       noise: claimed standard deviation by column.
@@ -38,7 +38,7 @@ def far_claims(trials: Sequence[Trial], noise: Mapping[str, float]) -> dict[str,
 
 
 def _scatter(values: Array) -> float:
-    """White part of a reading; a slow sensor that holds its readings counts each once."""
+    """Standard deviation of the white part of a reading; held readings of a slow sensor count once."""
     finite = values[np.isfinite(values)]
     fresh = np.concatenate(([True], np.diff(finite) != 0))[: finite.size]
     return white_noise([finite[fresh]], order=_ORDER)

@@ -1,7 +1,7 @@
-"""Plausibility of a log that can be used all the same: each finding is a warning of the report.
+"""Plausibility of a log that can be used anyway: each finding is a warning in the report.
 
-A clean log raises none. What raises one is used as it is, since it may be true: a
-trial that does not start at rest reads like a sensor with an offset.
+A clean log has none. Data with a warning are used as they are, since they may be right: a
+trial that does not start at rest looks like one of a sensor with an offset.
 """
 
 from collections.abc import Mapping, Sequence
@@ -46,7 +46,7 @@ def plausibility_warnings(trials: Sequence[Trial], noise: Mapping[str, float]) -
 
 
 def _gaps(trial: Trial) -> list[str]:
-    """Pauses of a log that otherwise samples often."""
+    """Warnings about pauses of a log that otherwise samples often."""
     steps = np.diff(trial["time_s"])
     low, median, high = np.quantile(steps, [0.25, 0.5, 0.75])
     pauses = steps > (PAUSE_STEPS if high < UNEVEN_QUARTILES * low else PAUSE_STEPS_UNEVEN) * median
@@ -61,7 +61,7 @@ def _gaps(trial: Trial) -> list[str]:
 
 
 def _other_angle_units(trial: Trial, noise: Mapping[str, float]) -> list[str]:
-    """The tip turns as the base does in other units: far more, or far less, noise and all."""
+    """Warnings if the tip turns like the base in other units: far more or less, including noise."""
     if not trial.has("tip_angle_deg") or trial.tip_is_loaded:
         return []
     base, tip = (float(np.nanmax(a) - np.nanmin(a)) for a in map(trial.__getitem__, _ANGLES))
@@ -79,7 +79,7 @@ def _other_angle_units(trial: Trial, noise: Mapping[str, float]) -> list[str]:
 
 
 def _coarse(name: str, having: Sequence[Trial], claim: float) -> list[str]:
-    """Rounding to steps of q is a noise of q / sqrt(12) by itself."""
+    """Warnings if rounding to steps of q, a noise of q / sqrt(12), exceeds the claim."""
     steps = min((q for trial in having if (q := quantum(trial[name])) > 0), default=0.0)
     if not 0 < claim < steps / np.sqrt(12):
         return []
@@ -105,7 +105,7 @@ def _absent(trials: Sequence[Trial]) -> list[str]:
 
 
 def _not_at_rest(trials: Sequence[Trial], noise: Mapping[str, float]) -> list[str]:
-    """The start of every trial is untwisted: the tip where the base is, and no torque."""
+    """Warnings if trials do not start untwisted, with the tip at the angle of the base and no torque."""
     warnings = []
     for sensor, meant in (("tip_angle_deg", "base_angle_deg"), ("base_torque_n_mm", "0")):
         off = {
@@ -123,7 +123,7 @@ def _not_at_rest(trials: Sequence[Trial], noise: Mapping[str, float]) -> list[st
 
 
 def _offset(trial: Trial, sensor: str, noise: Mapping[str, float]) -> float:
-    """Mean of the first readings off rest, while the base has not moved; 0 within the noise."""
+    """Mean of the first readings, off rest, while the base has not moved; 0 within the noise."""
     base = trial["base_angle_deg"][:REST_SAMPLES]
     still = np.abs(base - base[0]) <= STILL_SIGMA * noise["base_angle_deg"]
     first = slice(0, int(np.argmin(still)) if not still.all() else base.size)

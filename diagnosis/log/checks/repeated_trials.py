@@ -1,5 +1,5 @@
 """One recording that is listed as two trials: it would count twice, and a trial that is held out of
-a fit would be in the fit all the same.
+a fit would still be in the fit.
 
 Two recordings never have the same noise, so equal readings are the same recording.
 """
@@ -16,7 +16,7 @@ _SHARE = 1e-6  # of the range: what another number of digits changes
 
 
 def refuse_repeated_trials(paths: Sequence[Path], trials: Sequence[Trial]) -> None:
-    """Refuse a log that has a trial twice, whatever their names and times are.
+    """Refuse a log that has a trial twice, whatever the names and times.
 
     Raises:
       UnusableLog: names both files and the fix.

@@ -1,13 +1,13 @@
-"""How late the needle follows its base, beside how late the stated needle would.
+"""The lag of the needle behind its base, compared with that of the nominal needle.
 
 A shaft of torsional rigidity kappa in tissue of damping beta per length, over the length L below a free
 length l, follows its base like a first-order lag of
 
     tau = beta L (4 L / pi^2 + l) / kappa
 
-(slowest mode of diffusion over L, and the free shaft as a spring on the whole damper). The lag
-that explains the readings best is far from it where time or lengths are in another unit. It is
-only believed where it explains them well and lags near tau do not.
+(slowest mode of diffusion over L, and the free shaft as a spring on the whole damper). If time or
+lengths are in another unit, the lag that explains the readings best is far from tau. It is
+only trusted if it explains them well and lags near tau do not.
 """
 
 from collections.abc import Sequence
@@ -35,14 +35,14 @@ def nominal_lag_s(trial: Trial, rigidity_n_mm2: float, damping: float) -> float:
     """Time by which the nominal needle follows its base, s.
 
     Args:
-      damping: nominal, N mm s / rad per mm.
+      damping: nominal damping, N mm s / rad per mm.
     """
     inserted, free = float(np.median(trial["inserted_mm"])), float(np.median(trial["free_mm"]))
     return damping * inserted * (4 * inserted / np.pi**2 + free) / rigidity_n_mm2
 
 
 def lag_warnings(trials: Sequence[Trial], rigidity_n_mm2: float, damping: float) -> list[str]:
-    """Warnings about trials whose needle follows far sooner or far later than the nominal one."""
+    """Warnings about trials in which the needle follows far sooner or far later than the nominal one."""
     off: dict[str, tuple[float, float]] = {}
     for trial in trials:
         if trial.tip_is_loaded or not any(trial.has(sensor) for sensor in SENSORS):
@@ -65,7 +65,7 @@ def lag_warnings(trials: Sequence[Trial], rigidity_n_mm2: float, damping: float)
 
 
 def _lag_s(turning: BinnedTrial, nominal_s: float) -> float | None:
-    """The lag that is seen, where it is certain and far from the nominal one."""
+    """The observed lag, s, if it is certain and far from the nominal one; else None."""
     if nominal_s <= 0 or np.ptp(turning.base_angle_deg) < LARGE_TURN_DEG:
         return None
     left = np.array([_unexplained(turning, times * nominal_s) for times in _TIMES])
@@ -77,7 +77,7 @@ def _lag_s(turning: BinnedTrial, nominal_s: float) -> float | None:
 
 
 def _unexplained(turning: BinnedTrial, lag_s: float) -> float:
-    """Share of the variance that the tip's lag behind the base, or the torque of that twist, leaves."""
+    """Share of the variance of the twist, or of the torque, that a lag of the tip leaves."""
     base, tip = turning.base_angle_deg, turning.tip_angle_deg
     copy = lagging(base, lag_s, turning.bin_s)
     wanted = tip if tip.size else turning.base_torque_n_mm

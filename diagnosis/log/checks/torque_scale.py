@@ -1,13 +1,13 @@
-"""The size of the torque beside what the stated needle and tissue can give.
+"""The size of the torque, compared with the range that the nominal needle and tissue allow.
 
-A shaft of torsional rigidity kappa = J G whose free part has the length l, in tissue over the length L:
+For a shaft of torsional rigidity kappa = J G with a free length l, in tissue over the length L:
 
-    at most   kappa / l times the twist: the tissue holds all that is deeper
-    at least  the smaller of kappa / (l + L) times the twist, and of damping x rate x L
+    at most   kappa / l times the twist: the tissue holds everything deeper
+    at least  the smaller of kappa / (l + L) times the twist, and damping x rate x L
 
-Real rigs stay near these: friction adds, a soft drive takes away. What is far outside is in
-another unit, whatever the rig's own scale is. Where the tip is not measured, the swing of the base
-stands for the twist.
+Real rigs stay near this range: friction adds torque, a soft drive reduces it. A torque far outside is in
+another unit, whatever the rig's own scale is. If the tip is not measured, the range of the base's
+angle replaces the twist.
 """
 
 from collections.abc import Mapping, Sequence
@@ -34,11 +34,11 @@ _UNITS = "angles in rad: multiply by 57.2958; torque in N m: multiply by 1000, i
 def torque_warnings(
     trials: Sequence[Trial], noise: Mapping[str, float], rigidity_n_mm2: float, damping: float
 ) -> list[str]:
-    """Warnings about torques of another scale than the nominal rig's.
+    """Warnings about torques of another scale than that of the nominal rig.
 
     Args:
       noise: claimed standard deviation by column.
-      damping: nominal, N mm s / rad per mm.
+      damping: nominal damping, N mm s / rad per mm.
     """
     judged = [trial for trial in trials if trial.has("base_torque_n_mm")]
     passive = [trial for trial in judged if not trial.tip_is_loaded]
@@ -51,13 +51,13 @@ def torque_warnings(
 def torque_over_twist(
     base_angle_deg: Array, tip_angle_deg: Array, torque_n_mm: Array, stiffness_n_mm_per_rad: float
 ) -> float:
-    """The largest torque over what the largest twist gives a spring of that stiffness."""
+    """The largest torque / torque of a spring of that stiffness at the largest twist."""
     twist = np.nanmax(np.abs(np.radians(base_angle_deg - tip_angle_deg)), initial=1e-9)
     return float(np.nanquantile(np.abs(torque_n_mm), 0.99) / (stiffness_n_mm_per_rad * twist))
 
 
 def stiffest_n_mm_per_rad(trial: Trial, rigidity_n_mm2: float) -> float:
-    """Torsional stiffness of the shaft that is free at least: tissue holds the rest."""
+    """Torsional stiffness of the smallest possible free shaft, if tissue holds all the rest."""
     return rigidity_n_mm2 / max(float(trial["free_mm"].min()), LEAST_FREE_SHAFT_MM)
 
 
@@ -77,7 +77,7 @@ def _too_much(trials: Sequence[Trial], rigidity_n_mm2: float) -> list[str]:
 
 
 def _over_stiffest(trial: Trial, rigidity_n_mm2: float) -> float:
-    """Torque over what the twist gives the shaft that is free at least."""
+    """Torque / torque of the twist in the smallest possible free shaft."""
     stiffness = stiffest_n_mm_per_rad(trial, rigidity_n_mm2)
     if all(trial.has(sensor) for sensor in SENSORS):
         base, tip = trial["base_angle_deg"], trial["tip_angle_deg"]
@@ -105,7 +105,7 @@ def _too_little(
 def _over_least(
     trial: Trial, noise: Mapping[str, float], rigidity_n_mm2: float, damping: float
 ) -> float:
-    """Torque over the least that the motion asks for; infinite where that is not far above noise."""
+    """Torque / smallest torque for the motion; infinite if that is not far above noise."""
     turning = binned(trial)
     base, tip = turning.base_angle_deg, turning.tip_angle_deg
     inserted, free = float(np.median(trial["inserted_mm"])), float(np.median(trial["free_mm"]))

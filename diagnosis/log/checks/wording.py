@@ -1,4 +1,4 @@
-"""What messages about a log share."""
+"""Wording that messages about a log share."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,7 +6,7 @@ _SHOWN = 4
 
 
 def listed(names: Mapping[str, float] | Sequence[str]) -> str:
-    """The first names, and how many more."""
+    """The first names, and the number of the others."""
     shown = list(names)[:_SHOWN]
     more = len(names) - len(shown)
     return ", ".join(shown) + (f" and {more} more" if more else "")

@@ -1,1 +1,1 @@
-"""The motion of the base behind its readings: gaps, smoothing, what lies between samples."""
+"""The motion of the base, estimated from its readings: gaps, smoothing, interpolation."""

@@ -1,10 +1,10 @@
-"""Logs of more than 200 samples a second, averaged to about 100: as much is known, ten times sooner.
+"""Averages logs with more than 200 samples per second to about 100: as much is known, ten times faster.
 
-What a needle does takes a hundredth of a second and longer, and a replay takes a step for every sample.
-Means over windows of a hundredth of a second keep what readings tell: of n samples with white noise,
-the mean has sigma / sqrt(n). A window answers to the mean of its inputs as a sample does to a sample, so
-base angle, lengths and torques are averaged alike. The first and the last sample stay as they are,
-for the motion of the base to begin and end where it did; the sensors are left out there.
+The motion of a needle takes a hundredth of a second and longer, and a replay takes a step per sample.
+Means over windows of a hundredth of a second keep the information: the mean of n samples with white
+noise has the standard deviation sigma / sqrt(n). The mean response in a window belongs to the mean
+of its inputs, so base angle, lengths and torques are all averaged. The first and the last sample are
+kept, so that the motion of the base begins and ends where it did; their sensor readings are left out.
 """
 
 import math
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 def averaged(log: RigLog) -> RigLog:
-    """The log with the means of its windows for samples, if it has more than are of use."""
+    """The log with means over windows as samples, if it has more samples than are of use."""
     step_s = float(np.median(np.concatenate([np.diff(trial["time_s"]) for trial in log.trials])))
     count = int(AVERAGING_S / step_s + 1e-6)
     if step_s * AVERAGED_ABOVE_HZ >= 1 or count < 2:
@@ -41,14 +41,14 @@ def averaged(log: RigLog) -> RigLog:
 
 
 def _quieter(rig: NominalRig, count: int) -> NominalRig:
-    """The rig with the noise that means of so many samples have."""
+    """The rig with the noise of means over so many samples."""
     claims = rig.sensors.model_dump()
     sensors = rig.sensors.model_copy(update={k: v / math.sqrt(count) for k, v in claims.items()})
     return rig.model_copy(update={"sensors": sensors})
 
 
 def _means(trial: Trial, window_s: float, count: int) -> Trial:
-    """Means over windows that hold half of their samples at least."""
+    """Means over windows that have at least half of their samples."""
     time = trial["time_s"]
     window = np.floor((time - time[0]) / window_s + 0.5 / count).astype(int)
     columns = {str(name): _without_holes(time, trial[str(name)]) for name in trial.table}
@@ -65,6 +65,6 @@ def _means(trial: Trial, window_s: float, count: int) -> Trial:
 
 
 def _without_holes(time_s: Array, values: Array) -> Array:
-    """Readings across single holes, so that a mean with some is not that of other times."""
+    """Readings interpolated across single missing ones, so that means belong to their windows."""
     read = np.isfinite(values)
     return values if read.all() or not read.any() else np.interp(time_s, time_s[read], values[read])

@@ -1,13 +1,13 @@
-"""The motion of the base behind its noisy readings.
+"""The motion of the base, estimated from its noisy readings.
 
-The replay is driven by the measured base angle. Its noise would come back as torque
-noise, and worse: it would shake dry friction near the base loose, since hundredths
-of a degree are not small beside a presliding angle of 0.1 deg. So readings are
-averaged over as long a window as the motion allows: polynomials fitted in windows of
+The replay is driven by the measured base angle. Its noise would reappear as torque
+noise; worse, it would release dry friction near the base, since hundredths
+of a degree are not small compared with a presliding angle of 0.1 deg. So readings are
+averaged over as long a window as the motion allows: polynomials are fitted in windows of
 growing length, until a window's value leaves the confidence intervals of the shorter
 ones (intersection of confidence intervals; Goldenshluger and Nemirovski, 1997).
-Windows about, before and after a sample are weighed by what each leaves of the noise.
-While the base holds, seconds are averaged; in a fast turn, next to nothing.
+Windows around, before and after a sample are weighted by the inverse of their remaining noise.
+While the base rests, seconds are averaged; in a fast turn, hardly anything.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ _SIDES = ((2, 0.5), (1, 0.0), (1, 1.0), (0, 0.5), (0, 0.0), (0, 1.0))
 
 
 def smooth_base(time_s: Array, reading_deg: Array, sigma_deg: float) -> Array:
-    """Motion of the base, deg, (N,), behind the readings of its encoder and their noise."""
+    """Motion of the base, deg, (N,), from the readings of its encoder and their noise."""
     if sigma_deg <= 0:
         return reading_deg
     even = np.linspace(
@@ -41,8 +41,8 @@ def _longest(raw: Array, sigma: float, order: int, place: float) -> tuple[Array,
     """Value of the longest window that agrees with the shorter ones, and its spread.
 
     Args:
-      order: of the polynomial.
-      place: of the sample in its window, from 0 (first) to 1 (last).
+      order: order of the polynomial.
+      place: place of the sample in its window, from 0 (first) to 1 (last).
     """
     best, spread = raw.copy(), np.full(raw.size, sigma)
     low, high = raw - SMOOTHING_SIGMA * sigma, raw + SMOOTHING_SIGMA * sigma

@@ -1,7 +1,7 @@
-"""The motion of the base between samples that are rare.
+"""The motion of the base between samples at a low rate.
 
-Straight lines between 20 samples a second are steps of the rate, which a viscous torque shows.
-Akima's curve follows a smooth motion without overshooting at corners. Where two straight parts
+Straight lines between 20 samples per second are steps of the rate, which appear in the viscous torque.
+Akima's interpolation follows a smooth motion without overshooting at corners. If two straight parts
 meet between two samples, the corner is where their lines cross.
 
 Source: H. Akima, J. ACM 17 (1970) 589.
@@ -20,7 +20,7 @@ _LEAST_SAMPLES = 6
 
 
 def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
-    """Times and angles of the base, with more of them where samples are rare; (N,) each or (M,)."""
+    """Times and angles of the base, (N,) each; (M,) with interpolated ones if samples are rare."""
     step_s = float(np.median(np.diff(time_s)))
     if step_s <= BETWEEN_SAMPLES_S or time_s.size < _LEAST_SAMPLES:
         return time_s, base_deg
@@ -32,7 +32,7 @@ def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
 
 
 def _turn_corners(time_s: Array, base_deg: Array, inside: Array, angles: Array) -> None:
-    """Put corners into the angles, (N - 1, parts), where lines of three samples on both sides cross."""
+    """Insert corners into the angles, (N - 1, parts), where lines of three samples per side cross."""
     rate = np.diff(base_deg) / np.diff(time_s)
     bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
     first = np.arange(2, time_s.size - 3)  # the sample before the corner

@@ -1,13 +1,13 @@
 """The motion of the base across gaps in a log.
 
-Where samples are missing the base went on moving, and the needle remembers. A cubic through the
-readings on both sides follows a smooth motion across the gap, two lines that meet in it a corner: the
-cubic is taken unless lines alone fit both sides. Rows without readings of the sensors hold the motion.
+Where samples are missing, the base continued to move, and the needle's state depends on it. A cubic
+through the readings on both sides follows a smooth motion across the gap, two lines that meet in it a
+corner: the cubic is used unless only the lines fit both sides. The filled rows have no sensor readings.
 
-A short gap has no room for more. In a longer one, or where neither fits, the difference of the two is
-uncertain. If that is much, what the sensors read after the gap is not used until the needle
-has forgotten it: viscous drag within a second, dry friction when the base has turned one way so far
-that the whole shaft slides.
+In a short gap nothing else is possible. In a longer one, or if neither fits, the difference of the two
+is the uncertainty. If it is large, sensor readings after the gap are not used until the needle
+no longer depends on it: within a second for viscous drag; for dry friction, once the base has turned one
+way so far that the whole shaft slides.
 """
 
 from collections.abc import Sequence
@@ -45,12 +45,12 @@ _SLOW_SAMPLES, _LEAST_HELD = 10, 50  # that a rate is taken over; from which hel
 
 @dataclass(frozen=True, kw_only=True)
 class Filling:
-    """What goes into a gap.
+    """The content of a filled gap.
 
     Attributes:
       time_s, base_deg: motion of the base, (M,).
-      uncertain_deg: by how much it may be another.
-      turned: whether it may have turned there and back.
+      uncertain_deg: uncertainty of this motion.
+      turned: whether the base may have turned there and back.
     """
 
     time_s: Array
@@ -60,12 +60,12 @@ class Filling:
 
     @property
     def length_s(self) -> float:
-        """About that of the gap."""
+        """Approximate length of the gap, s."""
         return float(self.time_s[-1] - self.time_s[0])
 
 
 def fill_gaps(trial: Trial, sigma_deg: float) -> Trial:
-    """The trial with rows in its gaps: what its encoder would have read, and nothing of the sensors.
+    """The trial with rows in its gaps: estimated readings of the encoder, none of the sensors.
 
     Args:
       sigma_deg: noise of the base's encoder.
@@ -92,7 +92,7 @@ def _rows(trial: Trial, fillings: Sequence[Filling]) -> pd.DataFrame:
 
 
 def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Filling:
-    """Between the samples `before` and the next."""
+    """The filling of the gap between the sample `before` and the next."""
     time, base = trial["time_s"], trial[_BASE]
     start, end = time[before], time[before + 1]
     inside = np.linspace(start, end, max(round((end - start) / usual_s), 2) + 1)[1:-1]
@@ -115,7 +115,7 @@ def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Fil
 
 
 def _through(time_s: Array, base_deg: Array, at_s: Array, order: int) -> tuple[Array, float]:
-    """A polynomial at some times, and the root mean square that it misses its readings by."""
+    """A polynomial at some times, and the root mean square of its residual."""
     middle, scale = at_s.mean(), np.ptp(time_s) or 1.0
     powers = np.vander((time_s - middle) / scale, order + 1)
     factors = np.linalg.lstsq(powers, base_deg, rcond=None)[0]
@@ -127,7 +127,7 @@ def _through(time_s: Array, base_deg: Array, at_s: Array, order: int) -> tuple[A
 def _corner(
     time_s: Array, base_deg: Array, left: slice, right: slice, at_s: Array
 ) -> tuple[Array, float]:
-    """Lines through both sides that meet in the gap, and what they miss; where they do not, one line."""
+    """Lines through both sides that meet in the gap, and their residual; else one line."""
     straight = np.interp(at_s, time_s, base_deg)
     if min(left.stop - left.start, time_s[right].size) < _LEAST_SIDE:
         return straight, np.inf
@@ -141,7 +141,7 @@ def _corner(
 
 
 def _lost(trial: Trial, fillings: Sequence[Filling], time_s: Array) -> NDArray[np.bool_]:
-    """Rows of the filled trial that still remember what is uncertain, (N,)."""
+    """Mask of rows that still depend on an uncertain motion, (N,)."""
     rows = np.zeros(time_s.size, bool)
     for filling in fillings:
         if filling.uncertain_deg > GAP_CERTAIN_DEG:
@@ -156,7 +156,7 @@ def _lost(trial: Trial, fillings: Sequence[Filling], time_s: Array) -> NDArray[n
 
 
 def _erased_s(trial: Trial, after_s: float) -> float:
-    """When the base has turned one way, after a time, by so much that the shaft slides all along."""
+    """First time after which the base has turned one way so far that the whole shaft slides, s."""
     rows = trial["time_s"] > after_s
     time, base = trial["time_s"][rows], trial[_BASE][rows]
     turned = np.maximum(base - np.minimum.accumulate(base), np.maximum.accumulate(base) - base)
@@ -165,7 +165,7 @@ def _erased_s(trial: Trial, after_s: float) -> float:
 
 
 def _usual_twist_deg(trial: Trial) -> float:
-    """What the shaft is twisted by while the base is slow, which dry friction holds; else ever."""
+    """Twist of the shaft while the base is slow, which dry friction holds; else at any time, deg."""
     if not trial.has(_TIP):
         return GAP_UNKNOWN_TWIST_DEG
     twist = np.abs(trial[_BASE] - trial[_TIP])

@@ -1,9 +1,9 @@
-"""What the inertia of a rig asks of the motion of its base.
+"""The share of inertia in the base torque, and the smooth motion of the base that it needs.
 
-The base torque has a share J alpha, with J the inertia of shaft, drive and what is at the tip. For
-a thin needle it is 1e-5 of the noise. Where it counts, alpha is the second derivative of a sampled
-angle: straight lines between samples would turn it into spikes, so that the motion is
-interpolated by a cubic spline; and samples that are too rare to carry it earn a warning.
+The base torque has a share J alpha, with J the inertia of shaft, drive and load at the tip. For
+a thin needle it is 1e-5 of the noise. If it matters, alpha is the second derivative of a sampled
+angle: straight lines between samples would give spikes, so the motion is
+interpolated by a cubic spline; and if the sampling rate is too low for it, there is a warning.
 """
 
 from dataclasses import dataclass
@@ -27,8 +27,8 @@ class InertiaTorque:
     """The share of inertia in the base torque of one trial, in units of the torque's noise.
 
     Attributes:
-      rms_sigma: its size.
-      lost_sigma: what changes if every other sample is left out.
+      rms_sigma: its root mean square.
+      lost_sigma: its change if every other sample is left out.
     """
 
     rms_sigma: float = 0.0
@@ -43,11 +43,11 @@ class InertiaTorque:
 def inertia_torque(
     rig: NominalRig, time_s: Array, base_deg: Array, length_mm: float, sigma_n_mm: float
 ) -> InertiaTorque:
-    """How large the torque of inertia is, and how well the samples carry it.
+    """The size of the torque of inertia, and how well the samples resolve it.
 
     Args:
-      base_deg: motion of the base behind its encoder's noise, (N,).
-      length_mm: of the shaft between chuck and tip.
+      base_deg: motion of the base without its encoder's noise, (N,).
+      length_mm: length of the shaft between chuck and tip.
       sigma_n_mm: noise of the base torque.
     """
     if sigma_n_mm <= 0 or time_s.size < FEWEST_ROWS:
@@ -60,20 +60,20 @@ def inertia_torque(
 
 
 def total_inertia_kg_m2(rig: NominalRig, length_mm: float) -> float:
-    """Shaft, drive and tip."""
+    """Inertia of shaft, drive and tip."""
     shaft = Needle(**dict(rig.needle)).rotary_inertia_kg_m * length_mm * 1e-3
     return float(shaft + rig.inertia.base_kg_m2 + rig.inertia.tip_kg_m2)
 
 
 def smooth_motion(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
-    """The motion at more times, on a cubic spline: times and angles."""
+    """The motion at more times, by a cubic spline: times and angles."""
     parts = [time_s[:-1] + (k / _FINER) * np.diff(time_s) for k in range(_FINER)]
     finer = np.append(np.stack(parts, axis=1).ravel(), time_s[-1])
     return finer, np.asarray(CubicSpline(time_s, base_deg)(finer))
 
 
 def inertia_warning(name: str, torque: InertiaTorque) -> str:
-    """Where the samples are too rare for the torque that inertia takes; empty: they are not."""
+    """Warning if the sampling rate is too low for the torque of inertia; empty if it is not."""
     if not torque.counts or torque.lost_sigma <= INERTIA_LOST_SIGMA:
         return ""
     return (

@@ -1,17 +1,17 @@
-"""Slow drift of a sensor: a random walk that nobody saw, and what of a residual it may be.
+"""Slow drift of a sensor: a random walk, and the part of a residual that it may explain.
 
-Within a trial of length T the drift is taken to be
+Within a trial of length T the drift is modelled as
 
     a + b (t / T) + sum over k of c_k cos(pi k t / T),    b, c_k k ~ N(0, D),  a ~ N(0, 3 D)
 
-which is how a random walk spreads over its frequencies; D is its size, and a what it came to before.
-With the drift's covariance G G' beside that of white noise, a residual r in units of sigma becomes
+which is the spectrum of a random walk; D is its size, and a its value at the start.
+With the drift's covariance G G' added to that of white noise, a residual r in units of sigma becomes
 white by
 
     r - U (1 - 1 / sqrt(1 + L)) U' r,    G = U sqrt(L) V'
 
-so that a drift takes no part in a fit, a constant or a fast change of its size hardly any, and what is
-larger or faster than a drift counts as before.
+so that drift does not influence a fit; constants, and fast changes of the same size, hardly do;
+residuals that are larger or faster than drift count as before.
 """
 
 import numpy as np

@@ -1,20 +1,21 @@
 """Noise that is correlated in time: white noise beside a first-order process.
 
-A filtered or slowly wandering sensor does not forget at once. Of the variance of its noise a share w is
-white and a share c = 1 - w is an Ornstein-Uhlenbeck process of correlation time tau, whose
-autocovariance is
+The noise of a filtered or slowly wandering sensor is correlated. A share w of its variance is
+white, and a share c = 1 - w is an Ornstein-Uhlenbeck process of correlation time tau, with the
+autocovariance
 
     c exp(-|t| / tau)
 
-so that it is an AR(1) process at even steps, and the sum of both an ARMA(1, 1). Whitened noise is that
-noise less what its past tells of it, over the standard deviation of the rest: the innovations of the
+At even steps it is an AR(1) process, and the sum of both an ARMA(1, 1). Whitened noise is the
+noise minus its prediction from the past, / standard deviation of the rest: the innovations of the
 Kalman filter whose state is the coloured part,
 
     e = y - a,   S = P + w,   K = P / S
     a <- phi (a + K e),   P <- phi^2 P w / S + c (1 - phi^2),   phi = exp(-step / tau)
 
-exact for samples at any times, with any missing. It is linear in y: differences of residuals, slopes
-and costs are whitened as residuals are, and sums of squares of the whitened are -2 log(likelihood).
+This is exact for samples at any times, also with missing ones. It is linear in y: differences of
+residuals and slopes are whitened like residuals, and the sum of squares of whitened residuals is
+-2 log(likelihood), up to a constant.
 """
 
 from dataclasses import dataclass
@@ -28,18 +29,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class NoiseColour:
-    """Noise of one sensor in time, whatever its size.
+    """Correlation in time of one sensor's noise, whatever its size.
 
     Attributes:
-      share: of the variance that is coloured, above 0 to 1.
-      correlation_time_s: in which the coloured part forgets 63 %.
+      share: share of the variance that is coloured, above 0 and up to 1.
+      correlation_time_s: time in which the autocovariance of the coloured part falls to 37 %.
     """
 
     share: float
     correlation_time_s: float
 
     def whitened(self, time_s: Array, values: Array) -> Array:
-        """Innovations over their standard deviation; of noise with variance 1, white with variance 1.
+        """Innovations / their standard deviation; noise of variance 1 becomes white noise of variance 1.
 
         Args:
           time_s: (N,), increasing.
@@ -50,26 +51,26 @@ class NoiseColour:
         return np.asarray(told).reshape(values.shape)
 
     def uncertainty(self, time_s: Array) -> float:
-        """Sum of the logarithms of the variances that samples have, given those before them."""
+        """Sum of the logarithms of the variances of samples, given those before them."""
         _, log_variance = _innovations(self._kept(time_s), np.zeros((time_s.size, 0)), self.share)
         return float(log_variance)
 
     def restored(self, time_s: Array, whitened: Array) -> Array:
-        """What was whitened: the inverse."""
+        """The inverse of `whitened`."""
         columns = np.ascontiguousarray(whitened.reshape(time_s.size, -1), float)
         return np.asarray(_readings(self._kept(time_s), columns, self.share)).reshape(whitened.shape)
 
     def density(self, step_s: float) -> float:
-        """Spectral density at frequency 0 of samples at even steps, over that of white noise."""
+        """Spectral density at frequency 0 of samples at even steps / that of white noise."""
         times = step_s / (2 * self.correlation_time_s)
         return float(1 - self.share + self.share / np.tanh(times))
 
     def covariances(self, lags_s: Array) -> Array:
-        """Autocovariances of the coloured part alone, over its variance, (N,)."""
+        """Autocovariances of the coloured part alone / its variance, (N,)."""
         return np.asarray(np.exp(-np.abs(lags_s) / self.correlation_time_s))
 
     def _kept(self, time_s: Array) -> Array:
-        """What the coloured part keeps from one sample to the next, (N,); nothing to the first."""
+        """Factor phi of the coloured part from the sample before to each, (N,); 0 for the first."""
         return np.exp(-np.diff(time_s, prepend=-np.inf) / self.correlation_time_s)
 
 

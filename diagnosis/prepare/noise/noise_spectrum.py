@@ -1,15 +1,16 @@
-"""Colour of a sensor's noise, from the spectrum of what a model leaves of its readings.
+"""Colour of a sensor's noise, from the spectrum of the residual of its readings.
 
-What an unmodelled effect leaves is slow, or comes in bursts at motions; noise goes on all the time. So
-the residual is cut into windows of 2 s, a parabola is taken off each, and of the periodograms in a band
-of frequencies a low quantile is taken: that of noise is known (a periodogram scatters as chi-square of
-two about the spectral density), and bursts in two thirds of the windows leave it as it is. Bands begin
-above the frequencies of what is slow. White noise beside an Ornstein-Uhlenbeck process is fitted to
-them (`noise_colour`), its correlation time at most `COLOUR_LONGEST_S`: what it has below the bands is
-extrapolated and never taken from the data. A missing slow friction cannot pass for noise.
+The residual due to an unmodelled effect is slow, or comes in bursts with motions; noise is always there.
+So the residual is cut into windows of 2 s, a parabola is subtracted from each, and a low quantile of
+the periodograms is used in each band of frequencies. For noise this quantile is known (a periodogram
+scatters as chi-square with two degrees of freedom about the spectral density), and bursts in two thirds
+of the windows do not change it. Bands begin above the frequencies of slow residuals. The sum of white
+noise and an Ornstein-Uhlenbeck process is fitted to them (`noise_colour`), with a correlation time of
+at most `COLOUR_LONGEST_S`: its part below the bands is extrapolated and never taken from the data.
+So missing slow friction cannot be mistaken for noise.
 
-Missing samples count as zeros beside those that are there: the autocorrelation of the windows knows of
-them, and so does the spectrum that a model of the noise is expected to show.
+Missing samples count as zeros; the autocorrelation of the windows takes this into account in the
+spectrum that a model of the noise is expected to show.
 """
 
 from collections.abc import Sequence
@@ -61,11 +62,11 @@ class _Spectrum:
 def noise_colour(
     parts: Sequence[tuple[Array, Array]], least_share: float = COLOUR_LEAST_SHARE
 ) -> tuple[float, NoiseColour] | None:
-    """Standard deviation and colour of the noise in residuals; None: it may well be white.
+    """Standard deviation and colour of the noise in residuals; None: it may be white.
 
     Args:
       parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
-      least_share: of its variance that is coloured.
+      least_share: smallest share of the variance that counts as coloured.
     """
     spectrum = _spectrum(parts)
     if spectrum is None:
@@ -112,7 +113,7 @@ def _fitted(spectrum: _Spectrum, columns: Array) -> tuple[float, Array]:
 
 
 def _spectrum(parts: Sequence[tuple[Array, Array]]) -> _Spectrum | None:
-    """Of all trials; None: they are too short."""
+    """The spectrum of all trials; None: they are too short."""
     steps = np.concatenate([np.diff(time) for time, _ in parts]) if parts else np.zeros(0)
     if not steps.size:
         return None
@@ -140,7 +141,7 @@ def _spectrum(parts: Sequence[tuple[Array, Array]]) -> _Spectrum | None:
 
 
 def _lag_weights(cut: Sequence[Array], taper: Array, bands: Sequence[NDArray[np.int_]]) -> Array:
-    """By which autocovariances at lags 0, 1, ... add up to the expected levels of bands, (B, L)."""
+    """Weights with which autocovariances at lags 0, 1, ... give the expected levels of bands, (B, L)."""
     masks = list({np.isfinite(one).tobytes(): one for one in cut}.values())
     looked_at = masks[:: max(len(masks) // _MASKS, 1)]
     each = []
@@ -170,13 +171,13 @@ def _even(time_s: Array, values: Array, step_s: float) -> Array:
 
 
 def _windows(values: Array, size: int) -> list[Array]:
-    """Half overlapping windows that have enough samples."""
+    """Windows with half overlap that have enough samples."""
     cut = [values[i : i + size] for i in range(0, values.size - size + 1, max(size // 2, 1))]
     return [one for one in cut if np.isfinite(one).mean() >= _FEWEST]
 
 
 def _periodogram(values: Array, taper: Array) -> Array:
-    """Of one window without its parabola, per sample that was read."""
+    """Periodogram of one window without its parabola, per sample that was read."""
     known, weights, scale = _known(values, taper)
     there = np.nan_to_num(values)
     left = (there - known @ (np.linalg.pinv(known) @ there)) * weights

@@ -1,10 +1,10 @@
-"""Readings in coarse steps: the error of rounding stands still while the reading does.
+"""Readings in coarse steps: the rounding error is constant while the reading is.
 
-Rounding to steps of q adds q / sqrt(12) of noise. Where a signal moves across steps, or noise of half a
-step and more shakes it across, that is as white as other noise. Where neither is so, the error is one
-constant, up to q / 2: a hundred readings say no more than one. So of readings that stand still, one in
-half a second counts. The base is a reading too: while a coarse encoder stands still, base,
-tip and torque are all off by what it does not show.
+Rounding to steps of q adds noise of q / sqrt(12). If the signal moves across steps, or noise of at least
+half a step moves it, this error is as white as other noise. Otherwise the error is
+constant, up to q / 2: a hundred readings tell no more than one. So of constant readings, one in
+half a second counts. This includes the base: while a coarse encoder shows no change, base,
+tip and torque all have the error of the motion that it does not show.
 """
 
 from collections.abc import Mapping, Sequence
@@ -36,7 +36,7 @@ _WHOLE, _MOSTLY = 0.1, 0.9  # readings are rounded to decimals besides; outliers
 
 
 def steps_of(rig: NominalRig, trials: Sequence[Trial]) -> dict[str, float]:
-    """The steps of columns whose readings are coarse: larger than noise would hide."""
+    """The steps of columns with coarse readings: larger than steps that noise would hide."""
     found = {}
     for column, claim in rig.sensors.by_column().items():
         parts = [trial[column] for trial in trials if trial.has(column)]
@@ -48,14 +48,14 @@ def steps_of(rig: NominalRig, trials: Sequence[Trial]) -> dict[str, float]:
 
 
 def _short_runs(values: Array) -> int:
-    """How often a reading stands for some samples and moves on; an exact one moves or stands."""
+    """Number of short runs of equal readings; an exact reading changes at every sample, or rests."""
     finite = values[np.isfinite(values)]
     lengths = np.diff(np.flatnonzero(np.diff(finite, prepend=np.nan, append=np.nan) != 0))
     return int(np.count_nonzero((lengths > 1) & (lengths <= FROZEN_LEAST_RUN)))
 
 
 def _jumps(parts: Sequence[Array], step: float) -> bool:
-    """Whether readings move by several multiples of a step; those of an exact ramp by one."""
+    """Whether readings change by several multiples of a step; those of an exact ramp change by one."""
     moved = np.abs(np.concatenate([np.diff(part[np.isfinite(part)]) for part in parts])) / step
     whole = np.rint(moved)
     near = float(np.mean(np.abs(moved - whole) < _WHOLE))
@@ -71,7 +71,7 @@ def rounded_noise(rig: NominalRig, steps: Mapping[str, float]) -> dict[str, floa
 
 
 def without_repeats(trial: Trial, rig: NominalRig, steps: Mapping[str, float]) -> dict[str, Array]:
-    """Readings of the sensors, (N,) each; of those that stand still for rounding, one of many counts."""
+    """Readings of the sensors, (N,) each; of those that rounding holds constant, only some are kept."""
     claims = rig.sensors.by_column()
     still = {c: _held(trial, c, step) for c, step in steps.items() if _standing(c, step, claims)}
     everywhere = still.get(_BASE, np.zeros(trial["time_s"].size, bool))
@@ -90,7 +90,7 @@ def _standing(column: str, step: float, claims: Mapping[str, float]) -> bool:
 
 
 def _held(trial: Trial, column: str, step: float) -> Mask:
-    """Where a reading, averaged over a tenth of a second, stays within a step for longer than that."""
+    """Mask where a reading, averaged over 0.1 s, stays within a step for longer than that."""
     width = max(round(HELD_S / float(np.median(np.diff(trial["time_s"])))), 2)
     read = pd.Series(trial[column]).interpolate(limit_direction="both")
 
@@ -103,6 +103,6 @@ def _held(trial: Trial, column: str, step: float) -> Mask:
 
 
 def _counted(trial: Trial) -> Mask:
-    """One sample in every half of a second."""
+    """Mask of one sample in every half second."""
     part = np.floor((trial["time_s"] - trial["time_s"][0]) / HELD_COUNTED_S)
     return np.asarray(np.diff(part, prepend=-1.0) > 0)

@@ -1,7 +1,7 @@
-"""Noise of the sensors: what their readings scatter by, from the data themselves.
+"""Noise of the sensors: the scatter of their readings, from the data themselves.
 
-Claims are good to about 15 %. Where the data scatter by less than half or more than twice of what
-is claimed, the data are believed, with a warning.
+Claims are usually right to about 15 %. If the scatter of the data is less than half or more than twice
+the claim, that of the data is used, with a warning.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -36,11 +36,11 @@ class Noise:
     """Noise of the sensors and of the base's encoder.
 
     Attributes:
-      sigma: one standard deviation, by sensor and of the encoder.
-      warnings: what was odd about it.
-      colour: of the sensors whose noise is not white.
-      white: one standard deviation by sensor, if all noise is taken for white.
-      least: what readings in coarse steps have at least.
+      sigma: standard deviation, by sensor and of the encoder.
+      warnings: warnings about the noise.
+      colour: colour of the noise, for sensors whose noise is not white.
+      white: standard deviation by sensor, if all noise is taken as white.
+      least: least noise of readings in coarse steps.
     """
 
     sigma: Mapping[str, float]
@@ -53,19 +53,19 @@ class Noise:
         return self.sigma[sensor]
 
     def whitened(self, sensor: str, time_s: Array, values: Array) -> Array:
-        """Residuals of a sensor / sigma, (N,) or (N, n), without what their past tells of them."""
+        """Whitened residuals of a sensor / sigma, (N,) or (N, n)."""
         colour = self.colour.get(sensor)
         return colour.whitened(time_s, values) if colour else values
 
     def restored(self, sensor: str, time_s: Array, whitened: Array) -> Array:
-        """Residuals / sigma that were whitened."""
+        """Residuals / sigma from whitened ones."""
         colour = self.colour.get(sensor)
         return colour.restored(time_s, whitened) if colour else whitened
 
     def with_colour(
         self, left: Mapping[str, Sequence[TimedArray]], least_share: float = COLOUR_LEAST_SHARE
     ) -> "Noise":
-        """The same with the colour that residuals show, in units of the sensors, by sensor and trial."""
+        """The noise with the colour of residuals, in the units of the sensors, by sensor and trial."""
         sigma, colour = dict(self.sigma), {}
         for sensor, parts in left.items():
             found = noise_colour(parts, least_share)
@@ -76,17 +76,17 @@ class Noise:
         return replace(self, sigma=sigma, colour=colour)
 
     def same(self, other: "Noise") -> bool:
-        """Whether residuals are the same in units of both."""
+        """Whether residuals in units of both are the same."""
         return self.sigma == other.sigma and self.colour == other.colour
 
     @property
     def uncoloured(self) -> "Noise":
-        """Of the same size, as if it were white: for what is shown."""
+        """Noise of the same size, taken as white: for figures."""
         return replace(self, colour={})
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was odd about it, and what is not white."""
+        """Warnings, and the sensors whose noise is not white."""
         each = (
             f"{sensor}: {colour.share:.0%} of the noise's variance is correlated over "
             f"{1000 * colour.correlation_time_s:.0f} ms; the diagnosis allows for it"
@@ -106,9 +106,9 @@ def estimate_noise(
 
     Args:
       residuals: times, s, and measured minus nominal, by sensor and trial, (N,) each.
-      base_sigma_deg: of the base's encoder.
-      told: columns whose claim has been doubted before.
-      least: noise of columns in coarse steps, which differences of standing readings do not show.
+      base_sigma_deg: noise of the base's encoder.
+      told: columns whose claim has already had a warning.
+      least: noise of columns in coarse steps, which differences of constant readings do not show.
     """
     least = least or {}
     claims = rig.sensors.by_column()
@@ -142,7 +142,7 @@ def _scatters_otherwise(column: str, found: float, claimed: float) -> str:
 
 
 def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
-    """Noise alone leaves a residual of 1 sigma; far less is left where all of it is in another unit."""
+    """Warning if the residual is far below the noise: the column may be in another unit."""
     left = np.concatenate([part[np.isfinite(part)] for part in residuals]) if residuals else np.zeros(0)
     gap = float(np.sqrt(np.mean(left**2))) / sigma if left.size >= LEAST_DIFFERENCES else 1.0
     if gap >= LEAST_GAP:
@@ -155,7 +155,7 @@ def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
 
 
 def base_noise_deg(rig: NominalRig, trials: Sequence[Trial]) -> float:
-    """Of the base's encoder: the claim, unless the quietest trial scatters quite otherwise."""
+    """Noise of the base's encoder: the claim, unless the scatter of the quietest trial differs."""
     claimed = rig.sensors.base_angle_noise_deg
     found = min(white_noise([trial[BASE]], order=_ORDER) for trial in trials)
     near = claimed > 0 and (not np.isfinite(found) or _agrees(found, claimed))

@@ -1,4 +1,4 @@
-"""How a trial begins whose recording began late: twisted, or moving."""
+"""The start of a trial whose recording began late: twisted, or moving."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,9 +11,9 @@ class LateStart:
     """The first sample of a trial that began late.
 
     Attributes:
-      twist_deg: of the base before the tip, as the readings say.
-      rate_deg_s: of the base.
-      unused_s: from the first sample, that what the sensors read is not used.
+      twist_deg: lead of the base over the tip, from the readings.
+      rate_deg_s: rate of the base.
+      unused_s: time from the first sample for which sensor readings are not used.
     """
 
     twist_deg: float
@@ -22,14 +22,14 @@ class LateStart:
 
     @property
     def words(self) -> str:
-        """The twist, the rate if the base moves, and what is not used."""
+        """The twist, the rate if the base moves, and the unused time, in words."""
         rate_deg_s = abs(self.rate_deg_s)
         moving = f" and moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
         return f"by about {abs(self.twist_deg):.2g} deg{moving} (first {self.unused_s:.2g} s)"
 
 
 def late_start_warning(starts: Mapping[str, LateStart]) -> str:
-    """What was done with trials that began late, by their names; empty: none did."""
+    """A warning about trials that began late, by name; empty if none did."""
     if not starts:
         return ""
     each = "; ".join(f"{trial} {start.words}" for trial, start in starts.items())

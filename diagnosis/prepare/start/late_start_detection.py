@@ -1,14 +1,14 @@
-"""Which trials of a log began late: twisted (wound up, at rest), or moving.
+"""Detects trials that began late: twisted at rest, or moving.
 
-A needle from rest cannot have its tip elsewhere than its base at the first sample: twist diffuses
-along the shaft, and takes time. So where the tip starts is told by the intercept of a parabola through
-the first readings less the nominal prediction, which begins untwisted. An offset of the sensor looks the
-same, but is the same in all trials. A twist differs from trial to trial, and carries a torque,
+If a needle starts from rest, tip and base have the same angle at the first sample: twist diffuses
+along the shaft, which takes time. So the angle at which the tip starts is the intercept of a parabola
+through the first readings minus the nominal prediction, which begins untwisted. An offset of the sensor
+looks the same, but is equal in all trials. A twist differs from trial to trial, and carries a torque,
 
     twist kappa / (free + inserted)  <=  torque  <=  twist kappa / free,
 
-as long as it has one sign along the shaft. The torque alone tells a late start only where the base rests
-or the tip is not measured: it may jump where friction meets a base that moves from the first sample on.
+if it has one sign along the shaft. The torque alone shows a late start only if the base rests
+or the tip is not measured: with friction it may jump if the base moves from the first sample on.
 """
 
 from collections.abc import Mapping, Sequence
@@ -44,7 +44,7 @@ _FEWEST = 10  # readings that a parabola is laid through
 
 @dataclass(frozen=True, kw_only=True)
 class _Offset:
-    """What a sensor reads at the start beyond the nominal rig, and what that has to exceed."""
+    """The excess of a sensor's reading at the start over the nominal rig, and its threshold."""
 
     off_sigma: float = 0.0
     limit_sigma: float = np.inf
@@ -56,10 +56,10 @@ class _Offset:
 def with_late_starts(
     log: PreparedLog, residuals: Mapping[str, Sequence[Array]], noise: Noise
 ) -> PreparedLog:
-    """The log, its late trials marked, and what their sensors read at first set aside.
+    """The log with late trials marked, and without their first sensor readings.
 
     Args:
-      residuals: measured minus nominal, by sensor, of the trials that have it, in their order.
+      residuals: measured minus nominal, by sensor, for the trials that have it, in their order.
     """
     tips = _offsets(log.trials, _TIP, residuals, noise)
     torques = _offsets(log.trials, _TORQUE, residuals, noise)
@@ -79,7 +79,7 @@ def with_late_starts(
 
 
 def without_unused(log: RigLog, begun: PreparedLog) -> RigLog:
-    """The log without the readings that were set aside because trials began late."""
+    """The log without the readings that are not used because trials began late."""
     each = zip(log.trials, begun.trials, strict=True)
     return replace(log, trials=tuple(_without_unused(trial, own.late_start) for trial, own in each))
 
@@ -94,7 +94,7 @@ def _without_unused(trial: Trial, start: LateStart | None) -> Trial:
 
 
 def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mapping[str, float]) -> bool:
-    """Whether a trial begins elsewhere than the others, or than at rest."""
+    """Whether a trial has another offset at the start than the others, or than at rest."""
     off = torque.beyond(shared[_TORQUE])
     if not trial.has(_TIP):
         return off
@@ -107,7 +107,7 @@ def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mappin
 def _carries_torque(
     rig: NominalRig, trial: PreparedTrial, tip: _Offset, torque: _Offset, noise: Noise
 ) -> bool:
-    """Whether both sensors are off as those of a twisted shaft are: trials may begin alike."""
+    """Whether the offsets of both sensors are those of a twisted shaft: all trials may begin so."""
     if not (tip.beyond(0.0) and torque.beyond(0.0)):
         return False
     free_mm, inserted_mm = float(trial.free_mm[0]), float(trial.inserted_mm[0])
@@ -123,7 +123,7 @@ def _offsets(
     residuals: Mapping[str, Sequence[Array]],
     noise: Noise,
 ) -> list[_Offset]:
-    """Of every trial; one that does not have the sensor has no offset."""
+    """Offsets of all trials; 0 for trials without the sensor."""
     left = iter(residuals.get(sensor, ()))
     return [
         _offset(trial.time_s - trial.time_s[0], next(left), noise[sensor])
@@ -134,7 +134,7 @@ def _offsets(
 
 
 def _offset(time_s: Array, residual: Array, sigma: float) -> _Offset:
-    """Intercept of a parabola through the first readings, without outliers of these."""
+    """Intercept of a parabola through the first readings, without outliers."""
     first = slice(0, max(_FEWEST, int(np.searchsorted(time_s, START_LOOK_S))))
     read = np.isfinite(residual[first])
     time, left = time_s[first][read], residual[first][read]
@@ -154,7 +154,7 @@ def _offset(time_s: Array, residual: Array, sigma: float) -> _Offset:
 
 
 def _shared(offsets: Sequence[_Offset]) -> float:
-    """The offset that most trials share, two at least; else 0."""
+    """The offset that most trials share, at least two; else 0."""
     measured = [own for own in offsets if np.isfinite(own.limit_sigma)]
     best, most = 0.0, sum(not own.beyond(0.0) for own in measured)
     for one in measured:
@@ -193,7 +193,7 @@ def start_rate_deg_s(trial: PreparedTrial) -> float:
 
 
 def _forgotten_s(rig: NominalRig, trial: PreparedTrial) -> float:
-    """Until when all but the slowest mode of the nominal needle has faded."""
+    """Time after which all but the slowest mode of the nominal needle have decayed, s."""
     held = InsertedNeedle(
         needle=Needle(**dict(rig.needle)),
         damping_n_mm_s_per_mm=rig.tissue.damping_n_mm_s_per_mm,

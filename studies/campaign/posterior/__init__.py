@@ -1,1 +1,1 @@
-"""What a diagnosis leaves open of a rig: rigs that are drawn from it, and bands of their tip error."""
+"""The uncertainty that a diagnosis leaves: rigs drawn from its posterior, bands of their tip error."""

@@ -1,7 +1,7 @@
-"""Bands of the tip error over time: what a diagnosis leaves open, seen at the tip.
+"""Bands of the tip error over time: the uncertainty that a diagnosis leaves, at the tip.
 
-At each time 5, 50 and 95 of 100 drawn rigs have a tip error below the band's three lines. Beside them
-stand the nominal rig, which is what one believed before the diagnosis, and the most probable one.
+The lines of the band are the 5, 50 and 95 % quantiles of the tip errors of the drawn rigs at each time.
+The tip errors of the nominal rig (before the diagnosis) and of the most probable one are added.
 """
 
 from pathlib import Path
@@ -28,7 +28,7 @@ def bands(posterior: RigPosterior, motion: Protocol, errors_deg: Array) -> pd.Da
     nominal rig, `fit_deg` of the most probable one, and the quantiles.
 
     Args:
-      errors_deg: of the drawn rigs, (rigs, times); without any, quantiles are NaN.
+      errors_deg: tip errors of the drawn rigs, (rigs, times); without rigs, quantiles are NaN.
     """
     known = [drawn_rig(posterior, motion, values) for values in ({}, posterior.fitted)]
     at = times_s(motion)
@@ -42,7 +42,7 @@ def bands(posterior: RigPosterior, motion: Protocol, errors_deg: Array) -> pd.Da
 
 
 def draw(table: pd.DataFrame, title: str, path: Path) -> None:
-    """What is asked of the base, the tip errors below it, and how far rigs are from their median."""
+    """Draw the base angle of the protocol, the tip errors, and their distance from the median."""
     figure, (asked, error, spread) = plt.subplots(
         3, 1, figsize=(7.5, 7.5), sharex=True, height_ratios=(1, 2.5, 1.2), layout="constrained"
     )

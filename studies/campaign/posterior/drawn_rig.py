@@ -1,11 +1,11 @@
-"""A rig of a posterior in the motion of a protocol: how far is its tip from where it should be?
+"""The tip error of a rig that is drawn from a posterior, in the motion of a protocol.
 
-The tip should be where the base is sent; what it lacks of that is the tip error,
+The tip should have the angle that the protocol gives for the base:
 
-    error(t) = angle that the protocol asks of the base - angle of the tip.
+    error(t) = base angle of the protocol - angle of the tip.
 
-The encoder of the rig may read another angle than its shaft turns, and its depth be another than is
-believed: both are allowed for. Sensors of tip and torque do not matter here.
+Errors of the rig's encoder and of its depth are taken into account; the sensors of tip and torque
+have no influence.
 """
 
 from dataclasses import dataclass
@@ -33,8 +33,8 @@ class DrawnRig:
     """A rig and a motion, for `sim.batch.simulate_each`.
 
     Attributes:
-      nominal: what is believed of the rig.
-      motion: its lengths, segments and discretisation are used, not its needle, tissue and drive.
+      nominal: nominal constants of the rig.
+      motion: lengths, segments and discretisation are used, but not needle, tissue and drive.
     """
 
     nominal: NominalRig
@@ -42,14 +42,14 @@ class DrawnRig:
     motion: Protocol
 
     def setup(self) -> Setup:
-        """Raises InvalidValue where the rig makes no model."""
+        """The model of the rig; raises InvalidValue if its values make none."""
         how = self.motion.discretisation
         return self.rig.without_sensors().setup(
             self.nominal, self.schedule(), elements=how.elements, step_s=how.step_s
         )
 
     def schedule(self) -> Schedule:
-        """Raises SimulationFailed where the needle never reaches the tissue."""
+        """The inputs of the rig; raises SimulationFailed if the needle never reaches the tissue."""
         return self._driven
 
     @cached_property
@@ -57,18 +57,18 @@ class DrawnRig:
         return driven(self.rig, self.motion.schedule())
 
     def wanted_deg(self, time_s: Array) -> Array:
-        """What the protocol asks of the base."""
+        """Base angle of the protocol at these times, deg, as `time_s`."""
         asked = self.motion.schedule()
         return np.interp(time_s, asked.time_s, asked.drive)
 
 
 def drawn_rig(posterior: RigPosterior, motion: Protocol, values: dict[str, float]) -> DrawnRig:
-    """The rig that has these parameters; none: the nominal rig."""
+    """The rig with these parameter values; without any, the nominal rig."""
     return DrawnRig(nominal=posterior.rig, rig=posterior.rig_with(values), motion=motion)
 
 
 def times_s(motion: Protocol) -> Array:
-    """When the tip error is kept, evenly spaced from start to end, (201,)."""
+    """Times of the tip error, s, evenly spaced from start to end, (201,)."""
     asked = motion.schedule().time_s
     return np.linspace(asked[0], asked[-1], _TIMES)
 

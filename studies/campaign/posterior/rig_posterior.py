@@ -1,10 +1,11 @@
-"""A rig as a diagnosis knows it: the nominal rig, and parameters with their covariance.
+"""The posterior of a rig after a diagnosis: the nominal rig, and parameters with their covariance.
 
-Rigs are drawn where the fit moved: normal in a parameter, or in its logarithm if it is fitted in that,
+Rigs are drawn in the coordinates of the fit: normal in a parameter, or in its logarithm if the fit
+varied that,
 
     C_fit = C / (s_i s_j),    s = value of a parameter that is fitted in its logarithm, else 1;
 
-truncated to the bounds: what lies outside of them is drawn again.
+truncated to the bounds: values outside of them are drawn again.
 """
 
 import json
@@ -29,7 +30,7 @@ _AGAIN = "diagnose the log again with this version, and use the report.json that
 
 
 class RigPosterior(Record):
-    """Parameters of a rig and how they are uncertain together, in the units of a report."""
+    """Parameters of a rig and their covariance, in the units of a report."""
 
     rig: NominalRig
     parameters: tuple[str, ...]
@@ -48,7 +49,9 @@ class RigPosterior(Record):
             _parameter(name)
         sizes = {len(self.values), len(self.bounds), len(self.matrix), *map(len, self.matrix)}
         if sizes != {n}:
-            raise InvalidValue("matrix", sorted(sizes), f"values, bounds and rows for {n} parameters")
+            raise InvalidValue(
+                "matrix", sorted(sizes), f"{n} values, bounds and rows of {n}, for {n} parameters"
+            )
         spread = np.array(self.matrix)
         variance = np.diag(spread)
         slack = _SYMMETRIC * np.sqrt(np.outer(variance, variance).clip(min=0))
@@ -72,14 +75,14 @@ class RigPosterior(Record):
 
     @property
     def fitted(self) -> dict[str, float]:
-        """The most probable rig, by parameter."""
+        """Parameter values of the most probable rig, by name."""
         return dict(zip(self.parameters, self.values, strict=True))
 
     def drawn(self, rng: np.random.Generator) -> dict[str, float]:
-        """A rig, by parameter.
+        """Parameter values of a drawn rig, by name.
 
         Raises:
-          InvalidValue: hardly any lies within the bounds.
+          InvalidValue: none of many draws lies within the bounds.
         """
         fit, low, high = np.array(self.values), *np.array(self.bounds).T
         for _ in range(_TRIES):
@@ -89,11 +92,14 @@ class RigPosterior(Record):
             if ((low <= values) & (values <= high)).all():
                 return dict(zip(self.parameters, values.tolist(), strict=True))
         raise InvalidValue(
-            "posterior", self.parameters, f"one of {_TRIES} draws within the bounds", "see at_bound"
+            "posterior",
+            self.parameters,
+            f"bounds that contain at least one of {_TRIES} draws",
+            "see at_bound in report.json: a parameter is at its bound",
         )
 
     def rig_with(self, values: dict[str, float]) -> RigParameters:
-        """The rig that has these parameters; those that no report tells are at their first start."""
+        """The rig with these parameter values; others of the same effects are at their first start."""
         rig = NOMINAL
         for effect in dict.fromkeys(name.partition(".")[0] for name in values):
             own = LIBRARY[effect]
@@ -111,10 +117,10 @@ def _parameter(name: str) -> Parameter:
 
 
 def read_posterior(path: Path) -> RigPosterior:
-    """What a `report.json` knows of its rig.
+    """The posterior of the rig in a `report.json`.
 
     Raises:
-      InvalidValue: the file is no report, or of a version that told no covariance.
+      InvalidValue: the file is no report, or one of an earlier version, without covariance.
     """
     try:
         report = json.loads(path.read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""A camera that looks at the tip: exposures at a rate, white noise, images that arrive late.
+"""A camera that observes the tip: exposures at a fixed rate, white noise, images that arrive late.
 
 The paper's stereo cameras gave triangulated points at 7.5 Hz (Section V); ultrasound
 resolves 0.8 mm (Section I).
@@ -34,7 +34,7 @@ class CameraModel(Record):
     """From exposure to the position that is read off the image."""
 
     def model_post_init(self, context: object, /) -> None:
-        """Images do not overtake exposures."""
+        """Check that an image arrives before the next exposure."""
         if self.delay_s * self.rate_hz >= 1:
             raise InvalidValue(
                 "delay_s", self.delay_s, f"less than {1 / self.rate_hz:g} s, the time between images"
@@ -46,11 +46,11 @@ CAMERA = CameraModel()
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What a camera does at one instant.
+    """What a camera does at one sample.
 
     Attributes:
       exposes: an image is taken now.
-      position_mm: read off the image of the last exposure, which arrives now; None: no image does.
+      position_mm: position in the image of the last exposure, if that arrives now; else None.
     """
 
     exposes: bool
@@ -58,10 +58,10 @@ class View:
 
 
 class Camera:
-    """A camera over a run.
+    """A camera during a run.
 
     Args:
-      seed: of the noise.
+      seed: seed of the noise.
     """
 
     def __init__(self, model: CameraModel, *, seed: int) -> None:
@@ -70,11 +70,11 @@ class Camera:
         self._pending: tuple[float, Array] | None = None
 
     def look(self, time_s: float, position_mm: ArrayLike) -> View:
-        """Take an image where one is due, and hand out the one that arrives.
+        """Take an image if one is due, and return the one that arrives.
 
         Args:
           time_s: increasing from call to call.
-          position_mm: where the tip is now, (n,).
+          position_mm: present position of the tip, (n,).
         """
         arrived = self._arrived(time_s)
         exposes = time_s > self._exposures / self.model.rate_hz - _SAME_TIME_S

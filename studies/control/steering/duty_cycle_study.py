@@ -1,7 +1,7 @@
-"""Duty-cycled spinning of the needle: curvature against duty, and what torsion does to it.
+"""Duty-cycled spinning of the needle: curvature over duty, and the influence of torsion on it.
 
-The reference of the tip holds and spins; the needle goes in by 4 cm. The base is turned as the
-reference says, or by the compensator with the torsion estimator.
+The reference of the tip holds and spins while the needle is inserted by 4 cm. The base follows
+the reference, or is turned by the compensator with the torsion estimator.
 """
 
 import cmath
@@ -34,11 +34,11 @@ class SpunCurvature:
     """One insertion with spinning.
 
     Attributes:
-      case: of `DUTY_CASES`.
-      start_mm: depth at which it begins.
-      duty: share of the time that the reference spins.
-      share: curvature over that of a held tip; the law says 1 - duty.
-      direction_deg: of the curvature, against the held roll; NaN below a share of 0.05.
+      case: one of `DUTY_CASES`.
+      start_mm: depth at the start.
+      duty: share of the time in which the reference spins.
+      share: curvature / curvature of a held tip; the law gives 1 - duty.
+      direction_deg: direction of the curvature relative to the held roll; NaN if `share` is below 0.05.
     """
 
     case: str
@@ -61,7 +61,7 @@ def spun_curvatures(
 
 
 def spin(case: str, duty: float, *, start_mm: float) -> SpunCurvature:
-    """One insertion; the first cycle, in which the lag builds up, does not count."""
+    """One insertion; the first cycle, in which the lag builds up, is left out."""
     cycle = DutyCycle(duty=duty)
     inputs = _reference(cycle, start_mm)
     setup = lagrangian_setup(
@@ -96,7 +96,7 @@ def _reference(cycle: DutyCycle, start_mm: float) -> Schedule:
 
 
 def _whole_cycles(time_s: Array, cycle: DutyCycle) -> slice:
-    """Samples of all cycles but the first; all of them where there is no cycle."""
+    """Samples of all complete cycles but the first; all samples if the tip never spins."""
     if math.isinf(cycle.period_s):
         return slice(None)
     cycles = math.floor(time_s[-1] / cycle.period_s + 1e-9)

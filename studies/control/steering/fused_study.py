@@ -1,9 +1,9 @@
 """Roll of the tip from the base alone, and fused with images, where the base alone is wrong.
 
-A needle goes in from 2 to 10 cm at 5 mm/s while its base turns to and fro. Both estimators
-assume the paper's needle in viscous plastisol and read the same noisy sensors; the plants
-differ from that in one way each. The path wanders as uneven tissue makes it, a different way
-for every seed.
+A needle is inserted from 2 to 10 cm at 5 mm/s while its base turns to and fro. Both estimators
+assume the paper's needle in viscous plastisol and read the same noisy sensors; each plant
+differs from that in one respect. Uneven tissue bends the path at random, differently for every
+seed.
 """
 
 import math
@@ -44,8 +44,8 @@ class Plant:
     """A needle that differs from what the estimators assume.
 
     Attributes:
-      tip_torque_n_mm: on the tip, against positive rotation.
-      torque_bias_n_mm: that the sensor adds.
+      tip_torque_n_mm: torque on the tip, against positive rotation.
+      torque_bias_n_mm: bias of the torque sensor.
     """
 
     name: str
@@ -76,8 +76,8 @@ class RollErrors:
     """Errors of one estimator on one plant, over the seeds.
 
     Attributes:
-      rms_deg: over the second half of the insertion.
-      end_deg: at its end, in amount.
+      rms_deg: root mean square over the second half of the insertion.
+      end_deg: absolute error at its end.
     """
 
     rms_deg: Spread
@@ -109,7 +109,7 @@ def _errors(plant: Plant, seeds: Sequence[int]) -> dict[str, RollErrors]:
 
 
 def insert(plant: Plant) -> Run:
-    """The plant without sensors; its base turns as scheduled."""
+    """Simulate the plant; its base turns as scheduled, without sensors."""
     setup = lagrangian_setup(
         plant.tissue,
         free_mm=_FREE_MM + _END_MM - _START_MM,
@@ -176,7 +176,7 @@ def _samples(run: Run, plant: Plant, seed: int) -> list[Sample]:
 
 
 def wandering_path(run: Run, seed: int) -> Array:
-    """Positions of the tip, mm, (N, 3), with the bends of uneven tissue that a filter assumes."""
+    """Positions of the tip, mm, (N, 3), with the random bends that the filter assumes."""
     bends = np.random.default_rng([seed, 2]).normal(size=(run.time_s.size, 3))
     roll, depth = np.radians(run.tip_deg), run.inputs.inserted_mm
     tip, places = TipPose(PREBENT_RADIUS_MM), np.zeros((run.time_s.size, 3))

@@ -1,4 +1,4 @@
-"""A needle that goes in at constant speed: its set-up and its schedule."""
+"""A needle that is inserted at constant speed: its set-up and its schedule."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from sim.spec import Setup
 def lagrangian_setup(
     tissue: Tissue, *, free_mm: float, inserted_mm: float, step_s: float, elements: int
 ) -> Setup:
-    """The paper's needle on a mesh that moves with it."""
+    """The paper's needle on a mesh that is fixed to it."""
     return Setup(
         needle=NITINOL,
         tissue=tissue,
@@ -27,8 +27,8 @@ def constant_speed(*, start_mm: float, travel_mm: float, speed_mm_s: float, free
     """An insertion without any turn.
 
     Args:
-      start_mm: inserted at the start.
-      free_mm: left between chuck and tissue at the end.
+      start_mm: inserted length at the start.
+      free_mm: free length between chuck and tissue at the end.
     """
     time = np.array([0.0, travel_mm / speed_mm_s])
     travelled = speed_mm_s * time

@@ -1,9 +1,8 @@
 """The planar controller around a tip controller: its roll becomes the reference of the tip.
 
-What it knows of the tip comes either with the pose (`KnownPose`), or from a camera that sees
-the height alone, through the observer (`ImagedHeight`). Either is told how far the tip
-rolled: as the base, where torsion is left out of the controller, or as the torsion
-estimator says.
+Its state comes either from the exact pose (`KnownPose`), or from a camera that sees only
+the height, by the observer (`ImagedHeight`). Both also get the roll of the tip: that of the
+base if the controller ignores torsion, else that of the torsion estimator.
 """
 
 import math
@@ -18,14 +17,14 @@ from studies.control.tip_controllers import TipController
 
 
 class PlanarKnowledge(Protocol):
-    """Where the controller takes its state from."""
+    """The source of the controller's state."""
 
     def update(self, tip: BevelTip, time_s: float, travel_mm: float, roll_rad: float) -> PlanarState:
         """The state after a travel.
 
         Args:
-          tip: the true one.
-          roll_rad: of the tip, as the controller knows it.
+          tip: the true pose of the tip.
+          roll_rad: roll of the tip, as the controller knows it.
         """
 
 
@@ -33,7 +32,7 @@ class KnownPose:
     """Height and direction are known exactly; the roll is as the controller knows it."""
 
     def update(self, tip: BevelTip, time_s: float, travel_mm: float, roll_rad: float) -> PlanarState:
-        """Read off the tip."""
+        """The state from the true pose."""
         toward, onward = tip.pointing(roll_rad)
         return PlanarState(
             float(tip.position_mm[2]), float(tip.tangent[2]), float(toward[2]), float(onward[2])
@@ -41,14 +40,14 @@ class KnownPose:
 
 
 class ImagedHeight:
-    """Images of the height, and the observer for the rest."""
+    """The height from images, slope and roll from the observer."""
 
     def __init__(self, camera: Camera, observer: PlanarObserver) -> None:
         self.camera, self.observer = camera, observer
         self._roll_rad = 0.0
 
     def update(self, tip: BevelTip, time_s: float, travel_mm: float, roll_rad: float) -> PlanarState:
-        """Predict, and correct where an image arrives."""
+        """Predict the state; correct it if an image arrives."""
         self.observer.advance(travel_mm, roll_rad - self._roll_rad)
         self._roll_rad = roll_rad
         view = self.camera.look(time_s, tip.position_mm[2:])
@@ -63,8 +62,8 @@ class CascadedPlanarController:
     """The planar controller as the outer loop of a tip controller.
 
     Args:
-      inner: turns the base; None: a rigid needle, whose tip is where the base should be.
-      knowledge: of the tip.
+      inner: controller that turns the base; None: a rigid needle, whose tip turns with the base.
+      knowledge: source of the state.
       height_mm: height of the tip over the plane at the start.
     """
 
@@ -84,11 +83,11 @@ class CascadedPlanarController:
 
     @property
     def advance_mm(self) -> float:
-        """No axial motion beside the schedule's."""
+        """0: no axial motion in addition to the scheduled one."""
         return 0.0
 
     def __call__(self, measurement: Measurement, reference_deg: float) -> float:
-        """Advance the tip by what the needle went in, and set a new reference of its roll."""
+        """Advance the tip by the travel of the needle, and set a new reference of its roll."""
         travel = 0.0 if math.isnan(self._depth_mm) else measurement.inserted_mm - self._depth_mm
         self._depth_mm = measurement.inserted_mm
         self.tip.advance(travel, self._true_roll_rad(measurement))

@@ -1,4 +1,4 @@
-"""What a camera's noise makes of the planar controller: median and range over its seeds."""
+"""The planar controller under camera noise: median and range over the seeds."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ class PlanarSpread:
 
     Attributes:
       converged_mm: travel until the tip stays within 0.5 mm of the plane.
-      never: seeds in which it does not.
-      rms_mm: height after 100 mm of travel.
+      never: number of seeds in which it does not.
+      rms_mm: root mean square height after 100 mm of travel.
     """
 
     converged_mm: Spread
@@ -27,7 +27,7 @@ class PlanarSpread:
 
     @classmethod
     def of(cls, approaches: Sequence[PlaneApproach]) -> "PlanarSpread":
-        """Of the approaches of every seed."""
+        """The spread over the approaches of all seeds."""
         travels = [approach.converged_mm() for approach in approaches]
         return cls(
             converged_mm=Spread.of(travels),

@@ -1,8 +1,8 @@
-"""The planar controller on the needle: a rigid one, torsion left out, torsion compensated.
+"""The planar controller on the needle: rigid needle, torsion ignored, torsion compensated.
 
-The needle starts 10 cm deep, 3 mm over the plane and parallel to it. `approach_plane` gives
-the controller the pose and no noise. `imaged_approaches` gives it images of the height,
-with noise and delay, and noisy sensors at the base.
+The needle starts 10 cm deep, 3 mm over the plane and parallel to it. In `approach_plane`
+the controller knows the exact pose. In `imaged_approaches` it gets images of the height,
+with noise and delay, and noisy readings at the base.
 """
 
 import math
@@ -45,7 +45,7 @@ _TRAVEL_A_STEP_MM, _LARGEST_STEP_S, _ELEMENTS = 0.1, 0.02, 24
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneApproach:
-    """How the tip came into the plane: depth travelled, mm, and height, mm, (N,) each."""
+    """Path of the tip into the plane: travel, mm, and height, mm, (N,) each."""
 
     name: str
     travelled_mm: Array
@@ -73,7 +73,7 @@ def approach_plane(
     speed_mm_s: float = 10.0,
     cases: Sequence[str] = tuple(PLANAR_CASES),
 ) -> list[PlaneApproach]:
-    """The planar controller with the pose known, in each of the `PLANAR_CASES`."""
+    """The planar controller with known pose, in each of the `PLANAR_CASES`."""
     inputs = _inputs(travel_mm, speed_mm_s)
     return [_approach(name, _with_known_pose(name), inputs, tissue, seed=None) for name in cases]
 
@@ -87,7 +87,7 @@ def imaged_approaches(
     cases: Sequence[str] = tuple(PLANAR_CASES),
     seeds: Sequence[int] = SEEDS,
 ) -> dict[str, list[PlaneApproach]]:
-    """The planar controller with images and its observer: by case, an approach for each seed."""
+    """The planar controller with images and its observer: for each case, one approach per seed."""
     inputs = _inputs(travel_mm, speed_mm_s)
     return {
         name: [_approach(name, _imaged(name, camera, seed), inputs, tissue, seed=seed) for seed in seeds]
@@ -108,7 +108,7 @@ def _imaged(name: str, camera: CameraModel, seed: int) -> CascadedPlanarControll
 
 
 def _inner(name: str) -> TipController | None:
-    """The tip controller of a case, as before its first sample."""
+    """The tip controller of a case, in its initial state."""
     controller = PLANAR_CASES[name]
     return _fresh(controller) if controller else None
 
@@ -121,7 +121,7 @@ def _fresh(controller: str) -> TipController:
 
 @cache
 def _designed(controller: str) -> TipController:
-    """Made once: a regulator's gains over all depths take a second."""
+    """The tip controller of a case, cached: a regulator's gains over all depths take a second."""
     return tip_controller_named(controller, DESIGN)
 
 
@@ -139,7 +139,7 @@ def _approach(
     *,
     seed: int | None,
 ) -> PlaneApproach:
-    """One run; without a seed there is no noise."""
+    """One run; None as seed: no noise."""
     step_s = min(_TRAVEL_A_STEP_MM / float(inputs.speed_mm_s[0]), _LARGEST_STEP_S)
     if planar.inner is None:
         depth = _run_rigid(planar, inputs.at_steps(step_s))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Spread:
-    """Median, least and largest of the seeds; NaN where it never happened."""
+    """Median, smallest and largest value over the seeds; NaN if it never happened."""
 
     median: float
     least: float
@@ -15,7 +15,7 @@ class Spread:
 
     @classmethod
     def of(cls, values: Sequence[float]) -> "Spread":
-        """Of values among which NaN, never, is larger than any number."""
+        """The spread of values; NaN (never) counts as larger than any number."""
         ranked = sorted(math.inf if math.isnan(value) else value for value in values)
         middle = 0.5 * (ranked[(len(ranked) - 1) // 2] + ranked[len(ranked) // 2])
         median, least, largest = (

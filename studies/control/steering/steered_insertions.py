@@ -1,10 +1,10 @@
 """Figs. 11 and 12: 7 cm at 5 mm/s with a half turn after each of the first 4 cm.
 
-The path of the tip follows from the roll of MuJoCo's tip. While the tip passes from one
-side to the other it pulls out of the plane. Turned to and fro (0, 180, 0, 180, 0), it
-passes through the same side four times, and the deviations add up: so the paper turned
-its needle, for it says that alternating between tip up and tip down "would reduce the
-height deviation". Wound on in one sense (0, 180, 360, 540, 720) the sides alternate.
+The path of the tip follows from the roll of MuJoCo's tip. While the tip turns from one side to
+the other, it pulls out of the plane. If it turns to and fro (0, 180, 0, 180, 0), it
+passes through the same side four times, and the deviations add up. The paper turned its needle
+in this way, since it says that alternating between tip up and tip down "would reduce the
+height deviation". If the tip always turns in one sense (0, 180, 360, 540, 720), the sides alternate.
 Published: 12 mm out of the plane without compensation, 4 mm with.
 """
 
@@ -33,7 +33,7 @@ _STEP_S, _ELEMENTS = 0.005, 32
 
 
 class TurnOrder(StrEnum):
-    """How four half turns follow each other."""
+    """The senses of four successive half turns."""
 
     TO_AND_FRO = "to_and_fro"
     """0, 180, 0, 180, 0: every transit through the same side, as in the paper."""
@@ -53,7 +53,7 @@ class SteeredInsertion:
     """An insertion and the path of its tip.
 
     Attributes:
-      name: of the controller, or of the baseline.
+      name: name of the controller, or of the baseline.
       controlled: the run; None for a baseline, which does not turn.
       path_mm: (N, 3); z is out of the plane of the baseline.
     """
@@ -93,7 +93,7 @@ def steered_insertions(
     *,
     controllers: tuple[str, ...] = STEERED[2:],
 ) -> list[SteeredInsertion]:
-    """Every insertion of Figs. 11 and 12, and one by our fastest controller."""
+    """Every insertion of Figs. 11 and 12, and one with this project's fastest controller."""
     turned = [_steered(name, half_turns(order), tissue) for name in controllers]
     return [_baseline("baseline_right", 0.0), _baseline("baseline_left", np.pi), *turned]
 

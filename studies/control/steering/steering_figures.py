@@ -28,7 +28,7 @@ _SHOWN_MM = 5.0
 
 
 def draw_steered(study: SteeringStudy) -> Figure:
-    """Like Figs. 11 and 12: paths from above, and height over the plane for both orders of turns."""
+    """Draw Figs. 11 and 12: paths from above, and height over the plane for both orders of turns."""
     figure, axes = plt.subplots(1, 3, figsize=(17, 5), layout="constrained")
     for one in study.steered[TurnOrder.TO_AND_FRO]:
         axes[0].plot(one.path_mm[:, 0], one.path_mm[:, 1], **_STYLES[one.name])
@@ -51,7 +51,7 @@ def _draw_heights(axis: Axes, insertions: list[SteeredInsertion], title: str) ->
 
 
 def draw_planes(study: SteeringStudy) -> Figure:
-    """Heights over the plane: above with the pose known, below with images, thinly each seed and the
+    """Draw heights over the plane: above with known pose, below with images, each seed thin and the
     median of the seeds as a thick line."""
     count = len(study.known_pose)
     figure, axes = plt.subplots(

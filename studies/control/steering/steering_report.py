@@ -1,4 +1,4 @@
-"""What `control.json` says of steering, in plain values."""
+"""The part of `control.json` on steering, as plain values."""
 
 import math
 from dataclasses import asdict
@@ -11,7 +11,7 @@ from studies.control.steering.steering_study import SteeringStudy
 
 
 def steering_json(study: SteeringStudy) -> dict[str, Any]:
-    """Keys of control.json; what never happens is null."""
+    """Keys of control.json; null stands for "never"."""
     return {
         "steered_mm": {
             order.value: {one.name: one.out_of_plane_mm for one in insertions}

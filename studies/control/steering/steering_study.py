@@ -1,4 +1,4 @@
-"""The stages of `needle control` that steer: what they compute, in order."""
+"""The stages of `needle control` on steering, in order."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ class SteeringStudy:
 
     Attributes:
       steered: Figs. 11 and 12, by the order of the half turns.
-      known_pose: the planar controller without images, by speed, mm/s.
-      imaged: with images, by speed, mm/s, and case: an approach for each seed.
+      known_pose: the planar controller with known pose, by speed, mm/s.
+      imaged: with images, by speed, mm/s, and case: one approach per seed.
       fused: errors of the roll by plant and estimator.
       spun: curvatures under duty-cycled spinning.
     """
@@ -39,7 +39,7 @@ class SteeringStudy:
         fused: list[dict[str, dict[str, RollErrors]]],
         spun: list[list[SpunCurvature]],
     ) -> "SteeringStudy":
-        """From what the parts of every stage returned, in the order of `steering_parts`."""
+        """The study made of the results of all parts, in the order of `steering_parts`."""
         speeds = planar_study.SPEEDS_MM_S
         return cls(
             steered=dict(zip(TurnOrder, steered, strict=True)),
@@ -51,7 +51,7 @@ class SteeringStudy:
 
 
 def steering_parts() -> dict[str, list[Callable[[], Any]]]:
-    """The stages that steer, in order: the parts of each, none of which needs another."""
+    """The independent parts of every stage on steering, in order."""
     speeds = planar_study.SPEEDS_MM_S
     return {
         "steered insertions": [partial(steered_insertions, order) for order in TurnOrder],

@@ -1,1 +1,1 @@
-"""The paper's experiments as inputs of the MuJoCo needle, and the figures it printed of them."""
+"""The paper's experiments as inputs of the MuJoCo needle, and the figures that it prints for them."""

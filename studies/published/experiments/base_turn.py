@@ -1,9 +1,9 @@
 """How the base turns by 90 deg in the quick turn, which the paper does not state.
 
-"Quickly", "tuned to provide the fastest response without oscillating" is all that it says.
-Two motions stand for that:
+It only says "quickly", "tuned to provide the fastest response without oscillating".
+Two motions represent that:
 
-    ramp     90 deg at a constant rate in some time; 0.3 s wherever this project has to choose
+    ramp     90 deg at a constant rate; in 0.3 s wherever this project has to choose
     servo    a critically damped servo of second order, 1 - (1 + t / T) exp(-t / T)
 """
 
@@ -19,7 +19,7 @@ TURN_DEG = 90.0
 
 
 class BaseTurnShape(StrEnum):
-    """How the base comes to 90 deg."""
+    """Shape of the base's turn to 90 deg."""
 
     RAMP = "ramp"
     SERVO = "servo"

@@ -1,16 +1,16 @@
 """The channel that a prebent tip cuts, and the torque with which it holds the tip.
 
-The bent length L lies in the channel of its last travel. With z = exp(i roll) the channel's
-orientation C remembers z over L of travel,
+The bent length L lies in the channel that it cut last. With z = exp(i roll), the channel's
+orientation C is an average of z over the last travel, of length L,
 
-    dC/ds = (z - C) / L,        C = 0 where nothing is cut yet,
+    dC/ds = (z - C) / L,        C = 0 before anything is cut,
 
-and a channel that does not give holds the tip with the torque T Im(z conj(C)): T for a quarter
-turn out of a straight one, nothing in line with it or opposite to it. A tip that was turned thus
-lags, and swings free as it cuts on.
+and a rigid channel holds the tip with the torque T Im(z conj(C)): T for a quarter
+turn out of a straight channel, 0 in line with it or opposite to it. So a turned tip lags,
+and comes free as it cuts further.
 
-The needle in MuJoCo takes a torque at its tip as an input over time. It depends on the tip's own
-roll, so that run and torque are iterated until they agree.
+The needle in MuJoCo takes a torque at its tip as an input over time. It depends on the roll of
+the tip, so run and torque are iterated until they agree.
 """
 
 from collections.abc import Callable
@@ -33,9 +33,9 @@ def channel_torque_n_mm(roll_rad: Array, inserted_mm: Array, torque_n_mm: float)
     """Torque that resists the tip's roll, N mm, (N,).
 
     Args:
-      roll_rad: of the tip, (N,).
-      inserted_mm: depth at the same samples, growing by equal steps, (N,).
-      torque_n_mm: T, of a quarter turn.
+      roll_rad: roll of the tip, (N,).
+      inserted_mm: depth at the same samples, increasing by equal steps, (N,).
+      torque_n_mm: T, torque of a quarter turn.
 
     Raises:
       InvalidValue: the depth does not grow by equal steps.
@@ -51,14 +51,14 @@ def channel_torque_n_mm(roll_rad: Array, inserted_mm: Array, torque_n_mm: float)
 
 
 def run_in_channel(run: Callable[[Array], Run], samples: int, torque_n_mm: float) -> Run:
-    """The run whose tip torque is that of the channel which its own tip cuts.
+    """The run whose tip torque is that of the channel that its own tip cuts.
 
     Args:
-      run: a run with a torque over time at its tip, N mm, (samples,).
-      torque_n_mm: T, of a quarter turn; 0: no channel.
+      run: simulates a run for a torque at the tip over time, N mm, (samples,).
+      torque_n_mm: T, torque of a quarter turn; 0: no channel.
 
     Raises:
-      SimulationFailed: torque and run do not come to agree.
+      SimulationFailed: the iteration of torque and run does not converge.
     """
     torque = np.zeros(samples)
     found = run(torque)

@@ -1,18 +1,18 @@
-"""The published figures as measurements: which experiment gave each, and how exact it is.
+"""The published figures as measurements: the experiment of each, and its standard deviation.
 
 Tables II, IV and V print 28 figures beside their depths:
 
-    8   percentages: arithmetic on the others
+    8   percentages, computed from the others
     8   of the torsion compensator, whose gains and motor the paper does not state:
-        printed beside ours, but not used to judge the rig
+        printed beside ours, but not used to test the rig
     8   of the plastisol and its drive: damping in a slow turn at rest (4), settling and
         integral of the base-only turn (4)
     4   of another material: the torque that gelatin holds
 
-No standard deviation is printed for any. A column of Table II has its own: the scatter about
-the line through the origin for which the model (7) takes it. So Table II cannot test that
+The paper prints no standard deviations. That of a column of Table II is its scatter about
+the line through the origin that model (7) assumes, so Table II cannot test that
 line. Tables IV and V get their rounding and 5 % of the figure (`criteria.RELATIVE_SIGMA`).
-Figures count as independent, though settling and integral at one depth are read from
+Figures count as independent, although settling and integral at one depth come from
 one curve (the mean of three trials).
 """
 

@@ -1,14 +1,14 @@
 """The steered insertion of Figs. 11 and 12: 7 cm at 5 mm/s, half a turn after each of the first 4 cm.
 
-The half turns go to and fro, +180, -180, +180, -180 deg: "alternating the rotation direction
-would reduce the height deviation", says the paper, so its tip came through the same side each
-time. (A base that always winds in one sense takes it through alternate sides.) Deviation is the
+The half turns go to and fro, +180, -180, +180, -180 deg: the paper says that "alternating the
+rotation direction would reduce the height deviation", so its tip passed through the same side each
+time. (With turns in one sense, the sides alternate.) Deviation is the
 largest height of the tip over the plane in which it would curve without turning; the path follows
 from the roll of MuJoCo's tip, with the measured radius of curvature of 61 mm.
 
-Not stated: the shaft between chuck and tip (120 mm is taken), how the base turns (180 deg in
-0.6 s, the rate of the quick turn), the compensator's gain and motor (ours), the tissue (that of
-Table II).
+The paper does not state the length between chuck and tip (assumed: 120 mm), how the base turns
+(180 deg in 0.6 s, the rate of the quick turn), the compensator's gain and motor (this project's), or
+the tissue (that of Table II).
 """
 
 import math
@@ -40,14 +40,14 @@ _JUMP_S = 1e-6
 
 
 class WindingSense(StrEnum):
-    """Which way the half turns go."""
+    """The senses of the half turns."""
 
     TO_AND_FRO = "to and fro"
     ONE_WAY = "one way"
 
     @property
     def angles_deg(self) -> Array:
-        """Of the reference before the first turn and after each, deg, (5,)."""
+        """Reference before the first half turn and after each, deg, (5,)."""
         turns = np.arange(_TURNS + 1)
         count = turns % 2 if self is WindingSense.TO_AND_FRO else turns
         return np.asarray(_HALF_TURN_DEG * count, np.float64)
@@ -58,9 +58,9 @@ class InsertionRig:
     """One possible form of the rig of Figs. 11 and 12.
 
     Attributes:
-      model: needle, tissue and drive, as the diagnosis of rig logs has them.
-      shaft_mm: between chuck and tip.
-      turn: of the base alone by 90 deg; a half turn at the same rate, or by the same servo.
+      model: needle, tissue and drive, as in the diagnosis of rig logs.
+      shaft_mm: length between chuck and tip.
+      turn: turn of the base by 90 deg without compensation; half turns have the same rate, or servo.
       channel_n_mm: torque of the prebent tip for a quarter turn out of the channel that it cuts.
     """
 
@@ -70,7 +70,7 @@ class InsertionRig:
     channel_n_mm: float = 0.0
 
     def setup(self, inputs: Schedule) -> Setup:
-        """The MuJoCo needle that goes through the insertion."""
+        """The MuJoCo needle of the insertion."""
         return self.model.setup(STATED, inputs, elements=INSERTION_ELEMENTS, step_s=INSERTION_STEP_S)
 
 
@@ -109,7 +109,7 @@ def base_alone(rig: InsertionRig, sense: WindingSense = WindingSense.TO_AND_FRO)
 
 
 def _half_turn(turn: BaseTurn) -> BaseTurn:
-    """Twice as far at a constant rate takes twice as long; a servo takes the same time."""
+    """The turn by 180 deg: a ramp takes twice as long, a servo the same time."""
     if turn.shape is BaseTurnShape.SERVO:
         return turn
     return BaseTurn(shape=turn.shape, time_s=turn.time_s * _HALF_TURN_DEG / TURN_DEG)
@@ -124,7 +124,7 @@ def deviation_mm(run: Run) -> float:
 def deviations_alone_mm(
     rigs: Sequence[InsertionRig], sense: WindingSense = WindingSense.TO_AND_FRO
 ) -> list[float]:
-    """Deviation of every rig with the base alone, mm; those of one motion side by side.
+    """Deviation of every rig with the base alone, mm; rigs with the same motion are simulated together.
 
     Raises:
       SimulationFailed: a rig cannot be simulated.
@@ -171,8 +171,8 @@ def _compensator(rig: InsertionRig) -> FeedbackController:
 class ServoedController:
     """A controller whose commands go through a critically damped servo of time constant T.
 
-    Over a step h with the command held, e = base - command follows
-    e(h) = (e + (v + e / T) h) exp(-h / T), v its rate.
+    Over a step h with a held command, e = base - command with rate v becomes
+    e(h) = (e + (v + e / T) h) exp(-h / T).
     """
 
     def __init__(self, inner: FeedbackController, time_s: float) -> None:
@@ -181,11 +181,11 @@ class ServoedController:
 
     @property
     def advance_mm(self) -> float:
-        """As the controller wants."""
+        """Axial motion of the inner controller, mm."""
         return self.inner.advance_mm
 
     def __call__(self, measurement: Measurement, reference_deg: float) -> float:
-        """Where the servo has the base at the end of the next step, deg."""
+        """Angle of the base at the end of the next step, deg."""
         command = self.inner(measurement, reference_deg)
         h, time = INSERTION_STEP_S, self._time_s
         error = self._base_deg - command

@@ -1,11 +1,11 @@
-"""What is measured: a quantity that is read off one experiment at one depth."""
+"""A measurement: a quantity of one experiment at one depth."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 
 class TurnExperiment(StrEnum):
-    """What was done to the needle."""
+    """The experiment: how the needle was moved."""
 
     SLOW_TURN = "slow turn at rest"
     """90 deg over 20 s, 23 cm free, no axial motion (Section II-A)."""
@@ -20,7 +20,7 @@ class TurnExperiment(StrEnum):
 
 
 class Quantity(StrEnum):
-    """What was read off."""
+    """The quantity that was measured."""
 
     DAMPING = "damping"
     """Mean base torque over turning rate in the second half of a turn at rest, N mm s."""
@@ -60,7 +60,7 @@ class MeasuredFigure(TurnMeasurement):
     Attributes:
       source: where it is printed.
       value: in `unit`.
-      sigma_source: where the standard deviation is from, in words.
+      sigma_source: origin of the standard deviation, in words.
     """
 
     source: str

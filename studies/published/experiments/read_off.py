@@ -1,4 +1,4 @@
-"""The quantities that the paper would have read from a run."""
+"""The quantities of a simulated run, as the paper would have read them."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ _ROUNDING_S = 1e-9
 
 
 def read_off(experiment: TurnExperiment, run: Run, rig: PublishedRig) -> Quantities:
-    """What the paper would have read from a run of an experiment, in the quantities' units."""
+    """Quantities of a run of an experiment, as the paper would have read them, in their units."""
     drive = run.inputs.drive
     tip, torque = sensed(rig.model, run.inputs, run.tip_deg, run.base_torque_n_mm)
     if experiment is TurnExperiment.QUICK_TURN:
@@ -52,10 +52,10 @@ def _of_turn_at_rest(turn: TurnAtRest, time_s: Array, lag_deg: Array, torque: Ar
 
 
 def interpolated_settling_s(time_s: Array, error_deg: Array) -> float:
-    """Time after which the error stays within 3 deg, s; between samples, smooth in the error.
+    """Time after which the error stays within 3 deg, s; interpolated, and so smooth in the error.
 
-    An error that is still outside at the end counts as later the larger it is, so that
-    a fit has a slope to follow; such a time is beyond the last of `time_s`.
+    If the error is still outside at the end, the result lies beyond the last of `time_s`, the
+    further the larger the error is: a fit thus has a slope to follow.
     """
     size = np.abs(error_deg)
     outside = np.flatnonzero(size > SETTLED_DEG)

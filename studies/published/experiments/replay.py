@@ -1,6 +1,6 @@
-"""The published experiments, run on the MuJoCo needle by possible forms of the published rig.
+"""The published experiments, simulated with possible forms of the published rig.
 
-Needles of one schedule and memory layout are simulated side by side, and none twice.
+Needles with the same schedule and memory map are simulated together, and none twice.
 """
 
 from collections import Counter
@@ -21,11 +21,11 @@ Array = NDArray[np.float64]
 
 
 class FigureReplay:
-    """Predictions of measurements; every simulated needle is remembered.
+    """Predicts measurements; results of simulations are cached.
 
     Args:
-      elements: along the inserted shaft.
-      refinement: by which every time step is divided.
+      elements: number of elements along the inserted shaft.
+      refinement: factor by which every time step is divided.
     """
 
     def __init__(self, *, elements: int = ELEMENTS, refinement: float = 1.0) -> None:
@@ -34,7 +34,7 @@ class FigureReplay:
         self._known: dict[tuple[TurnExperiment, float, PublishedRig], Quantities] = {}
 
     def __call__(self, measurements: Sequence[TurnMeasurement], rigs: Sequence[PublishedRig]) -> Array:
-        """Every measurement by every rig, in the measurement's unit, (measurements, rigs).
+        """Predictions by all rigs, in the measurements' units, (measurements, rigs).
 
         Raises:
           SimulationFailed: a rig cannot be simulated.
@@ -49,7 +49,7 @@ class FigureReplay:
         )
 
     def unconverged(self, rig: PublishedRig) -> int:
-        """Stages of a rig's simulations whose iteration did not converge."""
+        """Number of stages in a rig's simulations whose iteration did not converge."""
         return sum(self._unconverged[seen] for seen in {_as_seen_by(e, rig) for e in TurnExperiment})
 
     def _run(self, experiment: TurnExperiment, depth_mm: float, rigs: Sequence[PublishedRig]) -> None:
@@ -72,7 +72,7 @@ class FigureReplay:
 
 
 def _as_seen_by(experiment: TurnExperiment, rig: PublishedRig) -> PublishedRig:
-    """The rig, without what an experiment cannot show."""
+    """The rig without those changes that have no influence in an experiment."""
     if experiment is TurnExperiment.QUICK_TURN:
         return rig
     return replace(rig, free_mm=WITH_FREE_LENGTH.free_mm, turn=WITH_FREE_LENGTH.turn)

@@ -1,8 +1,8 @@
-"""The published rig: what the paper states of it, and what a hypothesis may change.
+"""The published rig: what the paper states about it, and what a hypothesis may change.
 
-Stated are the needle, the viscous law with b = 3.45 N mm s at 200 mm, and a base that
+The paper states the needle, the viscous law with b = 3.45 N mm s at 200 mm, and a base that
 starts 5 cm from the tissue. The free length of the quick turn can be understood in two
-ways: the set-up's 50 mm, and none, which is the model of Sections III and V.
+ways: the set-up's 50 mm, or none, as in the model of Sections III and V.
 """
 
 from dataclasses import dataclass
@@ -35,12 +35,12 @@ STATED = NominalRig(**_STATED)
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedRig:
-    """One possible form of the published rig; as constructed it is the stated one.
+    """One possible form of the published rig; by default the stated one.
 
     Attributes:
-      model: needle, tissue, drive and sensors, as the diagnosis of rig logs has them.
-      free_mm: between base and tissue as the quick turn begins; 0: none at any time.
-      turn: of the base in the quick turn.
+      model: needle, tissue, drive and sensors, as in the diagnosis of rig logs.
+      free_mm: free length at the start of the quick turn; 0: none at any time.
+      turn: turn of the base in the quick turn.
     """
 
     model: RigParameters = RigParameters()  # noqa: RUF009 - frozen

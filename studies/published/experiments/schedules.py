@@ -19,7 +19,7 @@ _JUMP_S = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class TurnAtRest:
-    """90 deg at a constant rate without axial motion; then held; then, perhaps, retracted."""
+    """90 deg at a constant rate without axial motion; then a hold, and optionally a retraction."""
 
     turn_s: float = 20.0
     held_s: float = 0.0

@@ -1,6 +1,6 @@
 """Figures that the paper's text gives in words ("about", "nearly").
 
-They are no part of any fit: predictions are compared with them afterwards.
+No fit uses them: predictions are compared with them afterwards.
 """
 
 from models import published

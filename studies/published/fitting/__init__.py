@@ -1,1 +1,1 @@
-"""Hypotheses on the published rig, and their fits to the published figures."""
+"""Hypotheses about the published rig, and their fits to the published figures."""

@@ -1,6 +1,6 @@
-"""A hypothesis fitted to published figures, and the measures by which it is judged.
+"""A hypothesis fitted to published figures, and the measures of its fit.
 
-p       probability of a chi-square as large with figures - parameters degrees of freedom
+p       probability of a chi-square at least as large, with (figures - parameters) degrees of freedom
 AICc    chi-square + 2 k + 2 k (k + 1) / (n - k - 1): the penalty on k parameters rises
         without bound as k approaches the n figures (Hurvich and Tsai, 1989)
 rms     root mean square residual, in standard deviations, of the figures of the fit and of
@@ -25,10 +25,10 @@ class FigureFit:
     """A hypothesis fitted to figures: k parameters, n figures.
 
     Attributes:
-      x: the vector, (k,).
+      x: the fitted vector, (k,).
       residual: (predicted - published) / sigma, (n,).
       jacobian: d residual / d x, (n, k).
-      left_out: the same residual, each predicted by a fit to the other figures, (n,).
+      left_out: residual of each figure, predicted by a fit to the others, (n,).
     """
 
     hypothesis: Hypothesis
@@ -40,7 +40,7 @@ class FigureFit:
 
     @property
     def predicted(self) -> Array:
-        """Figures in their units, (n,)."""
+        """Predicted figures in their units, (n,)."""
         published = np.array([f.value for f in self.figures])
         return np.asarray(published + self.residual * [f.sigma for f in self.figures], np.float64)
 
@@ -78,8 +78,8 @@ class FigureFit:
     def intervals(self) -> list[tuple[float, float, float]]:
         """Value, low and high of a 95 % interval of every parameter, in order.
 
-        Linear, with Student's t; if the residual is larger than the standard deviations
-        allow, the interval is wider by as much (Birge).
+        Linearised, with Student's t; if chi-square exceeds its degrees of freedom, the intervals are
+        scaled up accordingly (Birge ratio).
         """
         low, high = self.hypothesis.bounds()
         if self.degrees_of_freedom <= 0:
@@ -104,7 +104,7 @@ def chi_square_p_value(chi_square: float, degrees_of_freedom: int) -> float:
 
 
 def parameter_penalty(figures: int) -> dict[int, float]:
-    """What AICc adds for k parameters fitted to so many figures; where it is finite."""
+    """Penalty of AICc for k parameters fitted to so many figures, by k, as far as it is finite."""
     return {k: 2 * k + 2 * k * (k + 1) / (figures - k - 1) for k in range(1, figures - 1)}
 
 

@@ -1,7 +1,7 @@
 """Fitting hypotheses to published figures.
 
-Minimised is chi-square, the sum over figures of ((predicted - published) / sigma)^2, by
-MuJoCo's own box-bounded Gauss-Newton.
+A fit minimises chi-square, the sum over figures of ((predicted - published) / sigma)^2, by
+MuJoCo's own Gauss-Newton method with bounds.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ class FigureFitter:
         self.figures, self._replay = tuple(figures), replay
 
     def residual(self, hypothesis: Hypothesis, columns: Array) -> Array:
-        """Residuals of every column, (k, M) to (n, M), in standard deviations."""
+        """Residuals of M vectors, (k, M), in standard deviations, (n, M)."""
         predicted = self._replay(self.figures, [hypothesis.rig(x) for x in columns.T])
         published = np.array([[f.value] for f in self.figures])
         sigma = np.array([[f.sigma] for f in self.figures])
@@ -40,10 +40,10 @@ class FigureFitter:
         *,
         iterations: int = criteria.FIT_ITERATIONS,
     ) -> Array:
-        """The vector of least chi-square, (k,).
+        """The vector of smallest chi-square, (k,).
 
         Args:
-          starts: vectors, of which the best is where the search starts; none: those of the
+          starts: vectors; the search starts from the best of them. Without any: the starts of the
             mechanisms' parameters.
         """
         low, high = hypothesis.bounds()

@@ -1,6 +1,6 @@
-"""A hypothesis on the published rig, as a vector that a fit can vary.
+"""A hypothesis about the published rig, as a vector that a fit can vary.
 
-Logarithmic parameters are fitted in their logarithm, others as a share of their range.
+Logarithmic parameters enter by their logarithm, others as a share of their range.
 """
 
 from dataclasses import dataclass
@@ -26,9 +26,9 @@ class Hypothesis:
     """Mechanisms in a stated rig.
 
     Attributes:
-      names: of the mechanisms that it is about.
+      names: names of the mechanisms in question.
       base: the rig without them.
-      mechanisms: those, and the damping where it is fitted with them.
+      mechanisms: these mechanisms, and the damping if it is fitted with them.
     """
 
     names: tuple[str, ...]
@@ -44,7 +44,7 @@ class Hypothesis:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """Of all mechanisms, in order."""
+        """Parameters of all mechanisms, in order."""
         return tuple(p for m in self.mechanisms for p in m.parameters)
 
     def bounds(self) -> tuple[Array, Array]:
@@ -53,7 +53,7 @@ class Hypothesis:
         return low, np.array([_to_fit_units(p, p.high) for p in self.parameters])
 
     def starts(self) -> list[Array]:
-        """Where fits start, (k,) each: as many as the mechanism with most starts has."""
+        """Starting vectors of fits, (k,) each: as many as the mechanism with the most starts has."""
         count = max((len(p.start) for p in self.parameters), default=1)
         return [
             np.array([_to_fit_units(p, p.start[i % len(p.start)]) for p in self.parameters])
@@ -75,7 +75,7 @@ class Hypothesis:
 
 
 def stated(base: PublishedRig) -> Hypothesis:
-    """What the paper states, nothing fitted."""
+    """The rig as stated, with nothing fitted."""
     return Hypothesis(names=(), base=base, mechanisms=())
 
 
@@ -86,7 +86,7 @@ def of_plastisol(base: PublishedRig, *names: str) -> Hypothesis:
 
 
 def of_gelatin(name: str) -> Hypothesis:
-    """One effect in gelatin, whose damping the paper does not state: the plastisol's is taken."""
+    """One effect in gelatin, with the damping of plastisol, since the paper does not state gelatin's."""
     return Hypothesis(names=(name,), base=WITH_FREE_LENGTH, mechanisms=(OF_GELATIN[name],))
 
 

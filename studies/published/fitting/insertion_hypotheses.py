@@ -1,18 +1,17 @@
-"""What may make the steered insertion of Figs. 11 and 12 deviate as it did.
+"""Possible causes of the deviation in the steered insertion of Figs. 11 and 12.
 
-Each hypothesis has one parameter, or none; where the paper states or suggests a value, that is
-one hypothesis, and the same mechanism with the value that Fig. 12 asks for is another.
+Each hypothesis has one parameter, or none. If the paper states or suggests a value, that is
+one hypothesis, and the same mechanism with the value that fits Fig. 12 is another.
 
-    prebend       a tip bent by alpha has to follow a channel of radius R. If the channel does not
-                  give, a quarter turn costs EI alpha / R; EI = kappa (1 + nu) for a round wire.
+    prebend       a tip bent by alpha has to follow a channel of radius R. In a rigid channel,
+                  a quarter turn takes the torque EI alpha / R; EI = kappa (1 + nu) for a round wire.
                   Once with the channel that the tip cuts on its way, once with MuJoCo's own law,
-                  a torque per mm inserted that prefers the first orientation for good.
+                  a torque per mm inserted that always prefers the first orientation.
     tip drag      the bent length L sweeps through the tissue. At radius y = x sin alpha its drag
                   per mm and speed is twice that along the shaft (a slender body), beta / r^2:
                   2 beta / r^2 sin^2 alpha L^3 / 3.
 
-In the experiments of Figs. 3 to 5 the tip was outside the tissue: what acts at the tip is absent
-there.
+In the experiments of Figs. 3 to 5 the tip was outside the tissue, so nothing acts on it there.
 """
 
 import math
@@ -48,11 +47,11 @@ class InsertionHypothesis:
 
     Attributes:
       name: in words.
-      basis: where its value is from; empty where Fig. 12 sets it.
-      parameter: what Fig. 12 sets; None: nothing.
-      of_tables: whether it stands on a fit to Tables II, IV and V.
-      scan: values of the parameter at which it is first simulated.
-      apply: the rig, given the parameter's value (anything where there is none).
+      basis: origin of its value; empty if it is fitted to Fig. 12.
+      parameter: parameter that is fitted to Fig. 12; None: none.
+      of_tables: whether it is based on a fit to Tables II, IV and V.
+      scan: values of the parameter that are simulated first.
+      apply: returns the rig for a value of the parameter (which is ignored if there is none).
     """
 
     name: str
@@ -72,7 +71,7 @@ def _of_model(field: str) -> Callable[[float], InsertionRig]:
 
 
 def prebend_torque_n_mm() -> float:
-    """What a quarter turn of the prebent tip costs in a channel that does not give, N mm."""
+    """Torque of a quarter turn of the prebent tip in a rigid channel, N mm."""
     bending_n_mm2 = NITINOL.rigidity_n_mm2 * (1 + _POISSON)
     return bending_n_mm2 * _PREBEND_RAD / PREBENT_RADIUS_MM
 

@@ -18,7 +18,7 @@ def vector_without(
 
     Args:
       x: the fit to all figures, (k,).
-      residual, jacobian: there, (n,) and (n, k).
+      residual, jacobian: at `x`, (n,) and (n, k).
       bounds: lowest and highest vector, (k,) each.
     """
     low, high = bounds

@@ -1,8 +1,8 @@
 """Mechanisms that may explain the residual: the library's effects, the free length, the base's turn.
 
-Every hypothesis on plastisol has the damping free as well, over four decades: the stated
-damping is itself inferred from Table II, whose slow turn at rest shows anything that
-resists, and so has to be inferred again under every mechanism.
+Every hypothesis on plastisol also fits the damping, over four decades: the stated damping was
+inferred from Table II, whose slow turn at rest shows everything that resists, so it has to be
+inferred anew with every mechanism.
 """
 
 from collections.abc import Callable
@@ -16,11 +16,11 @@ from studies.published.experiments.rig import PublishedRig
 
 @dataclass(frozen=True, kw_only=True)
 class Mechanism:
-    """Something that the stated rig may lack.
+    """A mechanism that the stated rig may lack.
 
     Attributes:
-      place: where in the machine it is.
-      apply: the rig with it, given parameter values in order.
+      place: the part of the rig where it acts.
+      apply: adds it to a rig, given parameter values in order.
       contains: mechanisms that are special cases of this one.
     """
 
@@ -44,7 +44,7 @@ def _of_library(effect: Effect) -> Mechanism:
 
 
 def _both_signs(p: Parameter) -> Parameter:
-    """A parameter that may have either sign starts from both, and from zero."""
+    """The parameter with starting points of either sign, and zero."""
     return replace(p, start=(*p.start, *(-s for s in p.start), 0.0)) if p.low < 0 else p
 
 

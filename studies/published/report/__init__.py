@@ -1,1 +1,1 @@
-"""The study for people and for programs: `paper.html`, `paper.json`."""
+"""The reports of the study: `paper.html` for readers, `paper.json` for programs."""

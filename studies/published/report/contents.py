@@ -26,7 +26,7 @@ FORMAT = "paper-gap/1"
 
 
 def as_json(study: PublishedStudy) -> dict[str, Any]:
-    """Everything that was found, for programs."""
+    """The whole study, for programs."""
     return {
         "format": FORMAT,
         "verdict": study.plastisol.verdict.kind.value,

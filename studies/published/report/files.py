@@ -11,12 +11,12 @@ from studies.published.study import PublishedStudy
 
 
 def output_paths(folder: Path) -> list[Path]:
-    """What `write_report` will write."""
+    """All files that `write_report` writes."""
     return [folder / "paper.html", folder / "paper.json"]
 
 
 def write_report(study: PublishedStudy, destination: Destination) -> ResultSet:
-    """Write JSON and page as one; a page that fails is left out, and pictures of it that fail.
+    """Write JSON and page as one set; a page that fails is left out, and so are its pictures that fail.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.

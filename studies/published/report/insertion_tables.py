@@ -1,4 +1,4 @@
-"""Figs. 11 and 12 under every hypothesis: a table, and what it shows in sentences."""
+"""Figs. 11 and 12 under every hypothesis: a table, and its results in sentences."""
 
 import math
 
@@ -42,7 +42,7 @@ def insertion_table(study: InsertionStudy) -> TextTable:
 
 
 def value_or_basis(prediction: InsertionPrediction) -> str:
-    """The value that Fig. 12 asks for, and where anything else is from."""
+    """The value that was fitted to Fig. 12, or the origin of any other value."""
     parameter, basis = prediction.hypothesis.parameter, prediction.hypothesis.basis
     if parameter is None:
         return basis
@@ -53,7 +53,7 @@ def value_or_basis(prediction: InsertionPrediction) -> str:
 
 
 def insertion_sentences(study: InsertionStudy) -> list[str]:
-    """What Figs. 11 and 12 show, one point a sentence or two."""
+    """Results for Figs. 11 and 12; one or two sentences per point."""
     return [
         _stated(study),
         _one_way(study),
@@ -110,7 +110,7 @@ def _explanations(study: InsertionStudy) -> list[str]:
 
 
 def _of_tables(study: InsertionStudy) -> list[str]:
-    """What explains the tables leaves of Fig. 12."""
+    """Sentences on Fig. 12 under the explanations of the tables."""
     found = [p for p in study.predictions if p.hypothesis.of_tables and not p.hypothesis.parameter]
     if not found:
         return []
@@ -127,7 +127,7 @@ def _of_tables(study: InsertionStudy) -> list[str]:
 
 
 def _with_channel(study: InsertionStudy) -> list[str]:
-    """The best explanation of the tables with a prebent tip in its channel."""
+    """Sentences on the best explanation of the tables, with a prebent tip in its channel."""
     return [
         f"With {_named(p)}, {deviation_text(p.compensated_mm)} remain if compensated. Gain and motor of "
         "the compensator are ours, not the paper's."

@@ -1,4 +1,4 @@
-"""How much so few figures support, in sentences."""
+"""The limits of conclusions from so few figures, in sentences."""
 
 from studies.published.criteria import RELATIVE_SIGMA
 from studies.published.fitting.fit import parameter_penalty
@@ -11,7 +11,7 @@ from studies.published.study import PublishedStudy
 
 
 def limitations(study: PublishedStudy) -> list[str]:
-    """What the figures of plastisol support and what they do not, one sentence or two per point."""
+    """What the figures of plastisol support and what they do not; one or two sentences per point."""
     found = study.plastisol
     return [
         f"{len(found.figures)} figures of plastisol: four of Table II determine one number, the damping "

@@ -1,4 +1,4 @@
-"""`paper.html`: the study for people, in one file that opens without a network."""
+"""`paper.html`: the study for readers, in one file that opens without a network."""
 
 from diagnosis.report.fallible import Page, drawn, page_of
 from diagnosis.report.html_parts import bullets, heading, paragraph, table, warnings

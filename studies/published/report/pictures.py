@@ -21,7 +21,7 @@ _COLOURS = ("tab:blue", "tab:cyan", "tab:red", "tab:orange", "tab:green")
 
 
 def _leading(study: MaterialStudy) -> list[FigureFit]:
-    """The stated rig with each free length, and what explains the figures best."""
+    """The stated rig with each free length, and the best explanations."""
     return [*study.stated, *study.verdict.leading[:_SHOWN_ACCEPTED]]
 
 
@@ -31,7 +31,7 @@ def _label(fit: FigureFit) -> str:
 
 
 def draw_residuals(study: MaterialStudy) -> Figure:
-    """Residual of every figure under the stated rig and the leading explanations."""
+    """Draw the residual of every figure for the stated rig and the leading explanations."""
     figure, axis = plt.subplots(figsize=(11, 3.6), layout="constrained")
     place = np.arange(len(study.figures))
     axis.axhspan(-RESOLVED_SIGMA, RESOLVED_SIGMA, color="0.92")
@@ -47,7 +47,7 @@ def draw_residuals(study: MaterialStudy) -> Figure:
 
 
 def draw_quick_turns(study: MaterialStudy) -> Figure:
-    """Tip and base over time in the quick turn, at both depths of Table IV."""
+    """Draw tip and base over time in the quick turn, at both depths of Table IV."""
     figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), layout="constrained", sharey=True)
     for axis, (depth_cm, row) in zip(axes, published.TABLE_IV_SETTLE_S.items(), strict=True):
         for fit, colour in zip(_leading(study), _COLOURS, strict=False):
@@ -74,7 +74,7 @@ def _draw_run(axis: Axes, run: Run, colour: str, label: str) -> None:
 
 
 def draw_fits(study: MaterialStudy) -> Figure:
-    """Root mean square residual of the best fits, and of each figure left out in turn."""
+    """Draw the root mean square residual of the best fits, and with each figure left out in turn."""
     fits = sorted(study.fits, key=lambda f: f.aicc)[:_SHOWN_FITS]
     figure, axis = plt.subplots(figsize=(11, 0.24 * len(fits) + 1), layout="constrained")
     colours = ["tab:red" if f in study.verdict.accepted else "0.7" for f in fits]

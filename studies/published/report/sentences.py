@@ -32,7 +32,7 @@ def _stated_residual(study: MaterialStudy) -> str:
 
 
 def next_experiment(study: PublishedStudy) -> str:
-    """What to measure next; empty unless explanations are left to be separated."""
+    """What to measure next; empty unless several explanations are left."""
     if study.plastisol.verdict.kind is not VerdictKind.UNDECIDED:
         return ""
     first = study.proposed[0]

@@ -1,4 +1,4 @@
-"""The findings as tables of text."""
+"""The results as tables of text."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ def _free_length(fit: FigureFit, study: MaterialStudy, *, before: str = "") -> s
 
 
 def mechanism_table(study: MaterialStudy, *, with_values: bool = True) -> TextTable:
-    """Every single mechanism and the best pairs, in the order of AICc; accepted ones have a star.
+    """Every single mechanism and the best pairs, in the order of AICc; a star marks accepted ones.
 
     Args:
       with_values: whether the fitted values have a column.
@@ -107,7 +107,7 @@ def _values(fit: FigureFit) -> str:
 
 
 def _short(figures: Sequence[MeasuredFigure]) -> str:
-    """Figures by table and depth."""
+    """Short names of figures: table and depth."""
     return ", ".join(f"{f.source.removeprefix('Table ')} {f.depth_mm / 10:g} cm" for f in figures)
 
 
@@ -124,7 +124,7 @@ def accepted_table(study: MaterialStudy) -> TextTable:
 
 
 def text_table(study: MaterialStudy) -> TextTable:
-    """What the text says, beside the stated rig and the leading explanations."""
+    """Figures of the text beside predictions of the stated rig and of the leading explanations."""
     fits = study.verdict.leading
     names = [names_in_words(f.hypothesis.names) + _free_length(f, study, before=", ") for f in fits]
     return TextTable(
@@ -144,7 +144,7 @@ def text_table(study: MaterialStudy) -> TextTable:
 
 
 def text_ranking_table(study: MaterialStudy) -> TextTable:
-    """The mechanisms whose fits to the tables come nearest to the text's figures, nearest first."""
+    """The mechanisms whose fits to the tables agree best with the text's figures, best first."""
     misses = [
         rms(np.array([c.residual(c.by_fit[i]) for c in study.text])) for i in range(len(study.fits))
     ]
@@ -171,7 +171,7 @@ def text_ranking_table(study: MaterialStudy) -> TextTable:
 
 
 def proposed_table(study: PublishedStudy) -> TextTable:
-    """Proposed experiments under each accepted explanation."""
+    """Predictions of the proposed experiments under each accepted explanation."""
     fits = study.plastisol.verdict.accepted
     names = [f"{names_in_words(f.hypothesis.names)}, {f.hypothesis.free_length}" for f in fits]
     return TextTable(

@@ -18,7 +18,7 @@ def with_free_length(fit: FigureFit) -> str:
 
 
 def value_text(measurement: TurnMeasurement, value: float) -> str:
-    """A predicted value without its unit; a turn that does not settle is said to be longer."""
+    """A predicted value without its unit; "longer" for a turn that does not settle."""
     longest = observed_s(measurement.depth_mm)
     if measurement.quantity is Quantity.SETTLING and value > longest:
         return f"> {longest:g}"

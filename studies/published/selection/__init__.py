@@ -1,1 +1,1 @@
-"""Which hypotheses are fitted, and what their fits allow to be concluded."""
+"""Which hypotheses are fitted, and the conclusions that their fits support."""

@@ -1,4 +1,4 @@
-"""How conclusions depend on the standard deviation that Tables IV and V are assumed to have."""
+"""How conclusions depend on the standard deviation that is assumed for Tables IV and V."""
 
 import math
 from collections.abc import Sequence
@@ -21,9 +21,9 @@ def chi_square_at(fit: FigureFit, relative_sigma: float) -> float:
 
 
 def sigma_needed(fit: FigureFit) -> float:
-    """Relative sigma of Tables IV and V at which a fit would be consistent; infinite: none is enough.
+    """Smallest relative sigma of Tables IV and V at which a fit is consistent; infinite if none is.
 
-    The fit is not made again, so for a fitted hypothesis this is the most that is needed.
+    The fit is not repeated, so for a fitted hypothesis this is an upper bound.
     """
     limit = float(chi2.isf(LEAST_P_VALUE, fit.degrees_of_freedom))
 
@@ -37,7 +37,7 @@ def sigma_needed(fit: FigureFit) -> float:
 
 
 def consistent_sets(fits: Sequence[FigureFit]) -> dict[float, int]:
-    """How many sets of mechanisms are consistent, at least, by the sigma of Tables IV and V."""
+    """Least number of sets of mechanisms that are consistent, by the sigma of Tables IV and V."""
     return {
         sigma: len({f.hypothesis.names for f in fits if _is_consistent_at(f, sigma)})
         for sigma in SCANNED_SIGMAS

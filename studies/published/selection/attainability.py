@@ -1,9 +1,9 @@
 """Which figures a mechanism cannot explain with any parameter values.
 
-It is fitted to Table II and to one figure alone, within its bounds. A figure that is then
-still more than two standard deviations off is unattainable for this mechanism, whatever it
-does to the other figures, as long as Table II is right. The search is local: of mechanisms
-with several parameters it could miss a far corner.
+The mechanism is fitted to Table II and to one figure only, within its bounds. If the figure is
+then still more than two standard deviations off, it is unattainable for this mechanism, whatever
+happens to the other figures, as long as Table II is right. The search is local: with several
+parameters it could miss a distant solution.
 """
 
 from studies.published.criteria import ATTAINABLE_ITERATIONS, RESOLVED_SIGMA
@@ -23,7 +23,8 @@ def unattainable(
     """Figures of the quick turn that the mechanism of a fit cannot explain.
 
     Args:
-      known: of other hypotheses. What a special case of this mechanism explains, it does too.
+      known: results for other hypotheses: a figure that a special case of this mechanism explains is
+        explained by it, too.
     """
     table_ii = tuple(f for f in fit.figures if f.quantity is Quantity.DAMPING)
     doubtful = [f for f in unresolved(fit) if f not in table_ii]
@@ -40,7 +41,7 @@ def _attains(fit: FigureFit, figures: tuple[MeasuredFigure, ...], replay: Figure
 
 
 def _special_cases(hypothesis: Hypothesis, known: Unattainable) -> list[tuple[MeasuredFigure, ...]]:
-    """What is unattainable for the special cases of a hypothesis, as far as known."""
+    """Unattainable figures of the special cases of a hypothesis, as far as they are known."""
     return [
         known[h]
         for name in hypothesis.mechanisms[-1].contains

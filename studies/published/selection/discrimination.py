@@ -53,11 +53,11 @@ PROPOSED = (
 
 @dataclass(frozen=True, kw_only=True)
 class ProposedExperiment:
-    """What an experiment would show under each hypothesis.
+    """Predictions of an experiment under each hypothesis.
 
     Attributes:
-      predicted: one per fit, in the measurement's unit.
-      separated: share of the pairs of hypotheses that it separates.
+      predicted: one value per fit, in the measurement's unit.
+      separated: share of the pairs of hypotheses that the experiment separates.
     """
 
     measurement: TurnMeasurement
@@ -66,7 +66,7 @@ class ProposedExperiment:
 
 
 def proposed_experiments(fits: Sequence[FigureFit], replay: FigureReplay) -> list[ProposedExperiment]:
-    """Experiments that the paper did not do, the one that separates most hypotheses first."""
+    """Experiments that the paper did not do, in the order of how many hypotheses they separate."""
     predicted = replay(PROPOSED, [f.hypothesis.rig(f.x) for f in fits])
     found = [
         ProposedExperiment(

@@ -1,10 +1,10 @@
 """Which hypotheses are fitted to the published figures.
 
-Every mechanism alone with the set-up's free length, and those that the paper's text gives
-reason to suspect without free length too. Pairs of suspects; without free length, where the
-needle is too quick at 5 cm as it is, those with the base's own motion among them. And the
-leading single mechanism with every other that improves AICc at all. In gelatin, of which
-four figures are printed, single effects.
+Single mechanisms: all with the set-up's free length; those that the paper's text gives
+reason to suspect, also without free length. Pairs: all pairs of suspects (without free length,
+where the needle is too quick at 5 cm already, only those with the base's own motion), and the
+best single mechanism with every other that improves AICc. For gelatin, of which
+four figures are printed, single effects only.
 """
 
 from collections.abc import Callable, Sequence
@@ -63,7 +63,7 @@ def pairs(alone: Sequence[FigureFit]) -> list[Hypothesis]:
 
 
 def _possible(base: PublishedRig, names: tuple[str, ...]) -> bool:
-    """A rig has one motion of its base; and without free length there is none to fit."""
+    """Whether a pair makes sense: a rig has one base motion, and free length needs a rig with some."""
     return not set(names) >= _MOTIONS and (base.free_mm > 0 or FREE_LENGTH.name not in names)
 
 
@@ -73,7 +73,7 @@ class HypothesisSet:
 
     Attributes:
       plastisol: single mechanisms, the damping first.
-      pairs: of plastisol, given the fits of the single ones.
+      pairs: returns the pairs for plastisol, given the fits of single mechanisms.
       gelatin: single effects.
     """
 

@@ -4,9 +4,9 @@ In any linear tissue the integral of base minus tip over a turn by A is
 
     integral = A D,   D = beta l (f + l / 2) / kappa,
 
-the lag of equation (2) at unit rate, whatever the base does as long as it does the same at
-both depths. The base's own share of the printed integral is the same at both depths, and so
-are a delay and an offset of the sensor: the difference of the two depths is A (D_2 - D_1),
+the lag of equation (2) at unit rate, for any motion of the base. The part of the printed integral
+that is due to the base's motion, to a delay or to an offset of the sensor is the same at both
+depths, if the base moves in the same way. So the difference between the depths is A (D_2 - D_1),
 which measures the damping of the quick, sliding turn.
 """
 
@@ -24,11 +24,11 @@ from studies.published.experiments.rig import STATED
 
 @dataclass(frozen=True, kw_only=True)
 class QuickDamping:
-    """Damping of the quick, sliding turn over the stated one.
+    """Damping of the quick, sliding turn / stated damping.
 
     Attributes:
-      free_mm: between base and tissue, assumed.
-      sigma: one standard deviation of `ratio`.
+      free_mm: assumed free length between base and tissue.
+      sigma: standard deviation of `ratio`.
     """
 
     free_mm: float

@@ -1,4 +1,4 @@
-"""Where fits start: at what simpler fits have found, too."""
+"""Starting points of fits: their own, and the results of simpler fits."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,18 +13,18 @@ def starts_of_single(single: Hypothesis, damping: FigureFit | None) -> list[Arra
     """Starts of one mechanism, (k,) each: its own, and those at the damping that was fitted alone.
 
     Args:
-      damping: fit of the damping alone in the same stated rig, if there is one yet.
+      damping: fit of the damping alone in the same stated rig; None if there is none yet.
     """
     own = single.starts()
     return own if damping is None else [*own, *(np.concatenate([damping.x, x[1:]]) for x in own)]
 
 
 def starts_of_pair(pair: Hypothesis, alone: dict[str, FigureFit]) -> list[Array]:
-    """Starts of a pair, (k,) each: the better single fit, joined to the other's fit and starts.
+    """Starts of a pair, (k,) each: the better single fit, combined with the other's fit and starts.
 
     Args:
-      alone: fits of single mechanisms in the stated rig of the pair, by name, as far as known;
-        of the pair at least one.
+      alone: known fits of single mechanisms in the stated rig of the pair, by name; at least one of
+        the pair's.
     """
     leader = min((n for n in pair.names if n in alone), key=lambda n: alone[n].chi_square)
     other = next(n for n in pair.names if n != leader)

@@ -1,4 +1,4 @@
-"""The paper's twist test (Section II-A), which no fit uses: it rules out what contradicts it.
+"""The paper's twist test (Section II-A): no fit uses it, but it rules out fits that contradict it.
 
 1.24 N mm turned the base by 90 deg against a tip held 41 cm away: a measurement of
 the shaft's own stiffness, in series with any compliance between drive and shaft.
@@ -22,7 +22,7 @@ def twist_test_torque_n_mm(fit: FigureFit) -> float:
 
 
 def contradiction(fit: FigureFit) -> str:
-    """How the twist test contradicts a fit, in words; empty: not at all."""
+    """How the twist test contradicts a fit, in words; empty if it does not."""
     torque, measured = twist_test_torque_n_mm(fit), published.TWIST_TEST_TORQUE.value
     if abs(torque / measured - 1) <= TWIST_SIGMAS * TWIST_RELATIVE_SIGMA:
         return ""

@@ -1,13 +1,13 @@
-"""From fits of few figures to a verdict that claims no more than they support.
+"""The verdict on fits to few figures, which claims no more than they support.
 
 none        the stated rig is consistent with the figures
-explained   one set of mechanisms is, and no other is equivalent
+explained   one set of mechanisms is consistent, and no other is equivalent
 undecided   several are equivalent
 unknown     none that was fitted is consistent with the figures
 
 A fit is consistent with its figures if its p value is 5 % or more, and if the paper's own
-twist test does not contradict it. Equivalent are fits whose AICc differ by at most 6, except
-richer forms of another.
+twist test does not contradict it. Fits are equivalent if their AICc differ by at most 6; richer
+forms of another one do not count.
 """
 
 import math
@@ -28,10 +28,10 @@ __all__ = ["FigureVerdict", "VerdictKind", "by_aicc", "figure_verdict", "is_cons
 
 @dataclass(frozen=True, kw_only=True)
 class FigureVerdict:
-    """What was concluded.
+    """The verdict, and the fits that it is based on.
 
     Attributes:
-      best: the fit of least AICc, among those that are consistent with the figures if any is.
+      best: the fit of smallest AICc; among the consistent ones, if there are any.
       accepted: consistent and equivalent fits, best first; one per set of mechanisms and free
         length.
     """
@@ -42,7 +42,7 @@ class FigureVerdict:
 
     @property
     def effects(self) -> tuple[str, ...]:
-        """What explains the figures; empty unless one set alone does."""
+        """The mechanisms that explain the figures; empty unless exactly one set does."""
         return self.best.hypothesis.names if self.kind is VerdictKind.EXPLAINED else ()
 
     @property
@@ -53,18 +53,18 @@ class FigureVerdict:
 
     @property
     def leading(self) -> tuple[FigureFit, ...]:
-        """The accepted fits; where none is, the best one."""
+        """The accepted fits; if there are none, the best one."""
         return self.accepted or (self.best,)
 
     @property
     def odds(self) -> float:
-        """Of the best accepted set of mechanisms to the next one; 1 if there is none."""
+        """Odds of the best accepted set of mechanisms against the next one; 1 if there is none."""
         others = [f.aicc for f in self.accepted if f.hypothesis.names != self.best.hypothesis.names]
         return math.exp(0.5 * (min(others) - self.best.aicc)) if others else 1.0
 
 
 def figure_verdict(stated: Sequence[FigureFit], fits: Sequence[FigureFit]) -> FigureVerdict:
-    """The verdict on the stated rig, with each free length, and on what was fitted."""
+    """The verdict, from the stated rig with each free length and the fits."""
     consistent = [f for f in stated if is_consistent(f)]
     if consistent:
         best = min(consistent, key=by_aicc)
@@ -92,7 +92,7 @@ def is_consistent(fit: FigureFit) -> bool:
 
 
 def _is_richer(fit: FigureFit, other: FigureFit) -> bool:
-    """Whether a fit is the other one with more in it, or with a mechanism that contains the other's."""
+    """Whether a fit is the other one with more mechanisms, or with one that contains the other's."""
     names, fewer = fit.hypothesis.names, other.hypothesis.names
     if fit.hypothesis.base != other.hypothesis.base or len(fit.x) <= len(other.x):
         return False

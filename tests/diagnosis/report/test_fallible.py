@@ -10,6 +10,14 @@ from diagnosis.report.html_parts import heading, paragraph
 from models.errors import UnwritableOutput
 from sim.files import Destination, publishing
 
+WHY = "(ValueError: no <such> column)"
+
+
+@pytest.fixture(autouse=True)
+def _figures_are_closed():
+    yield
+    plt.close("all")
+
 
 def draws(title):
     figure, axis = plt.subplots(figsize=(2, 1))
@@ -47,7 +55,6 @@ def test_figures_of_others_stay_open_when_a_picture_fails():
     own = plt.figure()
     drawn(fails, describes, "loops")
     assert plt.fignum_exists(own.number)
-    plt.close(own)
 
 
 def test_ctrl_c_is_no_failure_of_a_picture():
@@ -71,26 +78,22 @@ def test_a_page_tells_what_it_lacks_and_where():
             *section(rig),
         ],
     )
-    why = "(ValueError: no <such> column)"
     assert page.lacks == (
-        f"the picture under 'Loops & lag' {why}",
-        f"the section after 'Loops & lag' {why}",
+        f"the picture under 'Loops & lag' {WHY}",
+        f"the section after 'Loops & lag' {WHY}",
     )
     assert page.text.count("The rest of the page is complete without it.") == 2
     assert "<p>a needle</p>" in page.text
-    plt.close("all")
 
 
 def test_a_section_with_the_title_leaves_a_title_when_it_fails():
     page = page_of("page", [*section(fails), *section(fails, title="Gap & report"), paragraph("rows")])
-    why = "(ValueError: no <such> column)"
     assert page.lacks == (
-        f"the section at the top {why}",
-        f"the section after 'Gap & report' {why}",
+        f"the section at the top {WHY}",
+        f"the section after 'Gap & report' {WHY}",
     )
     assert page.text.count("<h1>Gap &amp; report</h1>") == 1
     assert "<p>rows</p>" in page.text
-    plt.close("all")
 
 
 def test_an_error_without_words_is_named():

@@ -44,6 +44,15 @@ def test_what_explains_the_gap_is_the_headline(dry):
     assert headline(dry.found) == expected
 
 
+def test_where_another_form_of_the_law_leaves_less_the_headline_says_which(dry):
+    unknown = concluding(
+        dry.found, kind=VerdictKind.UNKNOWN, effects=(), other_form="friction that wears off"
+    )
+    said = headline(unknown)
+    assert said.startswith(f"Unknown: residual {dry.found.assessment.gap.before:.2f} σ. ")
+    assert said.endswith("σ (σ = sensor noise), but friction that wears off leaves clearly less")
+
+
 TWO = ("tip_drag", "torque_bias")
 
 

@@ -10,7 +10,7 @@ from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.verdict import VerdictKind, places, provisional, verdict_on
+from diagnosis.selection.verdict import VerdictKind, places, provisional, refuted, verdict_on
 
 
 def verdict(*each):
@@ -171,3 +171,13 @@ def test_what_cannot_be_told_apart_stays_beside_a_provisional_verdict():
     best = scored(["tip_drag"], 100.0)
     found = replace(verdict_on([best]), confusable=(("tip_drag",), ("torque_bias", "entry_friction")))
     assert provisional(found, [best]).confusable == (("tip_drag",), ("torque_bias", "entry_friction"))
+
+
+def test_an_explanation_that_is_refuted_is_unknown_and_stays_the_best():
+    found = verdict((["layered_tissue"], 100.0), (["tip_drag"], 200.0))
+    assert found.kind is VerdictKind.EXPLAINED
+    changed = refuted(found, "damping that changes along the shaft")
+    assert (changed.kind, changed.effects) == (VerdictKind.UNKNOWN, ())
+    assert changed.best is found.best
+    assert dict(changed.ranking)["unknown",] == 1.0
+    assert changed.other_form == "damping that changes along the shaft"

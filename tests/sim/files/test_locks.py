@@ -34,7 +34,7 @@ def test_a_lock_ends_with_the_process_that_holds_it(tmp_path):
 
 def test_who_waits_too_long_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(locks, "_MOST_S", 0.0)
-    told = pytest.raises(UnwritableOutput, match="another run writes here")
+    told = pytest.raises(UnwritableOutput, match="another run has written here")
     with locks.holding(tmp_path), told, locks.holding(tmp_path):
         pass
     with locks.holding(tmp_path):

@@ -1,1 +1,1 @@
-"""Roughness of a lab's sensors: ten ways in which a log is worse than white noise on an even grid."""
+"""Roughness of a lab's sensors: ten ways in which logs are worse than white noise on a uniform grid."""

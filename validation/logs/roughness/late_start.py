@@ -1,7 +1,7 @@
-"""A recording that begins late: the rig has moved before, and the log does not show it.
+"""A recording that begins late: the rig has moved before, which the log does not show.
 
-The trial is simulated from rest; its first part is cut off, and `time_s` starts at 0 again. Angles are
-those of the encoder, not set to zero.
+The trial is simulated from rest; its first part is cut off, and `time_s` starts at 0 again. Angles
+are those of the encoder and not reset to zero.
 """
 
 from dataclasses import replace
@@ -18,7 +18,7 @@ MOVING_DEG_S = 5.0
 
 
 def late_start(rng: Generator) -> Roughness:
-    """Trials begin wound up at rest, or in the middle of a motion: all of them or some."""
+    """Trials begin twisted at rest, or in the middle of a motion: all of them or some."""
     moving, share = bool(rng.random() < 0.5), float(rng.choice([0.5, 1.0]))
 
     def motions(rng: Generator, trials: list[TrialMotion]) -> list[TrialMotion]:

@@ -1,4 +1,4 @@
-"""Roughness of readings: noise with a memory, coarse steps, and outliers."""
+"""Roughness of readings: coloured noise, coarse quantisation, and outliers."""
 
 import numpy as np
 from numpy.random import Generator
@@ -12,7 +12,7 @@ LOG_SIGMAS = float(np.log(5)), float(np.log(100))
 
 
 def first_order(times: Array, white: Array, time_constant_s: float) -> Array:
-    """White noise with the memory of a first-order lag (AR(1) on an even grid), of the same variance.
+    """First-order noise of the same variance, made from white noise (AR(1) on a uniform grid).
 
     x_i = a x_(i-1) + sqrt(1 - a^2) e_i with a = exp(-(t_i - t_(i-1)) / time constant).
     """
@@ -25,7 +25,7 @@ def first_order(times: Array, white: Array, time_constant_s: float) -> Array:
 
 
 def coloured_noise(rng: Generator) -> Roughness:
-    """First-order noise, of a correlation time of 10 to 200 ms; sometimes white noise is in it, too."""
+    """First-order noise with a correlation time of 10 to 200 ms; sometimes white noise is added."""
     time_constant_s = log_uniform(rng, 0.01, 0.2)
     signals = _some_of_the_measured(rng)
     share = 1.0 if rng.random() < 0.65 else rng.uniform(0.3, 0.8)
@@ -48,7 +48,7 @@ def coloured_noise(rng: Generator) -> Roughness:
 
 
 def quantisation(rng: Generator) -> Roughness:
-    """Steps of 1 to 5 sigma of tip or torque, of 0.1 to 0.5 deg of the base; of one or two of them."""
+    """Steps of 1 to 5 sigma for tip or torque, of 0.1 to 0.5 deg for the base; in one or two of them."""
     chosen = [str(s) for s in rng.choice((*MEASURED, BASE), int(rng.integers(1, 3)), replace=False)]
     sigmas = {signal: log_uniform(rng, 1, 5) for signal in chosen if signal != BASE}
     base_deg = log_uniform(rng, 0.1, 0.5)

@@ -1,8 +1,7 @@
-"""What a roughness is: a change of some stages of a measurement, and the numbers that were drawn.
+"""A roughness: a change of some stages of a measurement, and the numbers that were drawn for it.
 
-A log is made in stages: its plan, its motions, the ideal signals of a trial, the instants of its
-samples, their noise, and the columns of all trials. A roughness changes one or two of them and leaves
-the others as they are.
+A log is made in stages: its plan, its motions, the ideal signals of a trial, the times of its
+samples, their noise, and the columns of all trials. A roughness changes one or two stages.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,13 +27,13 @@ class Roughness:
     """One roughness with its drawn numbers; every stage is the identity by default.
 
     Attributes:
-      numbers: what was drawn, for the ground truth.
-      plan: of the log.
-      motions: of all trials; they may have a part before the recording.
-      signals: of a trial, on its fine grid; may be shorter than the motion.
-      instants: when a trial is sampled, s.
-      noise: of a trial, by signal; given the instants, s, and white noise in the unit of the signal.
-      columns: of all trials.
+      numbers: drawn numbers, for the ground truth.
+      plan: changes the plan of the log.
+      motions: changes the motions of all trials; they may have a part before the recording.
+      signals: changes the signals of a trial on its fine grid; may make them shorter than the motion.
+      instants: changes the times at which a trial is sampled, s.
+      noise: noise of a trial, by signal, from the times, s, and white noise in the signal's unit.
+      columns: changes the columns of all trials.
     """
 
     name: str

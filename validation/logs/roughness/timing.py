@@ -1,4 +1,4 @@
-"""Roughness of time: stamps that jitter, a clock that runs off, lost samples, and other rates."""
+"""Roughness of time: jitter of time stamps, clock drift, lost samples, and other sampling rates."""
 
 from dataclasses import replace
 
@@ -20,9 +20,9 @@ LEAST_SPACING = 0.1
 
 
 def time_jitter(rng: Generator) -> Roughness:
-    """Stamps are off by 0.5 to 3 ms rms, or samples are, and are stamped correctly.
+    """Time stamps jitter by 0.5 to 3 ms rms; or the sampling does, with correct stamps.
 
-    At high rates by a quarter of the sampling interval at most. Stamps stay strictly increasing.
+    The jitter is at most a quarter of the sampling interval. Stamps stay strictly increasing.
     """
     rms_s, right = log_uniform(rng, 0.5e-3, 3e-3), bool(rng.random() < 0.5)
 
@@ -39,7 +39,7 @@ def time_jitter(rng: Generator) -> Roughness:
 
 
 def jittered(rng: Generator, times: Array, rms_s: float) -> Array:
-    """Times off by that, in order; the first and the last one stay."""
+    """Times with jitter of that size, still in order; the first and the last one are unchanged."""
     interval = float(np.diff(times).min())
     furthest = (1 - LEAST_SPACING) / 2 * interval
     off = np.clip(rng.normal(0, min(rms_s, interval / 4), times.size), -furthest, furthest)
@@ -55,9 +55,9 @@ def sensor_clock(
     *,
     name: str = "sensor_clock",
 ) -> Roughness:
-    """Tip or torque shows what was, or will be, at t (1 + error), t from the start of each trial.
+    """At time t of a trial, tip or torque shows its value at t (1 + error).
 
-    The recording ends with the last of what the trial has.
+    The recording ends where the signals of the trial end.
     """
     chosen = signals or (str(rng.choice(MEASURED)),)
     error = rng.choice([-1, 1]) * log_uniform(rng, low, high)

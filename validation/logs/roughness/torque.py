@@ -17,7 +17,7 @@ from validation.rig.unmodelled.effect import IdealSignals
 def torque_drift(rng: Generator) -> Roughness:
     """The torque drifts by 1 to 5 sigma within a trial: a line, a random walk or a slow sine.
 
-    It starts at 0 in each trial, or goes on from where it was at the end of the last one.
+    It starts at 0 in each trial, or continues from its value at the end of the last one.
     """
     shape, goes_on = str(rng.choice(["line", "walk", "sine"])), bool(rng.random() < 0.5)
     low, high = sorted(log_uniform(rng, 1, 5) for _ in range(2))
@@ -36,7 +36,7 @@ def torque_drift(rng: Generator) -> Roughness:
 
 
 def _course(rng: Generator, shape: str, time_s: Array) -> Array:
-    """From 0, with a largest size of 1."""
+    """Course of the drift over time, (N,): from 0, with a largest magnitude of 1."""
     share = time_s / time_s[-1]
     if shape == "sine":
         phase = rng.uniform(0, 2 * np.pi)
@@ -50,9 +50,9 @@ def _course(rng: Generator, shape: str, time_s: Array) -> Array:
 
 
 def low_pass_torque(rng: Generator) -> Roughness:
-    """The torque is filtered, first order, 2 to 20 Hz; its noise passes the filter or comes after it.
+    """A first-order filter of 2 to 20 Hz on the torque; its noise enters before or after the filter.
 
-    The noise that is read has the claimed standard deviation either way.
+    In both cases the noise of the readings has the claimed standard deviation.
     """
     cut_off_hz, noise_before = log_uniform(rng, 2, 20), bool(rng.random() < 0.5)
     time_constant_s = 1 / (2 * np.pi * cut_off_hz)

@@ -1,6 +1,6 @@
-"""What is no roughness but a fault of the recording: a wrong clock, a sign that changes once.
+"""Faults of the recording, worse than roughness: a wrong clock, a wrong sign in one trial.
 
-No effect of the library explains it, and no lab would take it for ordinary.
+No effect of the library explains them, and no lab would consider them normal.
 """
 
 from collections.abc import Callable

@@ -1,1 +1,1 @@
-"""How strong effects are drawn: a family of parameters for each, modelled or not."""
+"""How the strengths of effects are drawn: a family of parameters for each, modelled or not."""

@@ -34,13 +34,13 @@ TWO_SIDED = {
 
 
 def _free_length(rng: Generator) -> ByStrength:
-    """Up to 25 mm longer or 15 mm shorter than logged: the shortest free shaft is 20 mm long."""
+    """Free length up to 25 mm longer or 15 mm shorter than logged; the shortest free shaft has 20 mm."""
     side = rng.choice([1.0, -0.6])
     return lambda strength: {"offset": side * strength}
 
 
 def _stiction(rng: Generator) -> ByStrength:
-    """Peaks that fall off no faster than about the viscous torque rises: slip stays defined."""
+    """Friction peaks that fall hardly faster than the viscous torque rises, so that slip is unique."""
     peak, stribeck = rng.uniform(1.5, 4.0), log_uniform(rng, 0.15, 2.0)
     steepest = 0.015 * stribeck / 0.86
 

@@ -1,6 +1,6 @@
 """Draws of an effect: a range of its strength and, per draw, a map from strength to parameters.
 
-Everything but the strength (signs, shapes, phases) is drawn beforehand. The signature grows with it.
+Signs, shapes and phases are drawn before the strength. The signature grows with the strength.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ class StrengthFamily:
 
 
 def only(name: str) -> Callable[[Generator], ByStrength]:
-    """The strength is that parameter, and the only one."""
+    """The strength is that parameter, which is the only one."""
     return lambda rng: lambda strength: {name: strength}
 
 
@@ -32,7 +32,7 @@ def inverse(name: str) -> Callable[[Generator], ByStrength]:
 
 
 def signed(name: str) -> Callable[[Generator], ByStrength]:
-    """The strength is the size of that parameter, of either sign."""
+    """The strength is the magnitude of that parameter, of either sign."""
 
     def draw(rng: Generator) -> ByStrength:
         sign = rng.choice([-1.0, 1.0])
@@ -42,7 +42,7 @@ def signed(name: str) -> Callable[[Generator], ByStrength]:
 
 
 def factor(name: str) -> Callable[[Generator], ByStrength]:
-    """The strength is the size of the logarithm of that parameter, of either sign."""
+    """The strength is the magnitude of the logarithm of that parameter, of either sign."""
 
     def draw(rng: Generator) -> ByStrength:
         sign = rng.choice([-1.0, 1.0])
@@ -52,7 +52,7 @@ def factor(name: str) -> Callable[[Generator], ByStrength]:
 
 
 def with_others(name: str, **others: tuple[float, float]) -> Callable[[Generator], ByStrength]:
-    """The strength is that parameter; others are uniform in their ranges."""
+    """The strength is that parameter; the others are drawn uniformly from their ranges."""
 
     def draw(rng: Generator) -> ByStrength:
         drawn = {other: rng.uniform(*ends) for other, ends in others.items()}

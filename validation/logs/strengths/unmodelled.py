@@ -17,7 +17,7 @@ from validation.logs.strengths.family import (
 
 
 def _yielding(**others: tuple[float, float]) -> Callable[[Generator], ByStrength]:
-    """The strength is the compliance of the tissue; others are uniform in their ranges."""
+    """The strength is the compliance of the tissue; the others are drawn uniformly from their ranges."""
 
     def draw(rng: Generator) -> ByStrength:
         drawn = {"time_constant": log_uniform(rng, 0.15, 3.0)}
@@ -28,7 +28,7 @@ def _yielding(**others: tuple[float, float]) -> Callable[[Generator], ByStrength
 
 
 def _once(name: str) -> Callable[[Generator], ByStrength]:
-    """The strength is the size of that parameter; it happens in one of the first three trials."""
+    """The strength is the magnitude of that parameter; the event is in one of the first three trials."""
 
     def draw(rng: Generator) -> ByStrength:
         sign, trial, share = rng.choice([-1.0, 1.0]), float(rng.integers(3)), rng.uniform(0.2, 0.6)

@@ -1,4 +1,4 @@
-"""What acts on a piece of shaft: the torque of the interface.
+"""The torque of the interface on a piece of shaft.
 
 Dry friction is elastic-plastic: a presliding angle z follows the slip up to +-limit, the torque is
 level z / limit. If the level is shared with the axial motion, z is a vector (turning angle, axial
@@ -37,7 +37,7 @@ def saturating(saturation: float, damping: float, rate: float) -> tuple[float, f
 
 @njit(cache=True)
 def damping_share(law: LawParameters, worn: float, time: float) -> float:
-    """What is left of the damping after that travelled slip, rad, and that time, s."""
+    """Share of the damping that is left after that travelled slip, rad, and that time, s."""
     share = 1.0
     if law.worn_share > 0.0:
         share = 1.0 - law.worn_share * (1.0 - math.exp(-worn / law.worn_angle))
@@ -48,7 +48,7 @@ def damping_share(law: LawParameters, worn: float, time: float) -> float:
 
 @njit(cache=True)
 def dry_share(law: LawParameters, depth: float, speed: float) -> float:
-    """Dry level at that depth, mm, and axial speed, mm/s, over that at the reference and at rest."""
+    """Dry level at that depth, mm, and axial speed, mm/s / level at the reference depth and at rest."""
     share = 1.0
     if law.pressing > 0.0:
         share = (depth / REFERENCE_DEPTH_MM) ** law.pressing
@@ -79,7 +79,7 @@ def preslide_shared(limit: float, turning: float, axial: float) -> tuple[float, 
 
 @njit(cache=True)
 def dry_level(law: LawParameters, age: float, rate: float) -> tuple[float, float]:
-    """Level of the dry friction that turning alone feels, and its slope with the slip rate."""
+    """Level of the dry friction on turning alone, and its slope with the slip rate."""
     level = law.coulomb + law.kinetic
     if law.ageing > 0.0:
         level += law.ageing * math.log1p(age / law.ageing_time)
@@ -118,10 +118,10 @@ def interface(
     """Torque per mm and its slopes with the slip rate and the slip.
 
     Args:
-      before: presliding, its turning and axial parts of shared friction, age.
-      slip: rate, travel within the step, axial travel over radius.
-      level_rate: where the dry level is taken; if not at the slip rate, its slope does not count.
-      level_share: of the dry level, as `dry_share`.
+      before: presliding, turning and axial presliding of shared friction, age.
+      slip: rate, travel within the step, axial travel / radius.
+      level_rate: rate at which the dry level is taken; unless it is the slip rate, its slope is ignored.
+      level_share: share of the dry level, as `dry_share`.
     """
     rate, travel, axial = slip
     torque, per_rate = viscous(law.exponent, damping, rate)

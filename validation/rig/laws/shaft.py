@@ -1,8 +1,8 @@
-"""The torques of the shaft: of its links, and of the chuck, which is a spring with play that may slip.
+"""The torques of the shaft's links, and of the chuck, which is a spring with play that may slip.
 
 A link is a spring, which may harden with the strain. Beyond a yield torque it takes a set p, linear
 kinematic hardening: with stiffness k, |k (twist - p) - slope k p| never exceeds the yield torque.
-A soft chuck loses soft_play T / (soft_torque + |T|) beside T / stiffness.
+A soft chuck turns by soft_play T / (soft_torque + |T|) in addition to T / stiffness.
 """
 
 import math
@@ -45,7 +45,7 @@ def link_torque(
 
 @njit(cache=True)
 def set_growth(law: LawParameters, stiffness: float, twist: float, set_twist: float) -> float:
-    """By how much the set of a link grows at that twist, rad."""
+    """Growth of the permanent set of a link at that twist, rad."""
     driving = stiffness * (twist - (1.0 + law.yield_slope) * set_twist)
     excess = abs(driving) - law.yield_torque
     if excess <= 0.0:

@@ -1,6 +1,6 @@
-"""What real rigs also do and the diagnosis does not model, by the place where it acts.
+"""Effects of real rigs that the diagnosis does not model, by the place where they act.
 
-Each effect has a law, in the docstring of its function, and parameters, of which one, its strength, may
-be made as small as one likes. None is exactly a modelled effect, but weak ones may look much like one.
-Beside each stands what a diagnosis should say of it: where it acts, and what it depends on.
+Each effect has a law, in the docstring of its function, and parameters, one of which, its strength, can
+be arbitrarily small. None equals a modelled effect, but weak ones may resemble one.
+Each also states what a diagnosis should say about it: where it acts, and what it depends on.
 """

@@ -39,11 +39,11 @@ ChangedSignals = Callable[[IdealSignals, Parameters], IdealSignals]
 
 @dataclass(frozen=True, kw_only=True)
 class UnmodelledEffect:
-    """One of `law`, `drive` and `signals` says what it changes.
+    """An effect that the diagnosis does not model; one of `law`, `drive` and `signals` applies it.
 
     Attributes:
-      place: where it acts; several are right where no log could tell one from the other.
-      variables: what it depends on, some of `VARIABLES`: the leading one, then what is as right.
+      place: where it acts; several are right if no log could tell one from the other.
+      variables: what it depends on, some of `VARIABLES`: the leading one, then equally right ones.
       law: changes parameters of the laws.
       drive: angle of the chuck, deg, (N,), for a drive shaft that turns as the motion says.
       signals: changes what sensors show.

@@ -1,0 +1,54 @@
+"""An effect explains nothing where a free-form law of its kind leaves clearly less."""
+
+import pytest
+from diagnosis_fixtures import joined, log_of, start_of_search
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.freeform.families import families_of
+from diagnosis.freeform.other_form import other_form
+from diagnosis.freeform.ranges import ranges_of
+from diagnosis.nominal_replay import replay_nominal
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.replay import replay
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.screening import screen
+from diagnosis.workers import Workers
+
+LAYERED = RigParameters(layer_ratio=0.2, layer_boundary_fraction=0.5)
+EVENLY = RigParameters(free=FreeLaw(damping_along_depth=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1)))
+
+DEPTHS_MM = (40.0, 90.0, 160.0)
+
+
+def fitted(rig, names=("layered_tissue",)):
+    """The first replay of a rig's log, and a fit of the named effects."""
+    trials = [log_of(rig, seed=i, deep_mm=depth) for i, depth in enumerate(DEPTHS_MM)]
+    nominal = replay_nominal(joined(*trials))
+    problem, base = nominal.problem, nominal.fit
+    return nominal, fit_effects(problem, names, screen(problem, base, names[0])[0].start)
+
+
+def form_of(nominal, best):
+    return other_form(nominal, best, Workers())
+
+
+def test_two_layers_are_refuted_where_damping_changes_evenly_along_the_shaft():
+    assert form_of(*fitted(EVENLY)).name == "damping over position"
+
+
+def test_two_layers_stand_where_there_are_two():
+    assert form_of(*fitted(LAYERED)) is None
+
+
+def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
+    monkeypatch.setattr("diagnosis.freeform.other_form.families_of", pytest.fail)
+    assert form_of(*fitted(RigParameters(torque_bias_n_mm=0.05), ("torque_bias",))) is None
+
+
+def test_forms_that_effects_name_are_families():
+    coarse = start_of_search(log_of(LAYERED), ()).coarse
+    known = {f.name for f in families_of(ranges_of(coarse, replay(coarse.log)))}
+    named = [form for effect in LIBRARY.values() for form in effect.other_forms]
+    assert named
+    assert {*named} <= known
