@@ -25,8 +25,8 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     screened, record = screen_all(stage, calls, workers)
     state = state.noting(*record)
     worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]
-    if alone:
-        worth = promising_on_the_log(stage, worth, state, workers)
+    if worth and alone:
+        worth = promising_on_the_log(stage, worth, state.singles[0].fit.cost, state, workers)
     fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
     state = state.noting(*not_worth(stage, screened, worth), *record)
     state = replace(state, pairs=tuple(fitted))

@@ -38,11 +38,14 @@ def screen_all(
 
 
 def promising_on_the_log(
-    stage: str, screened: Sequence[Screened], state: SearchState, workers: Workers
+    stage: str, screened: Sequence[Screened], without: float, state: SearchState, workers: Workers
 ) -> list[Screened]:
     """Of sets that add an effect to what explains the log, those that promise enough on the log itself.
 
     The decimated log is replayed coarsely: of rough friction that leaves what any effect could take.
+
+    Args:
+      without: cost without the added effect, on the decimated log.
     """
     known = {c.names: c.fit for c in state.candidates}
     calls = [
@@ -51,7 +54,8 @@ def promising_on_the_log(
         if names in known
     ]
     found, _ = screen_all(stage, calls, workers)
-    enough = {s.names for s in found if s.cost < SECOND_LEAVES * known[s.names[:-1]].cost}
+    asked = (1 - SECOND_LEAVES) * without
+    enough = {s.names for s in found if known[s.names[:-1]].cost - s.cost > asked}
     return [s for s in screened if s.names in enough or s.names[:-1] not in known]
 
 

@@ -41,8 +41,8 @@ def triples(state: SearchState, workers: Workers) -> SearchState:
     ]
     screened, record = screen_all(stage, calls, workers)
     worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
-    if explained:
-        worth = promising_on_the_log(stage, worth, state, workers)
+    if worth and explained:
+        worth = promising_on_the_log(stage, worth, _only(pairs).cost, state, workers)
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
     state = state.noting(*record, *not_worth(stage, screened, worth), *fits)
     if not fitted:
@@ -50,9 +50,13 @@ def triples(state: SearchState, workers: Workers) -> SearchState:
     state = replace(state, triples=tuple(fitted))
     made = fit_finalists(f"finalists, {stage}", state.problem, fitted, workers)
     if explained:
-        (pair,) = pairs.values()
-        made = taking_off_enough(f"finalists, {stage}", made, pair.cost, state)
+        made = taking_off_enough(f"finalists, {stage}", made, _only(pairs).cost, state)
     return state.adding(made)
+
+
+def _only(pairs: Mapping[tuple[str, ...], Fit]) -> Fit:
+    (pair,) = pairs.values()
+    return pair
 
 
 def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:

@@ -26,7 +26,7 @@ def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None):
     """What is told where the search for laws comes to these fits, and the signal."""
     stop = StopSignal() if stop is None else stop
     monkeypatch.setattr(unknown, "free_form_fits", fits)
-    verdict, workers = SimpleNamespace(kind=kind), Workers(stop=stop)
+    verdict, workers = SimpleNamespace(kind=kind, other_form=""), Workers(stop=stop)
     found = with_what_is_missing(None, None, None, (), verdict, TOLD, (), workers)
     return *found, stop
 
@@ -75,7 +75,7 @@ def told_of(log, nearest_gap):
     """What is told of a log whose verdict is unknown, by all families and through the simulation."""
     nominal = replay_nominal(log)
     coarse = decimated(nominal.problem, nominal.predictions)
-    verdict = SimpleNamespace(kind=VerdictKind.UNKNOWN)
+    verdict = SimpleNamespace(kind=VerdictKind.UNKNOWN, other_form="")
     told = nothing_told(nearest=SimpleNamespace(gap_after=nearest_gap))
     found = (nominal.log, nominal.problem, coarse, nominal.predictions, verdict, told, (), Workers())
     return with_what_is_missing(*found)

@@ -106,7 +106,7 @@ def test_the_record_of_a_whole_search_tells_who_made_what_and_why_others_are_out
         ("verdict", Decision.KEPT),
     ]
     stages = list(dict.fromkeys(e.stage for e in record))
-    search = ["nominal rig", "single effects", "finalists", "pairs", "finalists, pairs"]
+    search = ["nominal rig", "single effects", "finalists", "pairs"]
     assert stages == [*search, "verdict"]
     out = {e.effects: e for e in record if e.decision is Decision.DROPPED}
     assert out[()].reason.startswith("above the noise floor")

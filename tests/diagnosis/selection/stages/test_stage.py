@@ -55,20 +55,17 @@ def test_what_a_stop_cut_short_is_found_in_the_record():
 def test_what_promises_enough_on_the_decimated_log_has_to_on_the_log_itself(still_start, monkeypatch):
     one = replace(scored(["stiction"], 1.0), fit=fit_of(("stiction",), cost=1000.0))
     state = replace(still_start, candidates=(one,))
-    promises = {"tip_drag": 0.999, "torque_bias": 1.001}  # of what is asked
+    promises, asked = {"tip_drag": 1.001, "torque_bias": 0.999}, (1 - SECOND_LEAVES) * 250.0
 
     def screen_all(_, calls, __):
         assert all(problem is state.problem for problem, *_ in calls)
-        found = [
-            adding(name, promises[name] * SECOND_LEAVES * base.cost, base.names)
-            for _, base, name in calls
-        ]
+        found = [adding(name, base.cost - promises[name] * asked, base.names) for _, base, name in calls]
         return found, ()
 
     monkeypatch.setattr(module, "screen_all", screen_all)
     coarse = [adding(name, 1.0, ("stiction",)) for name in promises]
     elsewhere = adding("tip_drag", 1.0, ("sheath_friction",))  # beside what was not fitted to the log
-    found = module.promising_on_the_log("pairs", [*coarse, elsewhere], state, Workers())
+    found = module.promising_on_the_log("pairs", [*coarse, elsewhere], 250.0, state, Workers())
     assert found == [coarse[0], elsewhere]
 
 
