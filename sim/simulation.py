@@ -255,7 +255,7 @@ def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) 
         raise InvalidValue("inputs", len(each), f"one schedule, or one for each of {count} set-ups")
     distinct = {id(own): own for own in each}
     stepped = {key: own.at_steps(step_s) for key, own in distinct.items()}
-    spans = {(own.time_s[0], own.time_s.size) for own in stepped.values()}
+    spans = {(float(own.time_s[0]), own.time_s.size) for own in stepped.values()}
     if len(spans) > 1:
         raise InvalidValue(
             "inputs", sorted(spans), "schedules with the same start and the same number of steps"

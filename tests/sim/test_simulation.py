@@ -151,7 +151,7 @@ def test_set_ups_may_each_have_inputs_of_their_own():
 def test_inputs_are_as_many_as_set_ups_and_last_as_long():
     with pytest.raises(InvalidValue, match="one for each of 2"):
         simulate([setup(), setup()], [TURN])
-    with pytest.raises(InvalidValue, match="one number of steps"):
+    with pytest.raises(InvalidValue, match="the same number of steps"):
         simulate([setup(), setup()], [TURN, schedule([0, 0.3, 4], [0, 90, 90])])
 
 
