@@ -144,7 +144,7 @@ class AdaptiveEstimator(FeedforwardEstimator):
         turned = torque * dt / (self.damping * depth)
         growth = (now.inserted_mm - last.inserted_mm) / depth
         # The mean over a longer shaft takes in what enters: shaft at the entry's angle.
-        self._mean_rad += turned + growth * float((self.twist.sign * before).sum())
+        self._mean_rad += turned + growth * float(self.twist.sign @ before)
         self._predict(last, now, turned, before)
         self._correct(now)
 
@@ -153,10 +153,9 @@ class AdaptiveEstimator(FeedforwardEstimator):
         dt, depth = now.time_s - last.time_s, 0.5 * (last.inserted_mm + now.inserted_mm)
         # The Jacobian is diagonal but for two columns. beta only sets the pace, so that
         # d / d log beta of a step is minus the step; the bias acts as a torque.
-        decay = np.exp(self.twist.poles(depth, self.damping) * dt)
         per_torque = dt / (self.damping * depth)
         jacobian = self._jacobian
-        self._jacobian_diagonal[1:_DAMPING] = decay
+        self._jacobian_diagonal[1:_DAMPING] = self._decay
         jacobian[0, _DAMPING] = -turned
         jacobian[1:_DAMPING, _DAMPING] = before - self._p
         jacobian[0, _BIAS] = -per_torque
@@ -179,12 +178,12 @@ class AdaptiveEstimator(FeedforwardEstimator):
         self._p = self._p + gain[1:_DAMPING] * innovation
         self.damping *= math.exp(min(max(gain[_DAMPING] * innovation, -0.5), 0.5))
         self.torque_bias_n_mm += gain[_BIAS] * innovation
-        self._covariance = self._covariance - np.outer(gain, spread)
+        self._covariance = self._covariance - gain[:, None] * spread
 
     def _base_past_mean(self, sample: Sample) -> float:
         """Base angle minus the mean angle of the inserted shaft, rad."""
         immediate = sample.torque_n_mm * self._compliance(sample)
-        return immediate + float((self.twist.sign * self._p).sum())
+        return immediate + float(self.twist.sign @ self._p)
 
     def _compliance(self, sample: Sample) -> float:
         """Immediate compliance of the base to a torque, rad / (N mm): free shaft and tail."""

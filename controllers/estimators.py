@@ -17,6 +17,7 @@ from typing import Protocol
 import control
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import exprel
 
 from controllers.signals import Estimate, Sample, Status
 from controllers.twist import Twist
@@ -27,6 +28,7 @@ Array = NDArray[np.float64]
 
 _RAD = math.pi / 180.0
 _LEAST_DEPTH_MM = 1.0  # below this the needle counts as outside
+_SERIES = 1e-5  # |z| below which a response is computed from its series
 
 
 class OutputEquation(StrEnum):
@@ -77,6 +79,7 @@ class FeedforwardEstimator:
     def reset(self) -> None:
         """Go back to the state before the first sample: an untwisted shaft."""
         self._p = np.zeros(self.twist.k.size)
+        self._decay = np.ones(self.twist.k.size)  # over the last sample
         self._last: Sample | None = None
         self._estimate = Estimate(tip_deg=math.nan, status=Status.BAD_SAMPLE)
 
@@ -118,7 +121,8 @@ class FeedforwardEstimator:
         z = self.twist.poles(depth, self.damping) * dt
         gain = 2 * dt / (depth * self.damping) * self.twist.sign
         whole, ramp = _response(z)
-        self._p *= np.exp(z)
+        self._decay = np.exp(z)
+        self._p *= self._decay
         self._p += gain * (whole * last.torque_n_mm + ramp * (now.torque_n_mm - last.torque_n_mm))
 
     def _read(self, sample: Sample) -> Estimate:
@@ -130,15 +134,16 @@ class FeedforwardEstimator:
             return float(self._p.sum())
         free = -sample.torque_n_mm * sample.free_mm / self.twist.kappa
         tail = self.twist.tail_rad(sample.torque_n_mm, sample.inserted_mm)
-        return free + tail + 2 * float(self._p[self.twist.odd].sum())
+        return free + tail + float(self.twist.lag_weights @ self._p)
 
 
 def _response(z: Array) -> tuple[Array, Array]:
-    """(e^z - 1)/z and (e^z - 1 - z)/z^2: responses of a pole to a step and to a ramp over one sample."""
-    small = np.abs(z) < 1e-4
-    safe = np.where(small, 1.0, z)
-    whole = np.where(small, 1 + z / 2, np.expm1(safe) / safe)
-    ramp = np.where(small, 0.5 + z / 6, (np.expm1(safe) - safe) / safe**2)
+    """(e^z - 1)/z and (e^z - 1 - z)/z^2 of z < 0: responses of a pole to a step and a ramp over a sample.
+
+    Their errors are below 1e-10: near 0 the second is a series, elsewhere its rounding is 2e-16 / z.
+    """
+    whole: Array = exprel(z)
+    ramp = np.where(z > -_SERIES, 0.5 + z / 6, (whole - 1) / np.minimum(z, -_SERIES))
     return whole, ramp
 
 

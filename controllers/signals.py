@@ -49,10 +49,15 @@ class Sample:
 
     def usable(self) -> bool:
         """Whether every number is finite and every length possible."""
-        numbers = (self.time_s, self.base_deg, self.torque_n_mm, self.inserted_mm, self.free_mm)
-        tip_fine = self.tip_deg is None or math.isfinite(self.tip_deg)
-        finite = all(math.isfinite(x) for x in numbers)
-        return finite and tip_fine and self.inserted_mm >= 0 and self.free_mm >= 0
+        isfinite = math.isfinite
+        return (
+            isfinite(self.time_s)
+            and isfinite(self.base_deg)
+            and isfinite(self.torque_n_mm)
+            and (self.tip_deg is None or isfinite(self.tip_deg))
+            and 0 <= self.inserted_mm < math.inf
+            and 0 <= self.free_mm < math.inf
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -45,6 +45,7 @@ class Twist:
         self.squares = (self.k * np.pi) ** 2
         self.sign = np.where(self.k % 2 == 1, -1.0, 1.0)
         self.odd = self.k % 2 == 1
+        self.lag_weights = np.where(self.odd, 2.0, 0.0)  # of the modes in tip - base
         self.stretch = _stretch(self.k.astype(float))
         # sum over odd k of 1/k^2 is pi^2 / 8: what the kept modes leave of it.
         self.tail = np.pi**2 / 8 - float((1.0 / self.k[self.odd] ** 2).sum())
