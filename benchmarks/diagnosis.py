@@ -9,20 +9,21 @@ reports. The unit is one replay of the whole log by the nominal needle. Growth i
 CPU time of the process and its workers, which other work on the machine changes less. How
 many steps a fit takes depends on the noise, too; with this seed it hardly does.
 
-Each diagnosis has a process of its own, since peaks of memory are of a process's life.
+Memory is that of the diagnosis' process and its workers: the peak of the sum of their proportional
+set sizes, in which a page that several of them share counts once, looked at every 0.2 s.
 """
 
 import multiprocessing
 import resource
-import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+import psutil
 
 from benchmarks import report
 from diagnosis.log.rig_log import read_rig_log
@@ -54,7 +55,7 @@ _SENSORS = LogSensors(noise=_NOISE, claims=dict.fromkeys(_NOISE, 1.0), steps={})
 _ONE, _TWO = "one effect", "a pair"
 _LOADING, _READING, _REPORT = "loading the callback", "reading", "report"
 _BEFORE, _AFTER = "before the search", "after the search"
-_PEAK_UNIT = 1 if sys.platform == "darwin" else 1024  # of ru_maxrss, bytes
+_LOOK_S = 0.2  # at memory
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,16 +66,16 @@ class Cost:
       says: its result in words.
       stages_s: wall-clock time by stage, s, in their order.
       cpu_s: of the process and its workers.
-      peak_gib: upper limit of the memory, as if all workers peaked together and shared nothing.
       replay_s: CPU time of one replay of the log by the nominal needle.
+      peak_gib: largest memory of the process and its workers together.
     """
 
     trials: int
     says: str
     stages_s: dict[str, float]
     cpu_s: float
-    peak_gib: float
     replay_s: float
+    peak_gib: float = 0.0
 
     @property
     def wall_s(self) -> float:
@@ -125,9 +126,11 @@ def write_log(folder: Path, plan: LogPlan, effects: tuple[str, ...], times_over:
 
 def cost(folder: Path) -> Cost:
     """Time and memory of the diagnosis of a log, in a process of its own."""
-    # A server's child starts its count of memory afresh, but would have its workers from the server.
+    # A server's child has none of this process's memory, but would have its workers from the server.
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("forkserver")) as alone:
-        return alone.submit(_cost, folder, multiprocessing.get_start_method()).result()
+        task = alone.submit(_cost, folder, multiprocessing.get_start_method())
+        peak_gib = _peak_gib(task)
+        return replace(task.result(), peak_gib=peak_gib)
 
 
 def _cost(folder: Path, usual: str) -> Cost:
@@ -141,7 +144,7 @@ def _cost(folder: Path, usual: str) -> Cost:
     stages.mark(_AFTER)
     write_report(found, Destination(folder=folder / "report", force=True))
     stages.mark(_REPORT)
-    cpu_s, peak_gib = used_cpu_s() - start_s, _peak_gib()
+    cpu_s = used_cpu_s() - start_s
 
     prepared, _ = prepare(log)
 
@@ -150,7 +153,6 @@ def _cost(folder: Path, usual: str) -> Cost:
         says=" + ".join(found.verdict.effects) or found.verdict.kind.value,
         stages_s=stages.seconds,
         cpu_s=cpu_s,
-        peak_gib=peak_gib,
         replay_s=report.least_times_s({"replay": lambda: replay(prepared)}, turns=5)["replay"],
     )
 
@@ -161,11 +163,21 @@ def used_cpu_s() -> float:
     return sum(usage.ru_utime + usage.ru_stime for usage in used)
 
 
-def _peak_gib() -> float:
-    own, largest_worker = (
-        resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    )
-    return (own + WORKERS * largest_worker) * _PEAK_UNIT / 2**30
+def _peak_gib(task: Future[Cost]) -> float:
+    """The largest memory of this process's children until a task is done."""
+    largest = 0
+    while wait([task], timeout=_LOOK_S).not_done:
+        largest = max(largest, sum(map(_memory_bytes, psutil.Process().children(recursive=True))))
+    return largest / 2**30
+
+
+def _memory_bytes(process: psutil.Process) -> int:
+    """Proportional set size, or memory of the process alone where the system does not tell it."""
+    try:
+        memory = process.memory_full_info()
+    except psutil.Error:  # it has just ended
+        return 0
+    return int(getattr(memory, "pss", memory.uss))
 
 
 def _stage_rows(name: str, one: Cost) -> list[dict[str, Any]]:
