@@ -11,6 +11,8 @@ PACKAGES = ("models", "sim", "controllers", "diagnosis", "studies", "validation"
 ROOMS = (
     "criteria",
     "stopping",
+    "stages",
+    "time_left",
     "progress",
     "workers",
     "engines",
