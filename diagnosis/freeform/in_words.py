@@ -3,6 +3,7 @@
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Law, Missing
+from diagnosis.in_sigma import in_sigma
 
 PLACES = {
     Place.INTERFACE: "between shaft and tissue",
@@ -66,7 +67,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
         f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of this kind{beside} "
-        f"reduces the residual from {gap_before:.2f} σ to {first.gap_after:.2f} σ {where}"
+        f"reduces the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
     )
     return f"{told}{_beside(missing)}.{_likeness(law)}"
 
@@ -119,5 +120,5 @@ def _beside(missing: Missing) -> str:
     """The gaps that laws of other variables leave, if they were fitted to the same samples."""
     fitted = (d for d in missing.depends_on[1:] if not d.decimated and d.gap_after < float("inf"))
     others = list(fitted)[:_OTHERS]
-    told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
+    told = ", ".join(f"{in_sigma(d.gap_after)} with {VARIABLES[d.variable]}" for d in others)
     return f"; the best laws of other variables leave {told}" if told else ""

@@ -6,6 +6,7 @@ from typing import Any
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report.html_parts import table
 from diagnosis.report.sentences import explanations
 from diagnosis.result import Diagnosis
@@ -52,7 +53,7 @@ def _as_one(entry: RecordEntry) -> tuple[str, Decision, str] | int:
 
 def _row(same: Sequence[RecordEntry]) -> tuple[str, ...]:
     first = same[0]
-    gap = "" if first.gap is None else f"{first.gap:.3f}"
+    gap = "" if first.gap is None else over_sigma(first.gap)
     score = "" if first.score is None else f"{first.score:.0f}"
     return first.stage, _named(same), first.decision.value, gap, score, first.reason
 

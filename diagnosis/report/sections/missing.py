@@ -4,6 +4,7 @@ import math
 
 from diagnosis.freeform.in_words import PLACES, VARIABLES
 from diagnosis.freeform.missing import Dependence, Missing
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.law import describe_law, draw_law
@@ -68,4 +69,4 @@ def _fitted_to(one: Dependence) -> str:
 
 def _gap(gap_sigma: float) -> str:
     """Infinite where an unseen trial could not be simulated with what the others say."""
-    return f"{gap_sigma:.2f}" if math.isfinite(gap_sigma) else "not simulated"
+    return over_sigma(gap_sigma) if math.isfinite(gap_sigma) else "not simulated"

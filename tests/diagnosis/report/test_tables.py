@@ -66,7 +66,7 @@ def test_every_decision_of_the_search_is_a_row():
         *dropped("finalists", [scored(["tip_drag"], 20.0)], "others are better"),
     )
     rows = cells(search_table(record))[1:]
-    assert rows[0] == ["nominal rig", "nominal rig", "kept", "1.000", "12", "as rig.yaml says"]
+    assert rows[0] == ["nominal rig", "nominal rig", "kept", "1.00", "12", "as rig.yaml says"]
     assert rows[1] == ["pairs", "tip_drag + stiction", "dropped", "", "", "promises too little"]
     assert rows[2][2:] == ["failed", "", "", "a &lt; b"]
     assert len(rows) == 4
