@@ -3,10 +3,10 @@
 Who computes what: MuJoCo's model holds the needle, and MuJoCo steps it. The callback
 finds the end of the step of needle and tissue together (sim.kernel.step) and adds to
 `qfrc_passive` the torque of the tissue there, and what lifts MuJoCo's first-order step
-to second order, apart from each other (sim.kernel.torques). In first-order mode the
+to a higher one, apart from each other (sim.kernel.torques). In first-order mode the
 tissue's torque is all that it adds.
 
-The state of the tissue at the start and at the end of a step are kept apart in
+The states of the tissue at the start and at the end of a step are kept apart in
 `userdata`, and the end becomes the start only when time has moved on: so that
 `mj_forward` may be called any number of times.
 

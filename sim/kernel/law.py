@@ -52,7 +52,7 @@ class Stage(NamedTuple):
 def slip_law(
     s: float, row: Array, extra: float, old: Memory, stage: Stage
 ) -> tuple[float, float, Memory]:
-    """Torque per length, its slope against slip, presliding it leaves.
+    """The law where the tissue does not yield.
 
     Args:
       s: slip rate, rad/s.
@@ -60,6 +60,10 @@ def slip_law(
       extra: dry level in addition to the row's, N m / m.
       old: memory of the site before the stage.
       stage: see `Stage`.
+
+    Returns:
+      torque per length, N m / m, its slope against slip, N m s / rad / m, and the memory that the
+      stage leaves. Of a point, none of these is per metre.
     """
     torque, slope = 0.0, 0.0
     dry, turn, axial = old.dry, old.turn, old.axial
@@ -135,10 +139,11 @@ def _rate_curve(s: float, row: Array) -> tuple[float, float]:
 def site_law(
     omega: float, row: Array, extra: float, old: Memory, stage: Stage
 ) -> tuple[float, float, float, Memory]:
-    """As `slip_law`, against the rate of the shaft, with the tissue in series.
+    """As `slip_law`, against the rate of the shaft, rad/s, with the tissue in series.
 
-    Returns torque per length, its slope against omega, the slip rate, and the
-    memory that the stage leaves.
+    Returns:
+      torque per length, N m / m, its slope against omega, N m s / rad / m, the slip rate, rad/s,
+      and the memory that the stage leaves.
     """
     torque, slope, new = slip_law(omega, row, extra, old, stage)
     k = row[memory_map.L_STIFFNESS]

@@ -63,7 +63,7 @@ STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
     L_LOAD,  # dry level over the torque that the shaft carries there
     L_SHAPED,  # 1: one of the following is not neutral
     L_VARIES,  # 1: its torque is times the input's factor
-    L_ASYMMETRY,  # its torque is 1 + this for positive, 1 - this for negative rates
+    L_ASYMMETRY,  # its torque is times 1 + this where it is positive, 1 - this where negative
     L_RATE_LOW,  # log of the lowest rate of the curve, rad/s
     L_RATE_STEP,  # of the log of the rate between places of the curve; 0: no curve
     L_CURVE_0,  # log factors of the viscous torque at these rates
@@ -99,7 +99,7 @@ Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
     O_TISSUE_ENERGY,  # stored in twisted tissue, J
     O_SHAFT_ENERGY,  # stored in the twisted shaft, J
     O_SHAFT_TORQUE,  # largest that an element of the shaft carries, N m
-    O_CORRECTION,  # largest torque that lifts MuJoCo's step to second order, N m
+    O_CORRECTION,  # largest torque that lifts MuJoCo's step to a higher order, N m
     O_INERTIA,  # torque that the inertia of the shaft takes, about the start of the step, N m
     O_FAILED,  # stages so far whose iteration did not converge
     O_ITERATIONS,  # of the last step

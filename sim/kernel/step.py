@@ -81,7 +81,8 @@ def _prepare(
 
 @inlined
 def _stiffness_factor(head: Array, torque: float) -> float:
-    """Of an element at the twist that it starts with, as torque of the nominal stiffness, N m."""
+    """Factor of an element's stiffness, where its twist at the start of the step asks for this torque
+    at the nominal stiffness, N m."""
     last = memory_map.STIFFNESS_POINTS - 1
     at = last * torque / head[memory_map.H_STIFFNESS_TORQUE]
     if at >= last:

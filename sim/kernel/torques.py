@@ -3,10 +3,11 @@
 tissue      what the tissue does to the shaft: -sum of f over the nodes beyond the joint
 other       what the model holds and its joints cannot: the play of the drive, an element
             whose length changes (k (a_0 / a - 1) times its twist), springs of siblings
-correction  what lifts MuJoCo's first-order step to second order; 0 in first-order mode
+correction  what lifts MuJoCo's first-order step to the order of the method, second by default;
+            0 in first-order mode
 
 MuJoCo's `discrete` step solves  M a + K q_end = motor + passive,  q_end = q + h qvel_end,
-with K its joints' springs. For its step to end at the angles that the second-order method
+with K its joints' springs. For its step to end at the angles that the method of higher order
 found, passive has to be
 
     M a + K q_end - motor,    a = ((q_end - q) / h - qvel) / h,

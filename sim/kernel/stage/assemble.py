@@ -2,8 +2,8 @@
 
     I/g (w - w*) + K (theta* + g w) + D w + sum over sites of N f(N' w) = drive - tip
 
-What is linear (inertia, torsion, viscous rows) is assembled once per step; the
-sites of every other row add their torque and slope at each iteration.
+The damping D of viscous rows is assembled once per step; the sites of every other row add
+their torque and slope at each iteration.
 """
 
 import math

@@ -25,7 +25,7 @@ from sim.kernel.stage.tridiagonal import factorise, substitute
 from sim.kernel.stage.workspace import Frame, Workspace
 
 _TOLERANCE = 1e-10  # change of a rate in the last iteration, relative above 1 rad/s
-_BALANCE = 1e-12  # force over stiffness that is as good as none, as a rate
+_BALANCE = 1e-12  # torque over slope that is as good as none, as a change of a rate, like _TOLERANCE
 _FREE = 4  # steps that are not searched: a drive crosses its play in three
 _OVERSHOOT = 0.3  # a step is shortened where it meets this much of its own force again
 _STILL = 0.5  # a step is lengthened where so much of its force still pulls ahead
@@ -68,10 +68,21 @@ def newton(
     nonlinear: bool,
     factored: bool,
 ) -> tuple[bool, int, float, float]:
-    """Solve one stage. Returns convergence, iterations, recoverable power, energy.
+    """Solve one stage for the rates `w.omega`, rad/s, from where they stand.
 
-    Without nonlinear rows both stages have the same matrix, and one iteration is
-    exact: the second stage uses the factors of the first.
+    Without nonlinear rows all stages have the same matrix, and one iteration is
+    exact: the later stages use the factors of the first.
+
+    Args:
+      law: (rows, columns).
+      drive: angle at which the servo rests, rad, or a torque on the first node, N m.
+      tip_torque: torque that resists at the tip, N m.
+      nonlinear: whether iteration is needed.
+      factored: whether the factors of the stage before hold.
+
+    Returns:
+      whether it converged, iterations, power that goes into twisted tissue and bent shaft, W, and
+      energy stored in the tissue, J.
     """
     rhs, diagonal = w.rhs, w.diagonal
     n = rhs.size
@@ -148,7 +159,8 @@ def _balanced(w: Workspace) -> bool:
 
 @inlined
 def _take_step(w: Workspace) -> tuple[float, float, float]:
-    """Newton's step; returns its size, that of the rates, and the force along it."""
+    """Take Newton's step; returns the largest change of a rate, the largest rate (1 rad/s at least),
+    and the force along the step."""
     step, rhs, omega = w.step, w.rhs, w.omega
     n = omega.size
     for i in range(n):
