@@ -60,9 +60,11 @@ class ProgressClock:
         )
 
     def _within_the_limit(self, left_s: tuple[float, float] | None) -> tuple[float, float] | None:
-        """Nothing takes longer than a limit leaves."""
+        """Nothing takes longer than a limit leaves; once that has passed, what is left is the report."""
         if self._stop.limit_s is None:
             return left_s
-        limit_s = max(self._stop.left_s, 0.0)
+        limit_s = self._stop.left_s
+        if limit_s <= 0.0:
+            return None
         least_s, most_s = left_s or (0.0, limit_s)
         return min(least_s, limit_s), min(most_s, limit_s)
