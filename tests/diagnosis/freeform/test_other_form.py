@@ -9,6 +9,7 @@ from diagnosis.freeform.families import families_of
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
@@ -16,7 +17,7 @@ from diagnosis.selection.screening import screen
 from diagnosis.workers import Workers
 
 LAYERED = RigParameters(layer_ratio=0.2, layer_boundary_fraction=0.5)
-EVENLY = RigParameters(free=FreeLaw(damping_along_depth=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1)))
+EVENLY = RigParameters(free=FreeLaw(along_depth=AlongDepth(damping=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1))))
 
 DEPTHS_MM = (40.0, 90.0, 160.0)
 

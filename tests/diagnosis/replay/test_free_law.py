@@ -136,15 +136,6 @@ def test_the_law_is_in_every_layer_and_further_laws_beside():
     assert (found.throughout, found.at_tip, law.more_rows) == ((dry,), (dry, dry), 3)
 
 
-def test_damping_along_the_depth_is_in_equal_parts():
-    law = FreeLaw(damping_along_depth=(0.5, 1.0, 1.5))
-    found = law.tissue(Tissue(layers=(Layer(interface=LAYER),)))
-    damping = [layer.interface.viscous_n_mm_s_per_mm for layer in found.layers]
-    assert damping == pytest.approx([0.01, 0.02, 0.03])
-    assert [layer.interface.kinetic_n_mm_per_mm for layer in found.layers] == [0.001] * 3
-    np.testing.assert_allclose(found.boundaries_mm(90.0), [0, 30, 60, 90])
-
-
 def test_a_curve_over_the_rate_is_in_the_tissue():
     factors = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
     law = FreeLaw(rate_curve=factors, rate_range_rad_s=(0.02, 3.0))
