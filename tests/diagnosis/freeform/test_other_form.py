@@ -19,6 +19,15 @@ from diagnosis.workers import Workers
 LAYERED = RigParameters(layer_ratio=0.2, layer_boundary_fraction=0.5)
 EVENLY = RigParameters(free=FreeLaw(along_depth=AlongDepth(damping=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1))))
 
+DRY = RigParameters(kinetic_n_mm_per_mm=0.003)
+DEEPER = RigParameters(
+    free=FreeLaw(
+        along_depth=AlongDepth(
+            friction_n_mm_per_mm=(0.0, 0.0005, 0.001, 0.003, 0.005, 0.008), thickness_mm=26.0
+        )
+    )
+)
+
 DEPTHS_MM = (40.0, 90.0, 160.0)
 
 
@@ -42,13 +51,22 @@ def test_two_layers_stand_where_there_are_two():
     assert form_of(*fitted(LAYERED)) is None
 
 
+def test_dry_friction_is_refuted_where_it_grows_with_the_depth():
+    assert form_of(*fitted(DEEPER, ("coulomb_friction",))).name == "dry friction in layers"
+
+
+def test_dry_friction_stands_where_it_is_even():
+    assert form_of(*fitted(DRY, ("coulomb_friction",))) is None
+
+
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
     monkeypatch.setattr("diagnosis.freeform.other_form.families_of", pytest.fail)
     assert form_of(*fitted(RigParameters(torque_bias_n_mm=0.05), ("torque_bias",))) is None
 
 
 def test_forms_that_effects_name_are_families():
-    coarse = start_of_search(log_of(LAYERED), ()).coarse
+    log = joined(*(log_of(LAYERED, deep_mm=depth) for depth in DEPTHS_MM))
+    coarse = start_of_search(log, ()).coarse
     known = {f.name for f in families_of(ranges_of(coarse, replay(coarse.log)))}
     named = [form for effect in LIBRARY.values() for form in effect.other_forms]
     assert named
