@@ -4,13 +4,15 @@ Two layers of tissue are an idealisation: damping that changes evenly along the 
 them, and may be left at the noise floor. Evenly elastic tissue and a little drift of the torque sensor
 may look like tissue that is stiffer further in. So an effect may name free-form laws of its kind
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
-clearly less, on the log itself. If it leaves less there too, the effect explains nothing.
+clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
+the law alone leaves about as little as the effect together with others: these were a crutch of it.
 
 A law that has the parameters of the effect, and a curve besides, starts where the effect is. Then a
 single step shows whether the curve promises anything.
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
@@ -62,24 +64,54 @@ def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | 
 
 
 def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, family: Family) -> bool:
-    """Whether a family is at the noise floor in place of an effect, and leaves clearly less.
+    """Whether a family in place of an effect is at the noise floor, and leaves clearly less.
 
     Without imperfections and drift of sensors on either side, which may have been a crutch of it.
     """
     plain = tuple(n for n in best.names if n not in IMPERFECTIONS)
-    names = (*(n for n in plain if n != name), family.name)
+    others = tuple(n for n in plain if n != name)
     known = _from(best, plain, coarse)
-    straight = family.with_prior(*_NEARLY_STRAIGHT)  # from far off a fit may end in a local minimum
-    same = _same_parameters(known, coarse, name, family)
-    form = _from(known, names, with_family(coarse, straight), same, 1 if same else ITERATIONS)
-    if same and form.cost > PROMISING * known.cost:
-        return False
-    form = _from(form, names, with_family(coarse, family))
-    if form.cost > SECOND_LEAVES * known.cost:
-        return False
-    known = _from(known, plain, problem)
-    form = _from(form, names, with_family(problem, family))
-    return form.cost < SECOND_LEAVES * known.cost and floor_of(form.by_trial).small
+    fits = _Comparison(problem=problem, coarse=coarse, known=known, family=family, replaced=name)
+    return (bool(others) and fits.leaves((family.name,), 1 / SECOND_LEAVES)) or fits.leaves(
+        (*others, family.name), SECOND_LEAVES
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Comparison:
+    """A family in place of an effect of an explanation.
+
+    Attributes:
+      known: the explanation, fitted to the decimated log.
+      replaced: the effect.
+    """
+
+    problem: FitProblem
+    coarse: FitProblem
+    known: Fit
+    family: Family
+    replaced: str
+
+    def leaves(self, names: tuple[str, ...], share: float) -> bool:
+        """Whether a set with the family is at the floor, and leaves at most a share of the cost."""
+        form = self._on_the_decimated_log(names, share * self.known.cost)
+        if form is None or form.cost > share * self.known.cost:
+            return False
+        known = _from(self.known, self.known.names, self.problem)
+        form = _from(form, names, with_family(self.problem, self.family))
+        return form.cost < share * known.cost and floor_of(form.by_trial).small
+
+    def _on_the_decimated_log(self, names: tuple[str, ...], enough: float) -> Fit | None:
+        """A fit from where the explanation is; None: its first step promises nothing."""
+        # From far off a fit may end in a local minimum, so that the first curve is nearly straight.
+        straight = with_family(self.coarse, self.family.with_prior(*_NEARLY_STRAIGHT))
+        own = with_family(self.coarse, self.family)
+        same = _same_parameters(self.known, self.coarse, self.replaced, self.family)
+        if not (same and len(names) == len(self.known.names)):
+            form = _from(self.known, names, straight, same, enough=enough)
+            return _from(form, names, own)
+        form = _from(self.known, names, straight, same, iterations=1)
+        return None if form.cost > PROMISING * self.known.cost else _from(form, names, own)
 
 
 def _same_parameters(known: Fit, problem: FitProblem, name: str, family: Family) -> dict[str, Array]:
@@ -98,8 +130,10 @@ def _from(
     names: tuple[str, ...],
     problem: FitProblem,
     parts: Mapping[str, Array] = MappingProxyType({}),
+    *,
     iterations: int = ITERATIONS,
+    enough: float = np.inf,
 ) -> Fit:
     """A fit that starts where another one is, with other parts of the vector where they are given."""
     start = problem.parameterization(names).joined({**near.parts, **parts})
-    return fit_effects(problem, names, start, most_iterations=iterations)
+    return fit_effects(problem, names, start, most_iterations=iterations, enough=enough)

@@ -1,5 +1,7 @@
 """An effect explains nothing where a free-form law of its kind leaves clearly less."""
 
+from dataclasses import replace
+
 import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search
 
@@ -36,7 +38,9 @@ def fitted(rig, names=("layered_tissue",)):
     trials = [log_of(rig, seed=i, deep_mm=depth) for i, depth in enumerate(DEPTHS_MM)]
     nominal = replay_nominal(joined(*trials))
     problem, base = nominal.problem, nominal.fit
-    return nominal, fit_effects(problem, names, screen(problem, base, names[0])[0].start)
+    first = fit_effects(problem, names[:1], screen(problem, base, names[0])[0].start)
+    start = problem.parameterization(names).joined(first.parts)
+    return nominal, fit_effects(problem, names, start)
 
 
 def form_of(nominal, best):
@@ -57,6 +61,16 @@ def test_dry_friction_is_refuted_where_it_grows_with_the_depth():
 
 def test_dry_friction_stands_where_it_is_even():
     assert form_of(*fitted(DRY, ("coulomb_friction",))) is None
+
+
+def test_another_form_alone_refutes_an_effect_with_a_crutch():
+    pair = ("layered_tissue", "stiffness_error")
+    assert form_of(*fitted(EVENLY, pair)).name == "damping over position"
+
+
+def test_two_effects_that_are_there_stand():
+    both = replace(LAYERED, torque_bias_n_mm=0.05)
+    assert form_of(*fitted(both, ("layered_tissue", "torque_bias"))) is None
 
 
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
