@@ -6,6 +6,7 @@ may look like tissue that is stiffer further in. So an effect may name free-form
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
 clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
 the law alone leaves about as little as the effect together with others: these were a crutch of it.
+(Stiffness and damping are no crutch: every rig's are off a little, and every fit has them.)
 
 A law that has the parameters of the effect, and a curve besides, starts where the effect is. Then a
 single step shows whether the curve promises anything.
@@ -18,7 +19,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import SECOND_LEAVES
+from diagnosis.criteria import SCATTER, SECOND_LEAVES
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, fit_effects
@@ -72,7 +73,9 @@ def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, 
     others = tuple(n for n in plain if n != name)
     known = _from(best, plain, coarse)
     fits = _Comparison(problem=problem, coarse=coarse, known=known, family=family, replaced=name)
-    return (bool(others) and fits.leaves((family.name,), 1 / SECOND_LEAVES)) or fits.leaves(
+    alone = (*(n for n in others if n in SCATTER), family.name)
+    crutch = len(alone) <= len(others)
+    return (crutch and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
         (*others, family.name), SECOND_LEAVES
     )
 

@@ -64,8 +64,14 @@ def test_dry_friction_stands_where_it_is_even():
 
 
 def test_another_form_alone_refutes_an_effect_with_a_crutch():
-    pair = ("layered_tissue", "stiffness_error")
+    pair = ("layered_tissue", "torque_bias")
     assert form_of(*fitted(EVENLY, pair)).name == "damping over position"
+
+
+def test_a_damping_that_is_off_is_no_crutch():
+    """Curves along the depth could take its place."""
+    found = fitted(replace(LAYERED, damping_scale=1.04), ("layered_tissue", "damping_error"))
+    assert form_of(*found) is None
 
 
 def test_two_effects_that_are_there_stand():
