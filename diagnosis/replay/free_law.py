@@ -1,7 +1,7 @@
 """A free-form law in a rig: torques, angles and readings that no effect of the library has.
 
-A curve is smooth through its values at some places of a variable, and constant beyond them. What it
-acts on:
+A curve is smooth through its values at some places of a variable, and constant beyond them. One with a
+period is a periodic cubic spline: a sine through 5 places is off by less than 1 %. What a curve acts on:
 
     tissue          the torque of tissue that varies is multiplied by the curve
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.bearing import stopped_at
@@ -101,7 +101,8 @@ class Curve:
         if self.period:
             places = (*self.places, self.places[0] + self.period)
             wrapped = self.places[0] + np.mod(x - self.places[0], self.period)
-            return np.asarray(PchipInterpolator(places, (*self.values, self.values[0]))(wrapped))
+            values = (*self.values, self.values[0])
+            return np.asarray(CubicSpline(places, values, bc_type="periodic")(wrapped))
         within = np.clip(x, self.places[0], self.places[-1])
         return np.asarray(PchipInterpolator(self.places, self.values)(within))
 
