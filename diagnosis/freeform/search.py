@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP
+from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.problem import FitProblem
@@ -36,7 +36,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
 )
 FIRST_ITERATIONS, ITERATIONS = 2, 10
 CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
-FAR_GAP, FAR_ITERATIONS, FAR_FINALISTS = 4.0, 3, 2
+FAR_ITERATIONS, FAR_FINALISTS = 3, 2
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -51,7 +51,7 @@ def _friction(layers: _Layers, ranges: LogRanges) -> Family:
     level = ranges.library["coulomb_friction"].parameters[0]
     return Family(
         effect=Effect(
-            name="dry friction in layers",
+            name="dry friction over position, in layers",
             title="dry friction that changes with the depth below the surface",
             place=Place.INTERFACE,
             parameters=(level, *_neutral(layers, level)),
@@ -79,7 +79,7 @@ def _apply_friction(layers: _Layers, rig: RigParameters, level: float, *c: float
 def _damping(layers: _Layers, ranges: LogRanges) -> Family:
     return Family(
         effect=Effect(
-            name="damping in layers",
+            name="damping over position, in layers",
             title="damping that changes with the depth below the surface",
             place=Place.INTERFACE,
             parameters=coordinates_of(layers.curve),
@@ -106,7 +106,7 @@ def _elastic(layers: _Layers, ranges: LogRanges) -> Family:
     elastic = ranges.library["tissue_viscoelasticity"].parameters
     return Family(
         effect=Effect(
-            name="elastic tissue in layers",
+            name="elastic tissue over position, in layers",
             title="elastic tissue that changes with the depth below the surface",
             place=Place.TISSUE,
             parameters=(*elastic, *_neutral(layers, elastic[0])),

@@ -56,7 +56,9 @@ def test_two_layers_stand_where_there_are_two():
 
 
 def test_dry_friction_is_refuted_where_it_grows_with_the_depth():
-    assert form_of(*fitted(DEEPER, ("coulomb_friction",))).name == "dry friction in layers"
+    assert (
+        form_of(*fitted(DEEPER, ("coulomb_friction",))).name == "dry friction over position, in layers"
+    )
 
 
 def test_dry_friction_stands_where_it_is_even():

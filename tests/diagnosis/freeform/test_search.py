@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit, one_trial, priors, solved
 
+from diagnosis.criteria import FAR_GAP
 from diagnosis.freeform import search
 from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
 from diagnosis.workers import Workers
@@ -134,7 +135,7 @@ def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itse
 
 def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):
     run, _ = fitted
-    gaps = {f"law {i}": search.FAR_GAP + 0.1 + 0.1 * i for i in range(12)}
+    gaps = {f"law {i}": FAR_GAP + 0.1 + 0.1 * i for i in range(12)}
     assert sum(f.final for f in run(gaps, gaps)) == search.FAR_FINALISTS < search.FINALISTS
 
 

@@ -18,11 +18,17 @@ STILL = covered(ANGLE, tip=ANGLE)
 DEEPER = replace(STILL, ends={**STILL.ends, Variable.DEPTH: (40.0, 80.0)})
 FAMILIES = {family.name: family for family in families(DEEPER)}
 FLAT = [0.0] * (PARTS - 1)
+DRY, THICK, ELASTIC = (
+    f"{what} over position, in layers" for what in ("dry friction", "damping", "elastic tissue")
+)
 MESH = 1e-3  # layers meet in places of their own: another mesh, second order in its elements
 PLAIN = {
-    "dry friction in layers": ((0.001,), LIBRARY["coulomb_friction"].apply(NOMINAL, 0.001)),
-    "damping in layers": ((), NOMINAL),
-    "elastic tissue in layers": (
+    DRY: (
+        (0.001,),
+        LIBRARY["coulomb_friction"].apply(NOMINAL, 0.001),
+    ),
+    THICK: ((), NOMINAL),
+    ELASTIC: (
         (0.01, 0.4),
         LIBRARY["tissue_viscoelasticity"].apply(NOMINAL, 0.01, 0.4),
     ),
@@ -39,15 +45,15 @@ def test_layers_that_are_alike_are_no_layers(name):
 
 def test_the_curve_is_told_by_depth_below_the_surface():
     deepest = max(trial.schedule.inserted_mm.max() for trial in DEEPER.problem.log.trials)
-    depth, damping = FAMILIES["damping in layers"].curve(0.0, *FLAT)
+    depth, damping = FAMILIES[THICK].curve(0.0, *FLAT)
     np.testing.assert_allclose(damping, DAMPING)
     np.testing.assert_allclose(depth, deepest * (np.arange(PARTS) + 0.5) / PARTS)
-    _, level = FAMILIES["dry friction in layers"].curve(0.002, np.log(2.0), *FLAT)
+    _, level = FAMILIES[DRY].curve(0.002, np.log(2.0), *FLAT)
     np.testing.assert_allclose(level, 0.004)
-    _, stiffness = FAMILIES["elastic tissue in layers"].curve(0.01, 0.4, np.log(2.0), *FLAT)
+    _, stiffness = FAMILIES[ELASTIC].curve(0.01, 0.4, np.log(2.0), *FLAT)
     np.testing.assert_allclose(stiffness, 0.02)
 
 
 def test_at_one_inserted_length_only_friction_is_asked_for():
     assert set(FAMILIES) == set(PLAIN)
-    assert [family.name for family in families(STILL)] == ["dry friction in layers"]
+    assert [family.name for family in families(STILL)] == [DRY]
