@@ -22,15 +22,7 @@ from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
-from diagnosis.progress import (
-    ASSESSING,
-    CHECKING,
-    REPLAYING,
-    ProgressClock,
-    Watcher,
-    in_words,
-    silent,
-)
+from diagnosis.progress import ProgressClock, Watcher, silent
 from diagnosis.result import Diagnosis
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
@@ -38,6 +30,7 @@ from diagnosis.selection.record import RecordEntry, dropped, judged
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, refuted
+from diagnosis.stages import ASSESSING, CHECKING, REPLAYING, in_words
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Workers, process_pool
 from sim.simulation import prepare_processes

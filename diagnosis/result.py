@@ -7,6 +7,7 @@ import pandas as pd
 
 from diagnosis.assessment.assess import Assessment
 from diagnosis.freeform.missing import Missing
+from diagnosis.in_sigma import in_sigma
 from diagnosis.log.rig_log import RigLog
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
@@ -61,7 +62,9 @@ class Diagnosis:
         verdict, gap = self.verdict, self.assessment.gap
         early = f"stopped early ({self.stopped.why}), best so far: " if self.stopped else ""
         named = " ".join([verdict.kind.value, " + ".join(verdict.effects)]).strip()
-        return f"{early}{named}; residual {gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
+        return (
+            f"{early}{named}; residual {in_sigma(gap.before)} → {in_sigma(gap.after)} (σ = sensor noise)"
+        )
 
     @property
     def _parameters(self) -> pd.DataFrame:

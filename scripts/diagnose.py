@@ -14,6 +14,7 @@ from rich.text import Text
 
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.freeform.save import as_file, file_of
+from diagnosis.in_sigma import over_sigma
 from diagnosis.log.rig_log import files_of, read_rig_log
 from diagnosis.pipeline import diagnose
 from diagnosis.report.answer import answer
@@ -138,7 +139,7 @@ def _breakdown_table(found: Diagnosis) -> Table:
     table = Table("where", "nominal", label_of(found, "explained"), title="Residual / σ")
     before, after = found.assessment.breakdown, found.assessment.breakdown_after
     for (name, gap), (_, left) in zip(_by_part(before), _by_part(after), strict=True):
-        table.add_row(name, f"{gap:.2f}", f"{left:.2f}")
+        table.add_row(name, over_sigma(gap), over_sigma(left))
     return table
 
 

@@ -19,6 +19,7 @@ Shown = Callable[[Progress], None]
 ByShare = Callable[[str, float], None]
 
 _LINE_EVERY_S = 5.0
+_ALIKE = 1.2  # most over least time left, below which one number tells both
 _LEAST_SHARE = 0.03  # before which the pace says nothing
 
 
@@ -81,8 +82,10 @@ def counted(items: Iterable[T], total: int, stage: str, show: Shown) -> Iterator
 
 
 def _progress(stage: str, share: float, elapsed_s: float, *, done: int = 0, tasks: int = 1) -> Progress:
-    left_s = elapsed_s * (1.0 - share) / share if share >= _LEAST_SHARE else None
-    return Progress(stage=stage, done=done, tasks=tasks, elapsed_s=elapsed_s, left_s=left_s)
+    known = share >= _LEAST_SHARE
+    left_s = elapsed_s * (1.0 - share) / share if known else 0.0
+    both = (left_s, left_s) if known else None
+    return Progress(stage=stage, done=done, tasks=tasks, elapsed_s=elapsed_s, left_s=both)
 
 
 def _lines(console: Console, stop: StopSignal) -> Shown:
@@ -105,5 +108,13 @@ def in_one_line(news: Progress, stop: StopSignal) -> str:
     """Stage, tasks, and an estimate of the time that is left, called one."""
     stopping = "stopping (once more: at once), " if stop.requested else ""
     tasks = f", {news.done} of {news.tasks}" if news.tasks > 1 else ""
-    left = "" if news.left_s is None else f"; about {news.left_s:.0f} s left"
+    left = "" if news.left_s is None else f"; {_left_in_words(*news.left_s)} left"
     return f"{stopping}{news.stage}{tasks}{left}"
+
+
+def _left_in_words(least_s: float, most_s: float) -> str:
+    """An estimate, or two where it is open what is still to do, with two digits."""
+    least, most = (f"{float(f'{value:.2g}'):.0f}" for value in (least_s, most_s))
+    if most_s <= _ALIKE * least_s or least == most:
+        return f"about {most} s"
+    return f"at most {most} s" if least == "0" else f"{least} to {most} s"

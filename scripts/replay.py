@@ -10,6 +10,7 @@ import pandas as pd
 from rich.console import Console
 from rich.table import Table
 
+from diagnosis.in_sigma import in_sigma, over_sigma
 from diagnosis.log.rig_log import RigLog, files_of, read_rig_log
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
@@ -93,7 +94,7 @@ def table(nominal: NominalReplay) -> Table:
 
 def _cells(nominal: NominalReplay, trial: int | None) -> list[str]:
     gaps = [gap(nominal, sensor, trial) for sensor in _LABELS]
-    return ["not measured" if np.isnan(g) else f"{g:.2f}" for g in gaps]
+    return ["not measured" if np.isnan(g) else over_sigma(g) for g in gaps]
 
 
 def _chosen(each: list[Pair], trial: int | None) -> list[Pair]:
@@ -132,7 +133,7 @@ def _predicted(one: ReplayedTrial) -> pd.DataFrame:
 def _record(nominal: NominalReplay, path: Path) -> None:
     log, first = nominal.log, nominal.problem.log.trials[0]
     shape = shape_of(log.rig, first, nominal.rig)
-    results = [f"residual, {s}: {gap(nominal, s, 0):.2f} σ" for s in SENSORS if first.has(s)]
+    results = [f"residual, {s}: {in_sigma(gap(nominal, s, 0))}" for s in SENSORS if first.has(s)]
     parameters = {
         "protocol": first.name,
         "description": "the nominal needle on a rig's motion, and what the rig measured",

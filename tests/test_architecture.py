@@ -10,7 +10,10 @@ ROOT = Path(__file__).parent.parent
 PACKAGES = ("models", "sim", "controllers", "diagnosis", "studies", "validation", "scripts")
 ROOMS = (
     "criteria",
+    "in_sigma",
     "stopping",
+    "stages",
+    "time_left",
     "progress",
     "workers",
     "engines",

@@ -3,6 +3,9 @@
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Law, Missing
+from diagnosis.in_sigma import in_sigma
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
 
 PLACES = {
     Place.INTERFACE: "between shaft and tissue",
@@ -47,6 +50,7 @@ DOUBT = (
 SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _OTHERS = 3
+_TURN_DEG = 360.0
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
@@ -63,10 +67,11 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
     once = bool(missing.best.family.effect.trial)  # in one trial, which no other tells of
     where = UNSEEN if missing.best.held_out and not once else SEEN
+    course = f"{course_of(law)}{repeating(period_deg(missing))}"
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
-        f"{VARIABLES[law.variable]}: {course_of(law)}. A free-form law of this kind{beside} "
-        f"reduces the residual from {gap_before:.2f} σ to {first.gap_after:.2f} σ {where}"
+        f"{VARIABLES[law.variable]}: {course}. A free-form law of this kind{beside} "
+        f"reduces the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
     )
     return f"{told}{_beside(missing)}.{_likeness(law)}"
 
@@ -115,9 +120,28 @@ def course_of(law: Law) -> str:
     return f"{law.title} varies between {low:.3g} and {high:.3g} {law.unit}"
 
 
+def period_deg(missing: Missing) -> float:
+    """The angle after which the law repeats itself, deg; 0: it does not."""
+    family, fit = missing.best.family, missing.best.fit
+    own = zip(fit.parameterization.values(fit.x), fit.parameterization.owners, strict=True)
+    values = [float(value) for value, owner in own if owner == family.name]
+    free = family.effect.apply(RigParameters(), *values).free or FreeLaw()
+    waves = [
+        _TURN_DEG / law.orientation_cycles
+        for law in (*free.throughout, *free.at_tip)
+        if law.orientation_n_mm_per_mm
+    ]
+    return max([*(curve.period for curve in free.curves), *waves], default=0.0)
+
+
+def repeating(period_deg: float) -> str:
+    """That a law repeats itself, as the end of a sentence; empty: it does not."""
+    return f", and repeats every {period_deg:.4g} deg" if period_deg else ""
+
+
 def _beside(missing: Missing) -> str:
     """The gaps that laws of other variables leave, if they were fitted to the same samples."""
     fitted = (d for d in missing.depends_on[1:] if not d.decimated and d.gap_after < float("inf"))
     others = list(fitted)[:_OTHERS]
-    told = ", ".join(f"{d.gap_after:.2f} σ with {VARIABLES[d.variable]}" for d in others)
+    told = ", ".join(f"{in_sigma(d.gap_after)} with {VARIABLES[d.variable]}" for d in others)
     return f"; the best laws of other variables leave {told}" if told else ""

@@ -35,9 +35,11 @@ def write_preview(draft: Draft, path: Path) -> None:
         axes[0, k].set_title(in_figure(trial), fontsize=9)
         axes[-1, k].set_xlabel("time in the files, s")
     _loops(axes[0, -1], draft, trials)
-    with writing(path) as part:
-        figure.savefig(part, dpi=100, format="png")
-    plt.close(figure)
+    try:
+        with writing(path) as part:
+            figure.savefig(part, dpi=100, format="png")
+    finally:
+        plt.close(figure)
 
 
 def _over_time(axis: Axes, series: Series, motion: Motion | None) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import NUMERICAL_ERROR_WARNED
+from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
@@ -55,8 +56,8 @@ def numerical_error(changes: Sequence[Mapping[str, Array]]) -> dict[str, float]:
 def numerical_warnings(error: Mapping[str, float]) -> tuple[str, ...]:
     """A warning for every sensor for which the replay is too coarse."""
     return tuple(
-        f"{sensor}: the numerical error of the replay is {value:.2f} sigma; gaps below "
-        f"{np.hypot(1.0, value):.2f} sigma mean little here"
+        f"{sensor}: the numerical error of the replay is {in_sigma(value)}; gaps below "
+        f"{in_sigma(np.hypot(1.0, value))} mean little here"
         for sensor, value in error.items()
         if value > NUMERICAL_ERROR_WARNED
     )

@@ -5,6 +5,7 @@ They open the page and the summary on the screen.
 
 from diagnosis.criteria import CERTAIN_PROBABILITY
 from diagnosis.freeform.in_words import what_is_missing
+from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sentences import explanation_name, explanations, headline, titles
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
@@ -73,7 +74,7 @@ def _share(found: Diagnosis, which: str) -> str:
     gap, where = found.assessment.gap, _HELD_OUT if len(found.log.trials) > 1 else _NOT_HELD_OUT
     return (
         f"{which} explains {found.assessment.nearest.power_explained_percent:.1f} % of the power of the "
-        f"residual beyond noise, {where}: {gap.before:.2f} σ → {gap.after:.2f} σ"
+        f"residual beyond noise, {where}: {in_sigma(gap.before)} → {in_sigma(gap.after)}"
     )
 
 

@@ -83,6 +83,17 @@ def _row(cells: Sequence[str]) -> str:
     return f'<th scope="row">{first}</th>' + "".join(f"<td>{cell}</td>" for cell in others)
 
 
+def folded(summary: str, content: str, *, unfolded: bool = False) -> str:
+    """Content that a click on its summary opens; print shows it all.
+
+    Args:
+      content: HTML already.
+      unfolded: whether it is open from the beginning.
+    """
+    state = " open" if unfolded else ""
+    return f"<details{state}><summary>{html.escape(summary)}</summary>{content}</details>"
+
+
 def picture(figure: Figure, alt: str = "") -> str:
     """A figure inside the page; it is closed.
 

@@ -10,7 +10,7 @@ img{filter:invert(.91) hue-rotate(180deg)}}
 body{font:1rem/1.55 system-ui,sans-serif;max-width:70rem;margin:0 auto;padding:1rem;
 color:var(--text);background:var(--page);overflow-wrap:break-word}
 a{color:var(--link)}
-a:focus-visible,[tabindex]:focus-visible{outline:3px solid var(--link);outline-offset:2px}
+:is(a,summary,[tabindex]):focus-visible{outline:3px solid var(--link);outline-offset:2px}
 .skip{position:absolute;left:-99rem}.skip:focus{position:static}
 .origin{color:var(--muted);font-size:.9rem;margin:0}
 h1{font-size:1.45rem;line-height:1.3;margin:.6rem 0}
@@ -24,7 +24,9 @@ nav a{display:inline-block;padding:.15rem 0}
 figure img{display:block;max-width:100%;height:auto;background:#fff}
 table{border-collapse:collapse;font-size:.9rem}
 caption{text-align:left;font-weight:600;padding:.2rem 0;white-space:nowrap}
-td:last-child:nth-child(n+6){min-width:18rem}
+details{border-bottom:1px solid var(--line)}
+summary{cursor:pointer;padding:.5rem 0}
+details td:last-child{min-width:18rem}
 td,th{border-bottom:1px solid var(--line);padding:.3rem .8rem .3rem 0;text-align:left;vertical-align:top}
 tbody th{font-weight:inherit}
 .warning{background:var(--warn);border-left:.3rem solid var(--warn-line);padding:.5rem 1rem;
@@ -33,6 +35,7 @@ margin:.6rem 0}
 @media print{:root{color-scheme:light;--text:#000;--page:#fff;--line:#999;--soft:#fff;--link:#000;
 --warn:#fff;--warn-line:#000;--muted:#333}
 body{font-size:10pt;max-width:none;padding:0}nav,.skip{display:none}.scroll{overflow:visible}
+details::details-content{content-visibility:visible;block-size:auto}
 img,.wide img{filter:none;width:auto;max-width:100%;max-height:22cm}
-figure,tr,.warning{break-inside:avoid}h1,h2,h3,caption,p:has(+figure){break-after:avoid}}
+figure,tr,.warning{break-inside:avoid}h1,h2,h3,summary,caption,p:has(+figure){break-after:avoid}}
 """

@@ -2,6 +2,7 @@
 
 from diagnosis.assessment.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
+from diagnosis.in_sigma import in_sigma
 from diagnosis.result import Diagnosis
 
 
@@ -11,7 +12,7 @@ def imperfections(found: Diagnosis) -> str:
     lines = [_told(name, parameters) for name, parameters in told.imperfections.items()]
     if told.torque_drift_sigma > 0.0:
         lines.append(
-            f"a drift of the torque sensor, by up to {told.torque_drift_sigma:.1f} σ within a trial"
+            f"a drift of the torque sensor, by up to {in_sigma(told.torque_drift_sigma)} within a trial"
         )
     if not lines:
         return ""

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from diagnosis.criteria import ALMOST_NOTHING_SIGMA, SHOWN_PROBABILITY
 from diagnosis.effects import LIBRARY
+from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdict import VerdictKind
@@ -24,7 +25,7 @@ def headline(found: Diagnosis) -> str:
 def _best_so_far(found: Diagnosis) -> str:
     """What a search that was cut short has come to: never that nothing else is there."""
     verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
-    residual = f"residual {gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
+    residual = f"residual {in_sigma(gap.before)} → {in_sigma(gap.after)} (σ = sensor noise)"
     if verdict.kind is VerdictKind.UNKNOWN:
         return f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
     sets = "; or ".join(titles(names) or _NOTHING for names in verdict.confusable)
@@ -33,7 +34,7 @@ def _best_so_far(found: Diagnosis) -> str:
 
 def _verdict(found: Diagnosis) -> str:
     gap, effects = found.assessment.gap, found.verdict.effects
-    before, after = f"{gap.before:.2f} σ", f"{gap.after:.2f} σ (σ = sensor noise)"
+    before, after = f"{in_sigma(gap.before)}", f"{in_sigma(gap.after)} (σ = sensor noise)"
     match found.verdict.kind:
         case VerdictKind.NONE:
             return f"No gap beyond noise: the nominal model explains the log, residual {after}"
@@ -45,12 +46,12 @@ def _verdict(found: Diagnosis) -> str:
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
             near = found.assessment.nearest
-            best = f"at best {near.gap_after:.2f} σ" if near.effects else "which none of them lowers"
+            best = f"at best {in_sigma(near.gap_after)}" if near.effects else "which none of them lowers"
             if found.verdict.other_form:
                 return (
                     f"Unknown: residual {before}. {_capital(titles(near.effects))} would leave "
-                    f"{near.gap_after:.2f} σ (σ = sensor noise), but {found.verdict.other_form} leaves "
-                    "clearly less"
+                    f"{in_sigma(near.gap_after)} (σ = sensor noise), but {found.verdict.other_form} "
+                    "leaves clearly less"
                 )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
@@ -80,8 +81,8 @@ def nearest(found: Diagnosis) -> str:
     )
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
-        f"{near.power_explained_percent:.0f} % of the power of the gap, {gap.before:.2f} σ → "
-        f"{near.gap_after:.2f} σ. No explanation {tried}reaches the noise floor{left}{bound}"
+        f"{near.power_explained_percent:.0f} % of the power of the gap, {in_sigma(gap.before)} → "
+        f"{in_sigma(near.gap_after)}. No explanation {tried}reaches the noise floor{left}{bound}"
     )
 
 
@@ -124,10 +125,10 @@ def reduction(found: Diagnosis) -> str:
     if len(found.log.trials) == 1:
         seen = "On the only trial, which is also the one that was fitted,"
     if abs(gap.shrink) < _NO_SHRINK:
-        return f"{seen} the residual is {gap.after:.2f} σ. 1 σ is the noise floor."
+        return f"{seen} the residual is {in_sigma(gap.after)}. 1 σ is the noise floor."
     return (
-        f"{seen} the residual falls from {gap.before:.2f} σ to "
-        f"{gap.after:.3f} σ: by {100 * gap.shrink:.1f} % "
+        f"{seen} the residual falls from {in_sigma(gap.before)} to "
+        f"{in_sigma(gap.after)}: by {100 * gap.shrink:.1f} % "
         f"(95 % interval {100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %). "
         "1 σ is the noise floor."
     )
@@ -139,10 +140,10 @@ def with_one_more(found: Diagnosis) -> str:
     if not first:
         return ""
     here = found.verdict.best.fit.gap
-    named = ", ".join(f"with {name} {gap:.3f} σ" for name, gap in first)
+    named = ", ".join(f"with {name} {in_sigma(gap)}" for name, gap in first)
     little = here - first[0][1] < ALMOST_NOTHING_SIGMA * max(here, 1.0)
     change = "changes almost nothing" if little else "would lower the residual"
-    return f"Adding another effect {change}: on the trials of the fit it is {here:.3f} σ, {named}."
+    return f"Adding another effect {change}: on the trials of the fit it is {in_sigma(here)}, {named}."
 
 
 def replay_quality(found: Diagnosis) -> list[str]:
@@ -150,7 +151,7 @@ def replay_quality(found: Diagnosis) -> list[str]:
     error = found.assessment.numerical_error
     lines = [
         f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: "
-        + (f"{error[sensor]:.3f} σ" if sensor in error else "not computed")
+        + (f"{in_sigma(error[sensor])}" if sensor in error else "not computed")
         for sensor in found.assessment.breakdown.signal
     ]
     base = found.noise["base_angle_deg"]
@@ -160,7 +161,7 @@ def replay_quality(found: Diagnosis) -> list[str]:
 def largest_residual(found: Diagnosis) -> str:
     """Where along time the residual of the nominal model is largest."""
     stretch, value = found.assessment.breakdown.worst
-    return f"Largest residual of the nominal model: {value:.2f} σ, {stretch}"
+    return f"Largest residual of the nominal model: {in_sigma(value)}, {stretch}"
 
 
 def largest_parts(found: Diagnosis) -> str:

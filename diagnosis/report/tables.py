@@ -6,6 +6,7 @@ from typing import Any
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report.html_parts import table
 from diagnosis.report.sentences import explanations
 from diagnosis.result import Diagnosis
@@ -38,23 +39,23 @@ def limits_table(limits: Mapping[str, Mapping[str, float]]) -> str:
     return table(("effect", "may be present and go unseen"), rows, "Detection limits")
 
 
-def search_table(record: Sequence[RecordEntry]) -> str:
-    """Every decision of every stage of the search; what was not fitted for one reason is one row."""
+def search_table(stage: str, record: Sequence[RecordEntry]) -> str:
+    """Every decision of a stage of the search; what was not fitted for one reason is one row."""
     rows = [_row(list(same)) for _, same in groupby(record, _as_one)]
-    head = ("stage", "explanation", "decision", "residual / σ", "score", "reason")
-    return table(head, rows, "Decisions of the search")
+    head = ("explanation", "decision", "residual / σ", "score", "reason")
+    return table(head, rows, f"Decisions: {stage}")
 
 
-def _as_one(entry: RecordEntry) -> tuple[str, Decision, str] | int:
+def _as_one(entry: RecordEntry) -> tuple[Decision, str] | int:
     """What entries of one row have in common; a fit has a row of its own."""
-    return (entry.stage, entry.decision, entry.reason) if entry.gap is None else id(entry)
+    return (entry.decision, entry.reason) if entry.gap is None else id(entry)
 
 
 def _row(same: Sequence[RecordEntry]) -> tuple[str, ...]:
     first = same[0]
-    gap = "" if first.gap is None else f"{first.gap:.3f}"
+    gap = "" if first.gap is None else over_sigma(first.gap)
     score = "" if first.score is None else f"{first.score:.0f}"
-    return first.stage, _named(same), first.decision.value, gap, score, first.reason
+    return _named(same), first.decision.value, gap, score, first.reason
 
 
 def _named(same: Sequence[RecordEntry]) -> str:

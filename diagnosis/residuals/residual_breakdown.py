@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import BANDS_HZ, STRETCH_S
+from diagnosis.in_sigma import in_sigma
 from diagnosis.residuals.motion import phases
 from diagnosis.residuals.trial_residual import TrialResidual
 
@@ -39,11 +40,11 @@ class ResidualBreakdown:
     def largest(self) -> str:
         """The signal and the phase with the largest residual: the words of every report and advice."""
         signal, phase = _first(self.signal), _first(self.phase)
-        words = f"largest in {signal} ({self.signal[signal]:.2f} σ)" if signal else "nowhere"
+        words = f"largest in {signal} ({in_sigma(self.signal[signal])})" if signal else "nowhere"
         if not phase:
             return words
         when = "after a reversal" if phase == "reversal" else f"while {phase}"
-        return f"{words} and {when} ({self.phase[phase]:.2f} σ)"
+        return f"{words} and {when} ({in_sigma(self.phase[phase])})"
 
 
 def _first(parts: Mapping[str, float]) -> str:

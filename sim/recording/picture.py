@@ -53,9 +53,11 @@ def draw(recording: Recording, path: Path, *, force: bool = False) -> None:
     if shape:
         _draw_lag(axes[3], recording)
     axes[-1].set(xlabel="time, s")
-    with writing(path, force=force) as part:
-        figure.savefig(part, dpi=120, format="png")
-    plt.close(figure)
+    try:
+        with writing(path, force=force) as part:
+            figure.savefig(part, dpi=120, format="png")
+    finally:
+        plt.close(figure)
 
 
 def _title(recording: Recording) -> str:

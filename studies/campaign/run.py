@@ -47,9 +47,17 @@ def run_campaign(
 
     def tell() -> None:
         elapsed_s = time.monotonic() - began_s
-        left_s = elapsed_s * (cases - done) / done if done else None
+        left_s = elapsed_s * (cases - done) / done if done else 0.0
         stage = f"{results.campaign.kind.value} cases ({failed} failed)"
-        progress(Progress(stage=stage, done=done, tasks=cases, elapsed_s=elapsed_s, left_s=left_s))
+        progress(
+            Progress(
+                stage=stage,
+                done=done,
+                tasks=cases,
+                elapsed_s=elapsed_s,
+                left_s=(left_s, left_s) if done else None,
+            )
+        )
 
     tell()
     for piece, rows in engine(job_of(results.campaign), missing):

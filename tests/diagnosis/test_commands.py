@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 from analytic_log import change_trial, write_log
 
+from diagnosis.in_sigma import over_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.report import write
@@ -59,7 +60,7 @@ def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch
     assert re.search(r"coulomb_friction\s+│ level\s+│ 0\.001", said)
     told = dry.found.assessment
     before, after = (parts.signal["tip_angle_deg"] for parts in (told.breakdown, told.breakdown_after))
-    assert re.search(rf"tip_angle_deg\s+│ {before:.2f}\s+│ {after:.2f}", said)
+    assert re.search(rf"tip_angle_deg\s+│ {over_sigma(before)}\s+│ {over_sigma(after)}", said)
     assert largest_parts(dry.found) in said
 
 

@@ -6,12 +6,12 @@ from diagnosis_fixtures import log_of
 from diagnosis import pipeline
 from diagnosis.assessment.assess import TO_ITS_END
 from diagnosis.pipeline import diagnose
-from diagnosis.progress import in_words
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sentences import headline
 from diagnosis.selection.record import Decision
 from diagnosis.selection.verdict import VerdictKind
+from diagnosis.stages import in_words
 from diagnosis.stopping import StoppedEarly, StopReason, StopSignal
 
 DRY = RigParameters(kinetic_n_mm_per_mm=0.001)

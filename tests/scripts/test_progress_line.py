@@ -11,7 +11,7 @@ from scripts import progress_line as module
 from scripts.progress_line import by_share, counted, in_one_line, progress_line, within
 
 
-def news(stage="fitting pairs", elapsed_s=1.0, done=3, tasks=20, left_s=15.4):
+def news(stage="fitting pairs", elapsed_s=1.0, done=3, tasks=20, left_s=(15.4, 15.4)):
     return Progress(stage=stage, done=done, tasks=tasks, elapsed_s=elapsed_s, left_s=left_s)
 
 
@@ -33,6 +33,11 @@ def test_a_line_has_the_stage_its_tasks_and_an_estimate_that_is_called_one():
     [
         ({"tasks": 1, "done": 0}, "fitting pairs; about 15 s left"),
         ({"left_s": None}, "fitting pairs, 3 of 20"),
+        ({"left_s": (5.2, 63.8)}, "fitting pairs, 3 of 20; 5 to 64 s left"),
+        ({"left_s": (10.4, 128.0)}, "fitting pairs, 3 of 20; 10 to 130 s left"),
+        ({"left_s": (10.0, 11.9)}, "fitting pairs, 3 of 20; about 12 s left"),
+        ({"left_s": (0.2, 9.0)}, "fitting pairs, 3 of 20; at most 9 s left"),
+        ({"left_s": (0.0, 0.0)}, "fitting pairs, 3 of 20; about 0 s left"),
     ],
 )
 def test_a_line_tells_nothing_that_is_not_known(told, line):
@@ -88,7 +93,7 @@ def test_shares_of_the_whole_give_the_time_that_is_left(at):
     heard("drawing", 0.75)
     assert [(one.stage, one.elapsed_s, one.left_s) for one in told] == [
         ("simulating", 0.0, None),
-        ("drawing", 30.0, pytest.approx(10.0)),
+        ("drawing", 30.0, pytest.approx((10.0, 10.0))),
     ]
 
 
@@ -106,6 +111,6 @@ def test_counted_items_are_tasks_of_one_stage(at):
     assert list(counted("ab", 2, "making logs", told.append)) == ["a", "b"]
     assert [(one.done, one.tasks, one.left_s) for one in told] == [
         (0, 2, None),
-        (1, 2, 2.0),
-        (2, 2, 0.0),
+        (1, 2, (2.0, 2.0)),
+        (2, 2, (0.0, 0.0)),
     ]

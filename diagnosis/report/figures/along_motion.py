@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from diagnosis.criteria import TURNING_DEG_S
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
 from diagnosis.report.sentences import label_of
 from diagnosis.residuals.along_motion import BASE_ANGLE, RATE, SINCE_REVERSAL, Coordinate, part_means
@@ -70,7 +71,8 @@ def _largest(
     if not before or not after:
         return ""
     place, value = max(before, key=lambda part: part[1])
-    return f"{words} {place:.3g} {unit}: {value:.2f}, {best} at most {max(v for _, v in after):.2f}"
+    left = over_sigma(max(v for _, v in after))
+    return f"{words} {place:.3g} {unit}: {over_sigma(value)}, {best} at most {left}"
 
 
 def _draw_by_angle(

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.style import HATCHES, PREDICTIONS, WIDE
 from diagnosis.report.sentences import label_of
 from diagnosis.result import Diagnosis
@@ -35,8 +36,8 @@ def describe_breakdown(found: Diagnosis) -> str:
     best = label_of(found, "explained")
     parts = [(k, v, after.signal[k]) for k, v in before.signal.items()]
     parts += [(k, v, after.phase[k]) for k, v in before.phase.items()]
-    told = "; ".join(f"{name} {nominal:.2f} and {left:.2f}" for name, nominal, left in parts)
-    return f"Bars of residual / σ, nominal and {best}: {told}. 1 is the noise floor."
+    each = [f"{name} {over_sigma(nominal)} and {over_sigma(left)}" for name, nominal, left in parts]
+    return f"Bars of residual / σ, nominal and {best}: {'; '.join(each)}. 1 is the noise floor."
 
 
 def _bars(axis: Axes, names: Sequence[str], values: Sequence[Sequence[float]], title: str) -> None:

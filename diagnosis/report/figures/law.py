@@ -1,33 +1,41 @@
 """A free-form law as a curve with its 95 % band."""
 
+import math
 from textwrap import fill
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
-from diagnosis.freeform.in_words import VARIABLES, course_of
+from diagnosis.freeform.in_words import VARIABLES, course_of, repeating
 from diagnosis.freeform.missing import Law
 from diagnosis.report.figures.style import PREDICTIONS
+
+Array = NDArray[np.float64]
 
 _SIZE = (4.4, 3.0)  # inches: on a phone hardly smaller, so that its letters are read
 _LETTERS = 60  # in a line of the title
 _DECADES = 30.0  # between the lowest and the highest x of a logarithmic axis, at least
 
 
-def draw_law(law: Law) -> Figure:
-    """The curve; of a law of two directions, a bar for each."""
+def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
+    """The curve; of a law of two directions, a bar for each.
+
+    Args:
+      period_deg: after which the law repeats itself; it is drawn over one period; 0: it does not.
+    """
     figure, axis = plt.subplots(figsize=_SIZE, layout="constrained")
-    x, y = np.array(law.x), np.array(law.y)
-    off = np.abs(np.array([y - law.low, law.high - y]))
+    x, y, below, above = _over_a_period(law, period_deg)
+    off = np.abs(np.array([y - below, above - y]))
     colour = PREDICTIONS["explained"]
     if law.variable == "direction":
         axis.bar(["backwards", "forwards"], y, yerr=off, color=colour, alpha=0.6, capsize=6)
         axis.axhline(0.0, color="k", lw=0.8)
     else:
-        axis.fill_between(x, law.low, law.high, color=colour, alpha=0.2, lw=0, label="95 % band")
+        axis.fill_between(x, below, above, color=colour, alpha=0.2, lw=0, label="95 % band")
         axis.plot(x, y, color=colour, marker="o", ms=4, label="free-form law")
-        axis.set_xlabel(f"{VARIABLES[law.variable]}, {law.x_unit}".removesuffix(", -"))
+        axis.set_xlabel(_label(law, period_deg))
         axis.legend(fontsize=8)
         if x[0] > 0 and x[-1] > _DECADES * x[0]:
             axis.set_xscale("log")
@@ -38,6 +46,20 @@ def draw_law(law: Law) -> Figure:
     return figure
 
 
-def describe_law(law: Law) -> str:
+def _over_a_period(law: Law, period_deg: float) -> Array:
+    """x, y and both ends of the band, (4, K); a period ends as it begins."""
+    points = np.array([law.x, law.y, law.low, law.high])
+    first, last = points[0, 0], points[0, -1]
+    if not period_deg or math.isclose(last - first, period_deg):
+        return points
+    return np.column_stack([points, points[:, 0] + [period_deg, 0.0, 0.0, 0.0]])
+
+
+def _label(law: Law, period_deg: float) -> str:
+    variable = f"{VARIABLES[law.variable]}, {law.x_unit}".removesuffix(", -")
+    return f"{variable}\n(repeats every {period_deg:.4g} deg)" if period_deg else variable
+
+
+def describe_law(law: Law, period_deg: float = 0.0) -> str:
     """The picture in words."""
-    return f"Free-form law with its 95 % band: {course_of(law)}."
+    return f"Free-form law with its 95 % band: {course_of(law)}{repeating(period_deg)}."

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import Prediction
 from diagnosis.report.figures.style import (
@@ -66,7 +67,7 @@ def describe_trial(found: Diagnosis, i: int) -> str:
     """The picture in words."""
     left = _residuals(found, i)
     told = "; ".join(
-        f"{LABELS[sensor].split(',')[0]} {rms([own]):.2f} σ, then {rms([after]):.2f} σ"
+        f"{LABELS[sensor].split(',')[0]} {in_sigma(rms([own]))}, then {in_sigma(rms([after]))}"
         for (sensor, own), after in zip(
             left["nominal"].left.items(), left["explained"].left.values(), strict=True
         )

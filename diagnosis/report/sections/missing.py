@@ -2,8 +2,9 @@
 
 import math
 
-from diagnosis.freeform.in_words import PLACES, VARIABLES
+from diagnosis.freeform.in_words import PLACES, VARIABLES, period_deg
 from diagnosis.freeform.missing import Dependence, Missing
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.law import describe_law, draw_law
@@ -33,11 +34,9 @@ def missing_section(found: Diagnosis) -> list[str]:
     missing = found.missing
     if missing is None:
         return []
-    law = missing.law
-    picture = [html.paragraph(_LAW), drawn(draw_law, describe_law, law)] if law else []
     return [
         html.heading("What is missing"),
-        *picture,
+        *_law(missing),
         html.heading("Where it acts", level=3),
         html.paragraph(_PLACES),
         _place_table(missing),
@@ -45,6 +44,13 @@ def missing_section(found: Diagnosis) -> list[str]:
         html.paragraph(_GAPS),
         _variable_table(missing),
     ]
+
+
+def _law(missing: Missing) -> list[str]:
+    if missing.law is None:
+        return []
+    picture = drawn(draw_law, describe_law, missing.law, period_deg(missing))
+    return [html.paragraph(_LAW), picture]
 
 
 def _place_table(missing: Missing) -> str:
@@ -68,4 +74,4 @@ def _fitted_to(one: Dependence) -> str:
 
 def _gap(gap_sigma: float) -> str:
     """Infinite where an unseen trial could not be simulated with what the others say."""
-    return f"{gap_sigma:.2f}" if math.isfinite(gap_sigma) else "not simulated"
+    return over_sigma(gap_sigma) if math.isfinite(gap_sigma) else "not simulated"

@@ -2,13 +2,23 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import turns
-from free_forms import LAW, VOCABULARY, covered, free_fit, missing_with
+from free_forms import LAW, VOCABULARY, covered, free_fit, linear_fit, missing_with
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
-from diagnosis.freeform.in_words import DOUBT, PLACES, VARIABLES, course_of, what_is_missing
+from diagnosis.freeform.in_words import (
+    DOUBT,
+    PLACES,
+    VARIABLES,
+    course_of,
+    period_deg,
+    repeating,
+    what_is_missing,
+)
+from diagnosis.freeform.search import FreeFit
 
 
 def test_every_place_and_variable_has_words():
@@ -68,6 +78,35 @@ def test_gaps_of_the_decimated_log_are_not_told_beside_those_of_the_log_itself()
 def seen_fit():
     """A fit that was checked on unseen trials."""
     return replace(free_fit(1.03, says="rate"), held_out=(LAW.x,))
+
+
+def test_only_a_law_of_a_periodic_family_repeats_itself():
+    """The curve over a turn, waves in the tissue, and curves over the range of the log."""
+    angle = turns()
+    seen = (0.9 * angle, 0.02 * angle)
+    families = families_of(covered(angle, tip=angle, torque=0.01 * angle, seen=seen))
+    found = {
+        family.name: period_deg(missing_with(best=fit_of(family)))
+        for family in families
+        if family.says in ("tip_angle", "rate", "base_angle")
+    }
+    assert found["tip reading over tip_angle, every 360 deg"] == pytest.approx(360.0)
+    assert found["tip torque over tip_angle"] == pytest.approx(360.0)
+    assert found["tip reading over tip_angle"] == 0.0
+    assert {round(period) for name, period in found.items() if "rate" in name} == {0}
+
+
+def test_that_a_law_repeats_is_said():
+    assert repeating(60.0) == ", and repeats every 60 deg"
+    assert repeating(0.0) == ""
+
+
+def fit_of(family):
+    """A fit of a family, with every coordinate a tenth of its scale."""
+    names = family.effect.parameters
+    x = [0.1 * p.scale for p in names]
+    fit = linear_fit(family, [np.eye(len(names))], [np.zeros(len(names))], x)
+    return FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
 
 
 def test_effects_beside_a_law_are_named():

@@ -24,3 +24,4 @@ def test_a_picture_that_exists_is_kept(tmp_path):
     (tmp_path / "preview.png").write_text("mine")
     with pytest.raises(OutputExists):
         write_preview(drafted(read_lab_files([write_csv(tmp_path)])), tmp_path / "preview.png")
+    assert plt.get_fignums() == []

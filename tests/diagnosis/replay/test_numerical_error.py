@@ -49,4 +49,4 @@ def test_the_error_is_the_root_mean_square_over_all_trials():
 
 def test_a_sensor_that_the_replay_is_too_coarse_for_is_named():
     (warning,) = numerical_warnings({"tip_angle_deg": 0.3, "base_torque_n_mm": 0.1})
-    assert warning.startswith("tip_angle_deg: the numerical error of the replay is 0.30 sigma")
+    assert warning.startswith("tip_angle_deg: the numerical error of the replay is 0.300 σ")

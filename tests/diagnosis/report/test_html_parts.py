@@ -24,12 +24,18 @@ SAFE = "a &lt; b &amp; &lt;script&gt;"
         html.bullets([TEXT]),
         html.table((TEXT,), [(TEXT,)], TEXT),
         html.contents([TEXT]),
+        html.folded(TEXT, ""),
         html.document(TEXT, []),
     ],
 )
 def test_text_is_escaped(part):
     assert SAFE in part
     assert "<script>" not in part
+
+
+def test_folded_content_stays_as_it_is_and_may_be_open():
+    assert html.folded("Pairs", "<p>a</p>") == "<details><summary>Pairs</summary><p>a</p></details>"
+    assert html.folded("Pairs", "", unfolded=True).startswith("<details open>")
 
 
 def test_a_heading_has_its_level_and_can_be_linked_to():

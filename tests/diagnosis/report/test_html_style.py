@@ -56,6 +56,10 @@ def test_what_is_wide_scrolls_within_itself_and_no_picture_is_split_on_paper():
     assert "p:has(+figure){break-after:avoid}" in media("print")  # nor parted from what explains it
 
 
+def test_paper_shows_what_is_folded():
+    assert "details::details-content{content-visibility:visible" in media("print")
+
+
 def test_nothing_comes_from_elsewhere():
     assert "url(" not in STYLE
     assert "@import" not in STYLE

@@ -26,4 +26,4 @@ def test_each_imperfection_is_told_with_its_value(dry):
 
 def test_a_drift_is_told_with_its_range(dry):
     found = having(dry.found, torque_drift_sigma=2.345)
-    assert "drift of the torque sensor, by up to 2.3 σ within a trial" in imperfections(found)
+    assert "drift of the torque sensor, by up to 2.35 σ within a trial" in imperfections(found)

@@ -7,6 +7,7 @@ import pytest
 from free_forms import missing_with
 
 from diagnosis.assessment.advice import advise
+from diagnosis.in_sigma import in_sigma
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
     alike,
@@ -39,7 +40,7 @@ def test_what_explains_the_gap_is_the_headline(dry):
     gap = dry.found.assessment.gap
     expected = (
         "Dry (Coulomb) friction along the shaft explains the gap: residual "
-        f"{gap.before:.2f} σ → {gap.after:.2f} σ (σ = sensor noise)"
+        f"{in_sigma(gap.before)} → {in_sigma(gap.after)} (σ = sensor noise)"
     )
     assert headline(dry.found) == expected
 
@@ -49,7 +50,7 @@ def test_where_another_form_of_the_law_leaves_less_the_headline_says_which(dry):
         dry.found, kind=VerdictKind.UNKNOWN, effects=(), other_form="friction that wears off"
     )
     said = headline(unknown)
-    assert said.startswith(f"Unknown: residual {dry.found.assessment.gap.before:.2f} σ. ")
+    assert said.startswith(f"Unknown: residual {in_sigma(dry.found.assessment.gap.before)}. ")
     assert said.endswith("σ (σ = sensor noise), but friction that wears off leaves clearly less")
 
 
@@ -162,7 +163,7 @@ def test_one_trial_is_not_called_held_out(dry):
 def test_the_reduction_is_told_with_its_interval(dry):
     gap = dry.found.assessment.gap
     said = reduction(dry.found)
-    assert f"from {gap.before:.2f} σ to {gap.after:.3f} σ" in said
+    assert f"from {in_sigma(gap.before)} to {in_sigma(gap.after)}" in said
     assert f"{100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %" in said
 
 
@@ -201,7 +202,7 @@ def test_an_unknown_log_is_told_with_the_gap_of_the_nearest_not_of_the_law(dry):
     told = replace(dry.found.assessment, gap=replace(dry.found.assessment.gap, after=0.5))
     found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), assessment=told)
     near = found.assessment.nearest.gap_after
-    assert f"at best {near:.2f} σ" in headline(replace(found, missing=missing_with()))
+    assert f"at best {in_sigma(near)}" in headline(replace(found, missing=missing_with()))
 
 
 def test_an_unknown_log_that_nothing_comes_nearer_to_has_no_best(dry):
@@ -242,7 +243,8 @@ def test_noise_and_numerical_error_are_told_by_sensor(dry):
 def test_the_largest_residual_is_told_with_where_it_is(dry):
     stretch, value = dry.found.assessment.breakdown.worst
     assert (
-        largest_residual(dry.found) == f"Largest residual of the nominal model: {value:.2f} σ, {stretch}"
+        largest_residual(dry.found)
+        == f"Largest residual of the nominal model: {in_sigma(value)}, {stretch}"
     )
 
 
@@ -255,8 +257,8 @@ def test_table_sentence_and_advice_name_the_same_parts_with_the_same_numbers(dry
     for parts in (told.breakdown, told.breakdown_after):
         signal = max(parts.signal, key=parts.signal.get)
         phase = max(parts.phase, key=parts.phase.get)
-        assert f"largest in {signal} ({parts.signal[signal]:.2f} σ) and" in parts.largest
-        assert parts.largest.endswith(f"({parts.phase[phase]:.2f} σ)")
+        assert f"largest in {signal} ({in_sigma(parts.signal[signal])}) and" in parts.largest
+        assert parts.largest.endswith(f"({in_sigma(parts.phase[phase])})")
         assert parts.largest in advice
         assert parts.largest in largest_parts(dry.found)
 

@@ -58,17 +58,17 @@ def test_a_pair_is_one_row_at_its_probability_and_what_rounds_to_nothing_is_none
     assert rows == [["tip_drag + torque_bias", "0.900"], ["none", "0.100"]]
 
 
-def test_every_decision_of_the_search_is_a_row():
+def test_every_decision_of_a_stage_is_a_row():
     record = (
-        *kept("nominal rig", [scored([], 12.34)], "as rig.yaml says"),
+        *kept("pairs", [scored([], 12.34)], "as rig.yaml says"),
         *not_fitted("pairs", [("tip_drag", "stiction")], "promises too little"),
         *failed("pairs", [Failure(effects=("stiction",), reason="a < b")]),
-        *dropped("finalists", [scored(["tip_drag"], 20.0)], "others are better"),
+        *dropped("pairs", [scored(["tip_drag"], 20.0)], "others are better"),
     )
-    rows = cells(search_table(record))[1:]
-    assert rows[0] == ["nominal rig", "nominal rig", "kept", "1.000", "12", "as rig.yaml says"]
-    assert rows[1] == ["pairs", "tip_drag + stiction", "dropped", "", "", "promises too little"]
-    assert rows[2][2:] == ["failed", "", "", "a &lt; b"]
+    rows = cells(search_table("pairs", record))[1:]
+    assert rows[0] == ["nominal rig", "kept", "1.00", "12", "as rig.yaml says"]
+    assert rows[1] == ["tip_drag + stiction", "dropped", "", "", "promises too little"]
+    assert rows[2][1:] == ["failed", "", "", "a &lt; b"]
     assert len(rows) == 4
 
 
@@ -76,8 +76,8 @@ def test_what_was_not_fitted_for_one_reason_is_one_row_and_every_fit_has_its_own
     few = not_fitted("pairs", [("tip_drag",), ("stiction",), ()], "promises too little")
     other = not_fitted("pairs", [("torque_bias",)], "another reason")
     fits = dropped("pairs", [scored(["tip_drag"], 20.0), scored(["stiction"], 21.0)], "far")
-    rows = cells(search_table((*few, *other, *fits)))[1:]
-    assert [row[1] for row in rows] == [
+    rows = cells(search_table("pairs", (*few, *other, *fits)))[1:]
+    assert [row[0] for row in rows] == [
         "tip_drag, stiction, nominal rig",
         "torque_bias",
         "tip_drag",
@@ -88,7 +88,7 @@ def test_what_was_not_fitted_for_one_reason_is_one_row_and_every_fit_has_its_own
 def test_of_many_sets_the_first_are_named_and_the_others_counted_single_effects_all():
     names = [f"effect_{i}" for i in range(20)]
     sets = not_fitted("pairs", [("tip_drag", name) for name in names], "promises too little")
-    alone = not_fitted("single effects", [(name,) for name in names], "promises too little")
-    of_sets, of_single = cells(search_table((*sets, *alone)))[1:]
-    assert of_sets[1].endswith("tip_drag + effect_7 and 12 more")
-    assert of_single[1] == ", ".join(names)
+    alone = not_fitted("pairs", [(name,) for name in names], "screening promises too little")
+    of_sets, of_single = cells(search_table("pairs", (*sets, *alone)))[1:]
+    assert of_sets[0].endswith("tip_drag + effect_7 and 12 more")
+    assert of_single[0] == ", ".join(names)

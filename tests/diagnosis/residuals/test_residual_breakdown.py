@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 
+from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.replay.replay import Prediction
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
@@ -60,7 +61,7 @@ def test_the_words_name_the_largest_signal_and_phase_of_the_numbers(found):
     tip, reversal = found.signal["tip_angle_deg"], found.phase["reversal"]
     assert tip == max(found.signal.values())
     assert reversal == max(found.phase.values())
-    expected = f"largest in tip_angle_deg ({tip:.2f} σ) and after a reversal ({reversal:.2f} σ)"
+    expected = f"largest in tip_angle_deg ({in_sigma(tip)}) and after a reversal ({in_sigma(reversal)})"
     assert found.largest == expected
     held = parts({"base_torque_n_mm": 3.0, "tip_angle_deg": 2.0}, {"turning": 1.0, "holding": 4.0})
     assert held.largest == "largest in base_torque_n_mm (3.00 σ) and while holding (4.00 σ)"

@@ -57,30 +57,38 @@ def test_names_have_no_rank(campaign_file, tmp_path):
     assert numeric_varied(results, rows) == ["free_mm"]
 
 
-def drawn(results, rows, monkeypatch):
-    figures = []
-    monkeypatch.setattr(plt, "close", figures.append)
-    summary.draw(results, rows, results.folder / "summary.png")
-    return figures[0]
+@pytest.fixture
+def drawn(results):
+    """The figure of a summary, closed after the test."""
+
+    def draw(rows, results=results):
+        with pytest.MonkeyPatch.context() as patch:
+            figures = []
+            patch.setattr(plt, "close", figures.append)
+            summary.draw(results, rows, results.folder / "summary.png")
+        return figures[0]
+
+    yield draw
+    plt.close("all")
 
 
-def test_the_picture_has_a_panel_for_each_result_that_differs(results, monkeypatch):
-    panels = drawn(results, table(), monkeypatch).axes
+def test_the_picture_has_a_panel_for_each_result_that_differs(drawn):
+    panels = drawn(table()).axes
     assert [p.get_ylabel() for p in panels[::2]] == ["largest_lag_deg"] or len(panels) == 2
     np.testing.assert_array_equal(panels[0].lines[0].get_ydata(), np.linspace(0, 10, 11) ** 2)
 
 
-def test_names_are_literal_text(campaign_file, tmp_path, monkeypatch):
+def test_names_are_literal_text(campaign_file, tmp_path, drawn):
     path = campaign_file(name="$\\frac{a$ $", vary={"inserted_mm": {"uniform": [80, 120]}})
     results = ResultFolder(folder=tmp_path, campaign=read_campaign(path))
-    title = drawn(results, table(), monkeypatch).get_suptitle()
+    title = drawn(table(), results).get_suptitle()
     assert title == "$\\frac{a$ $: 11 cases, 0 failed"
 
 
-def test_few_values_are_joined_by_their_medians(results, monkeypatch):
+def test_few_values_are_joined_by_their_medians(drawn):
     rows = table()
     rows["inserted_mm"] = [80.0, 100.0] * 5 + [120.0]
-    line = drawn(results, rows, monkeypatch).axes[0].lines[1]
+    line = drawn(rows).axes[0].lines[1]
     np.testing.assert_array_equal(line.get_xdata(), [80, 100, 120])
     assert line.get_ydata()[0] == 16.0  # of 0, 4, 16, 36, 64
 

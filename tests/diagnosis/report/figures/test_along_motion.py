@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+from diagnosis.in_sigma import over_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
 
@@ -53,8 +54,9 @@ def test_dry_friction_that_the_nominal_model_lacks_has_the_sign_of_the_motion(dr
 def test_words_say_where_the_residual_is_largest(dry):
     told = dry.found.assessment
     since, value = max(told.shape.since_reversal_s, key=lambda part: part[1])
-    assert f"after a reversal, at {since:.3g} s: {value:.2f}, explained" in describe_along_motion(
-        dry.found
+    assert (
+        f"after a reversal, at {since:.3g} s: {over_sigma(value)}, explained"
+        in describe_along_motion(dry.found)
     )
 
 

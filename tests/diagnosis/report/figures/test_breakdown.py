@@ -3,6 +3,7 @@
 import matplotlib.pyplot as plt
 import pytest
 
+from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
 
 
@@ -40,4 +41,4 @@ def test_words_have_the_numbers_of_the_bars(dry):
     told = dry.found.assessment
     said = describe_breakdown(dry.found)
     before, after = told.breakdown.signal["tip_angle_deg"], told.breakdown_after.signal["tip_angle_deg"]
-    assert f"tip_angle_deg {before:.2f} and {after:.2f}" in said
+    assert f"tip_angle_deg {over_sigma(before)} and {over_sigma(after)}" in said

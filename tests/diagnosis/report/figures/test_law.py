@@ -61,6 +61,20 @@ def test_a_law_of_two_directions_is_a_bar_for_each_with_its_interval():
     np.testing.assert_allclose(ends, [[0.08, 0.12], [0.17, 0.21]])
 
 
+def test_a_law_that_repeats_is_drawn_over_one_period_and_says_so():
+    wave = replace(LAW, variable="tip_angle", x=(0.0, 40.0, 80.0), x_unit="deg")
+    axis = draw_law(wave, 120.0).axes[0]
+    np.testing.assert_allclose(axis.lines[0].get_xydata()[[0, -1]], [[0.0, 0.001], [120.0, 0.001]])
+    assert axis.get_xlabel() == "the angle of the tip, deg\n(repeats every 120 deg)"
+    assert describe_law(wave, 120.0).endswith(", and repeats every 120 deg.")
+
+
+def test_a_period_that_is_whole_is_drawn_as_it_is():
+    turn = replace(LAW, variable="tip_angle", x=(-180.0, 0.0, 180.0), x_unit="deg")
+    (line,) = draw_law(turn, 360.0).axes[0].lines
+    np.testing.assert_allclose(line.get_xdata(), turn.x)
+
+
 def test_the_picture_is_told_in_words():
     said = describe_law(WAYS)
     assert said == (

@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.report.figures.trials import describe_trial, draw_trial
 
@@ -52,7 +53,7 @@ def test_words_name_the_trial_and_its_residuals(dry):
     left = (trial["tip_angle_deg"] - dry.found.nominal[1]["tip_angle_deg"]) / dry.found.noise[
         "tip_angle_deg"
     ]
-    assert f"tip {np.sqrt(np.mean(left**2)):.2f} σ, then " in said
+    assert f"tip {in_sigma(np.sqrt(np.mean(left**2)))}, then " in said
 
 
 def test_a_sensor_that_read_nothing_is_a_prediction_alone(dry):

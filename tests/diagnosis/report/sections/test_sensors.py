@@ -16,4 +16,4 @@ def test_noise_and_numerical_error_are_told_of_each_sensor(dry):
 def test_what_had_to_be_allowed_for_is_told(dry):
     told = replace(dry.found.assessment, torque_drift_sigma=2.0)
     found = replace(dry.found, assessment=told)
-    assert "a drift of the torque sensor, by up to 2.0 σ" in sensors_section(found)[1]
+    assert "a drift of the torque sensor, by up to 2.00 σ" in sensors_section(found)[1]

@@ -1,0 +1,95 @@
+"""The stages of a diagnosis, in their order: in words, and what they usually take."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Log(StrEnum):
+    """What the tasks of a stage replay, on which their time depends."""
+
+    DECIMATED = "decimated log"
+    WHOLE = "whole log"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Usual:
+    """A stage in words, and its usual tasks.
+
+    Attributes:
+      task_s: time of a task, s; only ratios count, as every machine and every log has its own pace.
+      least: tasks where one effect explains the log.
+      most: tasks where nothing does.
+    """
+
+    words: str
+    log: Log = Log.DECIMATED
+    task_s: float = 0.0
+    least: int = 0
+    most: int = 0
+
+
+def _coarse(words: str, task_s: float, least: int, most: int) -> Usual:
+    return Usual(words=words, task_s=task_s, least=least, most=most)
+
+
+def _whole(words: str, task_s: float, least: int, most: int) -> Usual:
+    return Usual(words=words, log=Log.WHOLE, task_s=task_s, least=least, most=most)
+
+
+REPLAYING, CHECKING, ASSESSING = "nominal replay", "held-out trials", "assessment"
+SCREENING_PAIRS, ALIKE, DRIFT = (
+    "screening pairs",
+    "what cannot be told apart",
+    "drift of the torque sensor",
+)
+STAGES = {
+    REPLAYING: _coarse("replaying the nominal rig", 0.0, 1, 1),
+    "nominal rig": _whole("fitting the nominal rig", 0.4, 1, 1),
+    "stiffness or damping alone": _whole("fitting stiffness or damping alone", 0.5, 0, 1),
+    "screening single effects": _coarse("screening single effects", 0.06, 27, 27),
+    "single effects": _coarse("fitting single effects", 0.25, 4, 32),
+    "finalists": _whole("fitting the best single effects to the whole log", 1.0, 1, 2),
+    SCREENING_PAIRS: _coarse("screening pairs", 0.04, 27, 150),
+    "pairs": _coarse("fitting pairs", 0.25, 0, 20),
+    "finalists, pairs": _whole("fitting the best pairs to the whole log", 1.0, 0, 2),
+    "richer effects": _coarse("fitting richer effects of the best", 0.5, 0, 2),
+    "finalists, richer effects": _whole("fitting richer effects to the whole log", 1.0, 0, 1),
+    "screening imperfections of sensors": _coarse("screening imperfections of sensors", 0.03, 0, 6),
+    "imperfections of sensors": _coarse("fitting imperfections of sensors", 0.2, 0, 3),
+    "finalists, imperfections of sensors": _whole(
+        "fitting the best imperfections of sensors to the whole log", 1.0, 0, 2
+    ),
+    "screening three effects": _coarse("screening sets of three effects", 0.05, 0, 96),
+    "three effects": _coarse("fitting sets of three effects", 0.5, 0, 12),
+    "finalists, three effects": _whole("fitting the best sets of three to the whole log", 1.0, 0, 4),
+    "best to its end": _whole("completing the fit of the best", 4.0, 0, 1),
+    "best without each effect": _whole("fitting the best without each of its effects", 1.0, 0, 3),
+    "scatter of the best": _whole("fitting stiffness and damping of the best freely", 10.0, 0, 1),
+    "mesh refinement": _whole("fitting with a finer mesh", 5.0, 0, 0),
+    "finer mesh near the floor": _whole("fitting with a finer mesh", 5.0, 0, 0),
+    "finer mesh": _whole("fitting with a finer mesh", 5.0, 0, 0),
+    DRIFT: _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
+    ALIKE: _coarse("looking for equivalent explanations", 0.03, 24, 24),
+    CHECKING: _coarse("checking on held-out trials", 0.0, 1, 1),
+    "other forms of a law": _whole("comparing with other forms of a law", 1.0, 0, 0),
+    ASSESSING: _coarse("assessing the best explanation", 0.4, 1, 1),
+    "adding another effect": _coarse("adding another effect", 0.03, 24, 24),
+    "detection limits": _coarse("computing detection limits", 0.12, 20, 20),
+    "screening free-form laws": _coarse("screening free-form laws", 0.2, 0, 50),
+    "free-form laws": _coarse("fitting free-form laws", 0.3, 0, 10),
+    "free-form laws beside an effect": _coarse("fitting free-form laws beside an effect", 0.3, 0, 0),
+    "finalists, free-form laws": _whole("fitting the best free-form laws to the whole log", 1.5, 0, 4),
+}
+"""Times and numbers of tasks are rounded from six logs: one without any effect, two with one, one with
+three, two that nothing explains. Only the estimate of the time that is left depends on them."""
+_OF_NO_KNOWN = Usual(words="")
+
+
+def usual(stage: str) -> Usual:
+    """What is usual of a stage; of one that is not known, that it takes no time."""
+    return STAGES.get(stage, _OF_NO_KNOWN)
+
+
+def in_words(stage: str) -> str:
+    """A stage as people say what is done in it."""
+    return usual(stage).words or stage

@@ -1,0 +1,23 @@
+"""Stages in words, and what they usually take."""
+
+import pytest
+
+from diagnosis.selection.stages import mesh_refinement, torque_drift
+from diagnosis.stages import DRIFT, STAGES, in_words, usual
+
+
+def test_a_stage_that_is_not_known_is_told_as_it_is_and_takes_no_time():
+    assert in_words("another stage") == "another stage"
+    assert usual("another stage").task_s == 0.0
+
+
+@pytest.mark.parametrize("module", [mesh_refinement, torque_drift])
+def test_names_are_those_of_the_search(module):
+    assert module.STAGE in STAGES
+    assert torque_drift.STAGE == DRIFT
+
+
+def test_words_are_no_names_and_nothing_takes_less_where_nothing_explains_the_log():
+    for name, stage in STAGES.items():
+        assert stage.words.split()[0].endswith("ing"), name
+        assert 0 <= stage.least <= stage.most, name
