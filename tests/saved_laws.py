@@ -24,6 +24,7 @@ STICKY = FreeLaw(throughout=(Interface(kinetic_n_mm_per_mm=0.001, varies=True),)
 EVERYTHING = replace(
     STICKY,
     tissue_varies=True,
+    stiffness_varies=True,
     asymmetry=-0.2,
     rate_curve=(0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0),
     rate_range_rad_s=(0.1, 2.0),

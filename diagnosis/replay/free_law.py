@@ -131,6 +131,7 @@ class FreeLaw:
     Attributes:
       curves: curves over variables with one value at a time in a trial.
       tissue_varies: whether the torque of the nominal tissue is multiplied by a curve.
+      stiffness_varies: whether its stiffness alone is, if it is elastic.
       asymmetry: asymmetry of the nominal tissue (models.tissue).
       rate_curve: factors of its viscous torque (models.tissue).
       rate_range_rad_s: range of rates that they span.
@@ -145,6 +146,7 @@ class FreeLaw:
 
     curves: tuple[Curve, ...] = ()
     tissue_varies: bool = False
+    stiffness_varies: bool = False
     asymmetry: float = 0.0
     rate_curve: tuple[float, ...] = ()
     rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
@@ -174,6 +176,7 @@ class FreeLaw:
         return FreeLaw(
             curves=tuple(curve.times(strength) for curve in self.curves),
             tissue_varies=self.tissue_varies,
+            stiffness_varies=self.stiffness_varies,
             asymmetry=max(min(self.asymmetry * strength, _MOST_SIDED), -_MOST_SIDED),
             rate_curve=tuple(factor**strength for factor in self.rate_curve),
             rate_range_rad_s=self.rate_range_rad_s,
@@ -208,7 +211,11 @@ class FreeLaw:
         layers = tissue.layers
         if self.along_depth.parts:
             layers = self.along_depth.layers(layers[0].interface)
-        changes: dict[str, Any] = {"varies": self.tissue_varies, "asymmetry": self.asymmetry}
+        changes: dict[str, Any] = {
+            "varies": self.tissue_varies,
+            "stiffness_varies": self.stiffness_varies,
+            "asymmetry": self.asymmetry,
+        }
         if self.rate_curve:
             changes |= {"rate_curve": self.rate_curve, "rate_range_rad_s": self.rate_range_rad_s}
         shaped = tuple(layer.but(interface=layer.interface.but(**changes)) for layer in layers)

@@ -69,7 +69,7 @@ def _elastic(
 
 
 def _law_over(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
-    return FreeLaw(tissue_varies=True, curves=(tissue_curve(variable, curve, c),))
+    return FreeLaw(stiffness_varies=True, curves=(tissue_curve(variable, curve, c),))
 
 
 def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
