@@ -25,6 +25,7 @@ from diagnosis.freeform.search import FreeFit
 Array = NDArray[np.float64]
 
 PATIENCE, FREEDOM = 0.1, 4.0
+COMPANION = 4.0  # parameters that an effect of the library beside a law counts for: two things missing
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
 
@@ -119,7 +120,7 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
 
 
 def _log_weight(one: FreeFit) -> float:
-    freedom = well_determined(one.family, one.fit) + len(one.beside)
+    freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
     return _log_gap_weight(one.gap_after) - freedom / FREEDOM
 
 
