@@ -138,7 +138,7 @@ class FeedforwardEstimator:
 
 
 def _response(z: Array) -> tuple[Array, Array]:
-    """(e^z - 1)/z and (e^z - 1 - z)/z^2 of z < 0: responses of a pole to a step and a ramp over a sample.
+    """(e^z - 1)/z and (e^z - 1 - z)/z^2, z < 0: responses of a pole to a step and a ramp over a sample.
 
     Their errors are below 1e-10: near 0 the second is a series, elsewhere its rounding is 2e-16 / z.
     """

@@ -473,6 +473,9 @@ CLOSED_GAP = 1.1
 FREE_LAW_GAIN = 0.95
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told. Choices: no verdict rests on them."""
+FAR_GAP = 4.0
+"""Gap on the decimated log above which free-form laws are not fitted to their end on the log itself. Its
+samples are means, so that this is about 2 on the log. A choice: no verdict rests on it."""
 FAR_STEP = 1.5
 """Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and what
 comes nearest, or a free-form law, is fitted to the other trials instead. A choice: no verdict rests on

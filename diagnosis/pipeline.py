@@ -151,7 +151,7 @@ def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchSt
 def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -> Judged:
     """Refuted, where a law that no library holds leaves clearly less than an explanation."""
     verdict = judged.verdict
-    if verdict.kind is not VerdictKind.EXPLAINED:
+    if verdict.kind not in (VerdictKind.EXPLAINED, VerdictKind.UNDECIDED):
         return judged
     best = verdict.best.fit
     form = workers.stop.unless_due(OTHER_FORMS, lambda: other_form(nominal, best, workers))

@@ -52,7 +52,9 @@ class Interface(Record):
     asymmetry: float = Field(default=0.0, gt=-1, lt=1)
     """The torque is 1 + asymmetry times for positive rates, 1 - asymmetry times for negative ones."""
     varies: bool = False
-    """Whether the torque is times the `tissue_factor` of the schedule."""
+    """Whether the torque, and the stiffness, are times the `tissue_factor` of the schedule."""
+    stiffness_varies: bool = False
+    """Whether the stiffness alone is."""
     rate_curve: tuple[Positive, ...] = ()
     """Factors of the viscous torque at `RATE_POINTS` rates, evenly spaced in their logarithm."""
     rate_range_rad_s: tuple[Positive, Positive] = (0.01, 10.0)

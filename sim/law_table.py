@@ -104,7 +104,11 @@ def _interface(law: Interface) -> Array:
     row[memory_map.L_CURVATURE] = law.orientation_n_mm_per_mm * _PER_MM
     row[memory_map.L_PHASE] = law.orientation_phase_deg * units.DEG
     row[memory_map.L_CYCLES] = law.orientation_cycles
-    row[memory_map.L_ASYMMETRY], row[memory_map.L_VARIES] = law.asymmetry, law.varies
+    row[memory_map.L_ASYMMETRY] = law.asymmetry
+    if law.varies:
+        row[memory_map.L_VARIES] = memory_map.TORQUE_VARIES
+    elif law.stiffness_varies:
+        row[memory_map.L_VARIES] = memory_map.STIFFNESS_VARIES
     if law.rate_curve:
         low, high = np.log(law.rate_range_rad_s)
         row[memory_map.L_RATE_LOW] = low

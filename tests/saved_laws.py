@@ -11,6 +11,7 @@ from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.freeform.search import FreeFit
+from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.variables import Variable
 from models.tissue import Interface
@@ -23,10 +24,11 @@ STICKY = FreeLaw(throughout=(Interface(kinetic_n_mm_per_mm=0.001, varies=True),)
 EVERYTHING = replace(
     STICKY,
     tissue_varies=True,
+    stiffness_varies=True,
     asymmetry=-0.2,
     rate_curve=(0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0),
     rate_range_rad_s=(0.1, 2.0),
-    damping_along_depth=(1.0, 2.0),
+    along_depth=AlongDepth(damping=(1.0, 2.0)),
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""

@@ -33,6 +33,6 @@ EFFECT = Effect(
         "model two layers of tissue that meet at {boundary} of the inserted length, the deep one "
         "with {ratio} times the damping of the shallow one"
     ),
-    other_forms=("damping over position",),
+    other_forms=("damping over position", "damping over position, in layers"),
     check="repeat one turn at several depths: the torque per mm changes where a layer begins",
 )

@@ -36,6 +36,7 @@ EFFECT = Effect(
         "let the viscous torque of the model grow with the rate to the power of {exponent}, "
         "nominal at 1 rad/s"
     ),
+    other_forms=("friction over rate",),
     check=(
         "turn at three steady rates: on logarithmic axes the slope of torque over rate is the exponent"
     ),

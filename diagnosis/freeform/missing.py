@@ -6,7 +6,8 @@ Families are weighted by the gap g that they leave on trials that their fits hav
 
 so that a law that leaves 10 % more than another has a seventh of its weight. A likelihood would decide
 more sharply; but no family is the true law, and the best of them may be so by chance. Places that no
-family favours keep a small probability.
+family favours keep a small probability. The library's nearest explanation, which has no place for what
+is missing, counts for all places alike: where it leaves less than every family, none of them is likely.
 """
 
 import math
@@ -24,6 +25,7 @@ from diagnosis.freeform.search import FreeFit
 Array = NDArray[np.float64]
 
 PATIENCE, FREEDOM = 0.1, 4.0
+COMPANION = 4.0  # parameters that an effect of the library beside a law counts for: two things missing
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
 
@@ -95,7 +97,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
     best = ranked[0]
     helps = best.final and best.gap_after < FREE_LAW_GAIN * nearest_gap
     return Missing(
-        place=_places(fits),
+        place=_places(fits, nearest_gap),
         depends_on=_dependences(ranked),
         law=_law(best) if helps else None,
         best=best,
@@ -103,20 +105,27 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
     )
 
 
-def _places(fits: Sequence[FreeFit]) -> dict[Place, float]:
+def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
     """Probabilities of places, each by the best family that may be there."""
     logs = [_log_weight(f) for f in fits]
+    of_library = _log_gap_weight(nearest_gap)
+    best = max(*logs, of_library)
+    everywhere = LEAST_WEIGHT + math.exp(of_library - best)
     most = dict.fromkeys(Place, 0.0)
     for one, log in zip(fits, logs, strict=True):
         for place, share in one.family.places.items():
-            most[place] = max(most[place], share * math.exp(log - max(logs)))
-    weights = {place: LEAST_WEIGHT + weight for place, weight in most.items()}
+            most[place] = max(most[place], share * math.exp(log - best))
+    weights = {place: everywhere + weight for place, weight in most.items()}
     return {place: weight / sum(weights.values()) for place, weight in weights.items()}
 
 
 def _log_weight(one: FreeFit) -> float:
-    freedom = well_determined(one.family, one.fit) + len(one.beside)
-    return -2.0 * math.log(one.gap_after) / PATIENCE - freedom / FREEDOM
+    freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
+    return _log_gap_weight(one.gap_after) - freedom / FREEDOM
+
+
+def _log_gap_weight(gap: float) -> float:
+    return -2.0 * math.log(gap) / PATIENCE
 
 
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:

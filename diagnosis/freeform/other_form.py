@@ -1,12 +1,25 @@
 """Whether a law that explains a log has another form in truth.
 
 Two layers of tissue are an idealisation: damping that changes evenly along the shaft looks much like
-them, and may be left at the noise floor. So an effect may name free-form laws of its kind
+them, and may be left at the noise floor. Evenly elastic tissue and a little drift of the torque sensor
+may look like tissue that is stiffer further in. So an effect may name free-form laws of its kind
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
-clearly less, on the log itself. If it leaves less there too, the effect explains nothing.
+clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
+the law alone leaves about as little as the effect together with others: these were a crutch of it.
+(Stiffness and damping are no crutch: every rig's are off a little, and every fit has them.)
+
+A law that has the parameters of the effect, and a curve besides, starts where the effect is. Then a
+single step shows whether the curve promises anything.
 """
 
-from diagnosis.criteria import SECOND_LEAVES
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import SCATTER, SECOND_LEAVES
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, fit_effects
@@ -20,7 +33,10 @@ from diagnosis.nominal_replay import NominalReplay
 from diagnosis.replay.replay import replay
 from diagnosis.workers import Failure, Task, Workers
 
+Array = NDArray[np.float64]
+
 STAGE = "other forms of a law"
+PROMISING = 0.998  # of the cost, after one step
 _NEARLY_STRAIGHT = (0.5, 0.1)  # priors of a curve's straight part and its rest
 
 
@@ -49,24 +65,78 @@ def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | 
 
 
 def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, family: Family) -> bool:
-    """Whether a family is at the noise floor in place of an effect, and leaves clearly less.
+    """Whether a family in place of an effect is at the noise floor, and leaves clearly less.
 
     Without imperfections and drift of sensors on either side, which may have been a crutch of it.
     """
     plain = tuple(n for n in best.names if n not in IMPERFECTIONS)
-    names = (*(n for n in plain if n != name), family.name)
+    others = tuple(n for n in plain if n != name)
     known = _from(best, plain, coarse)
-    straight = family.with_prior(*_NEARLY_STRAIGHT)  # from far off a fit may end in a local minimum
-    form = _from(known, names, with_family(coarse, straight))
-    form = _from(form, names, with_family(coarse, family))
-    if form.cost > SECOND_LEAVES * known.cost:
-        return False
-    known = _from(known, plain, problem)
-    form = _from(form, names, with_family(problem, family))
-    return form.cost < SECOND_LEAVES * known.cost and floor_of(form.by_trial).small
+    fits = _Comparison(problem=problem, coarse=coarse, known=known, family=family, replaced=name)
+    alone = (*(n for n in others if n in SCATTER), family.name)
+    crutch = len(alone) <= len(others)
+    return (crutch and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
+        (*others, family.name), SECOND_LEAVES
+    )
 
 
-def _from(near: Fit, names: tuple[str, ...], problem: FitProblem) -> Fit:
-    """A fit that starts where another one is."""
-    start = problem.parameterization(names).joined(near.parts)
-    return fit_effects(problem, names, start, most_iterations=ITERATIONS)
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Comparison:
+    """A family in place of an effect of an explanation.
+
+    Attributes:
+      known: the explanation, fitted to the decimated log.
+      replaced: the effect.
+    """
+
+    problem: FitProblem
+    coarse: FitProblem
+    known: Fit
+    family: Family
+    replaced: str
+
+    def leaves(self, names: tuple[str, ...], share: float) -> bool:
+        """Whether a set with the family is at the floor, and leaves at most a share of the cost."""
+        form = self._on_the_decimated_log(names, share * self.known.cost)
+        if form is None or form.cost > share * self.known.cost:
+            return False
+        known = _from(self.known, self.known.names, self.problem)
+        form = _from(form, names, with_family(self.problem, self.family))
+        return form.cost < share * known.cost and floor_of(form.by_trial).small
+
+    def _on_the_decimated_log(self, names: tuple[str, ...], enough: float) -> Fit | None:
+        """A fit from where the explanation is; None: its first step promises nothing."""
+        # From far off a fit may end in a local minimum, so that the first curve is nearly straight.
+        straight = with_family(self.coarse, self.family.with_prior(*_NEARLY_STRAIGHT))
+        own = with_family(self.coarse, self.family)
+        same = _same_parameters(self.known, self.coarse, self.replaced, self.family)
+        if not (same and len(names) == len(self.known.names)):
+            form = _from(self.known, names, straight, same, enough=enough)
+            return _from(form, names, own)
+        form = _from(self.known, names, straight, same, iterations=1)
+        return None if form.cost > PROMISING * self.known.cost else _from(form, names, own)
+
+
+def _same_parameters(known: Fit, problem: FitProblem, name: str, family: Family) -> dict[str, Array]:
+    """The family's part of a vector that is the effect as fitted; empty: it has other parameters."""
+    own = [parameter.name for parameter in problem.library[name].parameters]
+    places = {parameter.name: i for i, parameter in enumerate(family.effect.parameters)}
+    if not set(own) <= set(places):
+        return {}
+    x = np.zeros(len(places))
+    x[[places[each] for each in own]] = known.parts[name]
+    return {family.name: x}
+
+
+def _from(
+    near: Fit,
+    names: tuple[str, ...],
+    problem: FitProblem,
+    parts: Mapping[str, Array] = MappingProxyType({}),
+    *,
+    iterations: int = ITERATIONS,
+    enough: float = np.inf,
+) -> Fit:
+    """A fit that starts where another one is, with other parts of the vector where they are given."""
+    start = problem.parameterization(names).joined({**near.parts, **parts})
+    return fit_effects(problem, names, start, most_iterations=iterations, enough=enough)

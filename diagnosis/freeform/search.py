@@ -1,8 +1,9 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for a few iterations on the decimated log; the best to
-their end there, the strength of their prior estimated, alone and beside the library's effects that came
-nearest; the best of these on the log itself, and checked on trials that the fit has not seen.
+Every family is fitted through the simulation: for a few iterations on the decimated log, the better
+half for a few more; the best to their end there, the strength of their prior estimated, alone and beside
+the library's effects that came nearest; the best of these on the log itself, and checked on trials that
+the fit has not seen. Where all leave far more than noise, fewer go there, and not to their end.
 """
 
 from collections.abc import Callable, Sequence
@@ -12,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP
+from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.problem import FitProblem
@@ -33,8 +34,9 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "free-form laws beside an effect",
     "finalists, free-form laws",
 )
-FIRST_ITERATIONS, ITERATIONS = 4, 10
+FIRST_ITERATIONS, ITERATIONS = 2, 10
 CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
+FAR_ITERATIONS, FAR_FINALISTS = 3, 2
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,14 +81,17 @@ def free_form_fits(
     families = families_of(ranges_of(coarse, nominal))
     base = fit_effects(coarse, ())
     first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
-    near = sorted(first, key=lambda f: f.score)[:CONTENDERS]
+    better, rest = _split(first, len(first) // 2)
+    first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
+    near, _ = _split(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
     if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
         best = sorted(fitted, key=lambda f: f.score)[: CONTENDERS // 2]
         pairs = [(coarse, f, (name,)) for f in best for name in companions[:COMPANIONS]]
         fitted += _each(BESIDE, _to_its_end, pairs, workers)
-    last = _distinct(sorted(fitted, key=lambda f: f.score))[:FINALISTS]
-    finals = _each(FINALS, _on_the_log, [(problem, f) for f in last], workers)
+    far = bool(fitted) and min(f.fit.gap for f in fitted) > FAR_GAP
+    last = _distinct(sorted(fitted, key=lambda f: f.score))[: FAR_FINALISTS if far else FINALISTS]
+    finals = _each(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
     names = {f.family.name for f in finals}
     fitted_names = {f.family.name for f in fitted}
     others = [f for f in (*fitted, *(f for f in first if f.family.name not in fitted_names))]
@@ -113,6 +118,12 @@ def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 
 
+def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
+    own = with_family(coarse, first.family)
+    fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=FIRST_ITERATIONS)
+    return replace(first, fit=fit, gap_after=fit.gap)
+
+
 def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> FreeFit:
     """Fitted twice: the second time with the strength of the prior that the first one speaks for."""
     family, problem = first.family, with_family(coarse, first.family)
@@ -125,10 +136,11 @@ def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> 
     return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
 
 
-def _on_the_log(problem: FitProblem, contender: FreeFit) -> FreeFit:
+def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
     own = with_family(problem, contender.family)
-    fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=ITERATIONS)
+    iterations = FAR_ITERATIONS if far else ITERATIONS
+    fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=iterations)
     if len(problem.log.trials) == 1:
         return replace(contender, fit=fit, gap_after=fit.gap, final=True)
     try:
@@ -150,6 +162,12 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
         spread = free_covariance(fit, without=i)
         squares.append(left**2 / (1.0 + np.sum((slopes @ spread) * slopes, axis=1)))
     return float(np.sqrt(np.mean(np.concatenate(squares))))
+
+
+def _split(fits: Sequence[FreeFit], count: int) -> tuple[list[FreeFit], list[FreeFit]]:
+    """The best of some fits, and the rest."""
+    ranked = sorted(fits, key=lambda f: f.score)
+    return ranked[:count], ranked[count:]
 
 
 def _distinct(ranked: Sequence[FreeFit]) -> list[FreeFit]:

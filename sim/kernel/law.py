@@ -14,7 +14,7 @@ and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
 
 A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
 straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
-and all of it varies in time with a factor that is an input.
+and all of it, or k alone, varies in time with a factor that is an input.
 
 The two-dimensional presliding vector Z is returned to its disc radially: in
 steady sliding it gives level * omega / sqrt(omega^2 + (v/r)^2), and at v = 0 it
@@ -114,7 +114,7 @@ def slip_law(
     if shaped:
         asymmetry = row[memory_map.L_ASYMMETRY]
         factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
-        factor *= stage.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
+        factor *= stage.factor if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES else 1.0
         torque, slope = torque * factor, slope * factor
     return torque, slope, Memory(dry, turn, axial, old.phi)
 

@@ -62,7 +62,7 @@ STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
     L_CYCLES,  # of the curvature's torque in one turn
     L_LOAD,  # dry level over the torque that the shaft carries there
     L_SHAPED,  # 1: one of the following is not neutral
-    L_VARIES,  # 1: its torque is times the input's factor
+    L_VARIES,  # which part of it is times the input's factor; 0: none
     L_ASYMMETRY,  # its torque is times 1 + this where it is positive, 1 - this where negative
     L_RATE_LOW,  # log of the lowest rate of the curve, rad/s
     L_RATE_STEP,  # of the log of the rate between places of the curve; 0: no curve
@@ -76,6 +76,7 @@ STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
     COLUMNS,
 ) = range(33)
 CURVE_POINTS = COLUMNS - L_CURVE_0
+TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffness, too
 
 # --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------
 

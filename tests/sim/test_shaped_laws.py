@@ -70,6 +70,22 @@ def test_the_factor_of_time_scales_tissue_that_varies_and_no_other() -> None:
     assert steady_n_mm(turned(still, factor=1.7)) == pytest.approx(PLAIN_N_MM, rel=1e-6)
 
 
+def test_it_may_scale_the_stiffness_of_yielding_tissue_alone() -> None:
+    """Twice the stiffness at the same time constant; the friction at the shaft stays as it is."""
+
+    def tissue(stiffness: float, **changes: bool) -> Tissue:
+        elastic = {"stiffness_n_mm_per_rad_per_mm": stiffness, "time_constant_s": 0.5}
+        return Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, **elastic, **changes)
+
+    scaled = turned(tissue(0.01, stiffness_varies=True), factor=2.0).base_torque_n_mm
+    stiffer, all_scaled = (
+        turned(tissue(0.02)).base_torque_n_mm,
+        turned(tissue(0.01, varies=True), factor=2.0).base_torque_n_mm,
+    )
+    np.testing.assert_allclose(scaled, stiffer, rtol=0, atol=1e-9)
+    assert np.abs(scaled - all_scaled).max() > 0.1 * np.abs(scaled).max()
+
+
 @pytest.mark.parametrize("rate", [RATE, -RATE])
 def test_asymmetry_is_stronger_one_way(rate: float) -> None:
     tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, asymmetry=0.3)

@@ -16,6 +16,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
@@ -226,4 +227,4 @@ def _parts(curve: SmoothCurve, c: Sequence[float]) -> tuple[float, ...]:
 
 
 def _apply_position(curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(damping_along_depth=_parts(curve, c)))
+    return replace(rig, free=FreeLaw(along_depth=AlongDepth(damping=_parts(curve, c))))

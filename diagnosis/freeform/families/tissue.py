@@ -11,6 +11,7 @@ from diagnosis.freeform.families.interface import FADING, PARTS, tissue_curve
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
@@ -68,11 +69,11 @@ def _elastic(
 
 
 def _law_over(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
-    return FreeLaw(tissue_varies=True, curves=(tissue_curve(variable, curve, c),))
+    return FreeLaw(stiffness_varies=True, curves=(tissue_curve(variable, curve, c),))
 
 
 def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
-    return FreeLaw(stiffness_along_depth=curve.factors(c))
+    return FreeLaw(along_depth=AlongDepth(stiffness=curve.factors(c)))
 
 
 def _stiffness(curve: SmoothCurve, stiffness: float, _: float, *c: float) -> Points:

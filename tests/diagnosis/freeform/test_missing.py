@@ -24,6 +24,12 @@ def fits():
     ]
 
 
+def test_no_place_is_likely_where_the_library_leaves_less_than_every_law():
+    """The best law leaves 1.2 times as much: its place has at most 1.2^-20 = 0.03 more than others."""
+    place = missing_of(fits(), 1.02 / 1.2).place
+    assert max(place.values()) - min(place.values()) < 0.03
+
+
 def test_places_are_probabilities_of_all_six():
     place = missing_of(fits(), 5.0).place
     assert set(place) == set(Place)

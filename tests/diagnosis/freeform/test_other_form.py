@@ -1,5 +1,7 @@
 """An effect explains nothing where a free-form law of its kind leaves clearly less."""
 
+from dataclasses import replace
+
 import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search
 
@@ -9,6 +11,7 @@ from diagnosis.freeform.families import families_of
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
@@ -16,7 +19,16 @@ from diagnosis.selection.screening import screen
 from diagnosis.workers import Workers
 
 LAYERED = RigParameters(layer_ratio=0.2, layer_boundary_fraction=0.5)
-EVENLY = RigParameters(free=FreeLaw(damping_along_depth=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1)))
+EVENLY = RigParameters(free=FreeLaw(along_depth=AlongDepth(damping=(1.9, 1.54, 1.18, 0.82, 0.46, 0.1))))
+
+DRY = RigParameters(kinetic_n_mm_per_mm=0.003)
+DEEPER = RigParameters(
+    free=FreeLaw(
+        along_depth=AlongDepth(
+            friction_n_mm_per_mm=(0.0, 0.0005, 0.001, 0.003, 0.005, 0.008), thickness_mm=26.0
+        )
+    )
+)
 
 DEPTHS_MM = (40.0, 90.0, 160.0)
 
@@ -26,7 +38,9 @@ def fitted(rig, names=("layered_tissue",)):
     trials = [log_of(rig, seed=i, deep_mm=depth) for i, depth in enumerate(DEPTHS_MM)]
     nominal = replay_nominal(joined(*trials))
     problem, base = nominal.problem, nominal.fit
-    return nominal, fit_effects(problem, names, screen(problem, base, names[0])[0].start)
+    first = fit_effects(problem, names[:1], screen(problem, base, names[0])[0].start)
+    start = problem.parameterization(names).joined(first.parts)
+    return nominal, fit_effects(problem, names, start)
 
 
 def form_of(nominal, best):
@@ -41,13 +55,40 @@ def test_two_layers_stand_where_there_are_two():
     assert form_of(*fitted(LAYERED)) is None
 
 
+def test_dry_friction_is_refuted_where_it_grows_with_the_depth():
+    assert (
+        form_of(*fitted(DEEPER, ("coulomb_friction",))).name == "dry friction over position, in layers"
+    )
+
+
+def test_dry_friction_stands_where_it_is_even():
+    assert form_of(*fitted(DRY, ("coulomb_friction",))) is None
+
+
+def test_another_form_alone_refutes_an_effect_with_a_crutch():
+    pair = ("layered_tissue", "torque_bias")
+    assert form_of(*fitted(EVENLY, pair)).name == "damping over position"
+
+
+def test_a_damping_that_is_off_is_no_crutch():
+    """Curves along the depth could take its place."""
+    found = fitted(replace(LAYERED, damping_scale=1.04), ("layered_tissue", "damping_error"))
+    assert form_of(*found) is None
+
+
+def test_two_effects_that_are_there_stand():
+    both = replace(LAYERED, torque_bias_n_mm=0.05)
+    assert form_of(*fitted(both, ("layered_tissue", "torque_bias"))) is None
+
+
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
     monkeypatch.setattr("diagnosis.freeform.other_form.families_of", pytest.fail)
     assert form_of(*fitted(RigParameters(torque_bias_n_mm=0.05), ("torque_bias",))) is None
 
 
 def test_forms_that_effects_name_are_families():
-    coarse = start_of_search(log_of(LAYERED), ()).coarse
+    log = joined(*(log_of(LAYERED, deep_mm=depth) for depth in DEPTHS_MM))
+    coarse = start_of_search(log, ()).coarse
     known = {f.name for f in families_of(ranges_of(coarse, replay(coarse.log)))}
     named = [form for effect in LIBRARY.values() for form in effect.other_forms]
     assert named

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit, one_trial, priors, solved
 
+from diagnosis.criteria import FAR_GAP
 from diagnosis.freeform import search
 from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
 from diagnosis.workers import Workers
@@ -110,7 +111,8 @@ def fitted(monkeypatch):
             "fit_effects": lambda *_, **__: None,
             "_first_fit": lambda _, __, family: made(first, family),
             "_to_its_end": lambda _, one, beside: made(ended, one.family, beside),
-            "_on_the_log": lambda _, one: made(final, one.family, one.beside, final=True),
+            "_some_more": lambda _, one: one,
+            "_on_the_log": lambda _, one, far: made(final, one.family, one.beside, final=True),
         }
         for name, function in given.items():
             monkeypatch.setattr(search, name, function)
@@ -129,6 +131,12 @@ def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itse
     assert sorted(f.family.name for f in found) == sorted(gaps)
     assert all(f.final for f in found[: search.FINALISTS])
     assert len(seen) == 12 + search.CONTENDERS + search.FINALISTS
+
+
+def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):
+    run, _ = fitted
+    gaps = {f"law {i}": FAR_GAP + 0.1 + 0.1 * i for i in range(12)}
+    assert sum(f.final for f in run(gaps, gaps)) == search.FAR_FINALISTS < search.FINALISTS
 
 
 def test_where_one_law_closes_the_gap_no_effect_is_tried_beside_it(fitted):

@@ -49,6 +49,14 @@ def test_two_points_are_a_straight_line():
     np.testing.assert_allclose(line.at(np.array([1.5, 2.0, 2.75])), [6.0, 7.0, 8.5])
 
 
+def test_a_sine_through_five_places_is_a_sine():
+    """The error of a cubic spline is of fourth order in the places: (2 pi / 5)^4 / 384 = 0.6 %."""
+    places = np.arange(5) * 36.0
+    own = curve(places=tuple(places), values=tuple(np.sin(np.radians(2 * places + 20))), period=180.0)
+    x = np.linspace(-300, 300, 400)
+    np.testing.assert_allclose(own.at(x), np.sin(np.radians(2 * x + 20)), rtol=0, atol=0.01)
+
+
 def test_a_periodic_curve_repeats_without_a_jump():
     own = curve(places=(0.0, 30.0, 60.0), values=(1.0, -2.0, 0.5), period=90.0)
     x = np.linspace(-400, 400, 333)
@@ -134,15 +142,6 @@ def test_the_law_is_in_every_layer_and_further_laws_beside():
     assert [layer.interface.asymmetry for layer in found.layers] == [0.3, 0.3]
     assert all(layer.interface.varies for layer in found.layers)
     assert (found.throughout, found.at_tip, law.more_rows) == ((dry,), (dry, dry), 3)
-
-
-def test_damping_along_the_depth_is_in_equal_parts():
-    law = FreeLaw(damping_along_depth=(0.5, 1.0, 1.5))
-    found = law.tissue(Tissue(layers=(Layer(interface=LAYER),)))
-    damping = [layer.interface.viscous_n_mm_s_per_mm for layer in found.layers]
-    assert damping == pytest.approx([0.01, 0.02, 0.03])
-    assert [layer.interface.kinetic_n_mm_per_mm for layer in found.layers] == [0.001] * 3
-    np.testing.assert_allclose(found.boundaries_mm(90.0), [0, 30, 60, 90])
 
 
 def test_a_curve_over_the_rate_is_in_the_tissue():

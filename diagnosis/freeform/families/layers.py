@@ -1,0 +1,147 @@
+"""Free laws of a tissue in layers: what each mm of shaft meets depends on its depth below the surface.
+
+- dry friction that each layer has
+- damping, or the stiffness of elastic tissue, of each layer; only where the inserted length varies: at
+  one length these are laws of the place along the shaft (interface.py, tissue.py)
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import PARTS
+from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.replay.along_depth import AlongDepth
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+
+SAYS = "position"
+_EITHER = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Layers:
+    """Equally thick layers, down to the greatest depth of a log, and a curve over them."""
+
+    curve: SmoothCurve
+    thickness_mm: float
+
+    @property
+    def middles_mm(self) -> tuple[float, ...]:
+        return tuple((i + 0.5) * self.thickness_mm for i in range(PARTS))
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """Families of layers that may be missing."""
+    deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
+    layers = _Layers(curve=smooth_curve(0.0, 1.0, PARTS), thickness_mm=deepest / PARTS)
+    friction = _friction(layers, ranges)
+    if Variable.DEPTH not in ranges.ends:
+        return (friction,)
+    return (friction, _damping(layers, ranges), _elastic(layers, ranges))
+
+
+def _friction(layers: _Layers, ranges: LogRanges) -> Family:
+    level = ranges.library["coulomb_friction"].parameters[0]
+    return Family(
+        effect=Effect(
+            name="dry friction over position, in layers",
+            title="dry friction that changes with the depth below the surface",
+            place=Place.INTERFACE,
+            parameters=(level, *_neutral(layers, level)),
+            apply=partial(_apply_friction, layers),
+            differences=(1e-2,),
+        ),
+        places=_EITHER,
+        says=SAYS,
+        title="dry friction along the shaft",
+        curve=partial(_levels, layers),
+        x_unit="mm below the surface",
+        unit="N mm / mm",
+    )
+
+
+def _levels(layers: _Layers, level: float, *c: float) -> Points:
+    return layers.middles_mm, level * np.array(layers.curve.factors(c))
+
+
+def _apply_friction(layers: _Layers, rig: RigParameters, level: float, *c: float) -> RigParameters:
+    levels = tuple(level * factor for factor in layers.curve.factors(c))
+    return _with(rig, AlongDepth(friction_n_mm_per_mm=levels, thickness_mm=layers.thickness_mm))
+
+
+def _damping(layers: _Layers, ranges: LogRanges) -> Family:
+    return Family(
+        effect=Effect(
+            name="damping over position, in layers",
+            title="damping that changes with the depth below the surface",
+            place=Place.INTERFACE,
+            parameters=coordinates_of(layers.curve),
+            apply=partial(_apply_damping, layers),
+        ),
+        places=_EITHER,
+        says=SAYS,
+        title="damping along the shaft",
+        curve=partial(_dampings, layers, ranges.damping_n_mm_s_per_mm),
+        x_unit="mm below the surface",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _dampings(layers: _Layers, beta: float, *c: float) -> Points:
+    return layers.middles_mm, beta * np.array(layers.curve.factors(c))
+
+
+def _apply_damping(layers: _Layers, rig: RigParameters, *c: float) -> RigParameters:
+    return _with(rig, AlongDepth(damping=layers.curve.factors(c), thickness_mm=layers.thickness_mm))
+
+
+def _elastic(layers: _Layers, ranges: LogRanges) -> Family:
+    elastic = ranges.library["tissue_viscoelasticity"].parameters
+    return Family(
+        effect=Effect(
+            name="elastic tissue over position, in layers",
+            title="elastic tissue that changes with the depth below the surface",
+            place=Place.TISSUE,
+            parameters=(*elastic, *_neutral(layers, elastic[0])),
+            apply=partial(_apply_elastic, layers),
+        ),
+        places={Place.TISSUE: 1.0},
+        says=SAYS,
+        title="stiffness of the tissue",
+        curve=partial(_stiffness, layers),
+        x_unit="mm below the surface",
+        unit="N mm / rad / mm",
+    )
+
+
+def _stiffness(layers: _Layers, stiffness: float, _: float, *c: float) -> Points:
+    return layers.middles_mm, stiffness * np.array(layers.curve.factors(c))
+
+
+def _apply_elastic(
+    layers: _Layers, rig: RigParameters, stiffness: float, time_constant: float, *c: float
+) -> RigParameters:
+    elastic = replace(
+        rig,
+        tissue_stiffness_n_mm_per_rad_per_mm=stiffness,
+        tissue_time_constant_s=time_constant,
+    )
+    along = AlongDepth(stiffness=layers.curve.factors(c), thickness_mm=layers.thickness_mm)
+    return _with(elastic, along)
+
+
+def _with(rig: RigParameters, along: AlongDepth) -> RigParameters:
+    return replace(rig, free=FreeLaw(along_depth=along))
+
+
+def _neutral(layers: _Layers, beside: Parameter) -> Sequence[Parameter]:
+    """Coordinates of the curve, with as many starts as another parameter has, all neutral."""
+    own = coordinates_of(layers.curve)
+    return tuple(replace(p, start=(0.0,) * len(beside.start)) for p in own)

@@ -1,0 +1,76 @@
+"""A law that changes with the depth, as layers of tissue.
+
+The parts are equally thick. They either share the inserted length, and grow with it, or lie at fixed
+depths below the surface, as layers of a real tissue do: a shallow trial then meets only the first.
+"""
+
+from dataclasses import dataclass
+from itertools import zip_longest
+
+from models.errors import InvalidValue
+from models.tissue import Interface, Layer
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlongDepth:
+    """What each part of the depth has, from the surface on; empty: as in the nominal tissue.
+
+    Attributes:
+      damping: factors of the viscous torque.
+      stiffness: factors of the stiffness, if the tissue is elastic.
+      friction_n_mm_per_mm: dry friction in addition to the nominal one.
+      thickness_mm: of each part; the last takes the rest. 0: the parts share the inserted length.
+
+    Raises:
+      InvalidValue: a factor of the damping, or a thickness, is not allowed.
+    """
+
+    damping: tuple[float, ...] = ()
+    stiffness: tuple[float, ...] = ()
+    friction_n_mm_per_mm: tuple[float, ...] = ()
+    thickness_mm: float = 0.0
+
+    def __post_init__(self) -> None:
+        if min(self.damping, default=1.0) <= 0:
+            raise InvalidValue("damping", self.damping, "factors above 0")
+        if min(self.friction_n_mm_per_mm, default=0.0) < 0:
+            expected = "levels of at least 0"
+            raise InvalidValue("friction_n_mm_per_mm", self.friction_n_mm_per_mm, expected)
+        if self.thickness_mm < 0:
+            raise InvalidValue("thickness_mm", self.thickness_mm, "a thickness, or 0")
+
+    @property
+    def parts(self) -> int:
+        """Number of parts; 0: nothing changes with the depth."""
+        return max(len(own) for own in (self.damping, self.stiffness, self.friction_n_mm_per_mm))
+
+    def times(self, strength: float) -> "AlongDepth":
+        """Factors raised to a power, and friction multiplied."""
+        return AlongDepth(
+            damping=tuple(factor**strength for factor in self.damping),
+            stiffness=tuple(factor**strength for factor in self.stiffness),
+            friction_n_mm_per_mm=tuple(strength * level for level in self.friction_n_mm_per_mm),
+            thickness_mm=self.thickness_mm,
+        )
+
+    def layers(self, law: Interface) -> tuple[Layer, ...]:
+        """Layers of tissue, each with the law of the nominal one, changed."""
+        elastic = law.stiffness_n_mm_per_rad_per_mm
+        each = zip_longest(self.damping, self.stiffness, self.friction_n_mm_per_mm)
+        *upper, last = (
+            law.but(
+                viscous_n_mm_s_per_mm=_times(damping, law.viscous_n_mm_s_per_mm),
+                stiffness_n_mm_per_rad_per_mm=None if elastic is None else _times(stiffness, elastic),
+                kinetic_n_mm_per_mm=law.kinetic_n_mm_per_mm + (level or 0.0),
+                static_n_mm_per_mm=law.static_level_n_mm_per_mm + (level or 0.0),
+            )
+            for damping, stiffness, level in each
+        )
+        size = (
+            {"thickness_mm": self.thickness_mm} if self.thickness_mm else {"fraction": 1.0 / self.parts}
+        )
+        return (*(Layer(interface=own, **size) for own in upper), Layer(interface=last))
+
+
+def _times(factor: float | None, nominal: float) -> float:
+    return nominal if factor is None else factor * nominal
