@@ -6,7 +6,7 @@ The shape with the smallest
     chi-square + 2 (parameters)                                        (Akaike 1974)
 
 is named if it lies within the band: a root mean square of at most one half width. If the library has
-a law of that shape, at that place and of that variable, it is named, too.
+a law of that shape, at that place, of that variable and in that unit, it is named, too.
 """
 
 import warnings
@@ -26,18 +26,19 @@ _LEAST_BAND = 0.01  # of the range of a curve: no band is taken to be narrower
 _WITHIN = 1.0  # half widths of the band, root mean square
 _MOST_EVALUATIONS = 4000
 _ANGLES = ("base_angle", "tip_angle")
+_DRY, _VISCOUS = "N mm / mm", "N mm s / rad / mm"  # per mm of shaft
 LIBRARY_LAWS = {
-    (Place.INTERFACE, "rate", "dry and viscous friction"): ("coulomb_friction",),
-    (Place.INTERFACE, "rate", "power law"): ("shear_thinning",),
-    (Place.INTERFACE, "rate", "Stribeck friction"): ("stiction",),
-    (Place.INTERFACE, "position", "step"): ("layered_tissue",),
-    (Place.INTERFACE, "axial_speed", "power law"): ("speed_dependent_friction",),
-    (Place.NEEDLE, "rate", "dry and viscous friction"): ("tip_drag",),
-    (Place.NEEDLE, "tip_angle", "sine wave"): ("needle_curvature",),
-    (Place.SENSOR, "tip_angle", "straight line"): ("tip_angle_scale", "tip_angle_bias"),
-    (Place.SENSOR, "torque", "straight line"): ("torque_scale", "torque_bias"),
+    (Place.INTERFACE, "rate", _DRY, "dry and viscous friction"): ("coulomb_friction",),
+    (Place.INTERFACE, "rate", _DRY, "power law"): ("shear_thinning",),
+    (Place.INTERFACE, "rate", _DRY, "Stribeck friction"): ("stiction",),
+    (Place.INTERFACE, "position", _VISCOUS, "step"): ("layered_tissue",),
+    (Place.INTERFACE, "axial_speed", _DRY, "power law"): ("speed_dependent_friction",),
+    (Place.NEEDLE, "rate", "N mm", "dry and viscous friction"): ("tip_drag",),
+    (Place.NEEDLE, "tip_angle", _DRY, "sine wave"): ("needle_curvature",),
+    (Place.SENSOR, "tip_angle", "deg", "straight line"): ("tip_angle_scale", "tip_angle_bias"),
+    (Place.SENSOR, "torque", "N mm", "straight line"): ("torque_scale", "torque_bias"),
 }
-"""Effects of the library by place, variable and shape."""
+"""Effects of the library by place, variable, unit of the law and shape."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +72,7 @@ def likeness_of(law: Law) -> Likeness | None:
     _, chi_square, shape, values = min(tried, key=lambda one: one[0])
     if chi_square > _WITHIN**2 * x.size:
         return None
-    library = LIBRARY_LAWS.get((law.place, law.variable, shape.name), ())
+    library = LIBRARY_LAWS.get((law.place, law.variable, law.unit, shape.name), ())
     return Likeness(shape=shape.name, says=shape.says.format(*values), library=library)
 
 

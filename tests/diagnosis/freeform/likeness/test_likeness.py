@@ -16,9 +16,10 @@ PLACES = (np.arange(6) + 0.5) / 6
 ANGLES = 30.0 * np.arange(12)
 BAND = 0.03  # half of it, of the range of the curve
 SEEDS = range(10)
+DRY, VISCOUS = "N mm / mm", "N mm s / rad / mm"
 
 
-def curve(x, y, half, *, variable, place=Place.INTERFACE):
+def curve(x, y, half, *, variable, place=Place.INTERFACE, unit="-"):
     """A law by points with a band."""
     low, high = (tuple(y + side * half) for side in (-1, 1))
     return Law(
@@ -26,7 +27,7 @@ def curve(x, y, half, *, variable, place=Place.INTERFACE):
         variable=variable,
         title="friction",
         x_unit="-",
-        unit="-",
+        unit=unit,
         x=tuple(x),
         y=tuple(y),
         low=low,
@@ -126,25 +127,29 @@ def test_two_values_are_no_curve(variable):
 
 
 @pytest.mark.parametrize(
-    ("variable", "place", "law", "x", "effects"),
+    ("variable", "place", "unit", "law", "x", "effects"),
     [
-        ("rate", Place.INTERFACE, lambda x: 1 + 0.5 * x, RATES, ("coulomb_friction",)),
-        ("rate", Place.INTERFACE, lambda x: x**0.5, RATES, ("shear_thinning",)),
-        ("rate", Place.INTERFACE, lambda x: 1 + np.exp(-((x / 0.1) ** 2)), RATES, ("stiction",)),
-        ("rate", Place.DRIVE, lambda x: x**0.5, RATES, ()),
-        ("position", Place.INTERFACE, lambda x: 1 + 1.0 * (x > 0.5), PLACES, ("layered_tissue",)),
-        ("tip_angle", Place.NEEDLE, lambda x: np.sin(np.radians(x)), ANGLES, ("needle_curvature",)),
+        ("rate", Place.INTERFACE, DRY, lambda x: 1 + 0.5 * x, RATES, ("coulomb_friction",)),
+        ("rate", Place.INTERFACE, DRY, lambda x: x**0.5, RATES, ("shear_thinning",)),
+        ("rate", Place.INTERFACE, DRY, lambda x: 1 + np.exp(-((x / 0.1) ** 2)), RATES, ("stiction",)),
+        ("rate", Place.DRIVE, "N mm", lambda x: x**0.5, RATES, ()),
+        ("position", Place.INTERFACE, VISCOUS, lambda x: 1.0 + (x > 0.5), PLACES, ("layered_tissue",)),
+        ("position", Place.INTERFACE, DRY, lambda x: 1.0 + (x > 0.5), PLACES, ()),
+        ("tip_angle", Place.NEEDLE, DRY, lambda x: np.sin(np.radians(x)), ANGLES, ("needle_curvature",)),
+        ("tip_angle", Place.NEEDLE, "N mm", lambda x: np.sin(np.radians(x)), ANGLES, ()),
         (
             "tip_angle",
             Place.SENSOR,
+            "deg",
             lambda x: 1 + 0.01 * x,
             ANGLES,
             ("tip_angle_scale", "tip_angle_bias"),
         ),
     ],
 )
-def test_where_the_library_has_the_law_its_effect_is_named(variable, place, law, x, effects):
-    assert likeness_of(curve(x, law(x), 0.02, variable=variable, place=place)).library == effects
+def test_where_the_library_has_the_law_its_effect_is_named(variable, place, unit, law, x, effects):
+    told = curve(x, law(x), 0.02, variable=variable, place=place, unit=unit)
+    assert likeness_of(told).library == effects
 
 
 def test_every_effect_that_is_named_is_in_the_library():
