@@ -32,8 +32,8 @@ from diagnosis.replay.variables import UNITS, Variable
 
 TURN_DEG = 360.0
 RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
-PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 6, 5
-TURNED_BY = np.geomspace(0.25, 8.0, 6)  # of the rms of what is missing
+PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 10, 5
+TURNED_BY = np.geomspace(0.25, 8.0, 10)  # of the rms of what is missing
 _SAYS = {
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",
