@@ -50,7 +50,7 @@ class Interface(Record):
     orientation_cycles: Positive = 1.0
     """In one turn of the shaft."""
     asymmetry: float = Field(default=0.0, gt=-1, lt=1)
-    """The torque is 1 + asymmetry times for positive rates, 1 - asymmetry times for negative ones."""
+    """Torque against positive rates: 1 + asymmetry times; against negative ones: 1 - asymmetry times."""
     varies: bool = False
     """Whether the torque, and the stiffness, are times the `tissue_factor` of the schedule."""
     stiffness_varies: bool = False

@@ -67,16 +67,16 @@ class Candidate:
     def _objections(self) -> Iterator[str]:
         floor = self.floor
         if not floor.small:
-            yield f"above the noise floor: residual {floor.gap:.3f} sigma, limit {floor.gap_limit:.3f}"
+            yield f"above the noise floor: residual {floor.gap:.3f} σ, limit {floor.gap_limit:.3f}"
         if not floor.reached:
-            yield f"not white: slow part {floor.slow:.3f} sigma, limit {floor.slow_limit:.3f}"
+            yield f"not white: slow part {floor.slow:.3f} σ, limit {floor.slow_limit:.3f}"
         if self.reached_bounds:
             yield f"stopped at a bound: {', '.join(self.reached_bounds)}; no real rig is like that"
         if self.held_out is None:
             yield f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
         for sensor, own in self.coloured.items():
             if own.slow > own.slow_limit:
-                seen = f"slow part {own.slow:.2f} sigma over seconds, limit {own.slow_limit:.2f}"
+                seen = f"slow part {own.slow:.2f} σ over seconds, limit {own.slow_limit:.2f}"
                 yield f"not the noise of {sensor}: {seen}"
         if self.shift > self.shift_limit:
             yield f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"

@@ -21,11 +21,11 @@ from diagnosis.selection.stages.imperfections import one_more_imperfection
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
-from diagnosis.selection.stages.richer_effects import richer_effects, richer_triples
+from diagnosis.selection.stages.richer_effects import richer_effects, richer_effects_in_place_of_three
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
 from diagnosis.selection.stages.torque_drift import with_drift
-from diagnosis.selection.stages.triples import triples
+from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -38,8 +38,8 @@ STAGES: tuple[Stage, ...] = (
     pairs,
     richer_effects,
     one_more_imperfection,
-    triples,
-    richer_triples,
+    three_effects,
+    richer_effects_in_place_of_three,
     best_to_its_end,
     best_without_each_effect,
     scatter_of_the_best,

@@ -28,7 +28,7 @@ def richer_effects(state: SearchState, workers: Workers) -> SearchState:
     return _with_richer(leading, state, workers)
 
 
-def richer_triples(state: SearchState, workers: Workers) -> SearchState:
+def richer_effects_in_place_of_three(state: SearchState, workers: Workers) -> SearchState:
     """The same of three effects, also where they explain the log: no pair of theirs asked for more."""
     leading = sorted(state.triples, key=lambda c: c.score)[:1]
     return _with_richer(leading, state, workers)

@@ -28,7 +28,7 @@ from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 
-def triples(state: SearchState, workers: Workers) -> SearchState:
+def three_effects(state: SearchState, workers: Workers) -> SearchState:
     """Every effect beside the leading pairs, or beside the one that explains the log."""
     stage = "three effects"
     state, explained = state.rechecked()

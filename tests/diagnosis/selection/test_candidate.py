@@ -140,8 +140,8 @@ SLOW = NoiseFloor(gap=1.0, slow=1.4)
     ("known", "reason"),
     [
         ({}, ""),
-        ({"floor": ABOVE}, "above the noise floor: residual 1.050 sigma, limit 1.030"),
-        ({"floor": SLOW}, "not white: slow part 1.400 sigma, limit 1.250"),
+        ({"floor": ABOVE}, "above the noise floor: residual 1.050 σ, limit 1.030"),
+        ({"floor": SLOW}, "not white: slow part 1.400 σ, limit 1.250"),
         ({"held_out": None}, "held-out trials cannot be simulated: not tried"),
         ({"held_out": None, "held_out_failure": "lost"}, "held-out trials cannot be simulated: lost"),
         ({"shift": 20.2}, "held-out trials shift by 20.2, limit 12"),
@@ -160,7 +160,7 @@ def test_what_is_slow_beside_coloured_noise_explains_nothing(same):
     held = replace(good, coloured={"tip_angle_deg": slow})
     assert not held.explains
     assert held.objection == (
-        "not the noise of tip_angle_deg: slow part 1.80 sigma over seconds, limit 1.40"
+        "not the noise of tip_angle_deg: slow part 1.80 σ over seconds, limit 1.40"
     )
     assert replace(good, coloured={"tip_angle_deg": replace(slow, slow=1.3)}).explains
 

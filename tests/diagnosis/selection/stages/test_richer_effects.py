@@ -54,7 +54,7 @@ def test_of_three_effects_a_richer_one_is_tried_also_where_they_explain_the_log(
     taken_for_constant, monkeypatch
 ):
     monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
-    assert module.richer_triples(taken_for_constant, Workers()) is taken_for_constant
+    assert module.richer_effects_in_place_of_three(taken_for_constant, Workers()) is taken_for_constant
     state = replace(taken_for_constant, triples=taken_for_constant.singles)
-    found = module.richer_triples(state, Workers())
+    found = module.richer_effects_in_place_of_three(state, Workers())
     assert [c.names for c in found.candidates] == [(), ("stiction",)]

@@ -21,7 +21,7 @@ EFFECTS = ("coulomb_friction", "tip_drag", "torque_bias", "entry_friction", "sti
 def asked_for(state, monkeypatch, *, explained, pairs):
     """The sets that are screened."""
     state = replace(state, effects=EFFECTS, pairs=pairs)
-    return sets_screened(module.triples, state, monkeypatch, explained=explained)
+    return sets_screened(module.three_effects, state, monkeypatch, explained=explained)
 
 
 def test_every_other_effect_is_tried_beside_the_leading_pairs_alone(still_start, monkeypatch):
