@@ -224,7 +224,7 @@ def _goals(costs: dict[str, Cost], grown: list[Cost]) -> list[report.Goal]:
     a_trial = [one.cpu_s / one.trials for one in grown]
     peak_gib = max(one.peak_gib for one in costs.values())
     wall_s = [costs[name].wall_s for name in (_ONE, _TWO)]
-    growth = f"time a trial, {TIMES_OVER[-1]} times as many trials: largest over least"
+    growth = f"CPU time a trial, {TIMES_OVER[-1]} times as many trials: longest log over the least"
     stages = [
         report.Goal(name=f"of it, {stage}", measured=100 * seconds / costs[_ONE].wall_s, unit="%")
         for stage, seconds in costs[_ONE].stages_s.items()
@@ -234,7 +234,7 @@ def _goals(costs: dict[str, Cost], grown: list[Cost]) -> list[report.Goal]:
         report.Goal(name=f"diagnosis of {_ONE}", measured=wall_s[0], bound=SINGLE_BOUND_S, unit="s"),
         *stages,
         report.Goal(name=f"diagnosis of {_TWO}", measured=wall_s[1], bound=PAIR_BOUND_S, unit="s"),
-        report.Goal(name=growth, measured=max(a_trial) / min(a_trial), bound=GROWTH_BOUND),
+        report.Goal(name=growth, measured=a_trial[-1] / min(a_trial), bound=GROWTH_BOUND),
         report.Goal(name="diagnosis, memory", measured=peak_gib, bound=MEMORY_BOUND_GIB, unit="GiB"),
     ]
 
