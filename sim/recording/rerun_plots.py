@@ -22,7 +22,7 @@ _PLOTS: dict[str, dict[str, tuple[str, list[int]]]] = {
         "measured_base_deg": ("base, measured", [150, 150, 150]),
         "measured_tip_deg": ("tip, measured", [255, 152, 150]),
         "closed_form_tip_deg": ("tip, closed form", [44, 160, 44]),
-        "native_tip_deg": ("tip, native needle", [148, 103, 189]),
+        "native_tip_deg": ("tip, needle without callbacks", [148, 103, 189]),
     },
     "torque": {
         "base_torque_n_mm": ("base torque", [31, 119, 180]),

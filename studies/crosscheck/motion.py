@@ -137,7 +137,7 @@ def check_arrangements() -> Check:
         simulate([viscous_setup(arrangement=a)], schedule)[0].tip_deg for a in Arrangement
     )
     return Check(
-        name="siblings minus chain, tip",
+        name="tip, as siblings and as a chain",
         value=float(np.abs(chain - siblings).max()),
         unit="deg",
         high=1e-8,

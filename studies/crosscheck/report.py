@@ -127,8 +127,10 @@ def _draw_turn(axis: Axes, differences: Axes) -> None:
     axis.plot(run.time_s, exact, color="k", label="tip, closed form")
     axis.set(ylabel="angle, deg", title="Fast turn of a needle 20 cm deep")
     axis.legend(loc="center right")
-    differences.plot(run.time_s, run.tip_deg - exact, color="tab:red", label="MuJoCo")
-    differences.plot(run.time_s, native - exact, color="tab:purple", ls=":", lw=2, label="native needle")
+    differences.plot(run.time_s, run.tip_deg - exact, color="tab:red", label="our needle")
+    differences.plot(
+        run.time_s, native - exact, color="tab:purple", ls=":", lw=2, label="needle without callbacks"
+    )
     differences.set(xlabel="time, s", ylabel="deg", title="Tip minus closed form")
     differences.legend(loc="upper right")
 

@@ -42,9 +42,9 @@ def torque_sign(torque: Array, angle: Array) -> SignGuess:
     if abs(share) < SIGN_LEAST_WORK:
         return SignGuess(
             sign=None,
-            reason=f"net work is {share:+.0%} of the work that goes back and forth: too little",
+            reason=f"net work is {100 * share:+.0f} % of the work that goes back and forth: too little",
         )
-    reason = f"net work on the needle is {share:+.0%} of the work that goes back and forth"
+    reason = f"net work on the needle is {100 * share:+.0f} % of the work that goes back and forth"
     return SignGuess(sign=1 if share > 0 else -1, reason=reason)
 
 
@@ -56,7 +56,8 @@ def tip_sign(time_s: Array, tip: Array, base: Array) -> SignGuess:
     same, opposite = misfit(driving, following, float(even[1] - even[0]))
     if max(1 - same, 1 - opposite) < SIGN_LEAST_CORRELATION:
         return SignGuess(sign=None, reason="the tip does not follow the base either way")
-    left = f"a lagging copy of the base explains {1 - same:.0%}, with opposite sign {1 - opposite:.0%}"
+    percent, inverted = 100 * (1 - same), 100 * (1 - opposite)
+    left = f"a lagging copy of the base explains {percent:.0f} %, with opposite sign {inverted:.0f} %"
     return SignGuess(sign=1 if same <= opposite else -1, reason=left)
 
 

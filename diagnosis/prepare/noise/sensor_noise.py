@@ -88,7 +88,7 @@ class Noise:
     def notes(self) -> tuple[str, ...]:
         """Warnings, and the sensors whose noise is not white."""
         each = (
-            f"{sensor}: {colour.share:.0%} of the noise's variance is correlated over "
+            f"{sensor}: {100 * colour.share:.0f} % of the noise's variance is correlated over "
             f"{1000 * colour.correlation_time_s:.0f} ms; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
