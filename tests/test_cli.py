@@ -104,7 +104,7 @@ def test_validate_writes_the_contract(tmp_path):
     assert main(["validate", "--out", str(tmp_path / "v")]) == 0
     content = json.loads((tmp_path / "v" / "validate.json").read_text())
     assert content["passed"] is True
-    for source in ("second_order", "native"):
+    for source in ("second_order", "without_callbacks"):
         assert sum(p["source"] == source for p in content["poles"]) == 48
     assert {p["drive"] for p in content["poles"]} == {"torque", "angle"}
 
@@ -127,9 +127,11 @@ def test_the_poles_fit_in_80_columns_in_a_section_per_source():
     console.print(validate.poles_table(Findings(poles=found)))
     lines = console.file.getvalue().splitlines()
     assert sum("-1186.601 -1186.601 -1186.601 -1186.601" in line for line in lines) == 2
-    assert [word for line in lines for word in ("second order", "native") if word in line] == [
+    assert [
+        word for line in lines for word in ("second order", "without callbacks") if word in line
+    ] == [
         "second order",
-        "native",
+        "without callbacks",
     ]
 
 

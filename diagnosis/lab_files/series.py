@@ -72,7 +72,10 @@ def _table_with(
         return having[0]
     if having:
         raise InvalidValue(
-            f"columns.{wanted}.column", source.column, "a column of one file", "state 'file', from 1"
+            f"columns.{wanted}.column ({trial.file})",
+            source.column,
+            f"a column that only one of {', '.join(trial.lab_files)} has",
+            f"{len(having)} tables have it: state 'file', the number of the one that is meant, from 1",
         )
     known = [name for table in tables for name in table.columns]
     raise InvalidValue(

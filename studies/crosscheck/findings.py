@@ -63,7 +63,7 @@ class PoleSource(StrEnum):
     """Ours, with the step that is corrected to second order: the default."""
     FIRST_ORDER = "first_order"
     """Ours, with MuJoCo's own step, to which only the tissue's torque is added."""
-    NATIVE = "native"
+    NATIVE = "without_callbacks"
     """MuJoCo's own springs and dampers, without a callback."""
 
     @property

@@ -40,7 +40,7 @@ def test_the_json_is_complete_and_strict(folder):
     content = json.loads(text, parse_constant=lambda c: pytest.fail(c))
     assert content["passed"] is False
     assert set(content["poles"][0]) == {*CASE, "mode", "measured", "closed_form", "source"}
-    assert {pole["source"] for pole in content["poles"]} == {"second_order", "native"}
+    assert {pole["source"] for pole in content["poles"]} == {"second_order", "without_callbacks"}
     assert content["comparisons"][0]["ours"] is None
 
 
