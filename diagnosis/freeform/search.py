@@ -37,6 +37,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
 FIRST_ITERATIONS, ITERATIONS = 2, 10
 CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
+WORTH_A_FINAL = 2.0  # times the least gap on the decimated log
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,8 +90,10 @@ def free_form_fits(
         best = sorted(fitted, key=lambda f: f.score)[: CONTENDERS // 2]
         pairs = [(coarse, f, (name,)) for f in best for name in companions[:COMPANIONS]]
         fitted += _each(BESIDE, _to_its_end, pairs, workers)
-    far = bool(fitted) and min(f.fit.gap for f in fitted) > FAR_GAP
-    last = _distinct(sorted(fitted, key=lambda f: f.score))[: FAR_FINALISTS if far else FINALISTS]
+    least = min((f.fit.gap for f in fitted), default=np.inf)
+    far = least > FAR_GAP
+    worth = [f for f in fitted if f.fit.gap <= WORTH_A_FINAL * least]
+    last = _distinct(sorted(worth, key=lambda f: f.score))[: FAR_FINALISTS if far else FINALISTS]
     finals = _each(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
     names = {f.family.name for f in finals}
     fitted_names = {f.family.name for f in fitted}

@@ -139,6 +139,12 @@ def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):
     assert sum(f.final for f in run(gaps, gaps)) == search.FAR_FINALISTS < search.FINALISTS
 
 
+def test_laws_far_behind_the_best_do_not_go_to_the_log_itself(fitted):
+    run, _ = fitted
+    gaps = {"a": 1.0, "b": 0.9 * search.WORTH_A_FINAL, "c": 1.1 * search.WORTH_A_FINAL}
+    assert [f.family.name for f in run(gaps, gaps) if f.final] == ["a", "b"]
+
+
 def test_where_one_law_closes_the_gap_no_effect_is_tried_beside_it(fitted):
     run, seen = fitted
     run({"a": 2.0, "b": 3.0}, {"a": 1.05, "b": 3.0}, companions=("tip_drag",))
