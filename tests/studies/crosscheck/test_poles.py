@@ -46,7 +46,7 @@ def test_the_worst_pole_of_each_source_decides(measured, source):
     checks = poles.check_poles([*measured, wrong])
     failed = [check.name for check in checks if not check.passed]
     assert len(failed) == 1
-    native = failed[0].startswith("worst pole, native: ")
+    native = failed[0].startswith("worst pole, without callbacks: ")
     assert native is (source is PoleSource.NATIVE)
 
 
@@ -64,7 +64,7 @@ def test_damping_of_the_native_needle_that_is_one_percent_off_fails_its_check(mo
     checks = poles.check_poles(poles.compare_poles((100.0,)))
     failed = [check.name for check in checks if not check.passed]
     assert len(failed) == 1
-    assert failed[0].startswith("worst pole, native: ")
+    assert failed[0].startswith("worst pole, without callbacks: ")
 
 
 @pytest.mark.parametrize("error", [{"damping": 1.01}, {"stiffness": 1.01}])
