@@ -19,7 +19,15 @@ EFFECT = Effect(
     title="shear thinning (or thickening) of the viscous torque",
     place=Place.INTERFACE,
     parameters=(
-        Parameter(name="exponent", unit="-", low=0.2, high=2.0, start=(0.85, 0.6, 1.2), neutral=1.0),
+        Parameter(
+            name="exponent",
+            unit="-",
+            low=0.2,
+            high=2.0,
+            start=(0.85, 0.6, 1.2),
+            neutral=1.0,
+            least=0.01,
+        ),
         Parameter(
             name="plateau",
             unit="rad/s",

@@ -72,6 +72,8 @@ class Candidate:
             yield f"not white: slow part {floor.slow:.3f} σ, limit {floor.slow_limit:.3f}"
         if self.reached_bounds:
             yield f"stopped at a bound: {', '.join(self.reached_bounds)}; no real rig is like that"
+        if self.as_good_as_none:
+            yield f"as good as none: {', '.join(self.as_good_as_none)}; it imitates another effect"
         if self.held_out is None:
             yield f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
         for sensor, own in self.coloured.items():
@@ -133,6 +135,15 @@ class Candidate:
         library = [LIBRARY[name] for name in self.names if name in LIBRARY]
         told = {f"{effect.name}.{p.name}" for effect in library for p in effect.reported}
         return tuple(name for name in self.fit.status.at_bound if name in told)
+
+    @property
+    def as_good_as_none(self) -> tuple[str, ...]:
+        """Parameters that are hardly off their neutral values, as effect.parameter."""
+        own = self.fit.parameterization
+        each = zip(own.owners, own.parameters, own.values(self.fit.x), strict=True)
+        return tuple(
+            f"{owner}.{p.name}" for owner, p, value in each if p.distance_from_neutral(value) < p.least
+        )
 
     @property
     def names(self) -> tuple[str, ...]:

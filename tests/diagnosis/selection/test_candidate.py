@@ -11,6 +11,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate as module
 from diagnosis.selection.candidate import candidate
@@ -151,6 +152,17 @@ def test_what_does_not_explain_the_log_says_why(known, reason):
     one = scored(["tip_drag"], 1.0, **known)
     assert one.objection == reason
     assert one.explains is (reason == "")
+
+
+@pytest.mark.parametrize(("exponent", "explains"), [(1.002, False), (0.995, False), (0.98, True)])
+def test_an_exponent_of_nearly_one_is_no_shear_thinning(exponent, explains):
+    """It took off what hardening tissue leaves beside elastic tissue, with an exponent of 1.002."""
+    parameterization = parameterization_of(["shear_thinning"])
+    x = np.array([exponent, np.log(0.003)])
+    one = scored(["shear_thinning"], 1.0)
+    one = replace(one, fit=replace(one.fit, parameterization=parameterization, x=x))
+    assert one.explains is explains
+    assert ("as good as none: shear_thinning.exponent" in one.objection) is not explains
 
 
 def test_what_is_slow_beside_coloured_noise_explains_nothing(same):

@@ -55,7 +55,11 @@ def test_every_pole_says_its_source_as_a_plain_word():
     assert (
         json.loads(json.dumps(Findings(poles=[POLE]).as_json()))["poles"][0]["source"] == "first_order"
     )
-    assert [source.words for source in PoleSource] == ["second order", "first order", "without callbacks"]
+    assert [source.words for source in PoleSource] == [
+        "second order",
+        "first order",
+        "without callbacks",
+    ]
 
 
 def test_a_notebook_shows_every_bound_and_whether_it_holds():
