@@ -36,7 +36,7 @@ class Parameter:
       reported: whether it is part of the vocabulary; else it is fitted and not reported.
       neutral: value at which the effect is absent; None: a parameter of shape, without such a value.
       prior_sigma: standard deviation of a normal prior on its coordinate about 0; infinite: none.
-      least: strength (`distance_from_neutral`) below which the effect is as good as none.
+      least_factor: distance from neutral below which the effect is as good as none.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Parameter:
     reported: bool = True
     neutral: float | None = 0.0
     prior_sigma: float = math.inf
-    least: float = 0.0
+    least_factor: float = 0.0
 
     def scaled(self, *, torque: float, rate: float) -> "Parameter":
         """The same parameter for a rig with torques and rates that are larger by these factors."""

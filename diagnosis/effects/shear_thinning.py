@@ -26,7 +26,7 @@ EFFECT = Effect(
             high=2.0,
             start=(0.85, 0.6, 1.2),
             neutral=1.0,
-            least=0.01,
+            least_factor=0.01,
         ),
         Parameter(
             name="plateau",

@@ -142,7 +142,9 @@ class Candidate:
         own = self.fit.parameterization
         each = zip(own.owners, own.parameters, own.values(self.fit.x), strict=True)
         return tuple(
-            f"{owner}.{p.name}" for owner, p, value in each if p.distance_from_neutral(value) < p.least
+            f"{owner}.{p.name}"
+            for owner, p, value in each
+            if p.distance_from_neutral(value) < p.least_factor
         )
 
     @property
