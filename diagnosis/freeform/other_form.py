@@ -5,8 +5,9 @@ them, and may be left at the noise floor. Evenly elastic tissue and a little dri
 may look like tissue that is stiffer further in. So an effect may name free-form laws of its kind
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
 clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
-the law alone leaves about as little as the effect together with others: these were a crutch of it.
-(Stiffness and damping are no crutch: every rig's are off a little, and every fit has them.)
+the law alone leaves about as little as the effect together with others: these
+only compensated for its wrong form. (Stiffness and damping do not count as such others: every rig's are
+off a little, and every fit has them.)
 
 A law that has the parameters of the effect, and a curve besides, starts where the effect is. Then a
 single step shows whether the curve promises anything.
@@ -67,15 +68,15 @@ def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | 
 def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, family: Family) -> bool:
     """Whether a family in place of an effect is at the noise floor, and leaves clearly less.
 
-    Without imperfections and drift of sensors on either side, which may have been a crutch of it.
+    Without imperfections and drift of sensors on either side, which may compensate for a wrong form.
     """
     plain = tuple(n for n in best.names if n not in IMPERFECTIONS)
     others = tuple(n for n in plain if n != name)
     known = _from(best, plain, coarse)
     fits = _Comparison(problem=problem, coarse=coarse, known=known, family=family, replaced=name)
     alone = (*(n for n in others if n in SCATTER), family.name)
-    crutch = len(alone) <= len(others)
-    return (crutch and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
+    compensated = len(alone) <= len(others)
+    return (compensated and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
         (*others, family.name), SECOND_LEAVES
     )
 

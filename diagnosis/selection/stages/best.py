@@ -18,7 +18,7 @@ def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
 
 
 def best_without_each_effect(state: SearchState, workers: Workers) -> SearchState:
-    """The best without each of its effects, which may have been a crutch of the others.
+    """The best without each of its effects, which may only compensate for errors of the others.
 
     Fewer leave no less, so that far above the noise there is nothing to ask.
     """

@@ -65,12 +65,12 @@ def test_dry_friction_stands_where_it_is_even():
     assert form_of(*fitted(DRY, ("coulomb_friction",))) is None
 
 
-def test_another_form_alone_refutes_an_effect_with_a_crutch():
+def test_another_form_alone_refutes_an_effect_that_needs_another():
     pair = ("layered_tissue", "torque_bias")
     assert form_of(*fitted(EVENLY, pair)).name == "damping over position"
 
 
-def test_a_damping_that_is_off_is_no_crutch():
+def test_a_damping_that_is_off_does_not_refute():
     """Curves along the depth could take its place."""
     found = fitted(replace(LAYERED, damping_scale=1.04), ("layered_tissue", "damping_error"))
     assert form_of(*found) is None
