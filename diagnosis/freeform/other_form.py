@@ -5,9 +5,8 @@ them, and may be left at the noise floor. Evenly elastic tissue and a little dri
 may look like tissue that is stiffer further in. So an effect may name free-form laws of its kind
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
 clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
-the law alone leaves about as little as the effect together with others: these
-only compensated for its wrong form. (Stiffness and damping do not count as such others: every rig's are
-off a little, and every fit has them.)
+the law alone leaves about as little as the effect together with others: these only compensated for its
+wrong form. (Stiffness and damping do not count as such others, because every fit has them.)
 
 A law that has the parameters of the effect, and a curve besides, starts where the effect is. Then a
 single step shows whether the curve promises anything.
