@@ -45,9 +45,8 @@ class _Ready:
     @property
     def size(self) -> Hashable:
         """Key that all insertions of one batch share."""
-        discretisation, kind = self.setup.discretisation, self.setup.drive.kind
-        nodes, rows = self.setup.nodes_mm.size, len(self.setup.law)
-        return discretisation, kind, nodes, rows, self.inputs.at_steps(discretisation.step_s).time_s.size
+        discretisation = self.setup.discretisation
+        return discretisation, self.setup.size, self.inputs.steps(discretisation.step_s)
 
 
 def simulate_each(

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, field_validator, model_validator
 
 from models.drive import Drive, DriveKind
@@ -24,7 +25,7 @@ from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.law_table import law_table
 from sim.protocol_cost import refuse_costly, samples_of
-from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
+from sim.schedule import LENGTH_TOLERANCE_MM, Schedule, mesh_for
 from sim.spec import Setup
 
 _STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
@@ -157,6 +158,11 @@ class Protocol(Record):
             free, inserted = free - segment.advance_mm, inserted + gain
         return Schedule(**{name: np.array(values) for name, values in columns.items()})
 
+    def _inserted_mm(self) -> NDArray[np.float64]:
+        """Inserted length at the start and at the ends of the segments, mm; linear between them."""
+        gains = [0.0 if self.through else segment.advance_mm for segment in self.segments]
+        return np.maximum(self.inserted_mm + np.cumsum([0.0, *gains]), 0.0)
+
     def setup(self) -> Setup:
         """The model that the run needs."""
         return Setup(
@@ -164,7 +170,7 @@ class Protocol(Record):
             tissue=self.tissue,
             drive=self.drive,
             discretisation=self.discretisation,
-            mesh=self.schedule().mesh,
+            mesh=mesh_for(self._inserted_mm()),
             free_mm=self.free_mm,
             inserted_mm=self.inserted_mm,
         )

@@ -21,6 +21,12 @@ COLUMNS = ("drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm", "
 LENGTH_TOLERANCE_MM = 1e-6
 
 
+def mesh_for(inserted_mm: Array) -> Mesh:
+    """Eulerian if the inserted length, (N,), is constant and above 0; else Lagrangian."""
+    constant = np.ptp(inserted_mm) <= LENGTH_TOLERANCE_MM
+    return Mesh.EULERIAN if constant and inserted_mm[0] > 0 else Mesh.LAGRANGIAN
+
+
 @dataclass(frozen=True, kw_only=True)
 class Schedule:
     """Inputs at increasing times; every array has the shape of `time_s`, (N,).
@@ -59,20 +65,20 @@ class Schedule:
             object.__setattr__(self, name, values)
             if values.shape != time.shape:
                 raise InvalidValue(name, values.shape, f"as many samples as time_s: {time.shape}")
-            bad = np.flatnonzero(~np.isfinite(values))
-            if bad.size:
-                raise InvalidValue(f"{name}[{bad[0]}]", float(values[bad[0]]), "a finite number")
-        back = np.flatnonzero(np.diff(time) <= 0)
-        if back.size:
-            i = int(back[0])
+            if not np.isfinite(values).all():
+                bad = int(np.argmin(np.isfinite(values)))
+                raise InvalidValue(f"{name}[{bad}]", float(values[bad]), "a finite number")
+        back = np.diff(time) <= 0
+        if back.any():
+            i = int(np.argmax(back))
             raise InvalidValue(
                 f"time_s[{i + 1}]", float(time[i + 1]), f"a time after {time[i]}", "sort the samples"
             )
         for name in ("free_mm", "inserted_mm"):
-            low = np.flatnonzero(getattr(self, name) < -LENGTH_TOLERANCE_MM)
-            if low.size:
-                value = float(getattr(self, name)[low[0]])
-                raise InvalidValue(f"{name}[{low[0]}]", value, "a length of at least 0 mm")
+            values = getattr(self, name)
+            if values.min() < -LENGTH_TOLERANCE_MM:
+                low = int(np.argmax(values < -LENGTH_TOLERANCE_MM))
+                raise InvalidValue(f"{name}[{low}]", float(values[low]), "a length of at least 0 mm")
 
     @property
     def duration_s(self) -> float:
@@ -86,17 +92,19 @@ class Schedule:
 
     @property
     def mesh(self) -> Mesh:
-        """Eulerian if the inserted length is constant; else Lagrangian."""
-        constant = np.ptp(self.inserted_mm) <= LENGTH_TOLERANCE_MM
-        return Mesh.EULERIAN if constant and self.inserted_mm[0] > 0 else Mesh.LAGRANGIAN
+        """The mesh for these inputs."""
+        return mesh_for(self.inserted_mm)
 
     def rows(self, kept: NDArray[np.bool_]) -> "Schedule":
         """The inputs at some of their times, at least two."""
         return Schedule(**{name: getattr(self, name)[kept] for name in ("time_s", *COLUMNS)})
 
+    def steps(self, step_s: float) -> int:
+        """Number of equal steps, the last of which ends at or after the end."""
+        return max(1, int(np.ceil(self.duration_s / step_s - 1e-9)))
+
     def at_steps(self, step_s: float) -> "Schedule":
         """The same inputs at the ends of equal steps, the last at or after the end."""
-        steps = max(1, int(np.ceil(self.duration_s / step_s - 1e-9)))
-        time = self.time_s[0] + step_s * np.arange(steps + 1)
+        time = self.time_s[0] + step_s * np.arange(self.steps(step_s) + 1)
         inputs = {name: np.interp(time, self.time_s, getattr(self, name)) for name in COLUMNS}
         return Schedule(time_s=time, **inputs)

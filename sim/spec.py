@@ -28,13 +28,13 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh, SlipRate, node_positions_mm
 from sim.kernel import memory_map
 from sim.law_table import law_table
+from sim.needles.shaft_bodies import ShaftBodies, shaft_bodies
 
 Array = NDArray[np.float64]
 
 # A rigid servo is this much stiffer than the needle: its error is 1e-6 of the lag.
 _RIGID = 1e6
 _RAIL_RATE = 1e3  # rad/s, natural frequency of the carriage's servo
-_LEAST_INERTIA = 1e-15  # kg m^2, below which MuJoCo refuses a body
 _CARRIAGE_MASS = 0.1  # kg
 _CARRIAGE_INERTIA = 1e-5  # kg m^2; the carriage does not turn
 
@@ -85,19 +85,21 @@ class Setup:
         return law_table(self.needle, self.drive, self.tissue, rows=self.rows)
 
     @property
-    def bodies(self) -> tuple[object, ...] | None:
-        """Key of MuJoCo's bodies: models of set-ups with the same key differ only in their numbers.
+    def size(self) -> tuple[object, ...]:
+        """Key of the model's structure: models of set-ups with the same key differ only in numbers."""
+        limited = self.drive.torque_limit_n_mm is not None
+        return self.is_chain, self.drive.kind, limited, self.nodes_mm.size, len(self.law)
 
-        None for a chain, whose joints carry the torsion themselves: its models are not reused.
-        """
-        if self.discretisation.arrangement is Arrangement.CHAIN:
-            return None
-        rotor = (self.drive.rotor_inertia_kg_m2, self.drive.torque_limit_n_mm)
-        own = (self.needle.rotary_inertia_kg_m, self.needle.tip_inertia_kg_m2)
-        inertia = (self.needle.mass_kg_per_m, *own, *rotor)
-        nodes, stretching = self._mesh
-        radius = self.needle.radius_mm
-        return (self.discretisation, self.drive.kind, inertia, radius, len(self.law), stretching, *nodes)
+    @property
+    def is_chain(self) -> bool:
+        """Whether bodies hinge on one another, with torsion in their joints."""
+        return self.discretisation.arrangement is Arrangement.CHAIN
+
+    @cached_property
+    def bodies(self) -> ShaftBodies:
+        """The bodies of the shaft. Raises `InvalidValue` if one is too light for MuJoCo."""
+        rotor = self.drive.rotor_inertia_kg_m2
+        return shaft_bodies(self.needle, self.nodes_mm, rotor_inertia_kg_m2=rotor)
 
     @property
     def stretching(self) -> int:
@@ -161,15 +163,45 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
 
 
 def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
-    """Write the numbers of a set-up into a model with the same bodies.
+    """Write the numbers of a set-up into a model of the same `size`, which `mj_setConst` then completes.
 
-    Siblings have no torsion in their joints: of MuJoCo's own numbers, a rig then changes only
-    those of the servo.
+    The model is that which compilation would give, at a fraction of the cost.
     """
+    bodies, shaft = setup.bodies, slice(memory_map.FIRST_BODY, None)
+    half, radius = bodies.half_length_m, bodies.radius_m
+    model.opt.timestep = setup.discretisation.step_s
     model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
-    model.jnt_stiffness[memory_map.FIRST_JOINT] = setup.servo_n_m_per_rad
-    if setup.drive.kind is DriveKind.ANGLE:
-        model.actuator_gear[memory_map.U_DRIVE, 0] = setup.servo_n_m_per_rad
+    model.body_pos[shaft, 0] = bodies.from_parent_m(chain=setup.is_chain)
+    model.body_ipos[shaft, 0] = model.geom_pos[:, 0] = bodies.centre_m
+    model.body_mass[shaft], model.body_inertia[shaft] = bodies.mass_kg, bodies.inertia_kg_m2
+    model.geom_size[:, 0], model.geom_size[:, 1] = radius, half
+    model.geom_rbound[:] = model.geom_aabb[:, 5] = half + radius  # capsules point along their z
+    model.geom_aabb[:, 3:5] = radius
+    model.site_size[:] = _tip_size(setup)
+    model.jnt_stiffness[:] = _joint_stiffness(setup)
+    model.actuator_gear[memory_map.U_DRIVE, 0] = _drive_gear(setup)
+    model.actuator_gear[memory_map.U_CARRIAGE, 0] = _rail_n_per_m(setup)
+    if setup.drive.torque_limit_n_mm is not None:
+        model.actuator_forcerange[memory_map.U_DRIVE] = _torque_range_n_m(setup.drive.torque_limit_n_mm)
+
+
+def _joint_stiffness(setup: Setup) -> Array:
+    """Of the carriage, N / m, the servo and the joints along the shaft, N m / rad."""
+    springs = springs_n_m_per_rad(setup)
+    torsion = springs if setup.is_chain else np.zeros(springs.size)
+    return np.concatenate([[_rail_n_per_m(setup), setup.servo_n_m_per_rad], torsion])
+
+
+def _drive_gear(setup: Setup) -> float:
+    return setup.servo_n_m_per_rad if setup.drive.kind is DriveKind.ANGLE else 1.0
+
+
+def _torque_range_n_m(most_n_mm: float) -> list[float]:
+    return [-most_n_mm * units.N_MM, most_n_mm * units.N_MM]
+
+
+def _tip_size(setup: Setup) -> float:
+    return 2 * setup.needle.radius_mm * units.MM
 
 
 def _mass_kg(setup: Setup) -> float:
@@ -205,7 +237,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     if setup.needle.stiffness_curve:
         head[memory_map.H_STIFFNESS_TORQUE] = setup.needle.stiffness_torque_n_mm * units.N_MM
         head[memory_map.H_STIFFNESS_0 :] = np.log(setup.needle.stiffness_curve)
-    head[memory_map.H_CHAIN] = setup.discretisation.arrangement is Arrangement.CHAIN
+    head[memory_map.H_CHAIN] = setup.is_chain
     return head
 
 
@@ -223,7 +255,7 @@ def _numbers(setup: Setup) -> dict[str, Array]:
         "needle_mesh": setup.nodes_mm * units.MM,
         "needle_law": setup.law.ravel(),
     }
-    if setup.discretisation.arrangement is Arrangement.SIBLINGS:
+    if not setup.is_chain:
         fields["needle_springs"] = springs_n_m_per_rad(setup)
     return fields
 
@@ -244,58 +276,39 @@ def _add_bodies(spec: mujoco.MjSpec, setup: Setup) -> str:
         explicitinertial=True,
     )
     rail = carriage.add_joint(name="carriage", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])
-    rail.stiffness = [_rail_n_per_m(setup), 0, 0]
-    nodes, needle = setup.nodes_mm * units.MM, setup.needle
-    chain = setup.discretisation.arrangement is Arrangement.CHAIN
-    springs, radius = springs_n_m_per_rad(setup), needle.radius_mm * units.MM
-    parent, origin = carriage, 0.0
-    for i, x in enumerate(nodes):
-        back = 0.5 * (x - nodes[i - 1]) if i > 0 else 0.0
-        ahead = 0.5 * (nodes[i + 1] - x) if i + 1 < nodes.size else 0.0
-        inertia = needle.rotary_inertia_kg_m * (back + ahead)
-        if inertia < _LEAST_INERTIA:
-            raise InvalidValue(
-                "elements",
-                nodes.size - 1,
-                f"elements whose inertia is at least {_LEAST_INERTIA} kg m^2, not {inertia:.1e}",
-                "take fewer elements, or a thicker needle",
-            )
-        inertia += setup.drive.rotor_inertia_kg_m2 if i == 0 else 0.0
-        inertia += needle.tip_inertia_kg_m2 if i + 1 == nodes.size else 0.0
-        mass = needle.mass_kg_per_m * (back + ahead)
-        across = mass * (3 * radius**2 + (back + ahead) ** 2) / 12
+    stiffness = _joint_stiffness(setup)
+    rail.stiffness = [stiffness[0], 0, 0]
+    parent, bodies = carriage, setup.bodies
+    for i, x in enumerate(bodies.from_parent_m(chain=setup.is_chain)):
         body = parent.add_body(
             name=f"shaft_{i}",
-            pos=[x - origin, 0, 0],
-            mass=mass,
-            ipos=[0.5 * (ahead - back), 0, 0],
-            inertia=[inertia, max(across, inertia), max(across, inertia)],
+            pos=[x, 0, 0],
+            mass=bodies.mass_kg[i],
+            ipos=[bodies.centre_m[i], 0, 0],
+            inertia=bodies.inertia_kg_m2[i],
             explicitinertial=True,
         )
         joint = body.add_joint(name=f"twist_{i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[1, 0, 0])
-        torsion = springs[i - 1] if i > 0 and chain else 0.0
-        joint.stiffness = [setup.servo_n_m_per_rad if i == 0 else torsion, 0, 0]
+        joint.stiffness = [stiffness[memory_map.FIRST_JOINT + i], 0, 0]
         body.add_geom(
             name=f"shaft_{i}",
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
-            fromto=[-back, 0, 0, ahead, 0, 0],
-            size=[radius, 0, 0],
+            fromto=[-bodies.back_m[i], 0, 0, bodies.ahead_m[i], 0, 0],
+            size=[bodies.radius_m, 0, 0],
             contype=0,
             conaffinity=0,
             mass=0,
             rgba=[0.75, 0.78, 0.82, 1],
         )
-        if chain:
-            parent, origin = body, x
-    body.add_site(name="tip", size=[2 * radius] * 3)
+        parent = body if setup.is_chain else carriage
+    body.add_site(name="tip", size=[_tip_size(setup)] * 3)
     return "tip"
 
 
 def _add_actuators(spec: mujoco.MjSpec, setup: Setup, tip: str) -> None:
     joint, site = mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_SITE
-    drive = setup.servo_n_m_per_rad if setup.drive.kind is DriveKind.ANGLE else 1.0
     for name, target, kind, gear in (
-        ("drive", "twist_0", joint, [drive]),
+        ("drive", "twist_0", joint, [_drive_gear(setup)]),
         ("carriage", "carriage", joint, [_rail_n_per_m(setup)]),
         ("inserted", "carriage", joint, [0]),
         ("speed", "carriage", joint, [0]),
@@ -305,6 +318,6 @@ def _add_actuators(spec: mujoco.MjSpec, setup: Setup, tip: str) -> None:
         actuator = spec.add_actuator(name=name, target=target, trntype=kind)
         actuator.gear[: len(gear)] = gear
     if setup.drive.torque_limit_n_mm is not None:
-        most = setup.drive.torque_limit_n_mm * units.N_MM
         motor = spec.actuator("drive")
-        motor.forcelimited, motor.forcerange = True, [-most, most]
+        motor.forcelimited = True
+        motor.forcerange = _torque_range_n_m(setup.drive.torque_limit_n_mm)

@@ -6,6 +6,7 @@ cluster imports nothing but this module.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Protocol, TypeVar
@@ -29,6 +30,7 @@ def _versions() -> tuple[str, ...]:
     return tuple(f"{name} {_version(name)}" for name in _DECIDE)
 
 
+@cache
 def _version(name: str) -> str:
     try:
         return version(name)

@@ -1,8 +1,8 @@
 """Models, batches and data of MuJoCo, kept for reuse: making one costs as much as simulating seconds.
 
-A fit simulates a few needles thousands of times, with other numbers each time. Set-ups with the
-same bodies (`Setup.bodies`) reuse the same models, in which new numbers are written; needles of the
-same size reuse the same batches. An object in use is not available to other threads.
+A fit simulates a few needles thousands of times, with other numbers each time. Set-ups of the same
+size (`Setup.size`) reuse the same models, in which new numbers are written; their needles
+reuse the same batches. An object in use is not available to other threads.
 """
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
@@ -60,13 +60,11 @@ def models_of(setups: Sequence[Setup]) -> Iterator[list[mujoco.MjModel]]:
 
 @contextmanager
 def _model_of(setup: Setup) -> Iterator[mujoco.MjModel]:
-    bodies = setup.bodies
-    if bodies is None:
-        yield compile_model(setup)
-        return
-    with _MODELS.taken(bodies, lambda: compile_model(setup)) as (model, new):
+    with _MODELS.taken(setup.size, lambda: compile_model(setup)) as (model, new):
         if not new:
             set_numbers(model, setup)
+            with data_of(model) as data:
+                mujoco.mj_setConst(model, data)
         yield model
 
 

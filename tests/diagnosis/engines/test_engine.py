@@ -18,7 +18,7 @@ def test_a_job_is_its_function_of_arguments_and_task():
 
 def test_a_worker_that_would_compute_something_else_is_refused(monkeypatch):
     made_here = DOUBLED
-    monkeypatch.setattr(engine, "version", lambda name: "0.0.0")
+    monkeypatch.setattr(engine, "_version", lambda name: "0.0.0")
     with pytest.raises(EnvironmentMismatch, match="same versions"):
         made_here(21)
 

@@ -1,8 +1,11 @@
 """Models and batches are used again, never by two at once, and never with old numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from models.drive import Drive, DriveKind
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
@@ -62,21 +65,56 @@ def test_what_failed_in_use_is_not_used_again():
         assert (one, new) == (1, True)
 
 
-def test_a_model_that_is_used_again_has_the_numbers_of_its_set_up():
-    for damping in (0.01, 0.02, 0.01):
-        wanted = compile_model(setup(damping))
-        with models_of([setup(damping), setup(2 * damping)]) as (model, other):
-            assert model is not other
-            np.testing.assert_array_equal(model.numeric_data, wanted.numeric_data)
-            np.testing.assert_array_equal(model.jnt_stiffness, wanted.jnt_stiffness)
-            np.testing.assert_array_equal(model.actuator_gear, wanted.actuator_gear)
-            assert not np.array_equal(other.numeric_data, wanted.numeric_data)
+OTHERS = {
+    "damping": {"tissue": Tissue.uniform(viscous_n_mm_s_per_mm=0.1)},
+    "inserted length": {"inserted_mm": 80.0},
+    "free length": {"free_mm": 10.0},
+    "needle": {"needle": NITINOL.but(diameter_mm=0.9, tip_inertia_kg_m2=1e-12)},
+    "drive": {"drive": Drive(stiffness_n_mm_per_rad=5.0, rotor_inertia_kg_m2=1e-9)},
+    "torque limit": {"drive": Drive(kind=DriveKind.TORQUE, torque_limit_n_mm=3.0)},
+    "step": {"discretisation": {"step_s": 3e-3}},
+}
 
 
-def test_needles_of_other_bodies_share_no_model():
-    with models_of([setup()]) as (one,), models_of([setup(inserted=80.0)]) as (other,):
+def arrays(model):
+    """All numbers of a model but those for drawing."""
+    return {name: value for name in dir(model) if isinstance(value := getattr(model, name), np.ndarray)}
+
+
+@pytest.mark.parametrize("arrangement", Arrangement)
+@pytest.mark.parametrize("other", OTHERS)
+def test_a_model_that_is_used_again_is_that_of_its_set_up(other, arrangement):
+    """Every number is that of a model compiled for the set-up, whatever the model was before."""
+    changes = dict(OTHERS[other])
+    first = setup(arrangement=arrangement)
+    if "drive" in changes and changes["drive"].kind is DriveKind.TORQUE:
+        first = replace(first, drive=changes["drive"].but(torque_limit_n_mm=9.0))
+    changed = {"discretisation": first.discretisation.but(**changes.pop("discretisation", {}))}
+    wanted = replace(first, **changed, **changes)
+    assert wanted.size == first.size
+    with models_of([first]) as (used,):
+        before = {name: value.copy() for name, value in arrays(used).items()}
+    with models_of([wanted]) as (again,):
+        assert again is used
+        assert again.opt.timestep == wanted.discretisation.step_s
+        for name, value in arrays(compile_model(wanted)).items():
+            np.testing.assert_array_equal(getattr(again, name), value, err_msg=name)
+    same = all(np.array_equal(before[name], value) for name, value in arrays(used).items())
+    assert same == (other == "step")  # the step is no array; everything else changes one
+
+
+def test_two_needles_of_one_size_never_share_a_model():
+    with models_of([setup(0.01), setup(0.02)]) as (one, other):
         assert one is not other
-        assert one.body_inertia[-1, 0] != other.body_inertia[-1, 0]
+        assert not np.array_equal(one.numeric_data, other.numeric_data)
+
+
+def test_needles_of_other_sizes_share_no_model():
+    finer = replace(setup(), discretisation=Discretisation(elements=5))
+    with models_of([setup()]) as (one,):
+        pass
+    with models_of([finer]) as (other,):
+        assert one.nq != other.nq
 
 
 def test_batches_and_data_of_one_size_are_used_again():
