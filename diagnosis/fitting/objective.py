@@ -2,7 +2,8 @@
 
 Nuisance parameters move by a few per cent at most: their slopes are computed again only if the
 effects have moved far. The pasts of late trials move as far as effects do, but cost one trial only.
-Iterations of a fit run the callback alone, which takes the same steps; MuJoCo simulates the end.
+Iterations of a fit run the callback alone, which takes the same steps; MuJoCo simulates the end of
+those on the log itself.
 """
 
 from collections.abc import Sequence
@@ -66,11 +67,14 @@ class Objective:
         return self._known[key]
 
     def at_the_end(self, x: Array) -> tuple[Array, ...]:
-        """Residuals / sigma at the end of a fit, one array per trial, simulated by MuJoCo.
+        """Residuals / sigma at the end of a fit, one array per trial: MuJoCo's, unless the problem
+        says otherwise.
 
         Raises:
           SimulationFailed: the rig cannot be simulated.
         """
+        if self.problem.callback_alone:
+            return self.by_trial(x)
         return tuple(trial[0] for trial in self.problem.residuals([self.parameterization.rig(x)]))
 
     def __call__(self, x: Array) -> Array:

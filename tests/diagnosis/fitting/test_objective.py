@@ -18,8 +18,9 @@ DRAG = parameterization_of(("tip_drag",), OPEN)
 class ClosedForm:
     """A problem whose two trials are known functions of a rig's tip drag and stiffness."""
 
-    def __init__(self, most_drag=np.inf):
+    def __init__(self, most_drag=np.inf, callback_alone=False):
         self.most_drag, self.rigs, self.by_callback = most_drag, [], []
+        self.callback_alone = callback_alone
 
     def residuals(self, rigs, *, callback_alone=False):
         self.rigs += rigs
@@ -51,6 +52,12 @@ def test_a_fit_runs_the_callback_alone_and_its_end_is_a_run_of_mujoco():
     for end, way in zip(objective.at_the_end(x), objective.by_trial(x), strict=True):
         np.testing.assert_array_equal(end, way)
     assert objective.problem.by_callback == [True, True, False]
+
+
+def test_a_fit_of_a_decimated_log_ends_without_mujoco():
+    objective, x = Objective(ClosedForm(callback_alone=True), DRAG), middle()
+    objective.at_the_end(x)
+    assert objective.problem.by_callback == [True]
 
 
 def test_slopes_are_those_of_the_closed_form():
