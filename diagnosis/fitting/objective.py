@@ -19,6 +19,7 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
+_NEAR = 0.02  # of all entries, within which the slopes are the same for one more step
 _KEPT = 16  # vectors whose residuals are kept: more than a search along one direction takes
 
 
@@ -47,6 +48,7 @@ class Objective:
         self.low, self.high = parameterization.bounds()
         self.slopes, self._known_slopes = slopes, slopes is not None
         self._fresh_at: Array | None = None
+        self._taken_at: Array | None = None
         free = np.arange(parameterization.bounds()[0].size) < parameterization.free
         self._effects = np.flatnonzero(free)
         self._moving = np.flatnonzero(free | parameterization.about_one_trial)
@@ -102,9 +104,9 @@ class Objective:
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """Jacobian by differences, away from the bounds, (N, n); or the known one."""
-        if self._known_slopes and self.slopes is not None:
-            return self.slopes
         flat = x.ravel()
+        if self._known_slopes_hold(flat) and self.slopes is not None:
+            return self.slopes
         steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
         taken = self._moving
         slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
@@ -115,6 +117,14 @@ class Objective:
             slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
         self.slopes = slopes
         return slopes
+
+    def _known_slopes_hold(self, x: Array) -> bool:
+        """Whether the last Jacobian is good enough: once, so that slow progress has a fresh one."""
+        if self._known_slopes:
+            return True
+        near = self._taken_at is not None and np.abs(x - self._taken_at).max(initial=0.0) < _NEAR
+        self._taken_at = None if near else x
+        return near
 
     def _is_far(self, way: Array) -> bool:
         return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)

@@ -1,9 +1,10 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
 Every family is fitted through the simulation: for a few iterations on the decimated log, the best
-third for a few more; the best to their end there, the strength of their prior estimated, alone and beside
-the library's effects that came nearest; the best of these on the log itself, and checked on trials that
-the fit has not seen. Where all leave far more than noise, fewer go there, and not to their end.
+third for a few more; the best to their end there, the strength of their prior estimated, alone and
+beside the library's effects that came nearest; the best of these on the log itself, and checked on
+trials that the fit has not seen. Where all leave far more than noise, fewer go there, and not to their
+end.
 """
 
 from collections.abc import Callable, Sequence

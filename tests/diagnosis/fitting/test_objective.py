@@ -96,6 +96,18 @@ def test_slopes_of_the_nuisance_are_taken_again_only_far_away():
     assert asked == [2, 1, 2]
 
 
+def test_slopes_hold_for_one_short_step_and_not_for_two_or_a_long_one():
+    objective, x = Objective(ClosedForm(), DRAG), middle()
+    asked = []
+    for moved in (0.0, 0.01, 0.015, 0.04):
+        there = x - [moved, 0.0]
+        at_there = objective(there)
+        before = len(objective.problem.rigs)
+        objective.jacobian(there, at_there)
+        asked.append(len(objective.problem.rigs) - before)
+    assert asked == [2, 0, 1, 1]
+
+
 def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():
     late = replace(LIBRARY["damping_error"], name="start", trial="trial_01.csv")
     parameterization = parameterization_of(("tip_drag",), (*OPEN, late))
@@ -104,7 +116,7 @@ def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():
     x = np.append(middle(), 0.0)
     objective.jacobian(x, objective(x))
     before = len(problem.rigs)
-    objective.jacobian(x + 0.01, objective(x + 0.01))
+    objective.jacobian(x + 0.05, objective(x + 0.05))
     # The vector itself, and the columns of drag and of the start; stiffness is as it was.
     assert len(problem.rigs) - before == 3
 
