@@ -2,12 +2,13 @@
 
 Families are weighted by the gap g that they leave on trials that their fits have not seen,
 
-    weight = g^(-2 / PATIENCE) exp(-freedom / FREEDOM),
+    weight = (FLOOR + g^2 - 1)^(-1 / PATIENCE) exp(-freedom / FREEDOM),
 
-so that a law that leaves 10 % more than another has a seventh of its weight. A likelihood would decide
-more sharply; but no family is the true law, and the best of them may be so by chance. Places that no
-family favours keep a small probability. The library's nearest explanation, which has no place for what
-is missing, counts for all places alike: where it leaves less than every family, none of them is likely.
+so that far above the noise a law that leaves 10 % more than another has a seventh of its weight, and
+near the noise, where laws are nearly true, 2 % decide as much. A likelihood would decide more sharply;
+but no family is the true law, and the best of them may be so by chance. Places that no family favours
+keep a small probability. The library's nearest explanation, which has no place for what is missing,
+counts for all places alike: where it leaves less than every family, none of them is likely.
 """
 
 import math
@@ -25,6 +26,7 @@ from diagnosis.freeform.search import FreeFit
 Array = NDArray[np.float64]
 
 PATIENCE, FREEDOM = 0.1, 4.0
+FLOOR = 0.1  # variance beyond the noise, of that of the noise, that hardly counts
 COMPANION = 4.0  # parameters that an effect of the library beside a law counts for: two things missing
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
@@ -125,7 +127,7 @@ def _log_weight(one: FreeFit) -> float:
 
 
 def _log_gap_weight(gap: float) -> float:
-    return -2.0 * math.log(gap) / PATIENCE
+    return -math.log(FLOOR + max(gap**2 - 1.0, 0.0)) / PATIENCE
 
 
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:

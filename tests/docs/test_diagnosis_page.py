@@ -11,7 +11,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered
 
 from diagnosis.freeform import families as folder
-from diagnosis.freeform.missing import FREEDOM, PATIENCE
+from diagnosis.freeform.missing import FLOOR, FREEDOM, PATIENCE
 from diagnosis.freeform.search import CONTENDERS, FINALISTS
 from diagnosis.replay.variables import Variable
 
@@ -48,7 +48,7 @@ def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
 def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
     words = {4: "four", 10: "ten"}
     for said in (
-        f"g^(−{2 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
+        f"(g² − {1 - FLOOR:g})^(−{1 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
         f"the best {words[CONTENDERS]} to their",
         f"the best {words[FINALISTS]} are fitted to the full log",
     ):

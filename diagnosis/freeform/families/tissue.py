@@ -16,7 +16,7 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 
-OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY)
+OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY, Variable.TORQUE)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:

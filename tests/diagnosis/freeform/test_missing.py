@@ -9,7 +9,7 @@ from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
 
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.missing import FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
+from diagnosis.freeform.missing import FLOOR, FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
 from diagnosis.freeform.search import FreeFit
 
 TIP = {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}
@@ -25,7 +25,7 @@ def fits():
 
 
 def test_no_place_is_likely_where_the_library_leaves_less_than_every_law():
-    """The best law leaves 1.2 times as much: its place has at most 1.2^-20 = 0.03 more than others."""
+    """The best law's weight is (1.02^2 - 0.9)^-10 / 0.1^-10 = 0.03 of the library's, shared by six."""
     place = missing_of(fits(), 1.02 / 1.2).place
     assert max(place.values()) - min(place.values()) < 0.03
 
@@ -39,9 +39,9 @@ def test_places_are_probabilities_of_all_six():
 
 
 def test_a_gap_that_is_larger_weighs_less_by_its_power():
-    """Weights are 1 and (1.2 / 1.02)^(-2 / PATIENCE), shared as the family says; a little for each."""
+    """Weights are 1 and a power of what is left beyond noise, shared as the family says."""
     place = missing_of(fits(), 5.0).place
-    weight = (1.2 / 1.02) ** (-2 / PATIENCE)
+    weight = ((FLOOR + 1.2**2 - 1) / (FLOOR + 1.02**2 - 1)) ** (-1 / PATIENCE)
     assert place[Place.SENSOR] / place[Place.INTERFACE] == pytest.approx(
         (LEAST_WEIGHT + 0.6 * weight) / (LEAST_WEIGHT + 1.0)
     )
@@ -49,6 +49,15 @@ def test_a_gap_that_is_larger_weighs_less_by_its_power():
         (LEAST_WEIGHT + 0.4 * weight) / (LEAST_WEIGHT + 1.0)
     )
     assert place[Place.DRIVE] == pytest.approx(place[Place.PARAMETERS])
+
+
+@pytest.mark.parametrize(("gap", "more", "share"), [(10.0, 11.0, 1 / 7), (1.0, 1.02, 1 / 30)])
+def test_far_above_the_noise_ten_percent_are_a_seventh_and_near_it_two_are_more(gap, more, share):
+    here = free_fit(gap, name="here", says="time", places={Place.TISSUE: 1.0})
+    there = free_fit(more, name="there", says="rate", places={Place.SENSOR: 1.0})
+    place = missing_of([here, there], 50.0).place
+    ratio = (place[Place.SENSOR] - place[Place.DRIVE]) / (place[Place.TISSUE] - place[Place.DRIVE])
+    assert ratio == pytest.approx(share, rel=0.1)
 
 
 def test_freedom_that_the_data_determine_costs():
