@@ -28,7 +28,7 @@ test: compiled
 quick: compiled
 	CI=1 $(BIN)/python -m pytest $(SPREAD) -m "not slow"
 
-# Ten thousand inputs that are wrong, and what came of them.
+# Ten thousand wrong inputs, and how each ended.
 fuzz: compiled
 	CI=1 PYTHONPATH=.:tests $(BIN)/python -m fuzz.run --inputs 11000
 

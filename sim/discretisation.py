@@ -1,6 +1,7 @@
 """Discretisation of needle and time, and the arrangement of the bodies in MuJoCo."""
 
 from enum import StrEnum
+from functools import lru_cache
 from typing import Annotated
 
 import numpy as np
@@ -104,14 +105,16 @@ def node_positions_mm(
         raise InvalidValue(
             "inserted_mm", inserted_mm, "a depth above 0 mm, because the mesh is fixed to the tissue"
         )
-    inside = free_mm + _even_between(tissue.boundaries_mm(inserted_mm), discretisation.elements)
+    boundaries = tuple(tissue.boundaries_mm(inserted_mm).tolist())
+    inside = free_mm + _even_between(boundaries, discretisation.elements)
     if free_mm == 0:
         return inside, 0
     outside = discretisation.free_elements or (8 if sheath else 1)
     return np.concatenate([np.linspace(0.0, free_mm, outside + 1)[:-1], inside]), outside
 
 
-def _even_between(boundaries: Array, elements: int) -> Array:
+@lru_cache(maxsize=256)
+def _even_between(boundaries: tuple[float, ...], elements: int) -> Array:
     """Node positions: `elements` distributed over the stretches by length, at least two each."""
     lengths = np.diff(boundaries)
     shares = np.maximum(2, np.round(elements * lengths / lengths.sum()).astype(int))

@@ -95,6 +95,20 @@ class Setup:
         """Whether bodies hinge on one another, with torsion in their joints."""
         return self.discretisation.arrangement is Arrangement.CHAIN
 
+    def has_bodies_of(self, other: "Setup") -> bool:
+        """Whether the bodies are those of another set-up of the same `size`, servo included."""
+        same_ends = (self.needle.tip_inertia_kg_m2, self.drive.rotor_inertia_kg_m2) == (
+            other.needle.tip_inertia_kg_m2,
+            other.drive.rotor_inertia_kg_m2,
+        )
+        return (
+            same_ends
+            and self.servo_n_m_per_rad == other.servo_n_m_per_rad
+            and self.needle.diameter_mm == other.needle.diameter_mm
+            and self.needle.density_g_cm3 == other.needle.density_g_cm3
+            and bool(np.array_equal(self.nodes_mm, other.nodes_mm))
+        )
+
     @cached_property
     def bodies(self) -> ShaftBodies:
         """The bodies of the shaft. Raises `InvalidValue` if one is too light for MuJoCo."""
@@ -163,14 +177,24 @@ def needle_spec(setup: Setup) -> mujoco.MjSpec:
 
 
 def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
-    """Write the numbers of a set-up into a model of the same `size`, which `mj_setConst` then completes.
+    """Write the numbers of a set-up, but those of its bodies, into a model of the same `size`."""
+    model.opt.timestep = setup.discretisation.step_s
+    model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
+    model.jnt_stiffness[:] = _joint_stiffness(setup)
+    model.actuator_gear[memory_map.U_DRIVE, 0] = _drive_gear(setup)
+    model.actuator_gear[memory_map.U_CARRIAGE, 0] = _rail_n_per_m(setup)
+    if setup.drive.torque_limit_n_mm is not None:
+        model.actuator_forcerange[memory_map.U_DRIVE] = _torque_range_n_m(setup.drive.torque_limit_n_mm)
 
-    The model is that which compilation would give, at a fraction of the cost.
+
+def set_bodies(model: mujoco.MjModel, setup: Setup) -> None:
+    """Write where the bodies are, and their mass, into a model of the same `size`.
+
+    With `set_numbers` before and `mj_setConst` after it, the model is that which
+    compilation would give, at a fraction of the cost.
     """
     bodies, shaft = setup.bodies, slice(memory_map.FIRST_BODY, None)
     half, radius = bodies.half_length_m, bodies.radius_m
-    model.opt.timestep = setup.discretisation.step_s
-    model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
     model.body_pos[shaft, 0] = bodies.from_parent_m(chain=setup.is_chain)
     model.body_ipos[shaft, 0] = model.geom_pos[:, 0] = bodies.centre_m
     model.body_mass[shaft], model.body_inertia[shaft] = bodies.mass_kg, bodies.inertia_kg_m2
@@ -178,11 +202,6 @@ def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
     model.geom_rbound[:] = model.geom_aabb[:, 5] = half + radius  # capsules point along their z
     model.geom_aabb[:, 3:5] = radius
     model.site_size[:] = _tip_size(setup)
-    model.jnt_stiffness[:] = _joint_stiffness(setup)
-    model.actuator_gear[memory_map.U_DRIVE, 0] = _drive_gear(setup)
-    model.actuator_gear[memory_map.U_CARRIAGE, 0] = _rail_n_per_m(setup)
-    if setup.drive.torque_limit_n_mm is not None:
-        model.actuator_forcerange[memory_map.U_DRIVE] = _torque_range_n_m(setup.drive.torque_limit_n_mm)
 
 
 def _joint_stiffness(setup: Setup) -> Array:

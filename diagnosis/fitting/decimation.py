@@ -46,7 +46,14 @@ def decimated(
     trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
     rare = PreparedLog(rig=log.rig, trials=trials)
     noise = decimated_noise(problem.noise, log, rare)
-    return replace(problem, log=rare, noise=noise, resolution=COARSE, tolerance_sigma=_TOLERANCE_SIGMA)
+    return replace(
+        problem,
+        log=rare,
+        noise=noise,
+        resolution=COARSE,
+        tolerance_sigma=_TOLERANCE_SIGMA,
+        callback_alone=True,
+    )
 
 
 def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:

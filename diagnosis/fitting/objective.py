@@ -2,7 +2,8 @@
 
 Nuisance parameters move by a few per cent at most: their slopes are computed again only if the
 effects have moved far. The pasts of late trials move as far as effects do, but cost one trial only.
-Iterations of a fit run the callback alone, which takes the same steps; MuJoCo simulates the end.
+Iterations of a fit run the callback alone, which takes the same steps; MuJoCo simulates the end of
+those on the log itself.
 """
 
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from sim.simulation import SimulationFailed
 Array = NDArray[np.float64]
 
 _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
+_NEAR = 0.02  # of all entries, within which the slopes are the same for one more step
 _KEPT = 16  # vectors whose residuals are kept: more than a search along one direction takes
 
 
@@ -46,6 +48,7 @@ class Objective:
         self.low, self.high = parameterization.bounds()
         self.slopes, self._known_slopes = slopes, slopes is not None
         self._fresh_at: Array | None = None
+        self._taken_at: Array | None = None
         free = np.arange(parameterization.bounds()[0].size) < parameterization.free
         self._effects = np.flatnonzero(free)
         self._moving = np.flatnonzero(free | parameterization.about_one_trial)
@@ -66,11 +69,14 @@ class Objective:
         return self._known[key]
 
     def at_the_end(self, x: Array) -> tuple[Array, ...]:
-        """Residuals / sigma at the end of a fit, one array per trial, simulated by MuJoCo.
+        """Residuals / sigma at the end of a fit, one array per trial: MuJoCo's, unless the problem
+        says otherwise.
 
         Raises:
           SimulationFailed: the rig cannot be simulated.
         """
+        if self.problem.callback_alone:
+            return self.by_trial(x)
         return tuple(trial[0] for trial in self.problem.residuals([self.parameterization.rig(x)]))
 
     def __call__(self, x: Array) -> Array:
@@ -98,9 +104,9 @@ class Objective:
 
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """Jacobian by differences, away from the bounds, (N, n); or the known one."""
-        if self._known_slopes and self.slopes is not None:
-            return self.slopes
         flat = x.ravel()
+        if self._known_slopes_hold(flat) and self.slopes is not None:
+            return self.slopes
         steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
         taken = self._moving
         slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
@@ -111,6 +117,14 @@ class Objective:
             slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
         self.slopes = slopes
         return slopes
+
+    def _known_slopes_hold(self, x: Array) -> bool:
+        """Whether the last Jacobian is good enough: once, so that slow progress has a fresh one."""
+        if self._known_slopes:
+            return True
+        near = self._taken_at is not None and np.abs(x - self._taken_at).max(initial=0.0) < _NEAR
+        self._taken_at = None if near else x
+        return near
 
     def _is_far(self, way: Array) -> bool:
         return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)

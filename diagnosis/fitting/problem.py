@@ -28,6 +28,8 @@ class FitProblem:
       nuisance: effects that every fit includes.
       library: effects with bounds and starts for a rig of this size.
       tolerance_sigma: tolerance of fits, in standard deviations of their parameters.
+      callback_alone: whether fits end without MuJoCo's steps, too: those that only tell which to do
+        again (sim.needles.callback_loop).
     """
 
     log: PreparedLog
@@ -36,6 +38,7 @@ class FitProblem:
     resolution: Resolution = FINE
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
     tolerance_sigma: float = 0.02
+    callback_alone: bool = False
 
     @property
     def samples(self) -> int:

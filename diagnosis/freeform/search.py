@@ -1,9 +1,10 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for a few iterations on the decimated log, the better
-half for a few more; the best to their end there, the strength of their prior estimated, alone and beside
-the library's effects that came nearest; the best of these on the log itself, and checked on trials that
-the fit has not seen. Where all leave far more than noise, fewer go there, and not to their end.
+Every family is fitted through the simulation: for a few iterations on the decimated log, the best
+third for a few more; the best to their end there, the strength of their prior estimated, alone and
+beside the library's effects that came nearest; the best of these on the log itself, and checked on
+trials that the fit has not seen. Where all leave far more than noise, fewer go there, and not to their
+end.
 """
 
 from collections.abc import Callable, Sequence
@@ -35,6 +36,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "finalists, free-form laws",
 )
 FIRST_ITERATIONS, ITERATIONS = 2, 10
+WORTH_MORE = 3  # one of so many families gets more than the first iterations
 CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
 WORTH_A_FINAL = 2.0  # times the least gap on the decimated log
@@ -82,7 +84,7 @@ def free_form_fits(
     families = families_of(ranges_of(coarse, nominal))
     base = fit_effects(coarse, ())
     first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
-    better, rest = _split(first, len(first) // 2)
+    better, rest = _split(first, len(first) // WORTH_MORE)
     first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
     near, _ = _split(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)

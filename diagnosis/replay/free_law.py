@@ -23,12 +23,13 @@ Dependence on the rate, angle or place of each piece of the shaft is a law of th
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
-from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.bearing import stopped_at
@@ -98,13 +99,10 @@ class Curve:
 
     def at(self, x: Array) -> Array:
         """The curve at values of its variable, (N,)."""
+        through = _through(self.places, self.values, self.period)
         if self.period:
-            places = (*self.places, self.places[0] + self.period)
-            wrapped = self.places[0] + np.mod(x - self.places[0], self.period)
-            values = (*self.values, self.values[0])
-            return np.asarray(CubicSpline(places, values, bc_type="periodic")(wrapped))
-        within = np.clip(x, self.places[0], self.places[-1])
-        return np.asarray(PchipInterpolator(self.places, self.values)(within))
+            return np.asarray(through(self.places[0] + np.mod(x - self.places[0], self.period)))
+        return np.asarray(through(np.clip(x, self.places[0], self.places[-1])))
 
     def with_hysteresis(self, values: Array) -> Array:
         """Hysteresis to add to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
@@ -122,6 +120,13 @@ class Curve:
         each = zip(self.places, self.values, strict=True)
         shown = [share * (np.interp(time_s - ago, time_s, values) - values) for ago, share in each]
         return np.asarray(np.sum(shown, axis=0))
+
+
+@lru_cache(maxsize=64)  # trial after trial asks for the same curves
+def _through(places: tuple[float, ...], values: tuple[float, ...], period: float) -> PPoly:
+    if not period:
+        return PchipInterpolator(places, values)
+    return CubicSpline((*places, places[0] + period), (*values, values[0]), bc_type="periodic")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,11 +194,17 @@ class FreeLaw:
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """The parts of the law that apply to one trial."""
-        return replace(self, curves=tuple(c for c in self.curves if c.trial in ("", trial)))
+        return self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
 
     def without_sensors(self) -> "FreeLaw":
         """The parts of the law that act on the needle, without those of the sensors."""
-        return replace(self, curves=tuple(c for c in self.curves if c.acts_on not in _SENSORS))
+        return self._with(self._of_the_needle())
+
+    def _with(self, curves: tuple[Curve, ...]) -> "FreeLaw":
+        return self if len(curves) == len(self.curves) else replace(self, curves=curves)
+
+    def _of_the_needle(self) -> tuple[Curve, ...]:
+        return tuple(c for c in self.curves if c.acts_on not in _SENSORS)
 
     def needle(self, needle: Needle) -> Needle:
         """The needle with the law in it."""
@@ -228,10 +239,11 @@ class FreeLaw:
         Args:
           torque_n_mm: measured torque without its noise, since that of the simulation is not yet known.
         """
+        curves = self._of_the_needle()
+        if not curves:
+            return inputs
         factor, drive = np.ones(inputs.time_s.size), inputs.drive
-        for curve in self.curves:
-            if curve.acts_on in _SENSORS:
-                continue
+        for curve in curves:
             if curve.variable is Variable.TURNED_BY:
                 drive = drive + curve.with_hysteresis(inputs.drive)
                 continue

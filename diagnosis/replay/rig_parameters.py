@@ -6,6 +6,7 @@ shaft with encoder, torque sensor, bearing, chuck.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.free_law import FreeLaw
@@ -168,7 +169,10 @@ class RigParameters:
     def on_trial(self, trial: str) -> "RigParameters":
         """The rig for one trial, without the pasts of others."""
         own = tuple(past for past in self.pasts if past.trial == trial)
-        return replace(self, pasts=own, free=self.free.on_trial(trial) if self.free else None)
+        free = self.free.on_trial(trial) if self.free else None
+        if own == self.pasts and free is self.free:
+            return self
+        return replace(self, pasts=own, free=free)
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle for a schedule, as returned by `driven`."""
@@ -179,12 +183,8 @@ class RigParameters:
             needle=self.needle(rig, shaft),
             tissue=self.tissue(rig),
             drive=self.drive(rig),
-            discretisation=Discretisation(
-                step_s=step_s,
-                # A mesh that goes with the needle has the free length in it as well.
-                elements=elements if standing else 2 * elements,
-                arrangement=Arrangement.SIBLINGS,
-            ),
+            # A mesh that goes with the needle has the free length in it as well.
+            discretisation=_siblings(elements if standing else 2 * elements, step_s),
             mesh=schedule.mesh,
             free_mm=float(schedule.free_mm[0]),
             inserted_mm=float(inserted),
@@ -193,6 +193,11 @@ class RigParameters:
             if standing
             else self.material_share_growing_depth,
         )
+
+
+@lru_cache(maxsize=64)
+def _siblings(elements: int, step_s: float) -> Discretisation:
+    return Discretisation(step_s=step_s, elements=elements, arrangement=Arrangement.SIBLINGS)
 
 
 NOMINAL = RigParameters()

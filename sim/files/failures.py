@@ -1,4 +1,4 @@
-"""Errors of the system on writing a file, as sentences that name the path and the way out."""
+"""Errors of the system on writing a file, as sentences that name the path and how to fix it."""
 
 import errno
 from collections.abc import Iterator

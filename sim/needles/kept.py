@@ -7,13 +7,14 @@ reuse the same batches. An object in use is not available to other threads.
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 import mujoco
 from mujoco.batch import Batch
 
 from sim.kernel.callback import install
-from sim.spec import Setup, needle_spec, set_numbers
+from sim.spec import Setup, needle_spec, set_bodies, set_numbers
 
 T = TypeVar("T")
 
@@ -40,7 +41,25 @@ class Kept(Generic[T]):
             self._free.pop(oldest, None)
 
 
-_MODELS: Kept[mujoco.MjModel] = Kept()
+@dataclass
+class _Compiled:
+    """A compiled model, and the set-up whose numbers it has."""
+
+    model: mujoco.MjModel
+    setup: Setup
+
+    def become(self, setup: Setup) -> None:
+        """Write the numbers of another set-up of the same size."""
+        same = setup.has_bodies_of(self.setup)
+        set_numbers(self.model, setup)
+        if not same:
+            set_bodies(self.model, setup)
+            with data_of(self.model) as data:
+                mujoco.mj_setConst(self.model, data)
+        self.setup = setup
+
+
+_MODELS: Kept[_Compiled] = Kept()
 _BATCHES: Kept[Batch] = Kept()
 _DATA: Kept[mujoco.MjData] = Kept()
 
@@ -60,12 +79,10 @@ def models_of(setups: Sequence[Setup]) -> Iterator[list[mujoco.MjModel]]:
 
 @contextmanager
 def _model_of(setup: Setup) -> Iterator[mujoco.MjModel]:
-    with _MODELS.taken(setup.size, lambda: compile_model(setup)) as (model, new):
+    with _MODELS.taken(setup.size, lambda: _Compiled(compile_model(setup), setup)) as (one, new):
         if not new:
-            set_numbers(model, setup)
-            with data_of(model) as data:
-                mujoco.mj_setConst(model, data)
-        yield model
+            one.become(setup)
+        yield one.model
 
 
 @contextmanager

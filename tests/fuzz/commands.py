@@ -54,7 +54,7 @@ answers = st.one_of(
 
 
 def checked_answers(data):
-    """What came of a ground truth."""
+    """Outcome of a ground truth."""
 
     def action():
         with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
@@ -106,7 +106,7 @@ arguments = st.one_of(
 
 
 def checked_command(words):
-    """What came of arguments: exit code 2 and a reason on stderr, and not a file."""
+    """Outcome of arguments: exit code 2 and a reason on stderr, and not a file."""
 
     def action():
         said, here = io.StringIO(), os.getcwd()

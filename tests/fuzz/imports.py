@@ -70,7 +70,7 @@ same = st.sampled_from(
 
 
 def checked_file(named):
-    """What came of a lab file: read, drafted, and its draft read again."""
+    """Outcome of a lab file: read, drafted, and its draft read again."""
     name, data = named
 
     def action():
@@ -87,7 +87,7 @@ def checked_file(named):
 
 
 def checked_mapping(data, *, csv=FILES["run.csv"], same=False):
-    """What came of a mapping, applied to a good file; or of a good one, applied to a file."""
+    """Outcome of a mapping, applied to a good file; or of a good one, applied to a file."""
 
     def action():
         with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:

@@ -45,7 +45,7 @@ def good():
 
 
 def checked(files, *, same=False):
-    """What came of a log; one that means the same has to be the same."""
+    """Outcome of a log; one that means the same has to be the same."""
 
     def action():
         log = read(files)

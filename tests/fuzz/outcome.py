@@ -1,4 +1,4 @@
-"""What came of one input, within bounds of time and memory."""
+"""Outcome of one input, within bounds of time and memory."""
 
 import resource
 import signal

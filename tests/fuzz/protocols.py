@@ -78,7 +78,7 @@ same = st.sampled_from(
 
 
 def checked(data, *, same=False):
-    """What came of a protocol."""
+    """Outcome of a protocol."""
 
     def action():
         with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:

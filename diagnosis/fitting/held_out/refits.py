@@ -16,7 +16,7 @@ from diagnosis.stopping import StoppedEarly
 Array = NDArray[np.float64]
 GapOf = Callable[[Fit, tuple[Array, ...]], float]
 
-_ITERATIONS = 3
+_ITERATIONS = 6
 
 
 def plain_gap(_: Fit, held_out: tuple[Array, ...]) -> float:
@@ -45,14 +45,17 @@ def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_ga
 def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
     """Residuals / sigma of each trial, simulated with a fit to the others.
 
+    These fits take the slopes of the fit to all trials, which costs a tenth of computing them again.
+
     Raises:
       SimulationFailed: the needle cannot be simulated with the parameters from the others.
     """
-    left = []
+    left, weights = [], np.diag(fit.parameterization.weights)
     for i, trial in enumerate(problem.log.trials):
         others = tuple(other for j, other in enumerate(problem.log.trials) if j != i)
+        slopes = np.vstack([*(own for j, own in enumerate(fit.jacobian) if j != i), weights])
         rest = replace(problem, log=replace(problem.log, trials=others))
-        again = fit_effects(rest, fit.names, fit.x, most_iterations=_ITERATIONS)
+        again = fit_effects(rest, fit.names, fit.x, most_iterations=_ITERATIONS, slopes=slopes)
         rig = again.parameterization.rig(again.x)
         own = replace(problem, log=replace(problem.log, trials=(trial,)))
         left.append(own.residuals([rig])[0][0])

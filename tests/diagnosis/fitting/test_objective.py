@@ -18,8 +18,9 @@ DRAG = parameterization_of(("tip_drag",), OPEN)
 class ClosedForm:
     """A problem whose two trials are known functions of a rig's tip drag and stiffness."""
 
-    def __init__(self, most_drag=np.inf):
+    def __init__(self, most_drag=np.inf, callback_alone=False):
         self.most_drag, self.rigs, self.by_callback = most_drag, [], []
+        self.callback_alone = callback_alone
 
     def residuals(self, rigs, *, callback_alone=False):
         self.rigs += rigs
@@ -51,6 +52,12 @@ def test_a_fit_runs_the_callback_alone_and_its_end_is_a_run_of_mujoco():
     for end, way in zip(objective.at_the_end(x), objective.by_trial(x), strict=True):
         np.testing.assert_array_equal(end, way)
     assert objective.problem.by_callback == [True, True, False]
+
+
+def test_a_fit_of_a_decimated_log_ends_without_mujoco():
+    objective, x = Objective(ClosedForm(callback_alone=True), DRAG), middle()
+    objective.at_the_end(x)
+    assert objective.problem.by_callback == [True]
 
 
 def test_slopes_are_those_of_the_closed_form():
@@ -89,6 +96,18 @@ def test_slopes_of_the_nuisance_are_taken_again_only_far_away():
     assert asked == [2, 1, 2]
 
 
+def test_slopes_hold_for_one_short_step_and_not_for_two_or_a_long_one():
+    objective, x = Objective(ClosedForm(), DRAG), middle()
+    asked = []
+    for moved in (0.0, 0.01, 0.015, 0.04):
+        there = x - [moved, 0.0]
+        at_there = objective(there)
+        before = len(objective.problem.rigs)
+        objective.jacobian(there, at_there)
+        asked.append(len(objective.problem.rigs) - before)
+    assert asked == [2, 0, 1, 1]
+
+
 def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():
     late = replace(LIBRARY["damping_error"], name="start", trial="trial_01.csv")
     parameterization = parameterization_of(("tip_drag",), (*OPEN, late))
@@ -97,7 +116,7 @@ def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():
     x = np.append(middle(), 0.0)
     objective.jacobian(x, objective(x))
     before = len(problem.rigs)
-    objective.jacobian(x + 0.01, objective(x + 0.01))
+    objective.jacobian(x + 0.05, objective(x + 0.05))
     # The vector itself, and the columns of drag and of the start; stiffness is as it was.
     assert len(problem.rigs) - before == 3
 

@@ -8,7 +8,7 @@ from analytic_log import change_rig, change_trial, scaled
 from diagnosis.log.checks.plausibility import plausibility_warnings
 from diagnosis.log.rig_log import read_rig_log
 
-DOUBTS = [
+IMPLAUSIBLE = [
     (
         lambda t: t.drop(index=range(150, 200)),
         r"time_s jumps by up to 0.51 s before line 152; the base is taken to have moved smoothly",
@@ -35,7 +35,7 @@ DOUBTS = [
 ]
 
 
-@pytest.mark.parametrize(("change", "said"), DOUBTS)
+@pytest.mark.parametrize(("change", "said"), IMPLAUSIBLE)
 def test_doubtful_data_is_used_with_a_warning(log, change, said):
     change_trial(log, change)
     found = read_rig_log(log)
