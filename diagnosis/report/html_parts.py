@@ -5,8 +5,11 @@ import html
 import io
 import re
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -112,9 +115,11 @@ def picture(figure: Figure, alt: str = "") -> str:
 
 
 def _png(figure: Figure) -> bytes:
-    """A picture of few colours."""
-    whole, small = io.BytesIO(), io.BytesIO()
-    figure.savefig(whole, dpi=_DPI, format="png")
-    drawn = Image.open(whole).convert("RGB")
+    """A picture of few colours, drawn once: `savefig` would draw a second time for the layout alone."""
+    canvas: Any = FigureCanvasAgg(figure)
+    figure.set_dpi(_DPI)
+    canvas.draw()
+    drawn = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    small = io.BytesIO()
     drawn.quantize(_COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(small, "png")
     return small.getvalue()
