@@ -1,4 +1,4 @@
-"""A single event: an angle or a reading that steps by an unknown size at an unknown time.
+"""A single event: an angle or a reading that steps, by an unknown size, at an unknown time, fast or slowly.
 
 The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
 one at which the means before and after differ most, in units of their scatter (two-sample test).
@@ -21,7 +21,7 @@ from diagnosis.replay.variables import Variable
 
 Array = NDArray[np.float64]
 
-_STEP_S = 0.1  # that a step takes
+_SHORTEST_S, _USUAL_S, _LONGEST_S = 0.01, 0.1, 1.0  # that a step takes
 _MOVES_S = 1.5  # at the most, from where it is looked for first
 _LEAST_S = 0.5  # from either end of a trial
 _PLACES = {
@@ -78,13 +78,22 @@ def _largest_change(time_s: Array, left: Array) -> tuple[float, float]:
 def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float) -> Family:
     low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
     when = Parameter(name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0)
+    lasting = Parameter(
+        name="duration",
+        unit="s",
+        low=_SHORTEST_S,
+        high=_LONGEST_S,
+        start=(_USUAL_S,),
+        logarithmic=True,
+        neutral=None,
+    )
     step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
     return Family(
         effect=Effect(
             name=f"{title}, once",
             title=f"{title}, once in {moment.trial}",
             place=place,
-            parameters=(when, step),
+            parameters=(when, lasting, step),
             apply=partial(_apply, acts_on, moment.trial),
             differences=(0.3, 0.1, 3e-2),
             trial=moment.trial,
@@ -98,15 +107,17 @@ def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float
     )
 
 
-def _stepped(time_s: float, step: float) -> Points:
-    return (0.0, time_s, time_s + _STEP_S, time_s + 2.0), (0.0, 0.0, step, step)
+def _stepped(time_s: float, duration_s: float, step: float) -> Points:
+    return (0.0, time_s, time_s + duration_s, time_s + 2.0), (0.0, 0.0, step, step)
 
 
-def _apply(acts_on: ActsOn, trial: str, rig: RigParameters, time_s: float, step: float) -> RigParameters:
+def _apply(
+    acts_on: ActsOn, trial: str, rig: RigParameters, time_s: float, duration_s: float, step: float
+) -> RigParameters:
     curve = Curve(
         acts_on=acts_on,
         variable=Variable.TIME,
-        places=(time_s, time_s + _STEP_S),
+        places=(time_s, time_s + duration_s),
         values=(0.0, step),
         trial=trial,
     )

@@ -55,11 +55,12 @@ def test_the_step_may_be_of_the_drive_or_of_each_sensor_that_was_read():
 def test_a_step_is_in_its_own_trial_from_its_time_on():
     (_, jump) = families(stepping(5.0, 1.0))
     assert (jump.says, jump.effect.trial) == ("event", "trial_01.csv")
-    when, step = jump.effect.parameters
+    when, lasting, step = jump.effect.parameters
     assert when.start[0] == pytest.approx(5.0, abs=0.1)
     assert step.prior_sigma == np.inf
-    (curve,) = jump.effect.apply(NOMINAL, 5.0, 1.5).free.curves
+    assert lasting.low < 0.1 < lasting.high
+    (curve,) = jump.effect.apply(NOMINAL, 5.0, 0.1, 1.5).free.curves
     assert curve.trial == "trial_01.csv"
     np.testing.assert_allclose(curve.at(np.array([0.0, 5.0, 5.1, 8.0])), [0, 0, 1.5, 1.5])
-    x, y = jump.curve(5.0, 1.5)
+    x, y = jump.curve(5.0, 0.1, 1.5)
     assert (x[1], y[0], y[-1]) == (5.0, 0.0, 1.5)
