@@ -1,4 +1,4 @@
-"""A single event: an angle or a reading that steps, by an unknown size, at an unknown time, fast or slowly.
+"""A single event: an angle or a reading that steps, at an unknown time, fast or slowly.
 
 The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
 one at which the means before and after differ most, in units of their scatter (two-sample test).
