@@ -37,7 +37,8 @@ SCREENING, FITTING, BESIDE, FINALS = (
 )
 FIRST_ITERATIONS, ITERATIONS = 2, 10
 WORTH_MORE = 3  # one of so many families gets more than the first iterations
-CONTENDERS, COMPANIONS, FINALISTS = 10, 2, 4
+CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
+FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
 WORTH_A_FINAL = 2.0  # times the least gap on the decimated log
 
@@ -89,7 +90,7 @@ def free_form_fits(
     near, _ = _split(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
     if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
-        best = sorted(fitted, key=lambda f: f.score)[: CONTENDERS // 2]
+        best = sorted(fitted, key=lambda f: f.score)[:ACCOMPANIED]
         pairs = [(coarse, f, (name,)) for f in best for name in companions[:COMPANIONS]]
         fitted += _each(BESIDE, _to_its_end, pairs, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
@@ -144,7 +145,7 @@ def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
     own = with_family(problem, contender.family)
-    iterations = FAR_ITERATIONS if far else ITERATIONS
+    iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
     fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=iterations)
     if len(problem.log.trials) == 1:
         return replace(contender, fit=fit, gap_after=fit.gap, final=True)
