@@ -7,6 +7,7 @@ inserted length; else the inserted length grows by what the free length loses.
 """
 
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -134,8 +135,9 @@ class Protocol(Record):
             "speed_mm_s": [],
             "tip_torque_n_mm": [],
         }
-        time, angle, free, inserted = 0.0, 0.0, self.free_mm, self.inserted_mm
-        for segment in self.segments:
+        time, angle, free = 0.0, 0.0, self.free_mm
+        ends = pairwise(self._inserted_mm())
+        for segment, (inserted, then) in zip(self.segments, ends, strict=True):
             share = np.linspace(0.0, 1.0, int(np.ceil(samples_of(segment))))
             at = time + segment.duration_s * share
             # A jump at the border of two segments takes one part in 10^6 of a segment.
@@ -148,20 +150,20 @@ class Protocol(Record):
             columns["time_s"] += list(at)
             columns["drive"] += list(turned if torque is None else np.full(share.size, torque))
             columns["free_mm"] += list(np.maximum(free - segment.advance_mm * share, 0.0))
-            gain = 0.0 if self.through else segment.advance_mm
-            columns["inserted_mm"] += list(np.maximum(inserted + gain * share, 0.0))
+            columns["inserted_mm"] += list(inserted + (then - inserted) * share)
             speed = segment.advance_mm / segment.duration_s
             columns["speed_mm_s"] += [speed] * share.size
             columns["tip_torque_n_mm"] += [segment.tip_torque_n_mm] * share.size
             time += segment.duration_s
             angle = float(turned[-1])
-            free, inserted = free - segment.advance_mm, inserted + gain
+            free -= segment.advance_mm
         return Schedule(**{name: np.array(values) for name, values in columns.items()})
 
     def _inserted_mm(self) -> NDArray[np.float64]:
         """Inserted length at the start and at the ends of the segments, mm; linear between them."""
         gains = [0.0 if self.through else segment.advance_mm for segment in self.segments]
-        return np.maximum(self.inserted_mm + np.cumsum([0.0, *gains]), 0.0)
+        ends: NDArray[np.float64] = np.cumsum([self.inserted_mm, *gains])
+        return np.maximum(ends, 0.0)
 
     def setup(self) -> Setup:
         """The model that the run needs."""

@@ -105,8 +105,10 @@ class Objective:
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """Jacobian by differences, away from the bounds, (N, n); or the known one."""
         flat = x.ravel()
-        if self._known_slopes_hold(flat) and self.slopes is not None:
+        if self.slopes is not None and (self._known_slopes or self._is_near(flat)):
+            self._taken_at = None  # for one step: slow progress has fresh slopes
             return self.slopes
+        self._taken_at = flat
         steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
         taken = self._moving
         slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
@@ -118,13 +120,9 @@ class Objective:
         self.slopes = slopes
         return slopes
 
-    def _known_slopes_hold(self, x: Array) -> bool:
-        """Whether the last Jacobian is good enough: once, so that slow progress has a fresh one."""
-        if self._known_slopes:
-            return True
-        near = self._taken_at is not None and np.abs(x - self._taken_at).max(initial=0.0) < _NEAR
-        self._taken_at = None if near else x
-        return near
+    def _is_near(self, x: Array) -> bool:
+        """Whether slopes were computed within a short step."""
+        return self._taken_at is not None and bool(np.abs(x - self._taken_at).max(initial=0.0) < _NEAR)
 
     def _is_far(self, way: Array) -> bool:
         return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)

@@ -45,7 +45,7 @@ def held_out_or_refitted(problem: FitProblem, fit: Fit, gap_of: GapOf = plain_ga
 def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
     """Residuals / sigma of each trial, simulated with a fit to the others.
 
-    These fits take the slopes of the fit to all trials, which costs a tenth of computing them again.
+    These fits take the slopes of the fit to all trials: no simulation per parameter and step.
 
     Raises:
       SimulationFailed: the needle cannot be simulated with the parameters from the others.
