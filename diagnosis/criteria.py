@@ -365,6 +365,9 @@ counts: a real one changes more once in five logs, and the limits beside it have
 SCATTER = {"stiffness_error": 0.015, "damping_error": 0.015}
 """One standard deviation, as a fraction, of what a rig's own constants are off by. A choice: nothing in
 a log tells a true error of 3 % from an inaccurate constant."""
+EXACT = 0.001
+"""The same of a rig whose constants were measured well. A choice: a third of what is told of them alone
+(SCATTER_LEAST), and three times what two simulations of the same rig differ by."""
 SCATTER_NAMED = 2.0
 """Standard deviations of that scatter beyond which it is named beside other effects."""
 SLIDING_MM_S = 0.05
@@ -414,8 +417,7 @@ CONTENDING = 60.0
 of the question: six times the largest lead that any decision asks for, since the decimated log weighs
 costs to 5 % only."""
 NOMINAL_LEAD = 10.0
-"""Score by which the scatter of stiffness and damping has to improve on the exact nominal rig before it
-is kept beside it."""
+"""Cost by which scatter of stiffness and damping has to improve on the exact nominal rig to be told."""
 
 # What no log can tell apart (selection/equivalence/)
 

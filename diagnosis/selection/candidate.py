@@ -17,11 +17,12 @@ from diagnosis.criteria import (
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
-from diagnosis.fitting.held_out.cross_validation import held_out_residuals, information, shift_statistic
+from diagnosis.fitting.held_out.cross_validation import held_out_residuals, shift_statistic
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.complexity import complexity_penalty
+from diagnosis.selection.scatter import gain_of_exact_constants, open_scatter, scatter_of
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
@@ -34,7 +35,7 @@ class Candidate:
     """A fitted explanation.
 
     Attributes:
-      score: cost plus complexity penalty; the least is best.
+      score: cost plus complexity penalty, less what exact constants gain; the least is best.
       floor: how far its residual is above the noise.
       held_out: residuals / sigma of each trial, predicted from the others; None: not looked at.
       held_out_floor: how far these are above the noise.
@@ -166,7 +167,7 @@ class Candidate:
     @property
     def scatter_named(self) -> tuple[str, ...]:
         """Stiffness or damping of the rig, where they are off by too much."""
-        return tuple(n for n in self._open_scatter() if self._is_off(n))
+        return tuple(n for n in open_scatter(self.fit) if self._is_off(n))
 
     @property
     def only_scatter(self) -> bool:
@@ -181,29 +182,20 @@ class Candidate:
     @property
     def jointly_significant(self) -> bool:
         """Whether stiffness and damping, together, are off for certain."""
-        away, spread = self._scatter()
+        away, spread = scatter_of(self.fit)
         off = away @ np.linalg.pinv(spread) @ away > SCATTER_CERTAIN_SIGMA**2
         return bool(off) and float(np.abs(away).sum()) > SCATTER_LEAST
 
     def _is_off(self, name: str) -> bool:
         if self.names:
             return abs(float(self.fit.parts[name][0])) > SCATTER_NAMED * SCATTER[name]
-        away, spread = self._scatter()
-        entry = self._open_scatter().index(name)
+        away, spread = scatter_of(self.fit)
+        entry = open_scatter(self.fit).index(name)
         certain = SCATTER_CERTAIN_SIGMA * float(np.sqrt(spread[entry, entry]))
         return abs(float(away[entry])) > max(certain, SCATTER_LEAST)
-
-    def _open_scatter(self) -> list[str]:
-        return [e.name for e in self.fit.parameterization.nuisance if e.name in SCATTER]
-
-    def _scatter(self) -> tuple[Array, Array]:
-        """What is open of stiffness and damping, and its covariance."""
-        entries = [self.fit.parameterization.owners.index(n) for n in self._open_scatter()]
-        spread = np.asarray(np.linalg.pinv(information(self.fit)), float)
-        return self.fit.x[entries], spread[np.ix_(entries, entries)]
 
 
 def candidate(fit: Fit) -> Candidate:
     """A fit with its score and noise floor."""
-    score = fit.cost + complexity_penalty(fit.names, fit.samples)
+    score = fit.cost + complexity_penalty(fit.names, fit.samples) - gain_of_exact_constants(fit)
     return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
+from diagnosis.criteria import NESTED_LEAD, NOMINAL_LEAD, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
@@ -61,7 +61,7 @@ class Verdict:
 
 def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first."""
-    at_floor = _explaining(candidates)
+    at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
         return Verdict(
             kind=VerdictKind.UNKNOWN,
@@ -71,7 +71,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
             ranking=_ranking(candidates, known=False),
         )
     best = _simplest(at_floor)
-    alike = [c for c in at_floor if c is not best and _alike(best, c)]
+    reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
+    alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
     rivals = sorted(alike, key=lambda c: _asks_more_scatter(best, c))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
     if rivals and not (best.named and all(_asks_more_scatter(best, c) for c in rivals)):
@@ -134,6 +135,16 @@ def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
     ]
 
 
+def _without_needless_scatter(at_floor: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates, the exact nominal rig in place of one with scatter that hardly fits better."""
+    nominal = [c for c in at_floor if not c.names]
+    exact = next((c for c in nominal if not c.fit.x.size), None)
+    if exact is None or exact.fit.cost > min(c.fit.cost for c in nominal) + NOMINAL_LEAD:
+        return list(at_floor)
+    kept = replace(exact, score=min(c.score for c in nominal))
+    return sorted((kept, *(c for c in at_floor if c.names)), key=lambda c: c.score)
+
+
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
     """The simplest of those that score within reach of the best."""
     best = at_floor[0]
@@ -144,11 +155,11 @@ def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
 
 
 def _alike(best: Candidate, other: Candidate) -> bool:
-    """Whether another explanation fits as well, and is not the best with more beside it.
+    """Whether another explanation says something else, and is not the best with more beside it.
 
     An effect may be taken for an imperfection of a sensor, so that these count here.
     """
-    if not _says(best) or not _says(other) or abs(other.score - best.score) > SIMPLE_LEAD:
+    if not _says(best) or not _says(other):
         return False
     if set(best.named) == set(other.named):
         return False

@@ -33,12 +33,13 @@ def test_where_the_scatter_cannot_be_fitted_the_nominal_rig_still_stands(still_s
     assert verdict.best.names == ()
 
 
-def test_the_scatter_is_dropped_where_the_exact_nominal_rig_is_as_good(still_start):
+def test_the_verdict_is_on_the_exact_nominal_rig_where_that_is_as_good(still_start):
     found = module.nominal_rig(still_start, Workers())
-    assert [c.fit for c in found.candidates] == [still_start.nominal]
-    decisions = [e.decision for e in found.record]
-    assert decisions == [Decision.KEPT, Decision.MADE, Decision.DROPPED]
-    assert "exact nominal rig" in found.record[-1].reason
+    assert [c.names for c in found.candidates] == [(), ()]
+    assert [e.decision for e in found.record] == [Decision.KEPT, Decision.MADE]
+    verdict = concluded(found)
+    assert verdict.kind is VerdictKind.NONE
+    assert verdict.best.fit.x.size == 0
 
 
 def test_stiffness_or_damping_alone_is_fitted_where_their_ratio_shows(monkeypatch, still_start):
