@@ -24,6 +24,8 @@ class Drive(Record):
     """Torsion spring between drive shaft and needle; None: rigid."""
     backlash_deg: NonNegative = 0.0
     """Total play between drive shaft and needle."""
+    grip_torque_n_mm: Positive | None = None
+    """At which the needle slips in the chuck of a servo, either way; None: never."""
     sheath_friction_n_mm_per_mm: NonNegative = 0.0
     """Dry torque per mm of free shaft."""
     rotor_inertia_kg_m2: NonNegative = 0.0
@@ -39,5 +41,16 @@ class Drive(Record):
                 self.torque_limit_n_mm,
                 "nothing, because drive.kind is angle: its servo holds any torque",
                 "take drive.kind: torque",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _grip_has_a_servo(self) -> "Drive":
+        if self.grip_torque_n_mm is not None and self.kind is not DriveKind.ANGLE:
+            raise InvalidValue(
+                "drive.grip_torque_n_mm",
+                self.grip_torque_n_mm,
+                "nothing, because drive.kind is torque: the motor turns the needle itself",
+                "take drive.kind: angle, or drive.torque_limit_n_mm",
             )
         return self

@@ -9,8 +9,9 @@ Friction acts at the interface between shaft and tissue, against their slip s:
 and the tissue at the shaft may itself turn, by phi, against a Kelvin-Voigt element
 stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
 
-Three more factors may shape a law: a curve of |s| on the viscous torque, a different strength in
-either direction, and a factor that varies in time. A torque may also depend on the shaft's angle,
+Four more factors may shape a law: a curve of |s| on the viscous torque, a different strength in
+either direction, a factor that varies in time, and one of what the contact has been through. A
+torque may also depend on the shaft's angle,
 
     orientation sin(cycles theta - phase).
 """
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from models.contact import ContactCurve
 from models.errors import InvalidValue
 from models.needle import NonNegative, Positive
 from models.record import Record
@@ -59,6 +61,8 @@ class Interface(Record):
     """Factors of the viscous torque at `RATE_POINTS` rates, evenly spaced in their logarithm."""
     rate_range_rad_s: tuple[Positive, Positive] = (0.01, 10.0)
     """Lowest and highest rate of the curve, which is level beyond them."""
+    contact: ContactCurve | None = None
+    """Factors on the torque over what the contact has been through; None: it is 1."""
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Interface":

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models import units
+from models.contact import ContactCurve, ContactVariable
 from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
@@ -20,6 +21,10 @@ _TORQUES_PER_LENGTH = [
     memory_map.L_STIFFNESS,
     memory_map.L_CURVATURE,
 ]
+_REMEMBERED = {
+    ContactVariable.SLIP: (memory_map.SLIP_SO_FAR, units.DEG),
+    ContactVariable.AGE: (memory_map.AGE, 1.0),
+}
 
 
 def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) -> Array:
@@ -113,9 +118,21 @@ def _interface(law: Interface) -> Array:
         low, high = np.log(law.rate_range_rad_s)
         row[memory_map.L_RATE_LOW] = low
         row[memory_map.L_RATE_STEP] = (high - low) / (memory_map.CURVE_POINTS - 1)
-        row[memory_map.L_CURVE_0 :] = np.log(law.rate_curve)
-    row[memory_map.L_SHAPED] = law.asymmetry != 0.0 or law.varies or bool(law.rate_curve)
+        row[memory_map.L_CURVE_0 : memory_map.L_CONTACT] = np.log(law.rate_curve)
+    if law.contact:
+        _set_contact(row, law.contact)
+    shaped = law.asymmetry != 0.0 or law.varies or law.rate_curve or law.contact
+    row[memory_map.L_SHAPED] = bool(shaped)
     return row
+
+
+def _set_contact(row: Array, curve: ContactCurve) -> None:
+    remembered, unit = _REMEMBERED[curve.over]
+    row[memory_map.L_CONTACT] = remembered
+    row[memory_map.L_CONTACT_SCALE] = curve.scale * unit
+    row[memory_map.L_CONTACT_STEP] = np.log1p(curve.last / curve.scale) / (memory_map.CONTACT_POINTS - 1)
+    row[memory_map.L_RENEWAL] = curve.renewal_deg * units.DEG
+    row[memory_map.L_CONTACT_0 :] = np.log(curve.factors)
 
 
 def _sheath(level: float) -> Array:

@@ -248,6 +248,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_ROWS] = rows
     head[memory_map.H_ORDER] = setup.discretisation.order
     head[memory_map.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
+    head[memory_map.H_GRIP] = (setup.drive.grip_torque_n_mm or 0.0) * units.N_MM
     head[memory_map.H_PRESLIDING] = setup.discretisation.presliding_deg * units.DEG
     head[memory_map.H_RADIUS] = setup.needle.radius_mm * units.MM
     head[memory_map.H_ADVECTION] = _advection_coefficient(setup)

@@ -109,6 +109,8 @@ def course_of(law: Law) -> str:
             way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
             return f"{law.title} is {ratio:.2g} times as strong {way}"
         return f"{law.title} is {forth:.3g} {law.unit} forwards, {back:.3g} {law.unit} backwards"
+    if high == low:
+        return f"{law.title} is {low:.3g} {law.unit}"
     rises = law.y[-1] - law.y[0]
     if abs(rises) >= _MOSTLY * (high - low):
         verb = "rises" if rises > 0 else "falls"

@@ -26,7 +26,6 @@ LEAST_RANGE = {
     Variable.AXIAL_SPEED: 0.3,
     Variable.DEPTH: 5.0,
     Variable.HISTORY: 0.1,
-    Variable.REST: 0.5,
     Variable.TIP_ANGLE: 20.0,
     Variable.TIP_RATE: 0.05,
     Variable.TIP_DIRECTION: 1.5,

@@ -34,6 +34,8 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.bearing import stopped_at
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from models.contact import ContactCurve
+from models.drive import Drive
 from models.errors import InvalidValue
 from models.needle import Needle
 from models.tissue import Interface, Tissue
@@ -143,6 +145,8 @@ class FreeLaw:
       along_depth: what changes with the depth.
       stiffness_over_torque: factors of the shaft's stiffness (models.needle).
       stiffness_torque_n_mm: torque at the last of them.
+      contact: factors on the torque of the nominal tissue over what a contact has been through.
+      grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       throughout, at_tip: additional laws (models.tissue).
 
     Raises:
@@ -158,6 +162,8 @@ class FreeLaw:
     along_depth: AlongDepth = AlongDepth()  # noqa: RUF009 - frozen
     stiffness_over_torque: tuple[float, ...] = ()
     stiffness_torque_n_mm: float = 0.0
+    contact: ContactCurve | None = None
+    grip_torque_n_mm: float | None = None
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
 
@@ -188,6 +194,8 @@ class FreeLaw:
             along_depth=self.along_depth.times(strength),
             stiffness_over_torque=tuple(factor**strength for factor in self.stiffness_over_torque),
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
+            contact=_raised(self.contact, strength) if self.contact else None,
+            grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
         )
@@ -214,6 +222,11 @@ class FreeLaw:
         )
         return changed
 
+    def drive(self, drive: Drive) -> Drive:
+        """The drive with the law in it."""
+        changed: Drive = drive.but(grip_torque_n_mm=self.grip_torque_n_mm)
+        return changed
+
     def tissue(self, tissue: Tissue) -> Tissue:
         """The tissue with the law in it.
 
@@ -226,6 +239,7 @@ class FreeLaw:
             "varies": self.tissue_varies,
             "stiffness_varies": self.stiffness_varies,
             "asymmetry": self.asymmetry,
+            "contact": self.contact,
         }
         if self.rate_curve:
             changes |= {"rate_curve": self.rate_curve, "rate_range_rad_s": self.rate_range_rad_s}
@@ -282,3 +296,14 @@ def _stronger(law: Interface, strength: float) -> Interface:
     """An additional law with its torques multiplied."""
     stronger: Interface = law.but(**{name: strength * getattr(law, name) for name in _TORQUES})
     return stronger
+
+
+def _raised(curve: ContactCurve, strength: float) -> ContactCurve:
+    """A curve of factors raised to a power."""
+    raised: ContactCurve = curve.but(factors=tuple(factor**strength for factor in curve.factors))
+    return raised
+
+
+def _weaker(grip_n_mm: float | None, strength: float) -> float | None:
+    """A grip that is so many times weaker; None: it never slips."""
+    return grip_n_mm / strength if grip_n_mm is not None and strength > 0 else None

@@ -138,12 +138,13 @@ class RigParameters:
 
     def drive(self, rig: NominalRig) -> Drive:
         """The drive, with chuck and sheath."""
-        return Drive(
+        drive = Drive(
             rotor_inertia_kg_m2=rig.inertia.base_kg_m2,
             stiffness_n_mm_per_rad=self.base_stiffness_n_mm_per_rad or None,
             backlash_deg=self.backlash_deg,
             sheath_friction_n_mm_per_mm=self.sheath_friction_n_mm_per_mm,
         )
+        return self.free.drive(drive) if self.free else drive
 
     def without_sensors(self) -> "RigParameters":
         """The same rig with ideal sensors."""

@@ -7,7 +7,6 @@ direction      in which it last turned: 1 forwards, -1 backwards, straight betwe
 axial_speed    of the needle into the tissue, mm/s
 depth          inserted length, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
-rest           time since it last turned, s, as log(1 + time)
 tip_angle      deg
 tip_rate       rad/s
 tip_direction  in which the tip last turned, as direction
@@ -43,7 +42,6 @@ class Variable(StrEnum):
     AXIAL_SPEED = "axial_speed"
     DEPTH = "depth"
     HISTORY = "history"
-    REST = "rest"
     TIP_ANGLE = "tip_angle"
     TIP_RATE = "tip_rate"
     TIP_DIRECTION = "tip_direction"
@@ -61,7 +59,6 @@ UNITS = {
     Variable.AXIAL_SPEED: "mm/s",
     Variable.DEPTH: "mm",
     Variable.HISTORY: "turns",
-    Variable.REST: "log(1 + s)",
     Variable.TIP_ANGLE: "deg",
     Variable.TIP_RATE: "rad/s",
     Variable.TIP_DIRECTION: "-",
@@ -129,13 +126,6 @@ def _last_direction(rate: Array, time_s: Array) -> Array:
     return _smooth(np.sign(rate[last]), time_s, _TURN_S)
 
 
-def _rest(inputs: Schedule, start_s: float) -> Array:
-    """Time at rest; before the first turn, as if the trial had begun with the rest."""
-    turns = np.abs(_base_rate_deg_s(inputs)) > STILL_DEG_S
-    last_s = np.maximum.accumulate(np.where(turns, inputs.time_s, min(start_s, inputs.time_s[0])))
-    return np.log1p(inputs.time_s - last_s)
-
-
 def _history(inputs: Schedule, _: float) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(inputs.drive)))]) / 360.0
 
@@ -148,5 +138,4 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,
-    Variable.REST: _rest,
 }

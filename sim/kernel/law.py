@@ -14,7 +14,8 @@ and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
 
 A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
 straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
-and all of it, or k alone, varies in time with a factor that is an input.
+all of it, or k alone, varies in time with a factor that is an input; and it is times a factor of what
+the site has been through, as it was at the start of the stage (sim.kernel.stage.curves).
 
 The two-dimensional presliding vector Z is returned to its disc radially: in
 steady sliding it gives level * omega / sqrt(omega^2 + (v/r)^2), and at v = 0 it
@@ -26,17 +27,19 @@ from typing import NamedTuple
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded
+from sim.kernel.stage.curves import contact_factor, past_after, rate_factor
 
 _INNER_ITERATIONS = 40
 
 
 class Memory(NamedTuple):
-    """What a site remembers: presliding angles, rad, and twist of the tissue, rad."""
+    """What a site remembers: presliding and twist of the tissue, rad, slip so far, rad, or age, s."""
 
     dry: float
     turn: float
     axial: float
     phi: float
+    past: float = 0.0
 
 
 class Stage(NamedTuple):
@@ -66,7 +69,7 @@ def slip_law(
       stage leaves. Of a point, none of these is per metre.
     """
     torque, slope = 0.0, 0.0
-    dry, turn, axial = old.dry, old.turn, old.axial
+    dry, turn, axial, past = old.dry, old.turn, old.axial, old.past
     g, limit = stage.g, stage.yield_angle
     viscous = row[memory_map.L_VISCOUS]
     p = row[memory_map.L_EXPONENT]
@@ -80,7 +83,7 @@ def slip_law(
         slope = m * (1.0 + (p - 1.0) * s * s / q)
     shaped = row[memory_map.L_SHAPED] != 0.0
     if shaped and row[memory_map.L_RATE_STEP] > 0.0:
-        curve, rise = _rate_curve(s, row)
+        curve, rise = rate_factor(s, row)
         slope = curve * (slope + rise * (torque / s if s != 0.0 else slope))
         torque *= curve
     level = row[memory_map.L_KINETIC] + extra
@@ -115,24 +118,11 @@ def slip_law(
         asymmetry = row[memory_map.L_ASYMMETRY]
         factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
         factor *= stage.factor if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES else 1.0
+        if row[memory_map.L_CONTACT] != 0.0:
+            factor *= contact_factor(past, row)
+            past = past_after(past, s, g, row)
         torque, slope = torque * factor, slope * factor
-    return torque, slope, Memory(dry, turn, axial, old.phi)
-
-
-@embedded
-def _rate_curve(s: float, row: Array) -> tuple[float, float]:
-    """Factor of the viscous torque at a slip rate, and d log factor / d log rate."""
-    size = max(abs(s), row[memory_map.L_PLATEAU])
-    at = (math.log(size) - row[memory_map.L_RATE_LOW]) / row[memory_map.L_RATE_STEP]
-    last = memory_map.CURVE_POINTS - 1
-    if at <= 0.0:
-        return math.exp(row[memory_map.L_CURVE_0]), 0.0
-    if at >= last:
-        return math.exp(row[memory_map.L_CURVE_0 + last]), 0.0
-    i = int(at)
-    below, above = row[memory_map.L_CURVE_0 + i], row[memory_map.L_CURVE_0 + i + 1]
-    log_factor = below + (at - i) * (above - below)
-    return math.exp(log_factor), (above - below) / row[memory_map.L_RATE_STEP]
+    return torque, slope, Memory(dry, turn, axial, old.phi, past)
 
 
 @embedded
@@ -170,5 +160,5 @@ def site_law(
             s = 0.5 * (low + high)
         torque, slope, new = slip_law(s, row, extra, old, stage)
     phi = old.phi + stage.g * (omega - s)
-    left = Memory(new.dry, new.turn, new.axial, phi)
+    left = Memory(new.dry, new.turn, new.axial, phi, new.past)
     return torque, slope * resistance / (slope + resistance), s, left

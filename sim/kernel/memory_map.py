@@ -20,6 +20,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_ROWS,  # rows of the law table
     H_ORDER,  # of the step: 1 (MuJoCo's own), 2 or 3
     H_BACKLASH,  # half of the play between drive shaft and needle, rad
+    H_GRIP,  # torque at which the needle slips in the chuck, N m; 0: never
     H_PRESLIDING,  # angle at which a dry element slips, rad
     H_RADIUS,  # m
     H_ADVECTION,  # c in: slip rate = omega + c v dtheta/dx
@@ -33,7 +34,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_STIFFNESS_3,
     H_STIFFNESS_4,
     HEADER,
-) = range(18)
+) = range(19)
 STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
@@ -73,9 +74,24 @@ STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
     L_CURVE_4,
     L_CURVE_5,
     L_CURVE_6,
+    L_CONTACT,  # what its sites remember beside presliding; 0: nothing
+    L_CONTACT_SCALE,  # of the curve over that, rad or s
+    L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
+    L_RENEWAL,  # slip that renews a contact, rad
+    L_CONTACT_0,  # log factors of the torque at these places
+    L_CONTACT_1,
+    L_CONTACT_2,
+    L_CONTACT_3,
+    L_CONTACT_4,
+    L_CONTACT_5,
+    L_CONTACT_6,
+    L_CONTACT_7,
+    L_CONTACT_8,
     COLUMNS,
-) = range(33)
-CURVE_POINTS = COLUMNS - L_CURVE_0
+) = range(46)
+CURVE_POINTS = L_CONTACT - L_CURVE_0
+CONTACT_POINTS = COLUMNS - L_CONTACT_0
+SLIP_SO_FAR, AGE = 1.0, 2.0  # what sites may remember
 TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffness, too
 
 # --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------
@@ -85,8 +101,8 @@ TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffne
 U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, U_TISSUE, INPUTS = range(7)
 
 # --- state of one contact site: presliding of the dry element, of the shared one
-# (turning, axial), twist of the tissue. Two sites per element and row. -------------
-Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
+# (turning, axial), twist of the tissue, slip so far or age. Two sites per element and row. --
+Z_DRY, Z_TURN, Z_AXIAL, PHI, PAST, SITE = range(6)
 
 # --- running sums and last values that the sensors show ----------------------------
 (
@@ -100,13 +116,14 @@ Z_DRY, Z_TURN, Z_AXIAL, PHI, SITE = range(5)
     O_TISSUE_ENERGY,  # stored in twisted tissue, J
     O_SHAFT_ENERGY,  # stored in the twisted shaft, J
     O_SHAFT_TORQUE,  # largest that an element of the shaft carries, N m
+    O_CHUCK_SLIP,  # by which the needle has slipped in the chuck so far, rad
     O_CORRECTION,  # largest torque that lifts MuJoCo's step to a higher order, N m
     O_INERTIA,  # torque that the inertia of the shaft takes, about the start of the step, N m
     O_FAILED,  # stages so far whose iteration did not converge
     O_ITERATIONS,  # of the last step
     O_LANDING,  # largest distance between MuJoCo's step and the wanted state, rad
     OUTPUTS,
-) = range(16)
+) = range(17)
 
 # --- torques that the callback added in the last step, one row each (n + 1 joints) ---
 T_TISSUE, T_OTHER, T_CORRECTION, TORQUES = range(4)
@@ -152,6 +169,7 @@ OUTPUT_SENSORS = (
     "tissue_energy",
     "shaft_energy",
     "shaft_torque",
+    "chuck_slip",
     "correction",
     "inertia",
     "failed",

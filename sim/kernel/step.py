@@ -24,6 +24,7 @@ from sim.kernel.stage.assemble import (
     is_idle,
     is_linear,
     slack,
+    slipped,
     twist_of,
 )
 from sim.kernel.stage.newton import newton
@@ -66,7 +67,7 @@ def _prepare(
         angles[i] = theta[i]
         rest[i] = omega[i] = rates[i]
         damp_lower[i] = damp_diagonal[i] = damp_upper[i] = 0.0
-    nonlinear = head[memory_map.H_BACKLASH] > 0.0
+    nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0
     for r in range(law.shape[0]):
         if is_idle(law[r]):
             continue
@@ -138,6 +139,7 @@ def _carry_sites(
             dry, turn = start[e, k, memory_map.Z_DRY], start[e, k, memory_map.Z_TURN]
             axial = start[e, k, memory_map.Z_AXIAL]
             start[e, k, memory_map.Z_DRY] = min(max(dry, -limit), limit)
+            start[e, k, memory_map.PAST] = max(start[e, k, memory_map.PAST], 0.0)
             size = math.sqrt(turn * turn + axial * axial)
             if size > limit:
                 start[e, k, memory_map.Z_TURN] = turn * limit / size
@@ -217,6 +219,7 @@ def advance(
         shaft.servo,
         head[memory_map.H_BACKLASH],
         1.0 + 0.5 * (past[memory_map.U_TISSUE] + ctrl[memory_map.U_TISSUE]),
+        head[memory_map.H_GRIP] if shaft.servo > 0.0 else 0.0,
     )
     drive_was, drive_is = (
         drive_input(shaft, past[memory_map.U_DRIVE]),
@@ -237,6 +240,7 @@ def advance(
         tissue[i] = 0.0
     work, dissipated, failed, iterations = 0.0, 0.0, 0, 0
     torque, friction, stored, drive = 0.0, 0.0, 0.0, 0.0
+    slip_was = slip_from = slip = now[memory_map.O_CHUCK_SLIP]
     for stage in range(order):
         reach, share = stages[stage, REACH], stages[stage, SHARE]
         drive = drive_was + reach * (drive_is - drive_was)
@@ -244,9 +248,13 @@ def advance(
         if stage > 0:
             kept, carried = stages[stage - 1, KEPT], stages[stage - 1, CARRIED]
             _next_stage(law, theta, rates, before, w, frame, kept, carried)
+            slip_from = slip_was + kept * (slip_from - slip_was) + carried * (slip - slip_from)
         again = stage > 0 and not nonlinear and frame.drift == 0.0
-        solved, count, recoverable, stored = newton(law, w, frame, drive, tip_torque, nonlinear, again)
-        torque, friction, power = _friction(w, frame, drive, tip_torque, share, tissue)
+        solved, count, recoverable, stored = newton(
+            law, w, frame, drive - slip_from, tip_torque, nonlinear, again
+        )
+        torque, friction, power = _friction(w, frame, drive - slip_from, tip_torque, share, tissue)
+        slip = slip_from + slipped(w, frame, drive - slip_from, torque)
         turning = (drive_is - drive_was) / h if shaft.servo > 0.0 else w.omega[0]
         work += h * share * (torque * turning - tip_torque * w.omega[n])
         dissipated += h * share * (power - recoverable)
@@ -267,7 +275,7 @@ def advance(
         ):
             advect_tissue(h * speed, w.x, w.loads[r], w.end[r], w.places, w.twist)
     chain = head[memory_map.H_CHAIN] != 0.0
-    taken_up = slack(drive - end[0], frame.backlash)
+    taken_up = slip + slack(drive - slip - end[0], frame.backlash)
     set_other(chain, shaft, w.spring, taken_up, end, torques[memory_map.T_OTHER])
     for j in range(memory_map.INPUTS):
         nxt[memory_map.B_INPUTS + j] = ctrl[j]
@@ -277,6 +285,8 @@ def advance(
     nxt[memory_map.O_FRICTION] = friction
     nxt[memory_map.O_TIP_TORQUE] = tip_is
     nxt[memory_map.O_WORK] = now[memory_map.O_WORK] + work
+    dissipated += frame.grip * abs(slip - slip_was)
+    nxt[memory_map.O_CHUCK_SLIP] = slip
     nxt[memory_map.O_DISSIPATED] = now[memory_map.O_DISSIPATED] + dissipated
     nxt[memory_map.O_TISSUE_ENERGY] = stored
     nxt[memory_map.O_FAILED] = now[memory_map.O_FAILED] + failed

@@ -1,7 +1,7 @@
 """The joint torques that the callback adds to MuJoCo's, in three parts.
 
 tissue      what the tissue does to the shaft: -sum of f over the nodes beyond the joint
-other       what the model holds and its joints cannot: the play of the drive, an element
+other       what the model holds and its joints cannot: play of the drive, slip in the chuck, an element
             whose length changes (k (a_0 / a - 1) times its twist), springs of siblings
 correction  what lifts MuJoCo's first-order step to the order of the method, second by default;
             0 in first-order mode
@@ -38,7 +38,7 @@ def set_other(
 
     Args:
       spring: of the elements as long as they are now, N m / rad.
-      servo_slack: play of the drive that is taken up, rad.
+      servo_slack: play of the drive that is taken up, and slip in the chuck, rad.
       end: angles at the end of the step, rad.
     """
     springs = shaft.spring

@@ -47,31 +47,31 @@ def _loop(
     callback: int,
     model: int,
     data: int,
-    at: int,
     chain: bool,
     step_s: float,
     clock: Array,
     qpos: Array,
     qvel: Array,
     ctrl: Array,
-    user: Array,
     passive: Array,
+    outputs: Array,
+    angles: Array,
     inputs: Array,
     shown: Array,
 ) -> None:
     """Step through `inputs`, (N, inputs); `shown` receives the outputs, (N, outputs).
 
+    Numba's cache knows this function's source alone, so that no place of the memory map is in it.
+
     Args:
-      at: offset in `user` of the block that receives the end of a step.
+      outputs, angles: where the callback leaves them at the end of a step, (outputs,) and (n + 1,).
     """
-    nodes = qpos.size - 1
     for k in range(inputs.shape[0]):
         ctrl[:], passive[:] = inputs[k], 0.0
         _call(callback, model, data)
-        shown[k] = user[at : at + shown.shape[1]]
+        shown[k] = outputs
         before = 0.0
-        for i in range(nodes):
-            end = user[at + memory_map.B_ANGLES + i]
+        for i, end in enumerate(angles):
             joint = end - before if chain else end
             before = end
             qvel[1 + i] = (joint - qpos[1 + i]) / step_s
@@ -82,7 +82,7 @@ def _loop(
 def prepare() -> None:
     """Compile the loop, or load it from the cache, without a step."""
     one, none, bare = np.zeros(1), np.zeros((0, memory_map.INPUTS)), np.zeros((0, memory_map.OUTPUTS))
-    _loop(0, 0, 0, 0, False, 1.0, one, one, one, one, one, one, none, bare)
+    _loop(0, 0, 0, False, 1.0, one, one, one, one, one, one, one, none, bare)
 
 
 def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl: Array) -> Array:
@@ -104,19 +104,20 @@ def _run(model: mujoco.MjModel, data: mujoco.MjData, start: Array, ctrl: Array, 
     mujoco.mj_forward(model, data)
     head = model.numeric_data[: memory_map.HEADER]
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
+    end = data.userdata[memory_map.CLOCK + memory_map.block(n, rows) :]
     _loop(
         install()[0].address,
         model._address,
         data._address,
-        memory_map.CLOCK + memory_map.block(n, rows),
         head[memory_map.H_CHAIN] != 0,
         model.opt.timestep,
         np.ctypeslib.as_array((ctypes.c_double * 1).from_address(data._address + _time_at())),
         data.qpos,
         data.qvel,
         data.ctrl,
-        data.userdata,
         data.qfrc_passive,
+        end[: memory_map.OUTPUTS],
+        end[memory_map.B_ANGLES : memory_map.B_ANGLES + n + 1],
         ctrl[1:],
         shown,
     )

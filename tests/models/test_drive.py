@@ -8,7 +8,12 @@ from models.errors import InvalidValue
 
 @pytest.mark.parametrize(
     ("field", "bad"),
-    [("backlash_deg", -1), ("stiffness_n_mm_per_rad", 0), ("sheath_friction_n_mm_per_mm", -1e-3)],
+    [
+        ("backlash_deg", -1),
+        ("stiffness_n_mm_per_rad", 0),
+        ("sheath_friction_n_mm_per_mm", -1e-3),
+        ("grip_torque_n_mm", 0),
+    ],
 )
 def test_an_impossible_drive_is_refused_by_the_name_of_its_field(field, bad):
     with pytest.raises(InvalidValue, match=field):
@@ -18,6 +23,12 @@ def test_an_impossible_drive_is_refused_by_the_name_of_its_field(field, bad):
 def test_a_drive_is_a_rigid_servo_unless_it_says_otherwise():
     assert (Drive().kind, Drive().stiffness_n_mm_per_rad) == (DriveKind.ANGLE, None)
     assert Drive(kind="torque").kind is DriveKind.TORQUE
+
+
+def test_only_a_servo_has_a_chuck_that_slips():
+    assert Drive(grip_torque_n_mm=2.0).grip_torque_n_mm == 2.0
+    with pytest.raises(InvalidValue, match=r"grip_torque_n_mm.*torque_limit_n_mm"):
+        Drive(kind="torque", grip_torque_n_mm=2.0)
 
 
 def test_an_unknown_kind_is_answered_with_the_known_ones():

@@ -1,7 +1,7 @@
 """Free laws of the interface between shaft and tissue, per mm of shaft.
 
-- damping times a curve of time, axial speed, depth, angle turned so far, or place along the shaft
-- nominal damping, and dry friction as a curve of these, of the time at rest, or of the base angle
+- damping times a curve of time, axial speed, depth, or place along the shaft
+- nominal damping, and dry friction as a curve of these, or of the base angle
 - damping times a curve of the rate, and dry friction
 - damping and dry friction that differ between the directions
 """
@@ -22,10 +22,9 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import RATE_POINTS, Interface
 
-DAMPING_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH, Variable.HISTORY)
-FRICTION_OVER = (*DAMPING_OVER, Variable.REST, Variable.BASE_ANGLE)
+DAMPING_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH)
+FRICTION_OVER = (*DAMPING_OVER, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
-SAYS = {Variable.REST: "history"}
 SLOW_RAD_S = 0.03
 LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
@@ -67,7 +66,7 @@ def _damping_over(variable: Variable, ranges: LogRanges) -> Family:
             apply=partial(_apply_damping, variable, curve),
         ),
         places=_PLACES,
-        says=SAYS.get(variable, variable),
+        says=variable,
         title="damping along the shaft",
         curve=partial(_damping, curve, beta),
         x_unit=UNITS[variable],
@@ -98,7 +97,7 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
             differences=(1e-2,),
         ),
         places=_PLACES,
-        says=SAYS.get(variable, variable),
+        says=variable,
         title="dry friction along the shaft",
         curve=partial(_dry_level, curve),
         x_unit=UNITS[variable],

@@ -109,12 +109,28 @@ def add_linear(w: Workspace, g: float, with_matrix: bool) -> None:
 
 @inlined
 def drive_torque(w: Workspace, frame: Frame, drive: float) -> tuple[float, float]:
-    """Torque of the drive on the first node, N m, and minus its slope."""
+    """Torque of the drive on the first node, N m, and minus its slope.
+
+    Args:
+      drive: angle at which the servo rests, less what has slipped, rad; or a torque, N m.
+    """
     if frame.servo == 0.0:
         return drive, 0.0
     miss = drive - w.theta[0] - frame.g * w.omega[0]
     engaged = abs(miss) >= frame.backlash
-    return frame.servo * (miss - slack(miss, frame.backlash)), frame.g * frame.servo if engaged else 0.0
+    torque = frame.servo * (miss - slack(miss, frame.backlash))
+    if 0.0 < frame.grip < abs(torque):
+        return math.copysign(frame.grip, torque), 0.0
+    return torque, frame.g * frame.servo if engaged else 0.0
+
+
+@inlined
+def slipped(w: Workspace, frame: Frame, drive: float, torque: float) -> float:
+    """By how much the needle slips in the chuck within a stage, rad, where its torque is that."""
+    if frame.grip == 0.0 or abs(torque) < frame.grip:
+        return 0.0
+    miss = drive - w.theta[0] - frame.g * w.omega[0]
+    return miss - slack(miss, frame.backlash) - torque / frame.servo
 
 
 @inlined
@@ -161,12 +177,14 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
             before[slot, k, memory_map.Z_TURN],
             before[slot, k, memory_map.Z_AXIAL],
             before[slot, k, memory_map.PHI],
+            before[slot, k, memory_map.PAST],
         )
         torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage)
         after[slot, k, memory_map.Z_DRY] = new.dry
         after[slot, k, memory_map.Z_TURN] = new.turn
         after[slot, k, memory_map.Z_AXIAL] = new.axial
         after[slot, k, memory_map.PHI] = new.phi
+        after[slot, k, memory_map.PAST] = new.past
         stiffness = factor * weight * row[memory_map.L_STIFFNESS]
         recoverable += stiffness * new.phi * (rate + advected - slip)
         stored += 0.5 * stiffness * new.phi * new.phi

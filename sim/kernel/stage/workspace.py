@@ -44,6 +44,7 @@ class Frame(NamedTuple):
     servo: float  # stiffness of the drive, N m / rad; 0: it gives torque
     backlash: float  # half of the play, rad
     factor: float = 1.0  # of rows that vary in time
+    grip: float = 0.0  # torque at which the needle slips in the chuck, N m; 0: never
 
 
 @inlined

@@ -68,12 +68,6 @@ def test_history_is_what_was_turned_to_and_fro():
         assert at(Variable.HISTORY, when_s) == pytest.approx(turned_deg / 360, abs=0.5 / 360)
 
 
-def test_rest_is_the_time_since_it_last_turned():
-    # Rates are means over 0.05 s: it turns for up to half of that longer.
-    for when_s, rested_s in ((0.5, 0.5), (1.5, 0.0), (3.0, 1.0), (4.5, 0.0), (7.0, 2.0)):
-        assert np.expm1(at(Variable.REST, when_s)) == pytest.approx(rested_s, abs=0.04)
-
-
 def test_what_the_needle_does_is_known_of_its_readings():
     tip, torque = 0.5 * ANGLE, 0.01 * ANGLE
     given = (TIME, tip, torque)

@@ -33,8 +33,8 @@ def stage(law, *, axial=0.0):
     return law.Stage(G, axial, YIELD)
 
 
-def memory(law, dry=0.0, turn=0.0, axial=0.0, phi=0.0):
-    return law.Memory(dry, turn, axial, phi)
+def memory(law, dry=0.0, turn=0.0, axial=0.0, phi=0.0, past=0.0):
+    return law.Memory(dry, turn, axial, phi, past)
 
 
 def slip_torque(law, row, s, old=None, axial=0.0):
@@ -95,6 +95,13 @@ CASES = {
         0.7,
         0.0,
     ),
+    "after slipping": (
+        {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "stiffness": 5.0, "shaped": 1.0}
+        | {"contact": 1.0, "contact_scale": 0.1, "contact_step": 0.5}
+        | {"contact_0": 0.3, "contact_1": -0.4, "contact_2": -0.8},
+        0.7,
+        0.0,
+    ),
     "all": (
         {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "shared": 0.1, "stiffness": 5.0, "time": 0.1},
         1.7,
@@ -106,7 +113,8 @@ CASES = {
 @pytest.mark.parametrize("case", CASES)
 def test_the_slope_is_the_derivative_of_the_torque(law, row, case):
     fields, omega, axial = CASES[case]
-    fields, old = row(**fields), memory(law, dry=2e-4, turn=1e-4, axial=-1e-4, phi=0.01)
+    old = memory(law, dry=2e-4, turn=1e-4, axial=-1e-4, phi=0.01, past=0.07)
+    fields = row(**fields)
 
     def site(rate):
         return law.site_law(rate, fields, 0.0, old, stage(law, axial=axial))

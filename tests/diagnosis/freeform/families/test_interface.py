@@ -77,7 +77,3 @@ def test_curves_are_told_in_the_units_of_the_needle():
     place, damping = FAMILIES["damping over position"].curve(*[0.0] * 6)
     np.testing.assert_allclose(damping, DAMPING)
     assert (place[0], place[-1]) == pytest.approx((1 / 12, 11 / 12))
-
-
-def test_a_law_says_a_variable_of_the_vocabulary():
-    assert FAMILIES["dry friction over rest"].says == "history"

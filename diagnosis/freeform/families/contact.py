@@ -1,0 +1,129 @@
+"""Free laws of what each contact between shaft and tissue has been through.
+
+- damping, or dry friction, times a curve of the slip so far: lubrication and wear
+- dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable
+from models.tissue import Interface
+
+_FIRST_PART = 30.0  # of the slip in a log: below it places are even
+_FIRST_AGE_S = 0.1
+_GROWS = 1.0  # slope of a curve over age to start with
+_PLACES = {Place.INTERFACE: 1.0}
+_UNITS = {ContactVariable.SLIP: "deg", ContactVariable.AGE: "s"}
+_WORDS = {ContactVariable.SLIP: "the slip so far", ContactVariable.AGE: "the age of the contact"}
+_RENEWAL = Parameter(
+    name="renewal", unit="deg", low=0.05, high=90.0, start=(3.0,), logarithmic=True, neutral=None
+)
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """Families of laws that depend on the past of a contact."""
+    found: list[Family] = []
+    if Variable.HISTORY in ranges.ends:
+        found += [_damping_over_slip(ranges), _friction_over(_slip(ranges), ranges)]
+    if Variable.TIME in ranges.ends:
+        found.append(_friction_over(_age(ranges), ranges))
+    return tuple(found)
+
+
+def _slip(ranges: LogRanges) -> ContactCurve:
+    """A neutral curve over the slip that the turns of a log can make."""
+    most_deg = 360.0 * ranges.ends[Variable.HISTORY][1]
+    return _neutral(ContactVariable.SLIP, most_deg / _FIRST_PART, most_deg)
+
+
+def _age(ranges: LogRanges) -> ContactCurve:
+    """A neutral curve over the ages that contacts can reach in a log."""
+    return _neutral(ContactVariable.AGE, _FIRST_AGE_S, ranges.ends[Variable.TIME][1])
+
+
+def _neutral(over: ContactVariable, scale: float, last: float) -> ContactCurve:
+    return ContactCurve(over=over, scale=scale, last=last, factors=(1.0,) * CONTACT_POINTS)
+
+
+def _damping_over_slip(ranges: LogRanges) -> Family:
+    curve, neutral = smooth_curve(0.0, 1.0, CONTACT_POINTS), _slip(ranges)
+    return Family(
+        effect=Effect(
+            name="damping over slip",
+            title=f"damping that changes with {_WORDS[neutral.over]}",
+            place=Place.INTERFACE,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_damping, curve, neutral),
+        ),
+        places=_PLACES,
+        says="history",
+        title="damping along the shaft",
+        curve=partial(_damping, curve, neutral, ranges.damping_n_mm_s_per_mm),
+        x_unit=_UNITS[neutral.over],
+        unit="N mm s / rad / mm",
+    )
+
+
+def _damping(curve: SmoothCurve, neutral: ContactCurve, beta: float, *c: float) -> Points:
+    return neutral.places, beta * np.array(curve.factors(c))
+
+
+def _apply_damping(
+    curve: SmoothCurve, neutral: ContactCurve, rig: RigParameters, *c: float
+) -> RigParameters:
+    return replace(rig, free=FreeLaw(contact=_shaped(neutral, curve, c)))
+
+
+def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
+    curve = smooth_curve(0.0, 1.0, CONTACT_POINTS)
+    level = ranges.library["coulomb_friction"].parameters[0]
+    shape = coordinates_of(curve)
+    if neutral.over is ContactVariable.AGE:
+        grows = replace(shape[1], start=(_GROWS,))
+        shape = (_RENEWAL, shape[0], grows, *shape[2:])
+    return Family(
+        effect=Effect(
+            name=f"dry friction over {neutral.over}",
+            title=f"dry friction that changes with {_WORDS[neutral.over]}",
+            place=Place.INTERFACE,
+            parameters=(level, *(replace(p, start=p.start * len(level.start)) for p in shape)),
+            apply=partial(_apply_friction, curve, neutral),
+            differences=(1e-2,),
+        ),
+        places=_PLACES,
+        says="history",
+        title="dry friction along the shaft",
+        curve=partial(_levels, curve, neutral),
+        x_unit=_UNITS[neutral.over],
+        unit="N mm / mm",
+    )
+
+
+def _levels(curve: SmoothCurve, neutral: ContactCurve, level: float, *shape: float) -> Points:
+    return neutral.places, level * np.array(_shaped(neutral, curve, shape).factors)
+
+
+def _apply_friction(
+    curve: SmoothCurve, neutral: ContactCurve, rig: RigParameters, level: float, *shape: float
+) -> RigParameters:
+    law = Interface(kinetic_n_mm_per_mm=level, contact=_shaped(neutral, curve, shape))
+    return replace(rig, free=FreeLaw(throughout=(law,)))
+
+
+def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -> ContactCurve:
+    """The curve with its coordinates; of an age, the slip that renews it comes first."""
+    if neutral.over is ContactVariable.AGE:
+        neutral, shape = neutral.but(renewal_deg=shape[0]), shape[1:]
+    changed: ContactCurve = neutral.but(factors=curve.factors(shape))
+    return changed

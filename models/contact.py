@@ -1,0 +1,53 @@
+"""A law that depends on what a contact between shaft and tissue has been through.
+
+Its torque is multiplied by a curve over one of
+
+    slip    angle by which the shaft has slipped there so far, in both directions, deg
+    age     time since the contact was renewed, s: d age / dt = 1 - age |slip rate| / renewal
+
+(Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979)). The curve is given at places that are
+close near 0, scale (exp(u) - 1) with even u, and level beyond the last one.
+"""
+
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from models.needle import Positive
+from models.record import Record
+
+Array = NDArray[np.float64]
+
+CONTACT_POINTS = 9
+
+
+class ContactVariable(StrEnum):
+    """What a contact remembers."""
+
+    SLIP = "slip"
+    AGE = "age"
+
+
+class ContactCurve(Record):
+    """Factors on the torque of a contact."""
+
+    over: ContactVariable
+    factors: tuple[Positive, ...] = Field(min_length=CONTACT_POINTS, max_length=CONTACT_POINTS)
+    scale: Positive
+    """Below which places are even, deg or s."""
+    last: Positive
+    """Place of the last factor, deg or s."""
+    renewal_deg: Positive = 1.0
+    """Slip that renews a contact, of age alone."""
+
+    @property
+    def places(self) -> Array:
+        """Places of the factors, deg or s, (CONTACT_POINTS,)."""
+        return contact_places(self.scale, self.last)
+
+
+def contact_places(scale: float, last: float) -> Array:
+    """Places of a curve, from 0 to the last, in the unit of both, (CONTACT_POINTS,)."""
+    return scale * np.expm1(np.linspace(0.0, np.log1p(last / scale), CONTACT_POINTS))

@@ -1,0 +1,57 @@
+"""Curves of a row, in the interpreter: between their places, beyond them, and what a site remembers."""
+
+import math
+
+import pytest
+
+
+@pytest.fixture
+def curves(interpreted):
+    return interpreted.curves
+
+
+@pytest.fixture
+def row(interpreted):
+    places = interpreted.memory_map
+    values = [0.0] * places.COLUMNS
+    values[places.L_PLATEAU] = 1e-5
+    values[places.L_RATE_LOW], values[places.L_RATE_STEP] = math.log(0.01), 1.0
+    for i in range(places.CURVE_POINTS):
+        values[places.L_CURVE_0 + i] = 0.1 * i
+    values[places.L_CONTACT_SCALE], values[places.L_CONTACT_STEP] = 2.0, 0.5
+    for i in range(places.CONTACT_POINTS):
+        values[places.L_CONTACT_0 + i] = -0.2 * i
+    values[places.L_RENEWAL] = 0.5
+    return values
+
+
+@pytest.mark.parametrize(
+    ("log_rate", "log_factor"), [(-2.0, 0.0), (0.0, 0.0), (2.5, 0.25), (6.0, 0.6), (9.0, 0.6)]
+)
+def test_a_curve_over_the_rate_is_straight_between_places_and_level_beyond(
+    curves, row, log_rate, log_factor
+):
+    for sign in (1, -1):
+        factor, rise = curves.rate_factor(sign * 0.01 * math.exp(log_rate), row)
+        assert math.log(factor) == pytest.approx(log_factor)
+        assert rise == pytest.approx(0.1 if 0 < log_rate < 6 else 0.0)
+
+
+@pytest.mark.parametrize(("u", "log_factor"), [(0.0, 0.0), (0.75, -0.3), (4.0, -1.6), (7.0, -1.6)])
+def test_a_curve_over_the_past_is_straight_in_its_logarithm(curves, row, u, log_factor):
+    assert math.log(curves.contact_factor(2.0 * math.expm1(u), row)) == pytest.approx(log_factor)
+
+
+def test_slip_adds_up_whichever_way(curves, row, interpreted):
+    row[interpreted.memory_map.L_CONTACT] = interpreted.memory_map.SLIP_SO_FAR
+    assert curves.past_after(1.0, 3.0, 0.1, row) == pytest.approx(1.3)
+    assert curves.past_after(1.0, -3.0, 0.1, row) == pytest.approx(1.3)
+
+
+def test_age_grows_at_rest_and_tends_to_renewal_over_rate(curves, row, interpreted):
+    row[interpreted.memory_map.L_CONTACT] = interpreted.memory_map.AGE
+    assert curves.past_after(2.0, 0.0, 0.1, row) == pytest.approx(2.1)
+    age = 2.0
+    for _ in range(2000):
+        age = curves.past_after(age, -0.25, 0.1, row)
+    assert age == pytest.approx(0.5 / 0.25)
