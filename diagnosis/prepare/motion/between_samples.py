@@ -1,8 +1,9 @@
 """The motion of the base between samples at a low rate.
 
 Straight lines between 20 samples per second are steps of the rate, which appear in the viscous torque.
-Akima's interpolation follows a smooth motion without overshooting at corners. If two straight parts
-meet between two samples, the corner is where their lines cross.
+Akima's interpolation follows a smooth motion without overshooting at corners of exact samples. If two
+straight parts meet between two samples, the corner is where their lines cross; if they meet at a sample,
+the motion runs straight to it and on, so that noise of the slopes makes no overshoot.
 
 Source: H. Akima, J. ACM 17 (1970) 589.
 """
@@ -27,14 +28,29 @@ def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
     parts = int(np.ceil(step_s / _FINE_S - 1e-6))
     inside = time_s[:-1, None] + np.diff(time_s)[:, None] * np.arange(parts) / parts
     angles = np.asarray(Akima1DInterpolator(time_s, base_deg)(inside))
-    _turn_corners(time_s, base_deg, inside, angles)
+    rate = np.diff(base_deg) / np.diff(time_s)
+    bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
+    _straighten(time_s, base_deg, bent, inside, angles)
+    _turn_corners(time_s, base_deg, rate, bent, inside, angles)
     return np.append(inside.ravel(), time_s[-1]), np.append(angles.ravel(), base_deg[-1])
 
 
-def _turn_corners(time_s: Array, base_deg: Array, inside: Array, angles: Array) -> None:
+def _straighten(time_s: Array, base_deg: Array, bent: Array, inside: Array, angles: Array) -> None:
+    """Run straight to corners at a sample, and on, in the angles, (N - 1, parts).
+
+    Args:
+      bent: by how much the motion bends at each inner sample, deg, (N - 2,).
+    """
+    straight = bent < STRAIGHT_DEG
+    for i in 2 + np.flatnonzero(straight[:-2] & ~straight[1:-1] & straight[2:]):
+        near = slice(i - 1, i + 1)
+        angles[near] = np.interp(inside[near], time_s, base_deg)
+
+
+def _turn_corners(
+    time_s: Array, base_deg: Array, rate: Array, bent: Array, inside: Array, angles: Array
+) -> None:
     """Insert corners into the angles, (N - 1, parts), where lines of three samples per side cross."""
-    rate = np.diff(base_deg) / np.diff(time_s)
-    bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
     first = np.arange(2, time_s.size - 3)  # the sample before the corner
     before, after = rate[first - 1], rate[first + 1]
     straight = (bent[first - 2] < STRAIGHT_DEG) & (bent[first + 1] < STRAIGHT_DEG)

@@ -29,6 +29,16 @@ def test_a_corner_between_two_samples_is_where_the_lines_cross():
     assert curve < 1e-9
 
 
+def test_noise_makes_no_overshoot_at_a_corner_that_is_a_sample():
+    """A motion that stops dead ends no farther than its samples do, noise of 0.01 deg or not."""
+    at = np.arange(0, 2, 0.02)
+    for seed in range(20):
+        noise = np.random.default_rng(seed).normal(0, 0.01, at.size)
+        read = np.minimum(68.0 * at, 68.0) + noise
+        _, angle = between_samples(at, read)
+        assert angle.max() <= read.max() + 0.02
+
+
 def test_samples_are_met():
     at = np.arange(0, 3, STEP_S)
     read = np.random.default_rng(1).normal(0, 10, at.size)
