@@ -46,6 +46,10 @@ class Needle(Record):
     stiffness_torque_n_mm: NonNegative = 0.0
     """At the last of these. Torques are what the nominal stiffness would carry at the same twist; the
     curve is level beyond them."""
+    yield_torque_n_mm: Positive | None = None
+    """Beyond which the shaft twists plastically, either way; None: it is elastic."""
+    yield_stiffness_ratio: Annotated[float, Field(ge=0, lt=1)] = 0.0
+    """Stiffness beyond it over the elastic one: linear kinematic hardening."""
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Needle":

@@ -326,7 +326,7 @@ def _at_rest(setup: Setup, start: Array, ctrl: Array) -> Array:
 def _tissue(setup: Setup, userdata: Array) -> Array:
     n, rows = setup.nodes_mm.size - 1, len(setup.law)
     size = memory_map.block(n, rows)
-    at = memory_map.CLOCK + size + memory_map.B_ANGLES + 2 * (n + 1)
+    at = memory_map.CLOCK + size + memory_map.sites_at(n)
     sites = userdata[:, at : at + memory_map.SITE * 2 * n * rows].reshape(
         -1, rows, n, 2, memory_map.SITE
     )

@@ -256,7 +256,10 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_FREE_REF] = setup.free_mm * units.MM
     if setup.needle.stiffness_curve:
         head[memory_map.H_STIFFNESS_TORQUE] = setup.needle.stiffness_torque_n_mm * units.N_MM
-        head[memory_map.H_STIFFNESS_0 :] = np.log(setup.needle.stiffness_curve)
+        curve = slice(memory_map.H_STIFFNESS_0, memory_map.H_YIELD)
+        head[curve] = np.log(setup.needle.stiffness_curve)
+    head[memory_map.H_YIELD] = (setup.needle.yield_torque_n_mm or 0.0) * units.N_MM
+    head[memory_map.H_YIELD_SLOPE] = setup.needle.yield_stiffness_ratio
     head[memory_map.H_CHAIN] = setup.is_chain
     return head
 

@@ -145,6 +145,8 @@ class FreeLaw:
       along_depth: what changes with the depth.
       stiffness_over_torque: factors of the shaft's stiffness (models.needle).
       stiffness_torque_n_mm: torque at the last of them.
+      yield_torque_n_mm: torque beyond which the shaft twists plastically (models.needle); None: never.
+      yield_stiffness_ratio: its stiffness beyond it over the elastic one.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       throughout, at_tip: additional laws (models.tissue).
@@ -162,6 +164,8 @@ class FreeLaw:
     along_depth: AlongDepth = AlongDepth()  # noqa: RUF009 - frozen
     stiffness_over_torque: tuple[float, ...] = ()
     stiffness_torque_n_mm: float = 0.0
+    yield_torque_n_mm: float | None = None
+    yield_stiffness_ratio: float = 0.0
     contact: ContactCurve | None = None
     grip_torque_n_mm: float | None = None
     throughout: tuple[Interface, ...] = ()
@@ -195,6 +199,8 @@ class FreeLaw:
             stiffness_over_torque=tuple(factor**strength for factor in self.stiffness_over_torque),
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
             contact=_raised(self.contact, strength) if self.contact else None,
+            yield_torque_n_mm=_weaker(self.yield_torque_n_mm, strength),
+            yield_stiffness_ratio=self.yield_stiffness_ratio,
             grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
@@ -219,6 +225,8 @@ class FreeLaw:
         changed: Needle = needle.but(
             stiffness_curve=self.stiffness_over_torque,
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
+            yield_torque_n_mm=self.yield_torque_n_mm,
+            yield_stiffness_ratio=self.yield_stiffness_ratio,
         )
         return changed
 
@@ -304,6 +312,6 @@ def _raised(curve: ContactCurve, strength: float) -> ContactCurve:
     return raised
 
 
-def _weaker(grip_n_mm: float | None, strength: float) -> float | None:
-    """A grip that is so many times weaker; None: it never slips."""
-    return grip_n_mm / strength if grip_n_mm is not None and strength > 0 else None
+def _weaker(limit_n_mm: float | None, strength: float) -> float | None:
+    """A limit of the torque that is so many times lower; None: there is none."""
+    return limit_n_mm / strength if limit_n_mm is not None and strength > 0 else None

@@ -54,6 +54,7 @@ _numbers = _pointer_to(types.float64)
 _addresses = _pointer_to(types.intp)
 _flags = _pointer_to(types.boolean)
 _block: Any = njit(memory_map.block)
+_sites_at: Any = njit(memory_map.sites_at)
 _torques: Any = njit(memory_map.torques)
 _scratch: Any = njit(memory_map.scratch)
 
@@ -103,7 +104,7 @@ def _begin(
         clock[memory_map.D_PRIMED] = 1.0
     elif time > clock[memory_map.D_TIME]:
         # Rows that are viscous alone remember nothing at their sites.
-        kept = now.size if _remembers(law) else memory_map.B_ANGLES + 2 * (n + 1)
+        kept = now.size if _remembers(law) else _sites_at(n)
         for i in range(kept):
             now[i] = nxt[i]
         for i in range(n + 1):

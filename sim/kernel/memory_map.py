@@ -33,9 +33,11 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_STIFFNESS_2,
     H_STIFFNESS_3,
     H_STIFFNESS_4,
+    H_YIELD,  # torque beyond which the shaft twists plastically, N m; 0: it is elastic
+    H_YIELD_SLOPE,  # stiffness beyond it over the elastic one
     HEADER,
-) = range(19)
-STIFFNESS_POINTS = HEADER - H_STIFFNESS_0
+) = range(21)
+STIFFNESS_POINTS = H_YIELD - H_STIFFNESS_0
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
 
@@ -134,8 +136,13 @@ D_PRIMED, D_TIME, CLOCK = range(3)
 
 
 def block(elements: int, rows: int) -> int:
-    """Values in one copy of the state: outputs, inputs, angles, rates, sites."""
-    return OUTPUTS + INPUTS + 2 * (elements + 1) + SITE * 2 * elements * rows
+    """Values in one copy of the state: outputs, inputs, angles, rates, sets of the elements, sites."""
+    return OUTPUTS + INPUTS + 3 * elements + 2 + SITE * 2 * elements * rows
+
+
+def sites_at(elements: int) -> int:
+    """Where the sites begin in a copy of the state, after angles, rates and sets."""
+    return B_ANGLES + 3 * elements + 2
 
 
 def torques(elements: int) -> int:
@@ -146,7 +153,7 @@ def torques(elements: int) -> int:
 def scratch(elements: int, rows: int) -> int:
     """Values of working memory that one step needs: angles, rates, inertia and springs of the
     shaft, then `sim.kernel.stage.workspace`."""
-    return 23 * (elements + 1) - 2 + 2 * rows + (4 + 2 * SITE) * elements * rows
+    return 25 * (elements + 1) - 4 + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 
 def userdata(elements: int, rows: int) -> int:

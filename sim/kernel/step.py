@@ -28,6 +28,7 @@ from sim.kernel.stage.assemble import (
     twist_of,
 )
 from sim.kernel.stage.newton import newton
+from sim.kernel.stage.plasticity import carry_sets, hold_sets, keep_sets
 from sim.kernel.stage.workspace import Frame, Workspace, divide
 from sim.kernel.torques import set_other
 from sim.kernel.view import view
@@ -67,7 +68,7 @@ def _prepare(
         angles[i] = theta[i]
         rest[i] = omega[i] = rates[i]
         damp_lower[i] = damp_diagonal[i] = damp_upper[i] = 0.0
-    nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0
+    nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0 or frame.yield_torque > 0.0
     for r in range(law.shape[0]):
         if is_idle(law[r]):
             continue
@@ -161,7 +162,9 @@ def _friction(
     torque, _ = drive_torque(w, frame, drive)
     friction, power, arriving = 0.0, 0.0, torque
     for i in range(n + 1):
-        leaving = -spring[i] * twist_of(theta, omega, i, frame.g) if i < n else tip_torque
+        leaving = tip_torque
+        if i < n:
+            leaving = -spring[i] * (twist_of(theta, omega, i, frame.g) - w.set[i])
         share = arriving - leaving - inertia[i] * (omega[i] - rest[i])
         friction += share
         power += share * omega[i]
@@ -199,10 +202,11 @@ def advance(
       scratch: working memory (sim.kernel.stage.workspace).
     """
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
-    first = memory_map.B_ANGLES + 2 * (n + 1)
+    first = memory_map.B_ANGLES + 3 * n + 2
     sites = (rows, n, 2, memory_map.SITE)
     before = view(now, first, sites)
     w = divide(scratch, n, rows, view(nxt, first, sites))
+    sets, sets_after = view(now, first - n, (n,)), view(nxt, first - n, (n,))
     past = view(now, memory_map.B_INPUTS, (memory_map.INPUTS,))
     free = head[memory_map.H_FREE_REF] - 0.5 * (
         past[memory_map.U_CARRIAGE] + ctrl[memory_map.U_CARRIAGE]
@@ -220,6 +224,8 @@ def advance(
         head[memory_map.H_BACKLASH],
         1.0 + 0.5 * (past[memory_map.U_TISSUE] + ctrl[memory_map.U_TISSUE]),
         head[memory_map.H_GRIP] if shaft.servo > 0.0 else 0.0,
+        head[memory_map.H_YIELD],
+        head[memory_map.H_YIELD_SLOPE],
     )
     drive_was, drive_is = (
         drive_input(shaft, past[memory_map.U_DRIVE]),
@@ -235,6 +241,7 @@ def advance(
     nonlinear = _prepare(
         head, mesh, law, shaft, theta, rates, before, w, frame, free, inserted, tip_loaded
     )
+    hold_sets(w, sets)
     tissue = torques[memory_map.T_TISSUE]
     for i in range(n + 1):
         tissue[i] = 0.0
@@ -249,6 +256,7 @@ def advance(
             kept, carried = stages[stage - 1, KEPT], stages[stage - 1, CARRIED]
             _next_stage(law, theta, rates, before, w, frame, kept, carried)
             slip_from = slip_was + kept * (slip_from - slip_was) + carried * (slip - slip_from)
+            carry_sets(w, sets, kept, carried)
         again = stage > 0 and not nonlinear and frame.drift == 0.0
         solved, count, recoverable, stored = newton(
             law, w, frame, drive - slip_from, tip_torque, nonlinear, again
@@ -264,6 +272,7 @@ def advance(
     for i in range(n + 1):
         end[i] = w.theta[i] + frame.g * w.omega[i]
         nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]
+    heat, hardening = keep_sets(w, frame, sets, sets_after)
     for r in range(rows):
         if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
             continue
@@ -276,7 +285,7 @@ def advance(
             advect_tissue(h * speed, w.x, w.loads[r], w.end[r], w.places, w.twist)
     chain = head[memory_map.H_CHAIN] != 0.0
     taken_up = slip + slack(drive - slip - end[0], frame.backlash)
-    set_other(chain, shaft, w.spring, taken_up, end, torques[memory_map.T_OTHER])
+    set_other(chain, shaft, w.spring, w.set, taken_up, end, torques[memory_map.T_OTHER])
     for j in range(memory_map.INPUTS):
         nxt[memory_map.B_INPUTS + j] = ctrl[j]
     nxt[memory_map.O_BASE_TORQUE] = torque
@@ -285,13 +294,14 @@ def advance(
     nxt[memory_map.O_FRICTION] = friction
     nxt[memory_map.O_TIP_TORQUE] = tip_is
     nxt[memory_map.O_WORK] = now[memory_map.O_WORK] + work
-    dissipated += frame.grip * abs(slip - slip_was)
+    dissipated += heat + frame.grip * abs(slip - slip_was)
     nxt[memory_map.O_CHUCK_SLIP] = slip
     nxt[memory_map.O_DISSIPATED] = now[memory_map.O_DISSIPATED] + dissipated
     nxt[memory_map.O_TISSUE_ENERGY] = stored
     nxt[memory_map.O_FAILED] = now[memory_map.O_FAILED] + failed
     nxt[memory_map.O_ITERATIONS] = iterations
     _show_shaft(w, end, nxt)
+    nxt[memory_map.O_SHAFT_ENERGY] += hardening
 
 
 @inlined
@@ -300,7 +310,7 @@ def _show_shaft(w: Workspace, end: Array, nxt: Array) -> None:
     spring = w.spring
     energy, largest = 0.0, 0.0
     for e in range(end.size - 1):
-        twist = end[e + 1] - end[e]
+        twist = end[e + 1] - end[e] - w.set[e]
         energy += 0.5 * spring[e] * twist * twist
         largest = max(largest, abs(spring[e] * twist))
     nxt[memory_map.O_SHAFT_ENERGY] = energy

@@ -2,7 +2,7 @@
 
 tissue      what the tissue does to the shaft: -sum of f over the nodes beyond the joint
 other       what the model holds and its joints cannot: play of the drive, slip in the chuck, an element
-            whose length changes (k (a_0 / a - 1) times its twist), springs of siblings
+            that yields or whose length changes (k (a_0 / a - 1) times its twist), springs of siblings
 correction  what lifts MuJoCo's first-order step to the order of the method, second by default;
             0 in first-order mode
 
@@ -32,12 +32,19 @@ def to_joints(chain: bool, nodes: Array) -> None:
 
 @inlined
 def set_other(
-    chain: bool, shaft: Shaft, spring: Array, servo_slack: float, end: Array, other: Array
+    chain: bool,
+    shaft: Shaft,
+    spring: Array,
+    kept: Array,
+    servo_slack: float,
+    end: Array,
+    other: Array,
 ) -> None:
     """What the joints of the model cannot hold.
 
     Args:
       spring: of the elements as long as they are now, N m / rad.
+      kept: twist that these keep without a torque, rad.
       servo_slack: play of the drive that is taken up, and slip in the chuck, rad.
       end: angles at the end of the step, rad.
     """
@@ -48,10 +55,11 @@ def set_other(
     for e in range(n):
         twist = end[e + 1] - end[e]
         if chain:
-            other[e + 1] = (springs[e] - spring[e]) * twist
+            other[e + 1] = (springs[e] - spring[e]) * twist + spring[e] * kept[e]
         else:
-            other[e] += spring[e] * twist
-            other[e + 1] -= spring[e] * twist
+            torque = spring[e] * (twist - kept[e])
+            other[e] += torque
+            other[e + 1] -= torque
     other[0] -= shaft.servo * servo_slack
 
 

@@ -1,6 +1,7 @@
 """Free laws of the needle itself.
 
 - the stiffness of the shaft as a curve of the torque that it carries
+- a shaft that twists plastically beyond a torque
 - at the tip: drag and dry friction, which may differ between the directions
 - at the tip, or along the inserted shaft: a torque that depends on the angle, with one and two
   waves per turn
@@ -25,6 +26,8 @@ from models.tissue import Interface
 WAVES = (1, 2)  # in a turn
 _SHOWN_DEG = np.linspace(-180.0, 180.0, 25)
 _SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])
+_YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
+_LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
 _AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
 
 
@@ -32,8 +35,9 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the needle may lack."""
     turned = Variable.BASE_ANGLE in ranges.ends
     angles = (_angle(ranges, tip=True), _angle(ranges, tip=False)) if turned else ()
-    stiffness = (_stiffness(ranges),) if Variable.TORQUE in ranges.ends else ()
-    return (_tip_rate(ranges), *stiffness, *angles)
+    loaded = Variable.TORQUE in ranges.ends
+    shaft = (_stiffness(ranges), _yielding(ranges)) if loaded else ()
+    return (_tip_rate(ranges), *shaft, *angles)
 
 
 def _tip_rate(ranges: LogRanges) -> Family:
@@ -97,6 +101,48 @@ def _apply_stiffness(
 ) -> RigParameters:
     law = FreeLaw(stiffness_over_torque=curve.factors(c), stiffness_torque_n_mm=most_n_mm)
     return replace(rig, free=law)
+
+
+def _yielding(ranges: LogRanges) -> Family:
+    most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
+    starts = tuple(share * most_n_mm for share in _YIELDS_AT)
+    torque = Parameter(
+        name="torque",
+        unit="N mm",
+        low=_LEAST_YIELD * most_n_mm,
+        high=2.0 * most_n_mm,
+        start=starts,
+        logarithmic=True,
+        neutral=None,
+    )
+    slope = Parameter(
+        name="slope", unit="-", low=0.0, high=0.98, start=(_YIELD_SLOPE,) * len(starts), neutral=1.0
+    )
+    return Family(
+        effect=Effect(
+            name="plastic twist over torque",
+            title="a shaft that twists plastically beyond a torque",
+            place=Place.NEEDLE,
+            parameters=(torque, slope),
+            apply=_apply_yielding,
+            differences=(1e-2, 1e-3),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="torque",
+        title="torque of the shaft over its twist",
+        curve=_yields,
+        x_unit="of the twist at which it yields",
+        unit="N mm",
+    )
+
+
+def _yields(torque: float, slope: float) -> Points:
+    twists = np.array([0.0, 1.0, 3.0])
+    return twists, torque * np.array([0.0, 1.0, 1.0 + 2.0 * slope])
+
+
+def _apply_yielding(rig: RigParameters, torque: float, slope: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(yield_torque_n_mm=torque, yield_stiffness_ratio=slope))
 
 
 def _drag(ranges: LogRanges, starts: int) -> Parameter:

@@ -21,6 +21,7 @@ from sim.kernel.stage.assemble import (
     drive_torque,
     is_linear,
 )
+from sim.kernel.stage.plasticity import add_sets
 from sim.kernel.stage.tridiagonal import factorise, substitute
 from sim.kernel.stage.workspace import Frame, Workspace
 
@@ -95,6 +96,8 @@ def newton(
         rhs[n - 1] -= tip_torque
         if not factored:
             diagonal[0] += slope
+            if frame.yield_torque > 0.0:
+                add_sets(w, frame)
             recoverable, stored = _add_other_rows(law, w, frame, tip_torque)
         if iteration > _FREE or not convex:
             searching, search = _search(w, search)

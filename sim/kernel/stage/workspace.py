@@ -30,6 +30,8 @@ class Workspace(NamedTuple):
     point: np.ndarray  # (rows, 2): element of a point row, and place in it
     places: np.ndarray  # (2 n + 1): where covered sites are, m
     twist: np.ndarray  # of the tissue there, rad
+    set_before: np.ndarray  # (n): twist that elements keep without a torque, rad, before the stage
+    set: np.ndarray  # the same at its end
     start: np.ndarray  # (rows, n, 2, SITE): site states at the start of the stage
     end: np.ndarray  # the same at its end
 
@@ -45,6 +47,8 @@ class Frame(NamedTuple):
     backlash: float  # half of the play, rad
     factor: float = 1.0  # of rows that vary in time
     grip: float = 0.0  # torque at which the needle slips in the chuck, N m; 0: never
+    yield_torque: float = 0.0  # beyond which elements twist plastically, N m; 0: never
+    yield_slope: float = 0.0  # stiffness beyond it over the elastic one
 
 
 @inlined
@@ -58,7 +62,8 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
     point = loads + 4 * n * rows
     places = point + 2 * rows
     twist = places + 2 * n + 1
-    start = twist + 2 * n + 1
+    kept = twist + 2 * n + 1
+    start = kept + 2 * n
     return Workspace(
         view(memory, 0, (m,)),
         view(memory, m, (m,)),
@@ -78,6 +83,8 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
         view(memory, point, (rows, 2)),
         view(memory, places, (2 * n + 1,)),
         view(memory, twist, (2 * n + 1,)),
+        view(memory, kept, (n,)),
+        view(memory, kept + n, (n,)),
         view(memory, start, (rows, n, 2, memory_map.SITE)),
         end,
     )

@@ -30,7 +30,8 @@ def test_every_output_has_a_sensor_whose_name_stands_at_its_place():
 @pytest.mark.parametrize(("elements", "rows"), [(2, 1), (2, 3), (16, 1), (16, 3)])
 def test_the_memory_of_a_model_holds_clock_two_states_torques_and_workspace(elements, rows):
     sites = 2 * elements * rows
-    state = memory_map.B_ANGLES + 2 * (elements + 1) + memory_map.SITE * sites
+    assert memory_map.sites_at(elements) == memory_map.B_ANGLES + 2 * (elements + 1) + elements
+    state = memory_map.sites_at(elements) + memory_map.SITE * sites
     assert memory_map.block(elements, rows) == state
     torques = 3 * (elements + 1)  # tissue, other, correction of every hinge
     total = memory_map.CLOCK + 2 * state + torques + memory_map.scratch(elements, rows)

@@ -11,6 +11,8 @@ from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
 FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
+READS = 0.02 * ANGLE
+WITH_TORQUE = families(covered(ANGLE, tip=ANGLE, torque=READS, seen=(ANGLE, READS)))
 RATE, TIP_ANGLE, ALONG = (
     "tip torque over rate",
     "tip torque over tip_angle",
@@ -53,6 +55,14 @@ def test_curves_are_told_as_torques():
     x = np.radians(angles)
     exact = np.sin(x) + 2 * np.cos(x) + 3 * np.sin(2 * x) + 4 * np.cos(2 * x)
     np.testing.assert_allclose(waves, exact)
+
+
+@pytest.mark.parametrize(("torque_n_mm", "yields"), [(100.0, False), (0.3, True)])
+def test_a_shaft_that_yields_beyond_what_it_takes_is_the_nominal_one(torque_n_mm, yields):
+    (yielding,) = (f for f in WITH_TORQUE if f.name == "plastic twist over torque")
+    assert same_readings(ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, 0.4), NOMINAL) is not yields
+    twist, torque = yielding.curve(2.0, 0.25)
+    assert np.diff(torque) / np.diff(twist) == pytest.approx([2.0, 0.5])
 
 
 def test_a_needle_that_hardly_turns_has_no_law_of_its_angle():

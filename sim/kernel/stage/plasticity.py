@@ -1,0 +1,74 @@
+"""A shaft that yields: elements that keep a twist without a torque, with linear kinematic hardening.
+
+    torque = k (twist - set),    |torque - k q / (1 - q) set| <= yield torque,
+
+k being the stiffness of an element and q k that beyond yielding. In each stage the set at its end is
+that of the twist there (return mapping; Simo and Hughes, Computational Inelasticity, section 1.4).
+"""
+
+import math
+
+from sim.kernel.compiled import Array, inlined
+from sim.kernel.stage.workspace import Frame, Workspace
+
+
+@inlined
+def _hardening(stiffness: float, slope: float) -> float:
+    """Rise of the torque that an element yields at, over its set, N m / rad."""
+    return stiffness * slope / (1.0 - slope)
+
+
+@inlined
+def set_after(stiffness: float, frame: Frame, twist: float, before: float) -> float:
+    """The set of an element at a twist, rad, from that before."""
+    hardening = _hardening(stiffness, frame.yield_slope)
+    driving = stiffness * (twist - before) - hardening * before
+    excess = abs(driving) - frame.yield_torque
+    if excess <= 0.0:
+        return before
+    return before + math.copysign(excess / (stiffness + hardening), driving)
+
+
+@inlined
+def add_sets(w: Workspace, frame: Frame) -> None:
+    """What sets change of the linearised stage equation: torques of the elements, and their slopes."""
+    rhs, lower, diagonal, upper = w.rhs, w.lower, w.diagonal, w.upper
+    theta, omega, spring = w.theta, w.omega, w.spring
+    for e in range(spring.size):
+        twist = theta[e + 1] - theta[e] + frame.g * (omega[e + 1] - omega[e])
+        w.set[e] = set_after(spring[e], frame, twist, w.set_before[e])
+        torque = spring[e] * w.set[e]
+        rhs[e] -= torque
+        rhs[e + 1] += torque
+        if w.set[e] != w.set_before[e]:
+            softer = frame.g * spring[e] * (1.0 - frame.yield_slope)
+            diagonal[e] -= softer
+            diagonal[e + 1] -= softer
+            upper[e] += softer
+            lower[e + 1] += softer
+
+
+@inlined
+def hold_sets(w: Workspace, sets: Array) -> None:
+    """The first stage starts from the sets of the step."""
+    for e in range(sets.size):
+        w.set[e] = w.set_before[e] = sets[e]
+
+
+@inlined
+def carry_sets(w: Workspace, sets: Array, kept: float, carried: float) -> None:
+    """Where the next stage starts (sim.kernel.method)."""
+    for e in range(sets.size):
+        before = w.set_before[e]
+        w.set_before[e] = sets[e] + kept * (before - sets[e]) + carried * (w.set[e] - before)
+
+
+@inlined
+def keep_sets(w: Workspace, frame: Frame, sets: Array, after: Array) -> tuple[float, float]:
+    """Write the sets at the end of the step; returns heat and energy stored in hardening, J."""
+    heat, stored = 0.0, 0.0
+    for e in range(sets.size):
+        after[e] = w.set[e]
+        heat += frame.yield_torque * abs(after[e] - sets[e])
+        stored += 0.5 * _hardening(w.spring[e], frame.yield_slope) * after[e] * after[e]
+    return heat, stored
