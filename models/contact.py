@@ -5,7 +5,12 @@ Its torque is multiplied by a curve over one of
     slip    angle by which the shaft has slipped there so far, in both directions, deg
     age     time since the contact was renewed, s: d age / dt = 1 - age |slip rate| / renewal
 
-(Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979)). The curve is given at places that are
+(Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979)), or the stiffness of yielding tissue
+by one over
+
+    twist   angle by which the tissue is twisted there, either way, deg: tissue that hardens or softens
+
+The curve is given at places that are
 close near 0, scale (exp(u) - 1) with even u, and level beyond the last one.
 """
 
@@ -28,10 +33,11 @@ class ContactVariable(StrEnum):
 
     SLIP = "slip"
     AGE = "age"
+    TWIST = "twist"
 
 
 class ContactCurve(Record):
-    """Factors on the torque of a contact."""
+    """Factors on the torque of a contact, or on the stiffness of its tissue."""
 
     over: ContactVariable
     factors: tuple[Positive, ...] = Field(min_length=CONTACT_POINTS, max_length=CONTACT_POINTS)

@@ -24,6 +24,7 @@ _TORQUES_PER_LENGTH = [
 _REMEMBERED = {
     ContactVariable.SLIP: (memory_map.SLIP_SO_FAR, units.DEG),
     ContactVariable.AGE: (memory_map.AGE, 1.0),
+    ContactVariable.TWIST: (memory_map.TWIST, units.DEG),
 }
 
 

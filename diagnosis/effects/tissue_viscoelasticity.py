@@ -41,6 +41,6 @@ EFFECT = Effect(
     remedy=(
         "give the tissue of the model a stiffness of {stiffness} and a time constant of {time_constant}"
     ),
-    other_forms=("elastic tissue over position, in layers", "elastic tissue over torque"),
+    other_forms=("elastic tissue over position, in layers", "elastic tissue over twist"),
     check="turn by a few degrees, hold, and let go: elastic tissue turns the needle back",
 )

@@ -10,7 +10,9 @@ implicit stage of length g the site solves, all at the end of the stage,
 
 and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
 
-    f = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt.
+    f = k phi + k tau dphi/dt,   dphi/dt = omega - s,   phi = phi* + g dphi/dt,
+
+with k times a curve over |phi| where it hardens or softens.
 
 A row may be shaped: its viscous torque follows a curve of the rate, exp of log factors that run
 straight over log |s|; its torque is (1 + a) times for positive and (1 - a) times for negative torque;
@@ -30,6 +32,7 @@ from sim.kernel.compiled import Array, embedded
 from sim.kernel.stage.curves import contact_factor, past_after, rate_factor
 
 _INNER_ITERATIONS = 40
+_LEAST = 0.1  # of the slope at the same stiffness, that tissue which softens has for Newton's method
 
 
 class Memory(NamedTuple):
@@ -118,8 +121,8 @@ def slip_law(
         asymmetry = row[memory_map.L_ASYMMETRY]
         factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
         factor *= stage.factor if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES else 1.0
-        if row[memory_map.L_CONTACT] != 0.0:
-            factor *= contact_factor(past, row)
+        if 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
+            factor *= contact_factor(past, row)[0]
             past = past_after(past, s, g, row)
         torque, slope = torque * factor, slope * factor
     return torque, slope, Memory(dry, turn, axial, old.phi, past)
@@ -141,13 +144,12 @@ def site_law(
         k *= stage.factor
     if k <= 0.0:
         return torque, slope, omega, new
-    resistance = k * (row[memory_map.L_TIME] + stage.g)
-    push = k * old.phi
     s = omega
-    # torque(s) - push - resistance (omega - s) = 0: rising in s, so bracketed Newton.
+    # torque(s) - elastic(omega - s) = 0: rising in s, so bracketed Newton.
     low, high = -math.inf, math.inf
+    elastic, resistance = _elastic(0.0, k, row, old.phi, stage.g)
     for _ in range(_INNER_ITERATIONS):
-        miss = torque - push - resistance * (omega - s)
+        miss = torque - elastic
         if miss > 0.0:
             high = s
         else:
@@ -159,6 +161,20 @@ def site_law(
         if not low < s < high:
             s = 0.5 * (low + high)
         torque, slope, new = slip_law(s, row, extra, old, stage)
+        elastic, resistance = _elastic(omega - s, k, row, old.phi, stage.g)
     phi = old.phi + stage.g * (omega - s)
     left = Memory(new.dry, new.turn, new.axial, phi, new.past)
     return torque, slope * resistance / (slope + resistance), s, left
+
+
+@embedded
+def _elastic(rate: float, k: float, row: Array, phi: float, g: float) -> tuple[float, float]:
+    """Torque of the tissue where it yields at a rate, rad/s, and its slope, which stays positive."""
+    phi += g * rate
+    torque, resistance = phi + row[memory_map.L_TIME] * rate, row[memory_map.L_TIME] + g
+    if row[memory_map.L_CONTACT] == memory_map.TWIST:
+        factor, rise = contact_factor(abs(phi), row)
+        more = math.copysign(rise, phi) * g * torque
+        resistance *= factor
+        torque, resistance = factor * torque, max(resistance + more, _LEAST * resistance)
+    return k * torque, k * resistance

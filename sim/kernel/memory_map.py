@@ -76,11 +76,11 @@ STIFFNESS_POINTS = H_YIELD - H_STIFFNESS_0
     L_CURVE_4,
     L_CURVE_5,
     L_CURVE_6,
-    L_CONTACT,  # what its sites remember beside presliding; 0: nothing
+    L_CONTACT,  # what the curve of the following is over; 0: there is none
     L_CONTACT_SCALE,  # of the curve over that, rad or s
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
     L_RENEWAL,  # slip that renews a contact, rad
-    L_CONTACT_0,  # log factors of the torque at these places
+    L_CONTACT_0,  # log factors at these places of the torque, or of the tissue's stiffness
     L_CONTACT_1,
     L_CONTACT_2,
     L_CONTACT_3,
@@ -93,7 +93,7 @@ STIFFNESS_POINTS = H_YIELD - H_STIFFNESS_0
 ) = range(46)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
-SLIP_SO_FAR, AGE = 1.0, 2.0  # what sites may remember
+SLIP_SO_FAR, AGE, TWIST = 1.0, 2.0, 3.0  # what the curve is over; of the last PHI is the memory
 TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffness, too
 
 # --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------

@@ -21,6 +21,7 @@ from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
     add_viscous,
     drive_torque,
+    hardening_energy,
     is_idle,
     is_linear,
     slack,
@@ -276,6 +277,7 @@ def advance(
     for r in range(rows):
         if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
             continue
+        stored += hardening_energy(w, r, law[r], frame)
         forget_uncovered(w.loads[r], w.end[r])
         if (
             law[r, memory_map.L_STIFFNESS] > 0.0

@@ -9,7 +9,7 @@ then the angle turned, and the age of every contact, at a rate w with renewal d,
 import numpy as np
 import pytest
 
-from models.contact import CONTACT_POINTS, ContactCurve
+from models.contact import CONTACT_POINTS, ContactCurve, contact_places
 from models.drive import Drive
 from models.needle import NITINOL
 from models.tissue import Tissue
@@ -134,3 +134,49 @@ def test_what_slips_in_the_chuck_becomes_heat(arrangement):
     assert abs(last[1.0].base_torque_n_mm).max() == pytest.approx(1.0, rel=1e-3)
     assert last[100.0].outputs[-1, memory_map.O_CHUCK_SLIP] == 0.0
     assert abs(last[1.0].outputs[:, memory_map.O_CHUCK_SLIP]).max() > 0.1
+
+
+HARDENS_DEG = 12.0
+
+
+def hardening(steepness):
+    """Stiffness over the twist, times (1 + (twist / HARDENS_DEG)^2)^steepness."""
+    at = contact_places(3.0, 60.0)
+    factors = (1 + (at / HARDENS_DEG) ** 2) ** steepness
+    return ContactCurve(over="twist", scale=3.0, last=60.0, factors=tuple(factors))
+
+
+@ARRANGEMENTS
+@pytest.mark.parametrize("sign", [1, -1])
+def test_tissue_that_hardens_takes_the_torque_of_its_twist(arrangement, sign):
+    """Friction so high that nothing slips: at rest the tissue is twisted by the angle of the base."""
+    curve_of, stiffness = hardening(1.0), 0.01
+    time_s = np.arange(0, 12, STEP_S)
+    drive_deg = sign * np.minimum(6.0 * time_s, 30.0)
+    tissue = Tissue.uniform(
+        viscous_n_mm_s_per_mm=1e6,
+        stiffness_n_mm_per_rad_per_mm=stiffness,
+        time_constant_s=0.2,
+        contact=curve_of,
+    )
+    run = turned(tissue, time_s, drive_deg, arrangement=arrangement)
+    exact = sign * stiffness * factor(curve_of, 30.0) * np.radians(30.0) * LENGTH_MM
+    assert run.base_torque_n_mm[-1] == pytest.approx(exact, rel=1e-4)
+
+
+@pytest.mark.parametrize("steepness", [1.0, -0.4])
+def test_what_hardening_tissue_stores_it_gives_back(steepness):
+    """Work = heat + energy of tissue and shaft, while it is twisted, whether it hardens or softens."""
+    time_s = np.arange(0, 5, STEP_S)
+    tissue = Tissue.uniform(
+        viscous_n_mm_s_per_mm=0.5,
+        stiffness_n_mm_per_rad_per_mm=0.02,
+        time_constant_s=0.05,
+        contact=hardening(steepness),
+    )
+    run = turned(tissue, time_s, 40.0 * np.sin(0.8 * time_s))
+    at = np.argmax(run.outputs[:, memory_map.O_TISSUE_ENERGY])
+    work, heat = run.outputs[at, [memory_map.O_WORK, memory_map.O_DISSIPATED]]
+    stored = run.outputs[at, [memory_map.O_SHAFT_ENERGY, memory_map.O_TISSUE_ENERGY]]
+    assert stored[1] > 0.2 * work
+    assert work == pytest.approx(heat + stored.sum(), rel=1e-3)

@@ -1,4 +1,7 @@
-"""Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable."""
+"""Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable.
+
+The stiffness may also be a curve of the twist of the tissue: it hardens or softens.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -15,14 +18,17 @@ from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
+from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contact_places
 
-OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY, Variable.TORQUE)
+OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY)
+_EVEN_DEG, _MOST_DEG = 3.0, 45.0  # twist below which places are even, and beyond which none is
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the tissue may lack."""
     over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
-    return (*over, _elastic_along_depth(ranges))
+    hardening = (_elastic_over_twist(ranges),) if Variable.BASE_ANGLE in ranges.ends else ()
+    return (*over, _elastic_along_depth(ranges), *hardening)
 
 
 def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
@@ -38,6 +44,15 @@ def _elastic_along_depth(ranges: LogRanges) -> Family:
     return _elastic(ranges, curve, law, over="position", words="along the inserted shaft", unit=unit)
 
 
+def _elastic_over_twist(ranges: LogRanges) -> Family:
+    """The tissue twists by at most half of what the base turns to and fro."""
+    low_deg, high_deg = ranges.ends[Variable.BASE_ANGLE]
+    most_deg = min(0.5 * (high_deg - low_deg), _MOST_DEG)
+    curve = replace(smooth_curve(0.0, 1.0, CONTACT_POINTS), places=contact_places(_EVEN_DEG, most_deg))
+    law = partial(_law_over_twist, curve)
+    return _elastic(ranges, curve, law, over="twist", words="with its twist", unit="deg", says="torque")
+
+
 def _elastic(
     ranges: LogRanges,
     curve: SmoothCurve,
@@ -46,6 +61,7 @@ def _elastic(
     over: str,
     words: str,
     unit: str,
+    says: str = "",
 ) -> Family:
     """Elastic tissue that changes as a curve; `law` makes the law from the curve's coordinates."""
     elastic = ranges.library["tissue_viscoelasticity"].parameters
@@ -60,7 +76,7 @@ def _elastic(
             apply=partial(_apply, law),
         ),
         places={Place.TISSUE: 1.0},
-        says=over,
+        says=says or over,
         title="stiffness of the tissue",
         curve=partial(_stiffness, curve),
         x_unit=unit,
@@ -74,6 +90,16 @@ def _law_over(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> Fre
 
 def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
     return FreeLaw(along_depth=AlongDepth(stiffness=curve.factors(c)))
+
+
+def _law_over_twist(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
+    contact = ContactCurve(
+        over=ContactVariable.TWIST,
+        scale=_EVEN_DEG,
+        last=float(curve.places[-1]),
+        factors=curve.factors(c),
+    )
+    return FreeLaw(contact=contact)
 
 
 def _stiffness(curve: SmoothCurve, stiffness: float, _: float, *c: float) -> Points:

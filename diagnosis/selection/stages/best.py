@@ -1,8 +1,9 @@
 """The best explanation taken apart: its fit to the end, without each of its effects, its scatter."""
 
 from itertools import combinations
+from typing import Any
 
-from diagnosis.criteria import BASE_NOISE_GAP, CONTENDING
+from diagnosis.criteria import BASE_NOISE_GAP, CONTENDING, FINALISTS
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.state import SearchState
@@ -36,10 +37,17 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
-    """What the best names of stiffness and damping, without the prior of scatter that pulls it."""
-    best = state.best
-    if not best.scatter_named:
-        return state
-    names = (*best.names, *best.scatter_named)
-    start = state.problem.parameterization(names).joined(best.fit.parts)
-    return state.adding(fit_all("scatter of the best", [(state.problem, names, start)], workers))
+    """What leading sets name of stiffness and damping, without the prior of scatter that pulls it.
+
+    That is the best, and those that this prior alone keeps behind it.
+    """
+    reach = state.best.score - state.best.fit.prior + CONTENDING
+    near = [c for c in state.candidates if c.scatter_named and c.score - c.fit.prior <= reach]
+    known = {frozenset(c.names) for c in state.candidates}
+    calls: dict[frozenset[str], tuple[Any, ...]] = {}
+    for one in sorted(near, key=lambda c: c.score)[:FINALISTS]:
+        names = (*one.names, *one.scatter_named)
+        if frozenset(names) not in known:
+            start = state.problem.parameterization(names).joined(one.fit.parts)
+            calls.setdefault(frozenset(names), (state.problem, names, start))
+    return state.adding(fit_all("scatter of the best", [*calls.values()], workers))

@@ -2,7 +2,8 @@
 
 A drift could take over a part of what friction does, so that it is tried last, and only where it would
 take off most of what one of the leading explanations leaves beyond noise. One of more than
-DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
+DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; and where a constant offset does as
+well, it is that, which is an effect of the library.
 """
 
 from collections.abc import Callable
@@ -29,6 +30,7 @@ from diagnosis.workers import Workers
 Search = Callable[[SearchState, Workers], SearchState]
 
 STAGE = "drift of the torque sensor"
+_MOST_EFFECTS = 3
 
 
 def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchState:
@@ -51,7 +53,17 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
     most = _range_sigma(again.problem, again.best.fit)
     if most > DRIFT_RANGE_SIGMA:
         return state.noting(_dropped(f"{most:.1f} sigma within a trial is more than a sensor's drift"))
-    return again
+    level, explained = _with_offset(state, again.best, workers).rechecked()
+    return level.noting(_dropped("an offset of the sensor is enough")) if explained else again
+
+
+def _with_offset(state: SearchState, best: Candidate, workers: Workers) -> SearchState:
+    """The state without drift, where the best with it has a constant offset instead."""
+    names = (*best.names, "torque_bias")
+    if "torque_bias" in best.names or "torque_bias" not in state.effects or len(names) > _MOST_EFFECTS:
+        return state
+    start = state.problem.parameterization(names).joined(best.fit.parts)
+    return state.adding(fit_all(STAGE, [(state.problem, names, start)], workers))
 
 
 def _promises(problem: FitProblem, one: Candidate) -> bool:

@@ -12,6 +12,7 @@ from sim.kernel import memory_map
 from sim.kernel.compiled import Array, embedded, inlined
 from sim.kernel.law import Memory, Stage, site_law
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
+from sim.kernel.stage.curves import contact_factor, mean_factor
 from sim.kernel.stage.workspace import Frame, Workspace
 
 # A place is the end of the shaft if it lies within this fraction of the last element.
@@ -143,8 +144,8 @@ def slack(miss: float, backlash: float) -> float:
 def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -> tuple[float, float]:
     """Every covered site of a row that is more than viscous.
 
-    Returns the power that goes into twisted tissue and bent shaft, W, and the
-    energy stored in the tissue, J.
+    Returns the power that goes into twisted tissue and bent shaft, W, and the energy stored in the
+    tissue, J, but for what `hardening_energy` adds.
     """
     x, theta, omega, spring = w.x, w.theta, w.omega, w.spring
     lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs
@@ -186,8 +187,10 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         after[slot, k, memory_map.PHI] = new.phi
         after[slot, k, memory_map.PAST] = new.past
         stiffness = factor * weight * row[memory_map.L_STIFFNESS]
-        recoverable += stiffness * new.phi * (rate + advected - slip)
         stored += 0.5 * stiffness * new.phi * new.phi
+        if row[memory_map.L_CONTACT] == memory_map.TWIST:
+            stiffness *= contact_factor(abs(new.phi), row)[0]
+        recoverable += stiffness * new.phi * (rate + advected - slip)
         if curvature != 0.0:
             angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
             torque += curvature * math.sin(angle)
@@ -201,3 +204,18 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         lower[e + 1] += to_right * slope * (left - tilt)
         diagonal[e + 1] += to_right * slope * (right + tilt)
     return recoverable, stored
+
+
+@embedded
+def hardening_energy(w: Workspace, r: int, row: Array, frame: Frame) -> float:
+    """Energy stored in the tissue of a row that hardens, beyond that at its stiffness at rest, J."""
+    if row[memory_map.L_CONTACT] != memory_map.TWIST or row[memory_map.L_POINT] != 0.0:
+        return 0.0
+    factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
+    energy = 0.0
+    for site in range(2 * w.loads[r].shape[0]):
+        e, k = site // 2, site % 2
+        phi = abs(w.end[r, e, k, memory_map.PHI])
+        stiffness = factor * row[memory_map.L_STIFFNESS] * (w.loads[r, e, k] + w.loads[r, e, 2 + k])
+        energy += 0.5 * stiffness * phi * phi * (mean_factor(phi, row) - 1.0)
+    return energy

@@ -5,6 +5,8 @@ remembers, beside its presliding, one of
 
     the slip so far    d past / dt = |s|
     its age            d past / dt = 1 - past |s| / renewal
+
+or its tissue is as stiff as a curve over its twist says.
 """
 
 import math
@@ -30,15 +32,51 @@ def rate_factor(s: float, row: Array) -> tuple[float, float]:
 
 
 @embedded
-def contact_factor(past: float, row: Array) -> float:
-    """Factor of the torque after a slip, rad, or at an age, s."""
+def contact_factor(past: float, row: Array) -> tuple[float, float]:
+    """Factor after a slip or at a twist, rad, or at an age, s, and its slope."""
     last = memory_map.CONTACT_POINTS - 1
-    at = math.log1p(past / row[memory_map.L_CONTACT_SCALE]) / row[memory_map.L_CONTACT_STEP]
+    step, scale = row[memory_map.L_CONTACT_STEP], row[memory_map.L_CONTACT_SCALE]
+    at = math.log1p(past / scale) / step
     if at >= last:
-        return math.exp(row[memory_map.L_CONTACT_0 + last])
+        return math.exp(row[memory_map.L_CONTACT_0 + last]), 0.0
     i = int(at)
     below, above = row[memory_map.L_CONTACT_0 + i], row[memory_map.L_CONTACT_0 + i + 1]
-    return math.exp(below + (at - i) * (above - below))
+    factor = math.exp(below + (at - i) * (above - below))
+    return factor, factor * (above - below) / (step * (scale + past))
+
+
+@embedded
+def mean_factor(twist: float, row: Array) -> float:
+    """Mean of the factor up to a twist, rad, weighted by the twist: energy over that of factor 1.
+
+    In u = log(1 + x / scale), the integral of exp(a + b u) x dx is one of exponentials.
+    """
+    if twist == 0.0:
+        return math.exp(row[memory_map.L_CONTACT_0])
+    step, scale = row[memory_map.L_CONTACT_STEP], row[memory_map.L_CONTACT_SCALE]
+    last = memory_map.CONTACT_POINTS - 1
+    end, total = math.log1p(twist / scale), 0.0
+    for i in range(last):
+        low, high = i * step, min((i + 1) * step, end)
+        if high > low:
+            below = row[memory_map.L_CONTACT_0 + i]
+            b = (row[memory_map.L_CONTACT_0 + i + 1] - below) / step
+            total += math.exp(below) * (_grown(b, low, high, 2.0) - _grown(b, low, high, 1.0))
+    beyond = scale * math.expm1(last * step)
+    if twist > beyond:
+        rest = 0.5 * (twist * twist - beyond * beyond) / (scale * scale)
+        total += math.exp(row[memory_map.L_CONTACT_0 + last]) * rest
+    return 2.0 * total * scale * scale / (twist * twist)
+
+
+@embedded
+def _grown(b: float, low: float, high: float, power: float) -> float:
+    """Integral of exp(b (u - low) + power u) du from low to high."""
+    rate = b + power
+    first = math.exp(power * low)
+    if abs(rate * (high - low)) < 1e-9:
+        return first * (high - low)
+    return first * math.expm1(rate * (high - low)) / rate
 
 
 @embedded

@@ -102,6 +102,13 @@ CASES = {
         0.7,
         0.0,
     ),
+    "hardening tissue": (
+        {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "stiffness": 5.0, "time": 0.2}
+        | {"contact": 3.0, "contact_scale": 0.01, "contact_step": 0.5}
+        | {"contact_1": 0.4, "contact_2": 1.1, "contact_3": 1.5},
+        0.7,
+        0.0,
+    ),
     "all": (
         {"viscous": 0.02, "kinetic": 0.1, "static": 0.1, "shared": 0.1, "stiffness": 5.0, "time": 0.1},
         1.7,

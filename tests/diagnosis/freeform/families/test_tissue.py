@@ -33,5 +33,6 @@ def test_the_curve_is_the_stiffness():
 
 
 def test_it_is_of_what_the_log_has():
-    assert {family.says for family in FAMILIES.values()} == {"time", "history", "position"}
+    says = {family.says for family in FAMILIES.values()}
+    assert says == {"time", "history", "position", "torque"}
     assert all(family.place is Place.TISSUE for family in FAMILIES.values())

@@ -1,12 +1,13 @@
 """The best explanation taken apart."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
-from diagnosis.criteria import BASE_NOISE_GAP
+from diagnosis.criteria import BASE_NOISE_GAP, CONTENDING
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.search import search
@@ -74,3 +75,25 @@ def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
     best = concluded(found)
     assert best.effects == ("stiffness_error",)
     assert np.exp(best.best.fit.parts["stiffness_error"][0]) == pytest.approx(1.2, rel=0.01)
+
+
+def test_sets_that_the_prior_of_scatter_alone_keeps_behind_are_freed_of_it_too(asked, still_start):
+    """Of two sets whose stiffness is off by 20 %, with a prior of 30 and of 300."""
+
+    def off(names, prior, cost):
+        fit = SimpleNamespace(prior=prior, parts={"stiffness_error": np.array([0.2])})
+        one = SimpleNamespace(names=names, fit=fit, score=cost + prior)
+        return SimpleNamespace(**vars(one), scatter_named=("stiffness_error",))
+
+    best, near, far = off(("tip_drag",), 30.0, 0.0), off(("tip_angle_scale",), 300.0, 5.0), None
+    far = off(("torque_bias",), 30.0, 10.0 + CONTENDING)
+    state = SimpleNamespace(
+        best=best,
+        candidates=(best, near, far),
+        problem=SimpleNamespace(
+            parameterization=lambda names: SimpleNamespace(joined=lambda parts: np.zeros(2))
+        ),
+        adding=lambda made: made,
+    )
+    module.scatter_of_the_best(state, Workers())
+    assert asked == [("tip_drag", "stiffness_error"), ("tip_angle_scale", "stiffness_error")]

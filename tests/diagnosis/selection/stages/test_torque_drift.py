@@ -61,6 +61,19 @@ def test_a_drift_of_no_working_sensor_explains_nothing():
     assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
 
 
+def test_a_constant_offset_is_an_effect_of_the_library_and_no_drift():
+    log = log_of(NOMINAL, seconds=14.0)
+    (one,) = log.trials
+    raised = one.table.assign(base_torque_n_mm=one.table["base_torque_n_mm"] + 1.5 * 0.015)
+    log = replace(log, trials=(Trial(name=one.name, table=raised),))
+    for effects, named in ((("torque_bias",), ("torque_bias",)), ((), ())):
+        state = nominal_rig(start_of_search(log, effects=effects), Workers())
+        assert not state.best.floor.reached
+        after = with_drift(state, Workers(), nominal_rig)
+        assert after.best.names == named
+        assert (after.problem is state.problem) is bool(named)
+
+
 def test_after_a_stop_it_is_left_out():
     state = nominal_rig(start_of_search(drifted(3.5), effects=()), Workers())
     stop = StopSignal(1e-9)

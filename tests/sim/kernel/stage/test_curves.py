@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from scipy.integrate import quad
 
 
 @pytest.fixture
@@ -39,7 +40,19 @@ def test_a_curve_over_the_rate_is_straight_between_places_and_level_beyond(
 
 @pytest.mark.parametrize(("u", "log_factor"), [(0.0, 0.0), (0.75, -0.3), (4.0, -1.6), (7.0, -1.6)])
 def test_a_curve_over_the_past_is_straight_in_its_logarithm(curves, row, u, log_factor):
-    assert math.log(curves.contact_factor(2.0 * math.expm1(u), row)) == pytest.approx(log_factor)
+    at, step = 2.0 * math.expm1(u), 1e-6
+    factor, slope = curves.contact_factor(at, row)
+    assert math.log(factor) == pytest.approx(log_factor)
+    ahead = curves.contact_factor(at + step, row)[0]
+    assert slope == pytest.approx((ahead - factor) / step, abs=1e-6)
+
+
+@pytest.mark.parametrize("twist", [0.0, 0.3, 5.0, 300.0])
+def test_the_mean_factor_is_the_integral_over_the_twist(curves, row, twist):
+    """2 / twist^2 times the integral of factor x dx, by quadrature."""
+    exact = quad(lambda x: curves.contact_factor(x, row)[0] * x, 0, twist, limit=400)[0]
+    wanted = 2 * exact / twist**2 if twist else 1.0
+    assert curves.mean_factor(twist, row) == pytest.approx(wanted, rel=1e-6)
 
 
 def test_slip_adds_up_whichever_way(curves, row, interpreted):
