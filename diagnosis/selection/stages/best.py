@@ -39,10 +39,12 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     """What leading sets name of stiffness and damping, without the prior of scatter that pulls it.
 
-    That is the best, and those that this prior alone keeps behind it.
+    That is the best, and those at the noise floor that this prior alone keeps behind it.
     """
-    reach = state.best.score - state.best.fit.prior + CONTENDING
-    near = [c for c in state.candidates if c.scatter_named and c.score - c.fit.prior <= reach]
+    best = state.best
+    reach = best.score - best.fit.prior + CONTENDING
+    near = [c for c in state.candidates if c.floor.reached and c.score - c.fit.prior <= reach]
+    near = [c for c in (best, *near) if c.scatter_named]
     known = {frozenset(c.names) for c in state.candidates}
     calls: dict[frozenset[str], tuple[Any, ...]] = {}
     for one in sorted(near, key=lambda c: c.score)[:FINALISTS]:

@@ -1,5 +1,6 @@
 """The best explanation taken apart."""
 
+from collections import namedtuple
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -80,16 +81,19 @@ def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
 def test_sets_that_the_prior_of_scatter_alone_keeps_behind_are_freed_of_it_too(asked, still_start):
     """Of two sets whose stiffness is off by 20 %, with a prior of 30 and of 300."""
 
-    def off(names, prior, cost):
-        fit = SimpleNamespace(prior=prior, parts={"stiffness_error": np.array([0.2])})
-        one = SimpleNamespace(names=names, fit=fit, score=cost + prior)
-        return SimpleNamespace(**vars(one), scatter_named=("stiffness_error",))
+    Off = namedtuple("Off", ["names", "fit", "score", "floor", "scatter_named"])
 
-    best, near, far = off(("tip_drag",), 30.0, 0.0), off(("tip_angle_scale",), 300.0, 5.0), None
-    far = off(("torque_bias",), 30.0, 10.0 + CONTENDING)
+    def off(names, prior, cost, reached):
+        fit = SimpleNamespace(prior=prior, parts={"stiffness_error": np.array([0.2])})
+        floor = SimpleNamespace(reached=reached)
+        return Off(names, fit, cost + prior, floor, ("stiffness_error",))
+
+    best, near = off(("tip_drag",), 30.0, 0.0, False), off(("tip_angle_scale",), 300.0, 5.0, True)
+    far = off(("torque_bias",), 30.0, 10.0 + CONTENDING, True)
+    above = off(("stiction",), 300.0, 5.0, False)
     state = SimpleNamespace(
         best=best,
-        candidates=(best, near, far),
+        candidates=(best, near, far, above),
         problem=SimpleNamespace(
             parameterization=lambda names: SimpleNamespace(joined=lambda parts: np.zeros(2))
         ),
