@@ -52,6 +52,7 @@ class Objective:
           slopes: a known Jacobian, (N, n), that is used everywhere; None: it is computed.
         """
         self.problem, self.parameterization = problem, parameterization
+        self._of_differences = problem.of_differences
         self.difference = difference
         self.low, self.high = parameterization.bounds()
         self.slopes, self._known_slopes = slopes, slopes is not None
@@ -125,8 +126,7 @@ class Objective:
         if self._fresh_at is None or self._is_far(flat - self._fresh_at):
             taken, self._fresh_at = np.arange(flat.size), flat
         if taken.size:
-            moved = self._side_by_side(flat + np.diag(steps)[taken])
-            slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
+            slopes[:, taken] = self._changes(flat, at_x, np.diag(steps)[taken]) / steps[taken]
         self.slopes = slopes
         return slopes
 
@@ -146,10 +146,17 @@ class Objective:
     def _is_far(self, way: Array) -> bool:
         return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)
 
+    def _changes(self, x: Array, at_x: Array, steps: Array) -> Array:
+        """Changes of residuals with the prior by steps, (k, n), from a vector: (N, k)."""
+        if self._of_differences is self.problem:
+            return self._side_by_side(x + steps) - at_x.reshape(-1, 1)
+        moved = self._side_by_side(np.vstack([x, x + steps]))
+        return moved[:, 1:] - moved[:, :1]
+
     def _side_by_side(self, vectors: Array) -> Array:
         """Residuals with the prior at several vectors, (k, n), for differences: (N, k)."""
         rigs = [self.parameterization.rig(x) for x in vectors]
-        trials = self.problem.residuals(rigs, callback_alone=True)
+        trials = self._of_differences.residuals(rigs, callback_alone=True)
         columns = [self._with_prior([t[i] for t in trials], x) for i, x in enumerate(vectors)]
         return np.stack(columns, axis=-1)
 

@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from diagnosis_fixtures import log_of, problem_of
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import parameterization_of
+from diagnosis.replay.rig_parameters import RigParameters
 from sim.simulation import SimulationFailed
 
 OPEN = (LIBRARY["stiffness_error"],)
@@ -24,6 +26,10 @@ class ClosedForm:
     def __init__(self, most_drag=np.inf, callback_alone=False, waves=0.0):
         self.most_drag, self.waves, self.rigs, self.by_callback = most_drag, waves, [], []
         self.callback_alone = callback_alone
+
+    @property
+    def of_differences(self):
+        return self
 
     def residuals(self, rigs, *, callback_alone=False):
         self.rigs += rigs
@@ -71,6 +77,19 @@ def test_slopes_are_those_of_the_closed_form():
     central = np.stack([(objective(x + s) - objective(x - s)) / 2e-6 for s in step], axis=-1)
     # One-sided: half the second derivative times the difference.
     np.testing.assert_allclose(slopes, central, rtol=1e-3, atol=1e-6)
+
+
+def test_differences_of_runs_half_as_fine_give_nearly_the_same_slopes():
+    """A hundredth off moves the end of a fit by as much of a standard deviation."""
+    whole = problem_of(log_of(RigParameters(tip_drag_n_mm_s_per_rad=0.3), seconds=4.0))
+    parameterization = whole.parameterization(("tip_drag",))
+    x, slopes = parameterization.joined({}), []
+    for problem in (whole, replace(whole, differences_halved=True)):
+        objective = Objective(problem, parameterization)
+        slopes.append(objective.jacobian(x, objective(x)))
+    off = np.linalg.norm(slopes[1] - slopes[0], axis=0) / np.linalg.norm(slopes[0], axis=0)
+    assert (off < 0.01).all()
+    assert off.any()
 
 
 def test_slopes_that_are_known_are_not_taken_again():
