@@ -2,6 +2,13 @@
 
 Nuisance parameters move by a few per cent at most: their slopes are computed again only if the
 effects have moved far. The pasts of late trials move as far as effects do, but cost one trial only.
+All slopes hold for one step more where they foretold the last one: they learn what they missed of it,
+row by row,
+
+    J + (dr - J dx) dx' / |dx|^2,       dx without the entries that the row has no slope along
+
+(Broyden, Mathematics of Computation 19, 1965; Schubert, same 24, 1970).
+
 Iterations of a fit run the callback alone, which takes the same steps; MuJoCo simulates the end of
 those on the log itself.
 """
@@ -20,6 +27,7 @@ Array = NDArray[np.float64]
 
 _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance are taken again
 _NEAR = 0.02  # of all entries, within which the slopes are the same for one more step
+_MISSED = 0.3  # of a change of the residuals, up to which slopes foretold it
 _KEPT = 16  # vectors whose residuals are kept: more than a search along one direction takes
 
 
@@ -44,11 +52,13 @@ class Objective:
           slopes: a known Jacobian, (N, n), that is used everywhere; None: it is computed.
         """
         self.problem, self.parameterization = problem, parameterization
+        self._of_differences = problem.of_differences
         self.difference = difference
         self.low, self.high = parameterization.bounds()
         self.slopes, self._known_slopes = slopes, slopes is not None
         self._fresh_at: Array | None = None
         self._taken_at: Array | None = None
+        self._rows_there = np.zeros(0)
         free = np.arange(parameterization.bounds()[0].size) < parameterization.free
         self._effects = np.flatnonzero(free)
         self._moving = np.flatnonzero(free | parameterization.about_one_trial)
@@ -105,31 +115,55 @@ class Objective:
     def jacobian(self, x: Array, at_x: Array) -> Array:
         """Jacobian by differences, away from the bounds, (N, n); or the known one."""
         flat = x.ravel()
-        if self.slopes is not None and (self._known_slopes or self._is_near(flat)):
+        if self.slopes is not None and (held := self._held(self.slopes, flat, at_x.ravel())) is not None:
             self._taken_at = None  # for one step: slow progress has fresh slopes
-            return self.slopes
-        self._taken_at = flat
+            self.slopes = held
+            return held
+        self._taken_at, self._rows_there = flat, at_x.ravel()
         steps = np.where(flat + self.difference > self.high, -1.0, 1.0) * self.difference
         taken = self._moving
         slopes = np.zeros((at_x.size, flat.size)) if self.slopes is None else np.array(self.slopes)
         if self._fresh_at is None or self._is_far(flat - self._fresh_at):
             taken, self._fresh_at = np.arange(flat.size), flat
         if taken.size:
-            moved = self._side_by_side(flat + np.diag(steps)[taken])
-            slopes[:, taken] = (moved - at_x.reshape(-1, 1)) / steps[taken]
+            slopes[:, taken] = self._changes(flat, at_x, np.diag(steps)[taken]) / steps[taken]
         self.slopes = slopes
         return slopes
 
-    def _is_near(self, x: Array) -> bool:
-        """Whether slopes were computed within a short step."""
-        return self._taken_at is not None and bool(np.abs(x - self._taken_at).max(initial=0.0) < _NEAR)
+    def _held(self, slopes: Array, x: Array, at_x: Array) -> Array | None:
+        """The last slopes, if they hold at x, too: known, taken close by, or with what they learn from a
+        step that they foretold; None: they do not hold."""
+        if self._known_slopes:
+            return slopes
+        if self._taken_at is None:
+            return None
+        step, moved = x - self._taken_at, at_x - self._rows_there
+        if np.abs(step).max(initial=0.0) < _NEAR:
+            return slopes
+        missed = moved - slopes @ step
+        return None if missed @ missed > _MISSED**2 * (moved @ moved) else _learned(slopes, step, missed)
 
     def _is_far(self, way: Array) -> bool:
         return bool(np.abs(way)[self._effects].max(initial=0.0) > _FAR)
 
+    def _changes(self, x: Array, at_x: Array, steps: Array) -> Array:
+        """Changes of residuals with the prior by steps, (k, n), from a vector: (N, k)."""
+        if self._of_differences is self.problem:
+            return self._side_by_side(x + steps) - at_x.reshape(-1, 1)
+        moved = self._side_by_side(np.vstack([x, x + steps]))
+        return moved[:, 1:] - moved[:, :1]
+
     def _side_by_side(self, vectors: Array) -> Array:
         """Residuals with the prior at several vectors, (k, n), for differences: (N, k)."""
         rigs = [self.parameterization.rig(x) for x in vectors]
-        trials = self.problem.residuals(rigs, callback_alone=True)
+        trials = self._of_differences.residuals(rigs, callback_alone=True)
         columns = [self._with_prior([t[i] for t in trials], x) for i, x in enumerate(vectors)]
         return np.stack(columns, axis=-1)
+
+
+def _learned(slopes: Array, step: Array, missed: Array) -> Array:
+    """Slopes that foretell a step of which they missed some; what they do not depend on stays so."""
+    along = np.where(slopes != 0.0, step, 0.0)
+    square = np.sum(along**2, axis=1)
+    share = np.divide(missed, square, out=np.zeros_like(missed), where=square > 0)
+    return np.asarray(slopes + share[:, np.newaxis] * along)

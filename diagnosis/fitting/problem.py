@@ -30,6 +30,8 @@ class FitProblem:
       tolerance_sigma: tolerance of fits, in standard deviations of their parameters.
       callback_alone: whether fits end without MuJoCo's steps, too: those that only tell which to do
         again (sim.needles.callback_loop).
+      differences_halved: whether differences between runs are of runs half as fine, a quarter of the
+        cost: most of the error of both cancels.
     """
 
     log: PreparedLog
@@ -39,12 +41,18 @@ class FitProblem:
     library: Mapping[str, Effect] = field(default_factory=lambda: FITTED)
     tolerance_sigma: float = 0.02
     callback_alone: bool = False
+    differences_halved: bool = False
 
     @property
     def samples(self) -> int:
         """Number of readings of all sensors."""
         trials = self.log.trials
         return sum(int(np.isfinite(own).sum()) for trial in trials for own in trial.readings.values())
+
+    @property
+    def of_differences(self) -> "FitProblem":
+        """The problem of differences between runs; itself if they are as fine as it is."""
+        return replace(self, resolution=self.resolution.halved) if self.differences_halved else self
 
     def parameterization(self, names: Sequence[str]) -> Parameterization:
         """The parameterization of a set of effects, with the nuisance parameters."""

@@ -144,7 +144,7 @@ def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> 
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
-    own = with_family(problem, contender.family)
+    own = replace(with_family(problem, contender.family), differences_halved=True)
     iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
     fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=iterations)
     if len(problem.log.trials) == 1:

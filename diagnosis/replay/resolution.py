@@ -7,14 +7,24 @@ from diagnosis.prepare.prepared_log import PreparedTrial
 
 @dataclass(frozen=True, kw_only=True)
 class Resolution:
-    """Elements of the inserted needle, and the longest step, s."""
+    """Elements of the inserted needle, and the longest step: in s, and in samples of the trial."""
 
     elements: int
     step_s: float
+    step_samples: int = 1
 
     def step_of(self, trial: PreparedTrial) -> float:
-        """Time step for a trial, s: its sampling interval, or the longest step if that is shorter."""
-        return min(self.step_s, trial.sample_s)
+        """Time step for a trial, s."""
+        return min(self.step_s, self.step_samples * trial.sample_s)
+
+    @property
+    def halved(self) -> "Resolution":
+        """Half as fine in space and time."""
+        return Resolution(
+            elements=self.elements // 2,
+            step_s=2 * self.step_s,
+            step_samples=2 * self.step_samples,
+        )
 
 
 FINE = Resolution(elements=12, step_s=0.01)

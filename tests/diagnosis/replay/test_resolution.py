@@ -19,3 +19,13 @@ def test_a_step_is_never_longer_than_a_sample():
 def test_coarse_is_coarser():
     assert COARSE.elements < FINE.elements
     assert COARSE.step_s > FINE.step_s
+
+
+def test_half_as_fine_is_so_where_samples_limit_the_step_and_where_they_do_not():
+    rare, often = (
+        prepared(trial(turns(step=0.03), step=0.03)),
+        prepared(trial(turns(step=0.002), step=0.002)),
+    )
+    assert FINE.halved.elements == FINE.elements / 2
+    for one in (rare, often):
+        assert FINE.halved.step_of(one) == pytest.approx(2 * FINE.step_of(one))
