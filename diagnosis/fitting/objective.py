@@ -2,8 +2,8 @@
 
 Nuisance parameters move by a few per cent at most: their slopes are computed again only if the
 effects have moved far. The pasts of late trials move as far as effects do, but cost one trial only.
-All slopes hold for one step more where they foretold the last one: they learn what they missed of it,
-row by row,
+In fits that only tell which to do again, all slopes hold for one step more where they foretold the last
+one: they learn what they missed of it, row by row,
 
     J + (dr - J dx) dx' / |dx|^2,       dx without the entries that the row has no slope along
 
@@ -141,6 +141,8 @@ class Objective:
         if np.abs(step).max(initial=0.0) < _NEAR:
             return slopes
         missed = moved - slopes @ step
+        if not self.problem.callback_alone:  # intervals need slopes that no step has bent
+            return None
         return None if missed @ missed > _MISSED**2 * (moved @ moved) else _learned(slopes, step, missed)
 
     def _is_far(self, way: Array) -> bool:

@@ -131,8 +131,19 @@ def test_slopes_hold_for_one_short_step_and_not_for_two_or_one_that_they_did_not
     assert asked == [2, 0, 1, 1]
 
 
+@pytest.mark.parametrize("decimated", [True, False])
+def test_slopes_that_foretold_a_step_hold_where_fits_only_tell_which_to_do_again(decimated):
+    objective, x = Objective(ClosedForm(callback_alone=decimated), DRAG), middle()
+    there = x + np.array([0.1, 0.005])
+    objective.jacobian(x, objective(x))
+    at_there = objective(there)
+    before = len(objective.problem.rigs)
+    objective.jacobian(there, at_there)
+    assert (len(objective.problem.rigs) == before) is decimated
+
+
 def test_slopes_that_foretold_a_step_hold_for_one_more_and_learn_what_they_missed_of_it():
-    objective, x = Objective(ClosedForm(), DRAG), middle()
+    objective, x = Objective(ClosedForm(callback_alone=True), DRAG), middle()
     step = np.array([0.1, 0.005])
     there = x + step
     was, at_there = objective(x), objective(there)
