@@ -34,7 +34,7 @@ def add_sets(w: Workspace, frame: Frame) -> None:
     """What sets change of the linearised stage equation: torques of the elements, and their slopes."""
     rhs, lower, diagonal, upper = w.rhs, w.lower, w.diagonal, w.upper
     theta, omega, spring = w.theta, w.omega, w.spring
-    for e in range(spring.size):
+    for e in range(w.set.size):
         twist = theta[e + 1] - theta[e] + frame.g * (omega[e + 1] - omega[e])
         w.set[e] = set_after(spring[e], frame, twist, w.set_before[e])
         torque = spring[e] * w.set[e]

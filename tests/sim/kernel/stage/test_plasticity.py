@@ -1,0 +1,88 @@
+"""Return mapping of an element that yields, in the interpreter."""
+
+import numpy as np
+import pytest
+
+from models.needle import NITINOL
+from models.tissue import Tissue
+from sim.discretisation import Discretisation
+from sim.spec import Setup
+
+STIFFNESS, YIELD, SLOPE = 2.0, 0.5, 0.25
+HARDENING = STIFFNESS * SLOPE / (1 - SLOPE)
+
+
+@pytest.fixture
+def frame(interpreted):
+    whole = interpreted.workspace.Frame(1e-3, 0.0, 0.0, 1e-3, 0.0, 0.0)
+    return whole._replace(yield_torque=YIELD, yield_slope=SLOPE)
+
+
+@pytest.mark.parametrize("before", [0.0, 0.1, -0.2])
+@pytest.mark.parametrize("twist", [-1.0, -0.2, 0.0, 0.24, 0.8])
+def test_torque_less_back_stress_never_exceeds_the_yield_torque(interpreted, frame, before, twist):
+    after = interpreted.plasticity.set_after(STIFFNESS, frame, twist, before)
+    beyond = STIFFNESS * (twist - after) - HARDENING * after
+    assert abs(beyond) <= YIELD * (1 + 1e-12)
+    if after != before:  # it yields: on the limit, and in the direction of the torque
+        assert abs(beyond) == pytest.approx(YIELD)
+        assert np.sign(after - before) == np.sign(beyond)
+
+
+def test_beyond_yielding_the_slope_is_its_share_of_the_stiffness(interpreted, frame):
+    torques = [
+        STIFFNESS * (twist - interpreted.plasticity.set_after(STIFFNESS, frame, twist, 0.0))
+        for twist in (0.2, 0.21, 0.6, 0.61)
+    ]
+    assert np.diff(torques)[[0, 2]] / 0.01 == pytest.approx([STIFFNESS, SLOPE * STIFFNESS])
+
+
+def test_the_slopes_of_the_residual_are_its_derivatives(interpreted, at_stage):
+    """What sets add to the matrix is minus what they add to the residual, over the rates."""
+    needle = NITINOL.but(yield_torque_n_mm=0.01, yield_stiffness_ratio=0.3)
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=0.02)
+    stage = at_stage(
+        Setup(
+            needle=needle,
+            tissue=tissue,
+            free_mm=20.0,
+            inserted_mm=60.0,
+            discretisation=Discretisation(elements=4),
+        )
+    )
+    w = stage.w
+    frame = stage.frame._replace(yield_torque=1e-5, yield_slope=0.3)
+    w.set_before[:] = 0.0
+
+    def added(rates):
+        w.omega[:] = rates
+        for array in (w.rhs, w.lower, w.diagonal, w.upper):
+            array[:] = 0.0
+        interpreted.plasticity.add_sets(w, frame)
+        return w.rhs.copy()
+
+    rates = w.omega.copy()
+    at_rates = added(rates)
+    assert (w.set != 0.0).all()  # all elements yield
+    matrix = np.diag(w.diagonal) + np.diag(w.upper[:-1], 1) + np.diag(w.lower[1:], -1)
+    step = 1e-3
+    for i in range(rates.size):
+        moved = added(rates + step * np.eye(rates.size)[i])
+        np.testing.assert_allclose((moved - at_rates) / step, -matrix[:, i], atol=1e-9)
+
+
+def test_sets_are_carried_kept_and_become_heat(interpreted, frame):
+    plasticity, n = interpreted.plasticity, 3
+    memory = np.zeros(interpreted.memory_map.scratch(n, 1))
+    w = interpreted.workspace.divide(memory, n, 1, np.zeros((1, n, 2, interpreted.memory_map.SITE)))
+    w.spring[:n] = STIFFNESS
+    sets, after = np.array([0.0, 0.1, -0.2]), np.zeros(n)
+    plasticity.hold_sets(w, sets)
+    np.testing.assert_array_equal(w.set, sets)
+    w.set[:] = sets + 0.1
+    plasticity.carry_sets(w, sets, 0.0, 2.0)
+    np.testing.assert_allclose(w.set_before, sets + 0.2)
+    heat, stored = plasticity.keep_sets(w, frame, sets, after)
+    np.testing.assert_allclose(after, sets + 0.1)
+    assert heat == pytest.approx(n * YIELD * 0.1)
+    assert stored == pytest.approx(0.5 * HARDENING * np.sum(after**2))
