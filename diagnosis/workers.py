@@ -8,6 +8,7 @@ If there are fewer calls than processes, the other cores are used by threads wit
 process: with one per core in each, they would wait for each other. Results do not depend on any of this.
 """
 
+import gc
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
@@ -22,6 +23,7 @@ from concurrent.futures import (
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import active_children, parent_process
 from threading import Thread
 from typing import Any, TypeVar
@@ -99,6 +101,15 @@ class Workers:
         if any(isinstance(result, Failure) and result.stopped for result in found):
             self.stop.leave_out(stage)
         return found
+
+    def begin(self, function: Callable[..., T], *arguments: Any) -> Callable[[], T]:
+        """A call whose value is computed meanwhile; without other processes, once it is asked for.
+
+        Its errors are raised where the value is asked for, whatever they are.
+        """
+        if self.pool is None:
+            return partial(function, *arguments)
+        return self.pool.submit(function, *arguments).result
 
     def _here(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
         found: list[T | Failure] = []
@@ -185,6 +196,7 @@ def _begin(stop: StopSignal) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     threadpool_limits(1)
+    gc.freeze()  # what the parent has made is not looked through here
     listen(stop)
     Thread(target=_end_with_the_parent, daemon=True).start()
 

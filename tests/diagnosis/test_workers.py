@@ -228,3 +228,12 @@ def test_side_by_side_is_in_order_and_raises_what_the_first_item_raises():
         assert side_by_side(work, [0, 2, 4]) == [0, 20, 40]
         with pytest.raises(SimulationFailed, match="for 1"):
             side_by_side(work, [0, 1, 2, 3])
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_is_begun_ends_when_its_value_is_asked_for(count):
+    with process_pool(count) as workers:
+        good, bad = workers.begin(work, 2), workers.begin(misuse, 2)
+        assert good() == 20
+        with pytest.raises(InvalidValue):
+            bad()
