@@ -7,7 +7,7 @@ from html import unescape
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVarTuple
 
-from diagnosis.report.html_parts import document, heading, paragraph
+from diagnosis.report.html_parts import document, heading, paragraph, picture
 from sim.files import ResultSet, write_text
 
 if TYPE_CHECKING:
@@ -80,8 +80,6 @@ def write_page(make: Callable[[], Page], results: ResultSet, path: Path) -> None
 
 def drawn(draw: "Callable[[*Shown], Figure]", describe: Callable[[*Shown], str], *shown: *Shown) -> str:
     """A picture of what is shown, described in words; if it fails, a sentence in its place."""
-    from diagnosis.report.picture import picture  # noqa: PLC0415 - loads matplotlib
-
     try:
         return picture(draw(*shown), describe(*shown))
     except Exception as error:

@@ -5,7 +5,6 @@ measure it several times, which takes as long as the drawing.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -17,18 +16,10 @@ _PAD = 0.07  # inches, to the edge of the picture and between neighbours
 _MOST = 0.6  # of a picture, for the names of its rows: longer ones are cut off
 _BELOW = 0.2  # inches, of a label below all axes
 
+_Room = tuple[tuple[float, float], tuple[float, float]]
+"""What is taken around axes, inches: left and right, above and below."""
 
-@dataclass(frozen=True, kw_only=True)
-class _Room:
-    """Inches that are taken on each side of axes."""
-
-    left: float = 0.0
-    right: float = 0.0
-    bottom: float = 0.0
-    top: float = 0.0
-
-
-_USUAL = _Room(left=0.6, right=0.1, bottom=0.45, top=0.25)
+_USUAL: _Room = (0.6, 0.1), (0.25, 0.45)
 
 
 def subplots(
@@ -63,31 +54,29 @@ def _taken(axes: Axes) -> _Room:
     renderer, frame = figure.canvas.get_renderer(), axes.bbox
     around = axes.get_tightbbox(renderer, bbox_extra_artists=[], for_layout_only=True) or frame
     whole = Bbox.union([around, frame])
-    return _Room(
-        left=(frame.x0 - whole.x0) / figure.dpi,
-        right=(whole.x1 - frame.x1) / figure.dpi,
-        bottom=(frame.y0 - whole.y0) / figure.dpi,
-        top=(whole.y1 - frame.y1) / figure.dpi,
-    )
+    left, right = frame.x0 - whole.x0, whole.x1 - frame.x1
+    above, below = whole.y1 - frame.y1, frame.y0 - whole.y0
+    return (left / figure.dpi, right / figure.dpi), (above / figure.dpi, below / figure.dpi)
 
 
 def _place(figure: Figure, shown: Iterable[tuple[Axes, _Room]]) -> None:
     """Place axes of one grid, so that each has its room."""
-    taken = [(axes.get_subplotspec(), room) for axes, room in shown]
-    places = [(place.colspan, place.rowspan, room) for place, room in taken if place]
-    grid: Any = taken[0][0].get_gridspec()  # type: ignore[union-attr]
+    places = [(place, room) for axes, room in shown if (place := axes.get_subplotspec())]
+    grid: Any = places[0][0].get_gridspec()
     width, height = figure.get_size_inches()
-    below = _BELOW if figure.get_supxlabel() else 0.0
-    left, right, between = _margins([(c.start, r.left, r.right) for c, _, r in places], grid.ncols)
-    left = min(left, _MOST * width)
-    top, bottom, above = _margins([(o.start, r.top, r.bottom) for _, o, r in places], grid.nrows)
+    lowest = _BELOW if figure.get_supxlabel() else 0.0
+    columns = [(place.colspan.start, *across) for place, (across, _) in places]
+    rows = [(place.rowspan.start, *down) for place, (_, down) in places]
+    left, right, between = _margins(columns, grid.ncols)
+    top, bottom, below = _margins(rows, grid.nrows)
+    left, bottom = min(left, _MOST * width), bottom + lowest
     figure.subplots_adjust(
         left=left / width,
         right=1 - right / width,
         wspace=_share(between, width - left - right, grid.ncols),
         top=1 - top / height,
-        bottom=(bottom + below) / height,
-        hspace=_share(above, height - top - bottom - below, grid.nrows),
+        bottom=bottom / height,
+        hspace=_share(below, height - top - bottom, grid.nrows),
     )
 
 
@@ -106,4 +95,5 @@ def _margins(taken: Iterable[tuple[int, float, float]], count: int) -> tuple[flo
 
 def _share(between: float, inside: float, count: int) -> float:
     """What lies between two of several in line, as a share of the mean size of one."""
-    return between * count / (inside - between * (count - 1))
+    gaps = min(between * (count - 1), _MOST * inside)
+    return gaps / max(count - 1, 1) / ((inside - gaps) / count)

@@ -1,9 +1,16 @@
 """Parts of a page: plain text stays plain text, and a page is for every reader."""
 
+import base64
+import io
+
+import numpy as np
 import pytest
 from html_outline import HtmlOutline
+from matplotlib.figure import Figure
+from PIL import Image
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.figures.layout import subplots
 
 TEXT = "a < b & <script>"
 SAFE = "a &lt; b &amp; &lt;script&gt;"
@@ -57,6 +64,26 @@ def test_a_table_without_a_caption_is_named_by_its_head():
     found = HtmlOutline(html.table(("a", "b"), [("1", "2")]))
     assert found.attributes("caption") == []
     assert found.attributes("div")[0]["aria-label"] == "Table: a, b"
+
+
+@pytest.mark.parametrize(("width", "look"), [(6.0, "scroll"), (11.0, "scroll wide")])
+def test_a_picture_is_inside_the_page_with_its_size(width, look):
+    figure = Figure(figsize=(width, 2.0))
+    found = HtmlOutline(html.picture(figure, alt="what it shows"))
+    (image,), (box,) = found.attributes("img"), found.attributes("figure")
+    assert image["src"].startswith("data:image/png;base64,")
+    assert image["alt"] == "what it shows"
+    assert (image["width"], image["height"]) == (str(round(100 * width)), "200")
+    assert box["class"] == look
+
+
+def test_a_picture_of_few_colours_keeps_its_white_and_its_lines():
+    figure, axis = subplots(figsize=(4.0, 2.0))
+    axis.plot([0, 1], color="#940f1c", lw=9)
+    encoded = HtmlOutline(html.picture(figure)).attributes("img")[0]["src"].split(",")[1]
+    drawn = np.asarray(Image.open(io.BytesIO(base64.b64decode(encoded))).convert("RGB"), int)
+    assert np.abs(drawn[0, 0] - 255).max() <= 3
+    assert (np.abs(drawn - [0x94, 0x0F, 0x1C]).max(axis=-1) <= 3).sum() > 500
 
 
 def test_a_document_fits_a_phone_and_begins_with_a_way_past_its_head():
