@@ -1,7 +1,7 @@
 """Where the axes of a picture lie: each has room for its title, numbers and labels.
 
-What stands around axes is measured once, with the axes nearly in place. Matplotlib's own layouts
-measure it several times, which takes as long as the drawing.
+Only what stands around axes is measured. Matplotlib's own layouts also look at what is inside, and
+solve for more than a grid needs, which takes as long as the drawing.
 """
 
 from collections.abc import Iterable
@@ -12,14 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import LayoutEngine
 from matplotlib.transforms import Bbox
 
+_ROUNDS = 2  # axes of another length may show other numbers, which take another room
 _PAD = 0.07  # inches, to the edge of the picture and between neighbours
 _MOST = 0.6  # of a picture, for the names of its rows: longer ones are cut off
 _BELOW = 0.2  # inches, of a label below all axes
 
 _Room = tuple[tuple[float, float], tuple[float, float]]
 """What is taken around axes, inches: left and right, above and below."""
-
-_USUAL: _Room = (0.6, 0.1), (0.25, 0.45)
 
 
 def subplots(
@@ -44,8 +43,8 @@ class _RoomForLabels(LayoutEngine):
     def execute(self, fig: Figure) -> None:
         """Place the axes; matplotlib calls this before it draws."""
         shown = [axes for axes in fig.axes if axes.get_visible()]
-        _place(fig, [(axes, _USUAL) for axes in shown])
-        _place(fig, [(axes, _taken(axes)) for axes in shown])
+        for _ in range(_ROUNDS):
+            _place(fig, [(axes, _taken(axes)) for axes in shown])
 
 
 def _taken(axes: Axes) -> _Room:

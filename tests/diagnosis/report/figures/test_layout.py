@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+from diagnosis.report.figures import layout
 from diagnosis.report.figures.layout import subplots
 
 SIZE = (6.0, 4.0)
@@ -39,6 +40,17 @@ def test_no_label_is_cut_off_and_none_overlaps_another(rows, columns):
         assert min(box.x0, box.y0, width - box.x1, height - box.y1) >= 0
     for i, one in enumerate(found):
         assert not any(one.overlaps(other) for other in found[i + 1 :])
+
+
+@pytest.mark.parametrize(("rounds", "fits"), [(1, False), (2, True)])
+def test_numbers_that_show_only_on_axes_of_their_last_length_have_room(monkeypatch, rounds, fits):
+    monkeypatch.setattr(layout, "_ROUNDS", rounds)
+    figure, (first, second) = subplots(1, 2, figsize=(8.0, 3.0))
+    first.set_xlabel("one\ntwo\nthree\nfour")  # axes become lower, their numbers wider
+    second.plot([0.0, 1.0], [0.0, 11.0])
+    second.set_ylabel("height, mm")
+    left, right = boxes(figure)
+    assert left.overlaps(right) is not fits
 
 
 def test_long_names_of_rows_push_the_axes_aside():
