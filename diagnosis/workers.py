@@ -8,12 +8,14 @@ linear algebra get one thread per process: with one per core in each, they would
 Results do not depend on any of this.
 """
 
+import gc
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import active_children, parent_process
 from threading import Thread
 from typing import Any, TypeVar
@@ -89,6 +91,15 @@ class Workers:
             self.stop.leave_out(stage)
         return found
 
+    def begin(self, function: Callable[..., T], *arguments: Any) -> Callable[[], T]:
+        """A call whose value is computed meanwhile; without other processes, once it is asked for.
+
+        Its errors are raised where the value is asked for, whatever they are.
+        """
+        if self.pool is None:
+            return partial(function, *arguments)
+        return self.pool.submit(function, *arguments).result
+
     def _here(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
         found: list[T | Failure] = []
         for task in tasks:
@@ -160,6 +171,7 @@ def _begin(stop: StopSignal, cores: Cores) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     threadpool_limits(1)
+    gc.freeze()  # what the parent has made is not looked through here
     share(cores)
     listen(stop)
     Thread(target=_end_with_the_parent, daemon=True).start()

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pandas as pd
@@ -9,11 +10,10 @@ import pandas as pd
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.fallible import write_page
-from diagnosis.report.html_report import page
 from diagnosis.report.json_report import as_json
-from diagnosis.report.recording import log_gap
 from diagnosis.report.sentences import headline
 from diagnosis.result import Diagnosis
+from diagnosis.workers import process_pool
 from sim.files import Destination, ResultSet, publishing, write_text
 
 
@@ -23,23 +23,35 @@ def output_paths(log: RigLog, folder: Path) -> list[Path]:
     return [*whole, *(folder / "predictions" / t.name for t in log.trials)]
 
 
-def write_report(diagnosis: Diagnosis, destination: Destination) -> ResultSet:
+def write_report(diagnosis: Diagnosis, destination: Destination, *, workers: int = 2) -> ResultSet:
     """Write everything as one, the numbers first: a page or recording that fails is left out, and
     of a page the pictures that fail.
+
+    Args:
+      workers: number of processes that draw the page while this one writes; 1: this one draws, too.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
     """
+    from diagnosis.report import html_report  # noqa: PLC0415 - matplotlib takes a third of a second
+
     paths = output_paths(diagnosis.log, destination.folder)
     report = as_json(diagnosis)
-    with publishing(destination, paths) as results:
+    with publishing(destination, paths) as results, process_pool(workers) as processes:
         told, shown, recording, *predictions = paths
+        page = html_report.page_begun(diagnosis, report, processes)
         write_text(results.at(told), json.dumps(report, indent=1, allow_nan=False))
         for path, table in zip(predictions, _predictions(diagnosis), strict=True):
             write_text(results.at(path), table.to_csv(index=False, float_format="%.6g"))
-        write_page(lambda: page(diagnosis, report), results, shown)
-        results.optional(recording, lambda part: log_gap(diagnosis, headline(diagnosis), part))
+        results.optional(recording, partial(_record, diagnosis))
+        write_page(page, results, shown)
     return results
+
+
+def _record(diagnosis: Diagnosis, path: Path) -> None:
+    from diagnosis.report.recording import log_gap  # noqa: PLC0415 - rerun takes as long
+
+    log_gap(diagnosis, headline(diagnosis), path)
 
 
 def _predictions(diagnosis: Diagnosis) -> Iterator[pd.DataFrame]:

@@ -197,3 +197,12 @@ def test_a_process_that_is_lost_is_an_error_and_the_others_end_too():
         two.each("", killed, tasks)
     assert time.perf_counter() - start < 30.0
     assert within(5.0, lambda: active_children() == others)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_is_begun_ends_when_its_value_is_asked_for(count):
+    with process_pool(count) as workers:
+        good, bad = workers.begin(work, 2), workers.begin(misuse, 2)
+        assert good() == 20
+        with pytest.raises(InvalidValue):
+            bad()
