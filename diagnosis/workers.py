@@ -8,7 +8,6 @@ linear algebra get one thread per process: with one per core in each, they would
 Results do not depend on any of this.
 """
 
-import gc
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
@@ -171,7 +170,6 @@ def _begin(stop: StopSignal, cores: Cores) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     threadpool_limits(1)
-    gc.freeze()  # what the parent has made is not looked through here
     share(cores)
     listen(stop)
     Thread(target=_end_with_the_parent, daemon=True).start()

@@ -12,13 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import LayoutEngine
 from matplotlib.transforms import Bbox
 
-_ROUNDS = 2  # axes of another length may show other numbers, which take another room
 _PAD = 0.07  # inches, to the edge of the picture and between neighbours
 _MOST = 0.6  # of a picture, for the names of its rows: longer ones are cut off
 _BELOW = 0.2  # inches, of a label below all axes
 
 _Room = tuple[tuple[float, float], tuple[float, float]]
 """What is taken around axes, inches: left and right, above and below."""
+
+_USUAL: _Room = (0.6, 0.1), (0.25, 0.45)
 
 
 def subplots(
@@ -43,8 +44,10 @@ class _RoomForLabels(LayoutEngine):
     def execute(self, fig: Figure) -> None:
         """Place the axes; matplotlib calls this before it draws."""
         shown = [axes for axes in fig.axes if axes.get_visible()]
-        for _ in range(_ROUNDS):
-            _place(fig, [(axes, _taken(axes)) for axes in shown])
+        _place(fig, [(axes, _USUAL) for axes in shown])
+        taken = [(axes, _taken(axes)) for axes in shown]
+        _place(fig, taken)
+        _place(fig, [(axes, _with_numbers(axes, room)) for axes, room in taken])
 
 
 def _taken(axes: Axes) -> _Room:
@@ -56,6 +59,14 @@ def _taken(axes: Axes) -> _Room:
     left, right = frame.x0 - whole.x0, whole.x1 - frame.x1
     above, below = whole.y1 - frame.y1, frame.y0 - whole.y0
     return (left / figure.dpi, right / figure.dpi), (above / figure.dpi, below / figure.dpi)
+
+
+def _with_numbers(axes: Axes, room: _Room) -> _Room:
+    """With more on the left if axes of their last height show wider numbers."""
+    figure: Any = axes.get_figure()
+    box = axes.yaxis.get_tightbbox(figure.canvas.get_renderer()) or axes.bbox
+    (left, right), down = room
+    return (max(left, (axes.bbox.x0 - box.x0) / figure.dpi), right), down
 
 
 def _place(figure: Figure, shown: Iterable[tuple[Axes, _Room]]) -> None:
