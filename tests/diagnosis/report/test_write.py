@@ -74,6 +74,15 @@ def test_a_page_and_a_recording_that_fail_leave_the_numbers(dry, tmp_path, monke
     assert sorted(path.name for path in tmp_path.iterdir()) == ["predictions", "report.json"]
 
 
+def test_without_a_library_for_pictures_the_numbers_are_written(dry, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "diagnosis.report.html_report", None)  # its import fails
+    monkeypatch.delattr("diagnosis.report.html_report", raising=False)
+    results = write_report(dry.found, Destination(folder=tmp_path), workers=1)
+    ((path, reason),) = results.left_out.items()
+    assert (path.name, "html_report" in reason) == ("report.html", True)
+    assert (tmp_path / "report.json").exists()
+
+
 def test_the_page_does_not_depend_on_the_number_of_processes(written, dry):
     assert (written / "report.html").read_text() == html_report.page(dry.found, dry.report).text
 
