@@ -5,7 +5,7 @@ size (`Setup.size`) reuse the same models, in which new numbers are written; the
 reuse the same batches. An object in use is not available to other threads.
 """
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -75,6 +75,16 @@ def models_of(setups: Sequence[Setup]) -> Iterator[list[mujoco.MjModel]]:
     """A model for each set-up; use them only inside the `with` block."""
     with ExitStack() as stack:
         yield [stack.enter_context(_model_of(setup)) for setup in setups]
+
+
+def models_in_turn(setups: Iterable[Setup]) -> Iterator[mujoco.MjModel]:
+    """A model for each set-up, one after the other; use each before the next.
+
+    Set-ups of one size get the same model, whose bodies are written only where they differ.
+    """
+    for setup in setups:
+        with _model_of(setup) as model:
+            yield model
 
 
 @contextmanager
