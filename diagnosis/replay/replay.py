@@ -73,12 +73,10 @@ def predict(
       SimulationFailed: one of them cannot be simulated.
     """
     rigs = [rig.on_trial(trial.name) for rig in rigs]
-    seen = [rig.without_sensors() for rig in rigs]
-    needles = list(dict.fromkeys(seen))
-    done = _run(nominal, trial, needles, resolution, callback_alone=callback_alone)
-    runs = dict(zip(needles, done, strict=True))
-    each = zip(rigs, seen, strict=True)
-    return [_sensed(rig, runs[needle], trial.time_s) for rig, needle in each]
+    number: dict[RigParameters, int] = {}
+    each = [number.setdefault(rig.without_sensors, len(number)) for rig in rigs]
+    runs = _run(nominal, trial, list(number), resolution, callback_alone=callback_alone)
+    return [_sensed(rig, runs[i], trial.time_s) for rig, i in zip(rigs, each, strict=True)]
 
 
 def shape_of(
