@@ -112,7 +112,7 @@ def node_positions_mm(
 
 @lru_cache(maxsize=256)  # a fit simulates the same trials again and again
 def _nodes_mm(free_mm: float, outside: int, boundaries: tuple[float, ...], elements: int) -> Array:
-    """Node positions: of `outside` elements that share the free length, then of those between boundaries."""
+    """Node positions: of `outside` elements that share the free length, then between boundaries."""
     inside = free_mm + _even_between(boundaries, elements)
     nodes = np.concatenate([np.linspace(0.0, free_mm, outside + 1)[:-1], inside])
     nodes.setflags(write=False)

@@ -28,7 +28,7 @@ def mesh_for(inserted_mm: Array) -> Mesh:
     return Mesh.EULERIAN if constant and inserted_mm[0] > 0 else Mesh.LAGRANGIAN
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Schedule:
     """Inputs at increasing times; every array has the shape of `time_s`, (N,).
 
@@ -90,12 +90,12 @@ class Schedule:
         """Time from the first sample to the last, s."""
         return float(self.time_s[-1] - self.time_s[0])
 
-    @property
+    @cached_property
     def longest_mm(self) -> float:
         """Largest length between chuck and tip in the schedule, mm."""
         return float((self.free_mm + self.inserted_mm).max())
 
-    @property
+    @cached_property
     def mesh(self) -> Mesh:
         """The mesh for these inputs."""
         return mesh_for(self.inserted_mm)

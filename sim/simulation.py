@@ -143,6 +143,18 @@ def controls(inputs: Schedule, setup: Setup) -> Array:
     return ctrl
 
 
+def _controls_of_each(inputs: Sequence[Schedule], setups: Sequence[Setup]) -> list[Array]:
+    """`ctrl` of every set-up; those with the same inputs, drive and free length share it."""
+    made: dict[tuple[Schedule, DriveKind, float], Array] = {}
+    each = []
+    for own, setup in zip(inputs, setups, strict=True):
+        key = own, setup.drive.kind, setup.free_mm
+        if key not in made:
+            made[key] = controls(own, setup)
+        each.append(made[key])
+    return each
+
+
 def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjData:
     """Data of an untwisted needle at rest, at the first of the inputs.
 
@@ -200,9 +212,9 @@ def simulate(
     install()
     step_s = models[0].opt.timestep if models else setups[0].discretisation.step_s
     stepped = _at_steps(inputs, len(setups), step_s)
-    ctrl = np.stack([controls(own, setup) for own, setup in zip(stepped, setups, strict=True)])
+    ctrl = _controls_of_each(stepped, setups)
     starts = [_start(setup, own[0]) for setup, own in zip(setups, ctrl, strict=True)]
-    outputs = np.empty((*ctrl.shape[:2], memory_map.OUTPUTS))
+    outputs = np.empty((len(ctrl), len(ctrl[0]), memory_map.OUTPUTS))
     shape: dict[str, Array] = {}
     if callback_alone:
         own = models_in_turn(setups) if models is None else models
@@ -212,7 +224,7 @@ def simulate(
             shape = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
         outputs[:, 1:] = shape.pop("sensordata")
     return [
-        _run(setup, stepped[i], starts[i], ctrl[i, 0], outputs[i], {k: v[i] for k, v in shape.items()})
+        _run(setup, stepped[i], starts[i], ctrl[i][0], outputs[i], {k: v[i] for k, v in shape.items()})
         for i, setup in enumerate(setups)
     ]
 
@@ -233,7 +245,7 @@ def _refuse_other_sizes(models: Sequence[mujoco.MjModel]) -> None:
 def _rollout(
     models: Sequence[mujoco.MjModel],
     starts: Sequence[Array],
-    ctrl: Array,
+    ctrl: Sequence[Array],
     *,
     keep_shape: bool,
     threads: int,
@@ -242,30 +254,30 @@ def _rollout(
 
     Args:
       starts: joints at the start, (joints,) each.
-      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+      ctrl: at the start and at the ends of steps, SI, (N + 1, inputs) each.
     """
     _refuse_other_sizes(models)
     record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
+    inputs = np.stack(ctrl)
     with batch_of(models, threads) as batch:
         batch.state[:] = 0.0
-        batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
+        batch.qpos, batch.ctrl = np.stack(starts), inputs[:, 0]
         batch.forward()
-        return dict(batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record))
+        return dict(batch.rollout(inputs.shape[1] - 1, inputs[:, 1:], record=record))
 
 
 def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) -> list[Schedule]:
-    """The inputs of every set-up at the ends of steps; shared inputs are resampled once."""
+    """The inputs of every set-up at the ends of steps; shared ones stay shared."""
     each = [inputs] * count if isinstance(inputs, Schedule) else list(inputs)
     if len(each) != count:
         raise InvalidValue("inputs", len(each), f"one schedule, or one for each of {count} set-ups")
-    distinct = {id(own): own for own in each}
-    stepped = {key: own.at_steps(step_s) for key, own in distinct.items()}
-    spans = {(float(own.time_s[0]), own.time_s.size) for own in stepped.values()}
+    stepped = [own.at_steps(step_s) for own in each]
+    spans = {(float(own.time_s[0]), own.time_s.size) for own in stepped}
     if len(spans) > 1:
         raise InvalidValue(
             "inputs", sorted(spans), "schedules with the same start and the same number of steps"
         )
-    return [stepped[id(own)] for own in each]
+    return stepped
 
 
 def _run(
@@ -276,7 +288,7 @@ def _run(
     outputs: Array,
     shape: dict[str, Array],
 ) -> Run:
-    """The run from the joints `start` with the inputs `ctrl`, given all outputs but those at the start."""
+    """The run from the joints `start` with the inputs `ctrl`, given the outputs after the start."""
     outputs[0] = _at_rest(setup, start, ctrl)
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:
         _centre_inertia(outputs)

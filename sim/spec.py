@@ -131,7 +131,7 @@ class Setup:
             sheath=self.drive.sheath_friction_n_mm_per_mm > 0,
         )
 
-    @property
+    @cached_property
     def servo_n_m_per_rad(self) -> float:
         """Stiffness between drive shaft and needle, N m / rad; 0 if the drive gives torque."""
         if self.drive.kind is DriveKind.TORQUE:
@@ -206,8 +206,7 @@ def set_bodies(model: mujoco.MjModel, setup: Setup) -> None:
 
 def _joint_stiffness(setup: Setup) -> Array:
     """Of the carriage, N / m, the servo and the joints along the shaft, N m / rad."""
-    springs = springs_n_m_per_rad(setup)
-    torsion = springs if setup.is_chain else np.zeros(springs.size)
+    torsion = springs_n_m_per_rad(setup) if setup.is_chain else np.zeros(setup.nodes_mm.size - 1)
     return np.concatenate([[_rail_n_per_m(setup), setup.servo_n_m_per_rad], torsion])
 
 

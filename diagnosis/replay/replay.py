@@ -113,7 +113,8 @@ def _run(
     inputs = []
     for rig in rigs:
         logged = schedule_with_past(rig, trial)
-        torque = np.interp(logged.time_s, trial.time_s, trial.smooth_torque_n_mm) if rig.free else None
+        follows = rig.free is not None and rig.free.follows_torque
+        torque = np.interp(logged.time_s, trial.time_s, trial.smooth_torque_n_mm) if follows else None
         inputs.append(driven(rig, logged, start_s, torque))
     setups = [
         rig.setup(nominal, own, elements=elements, step_s=step_s)

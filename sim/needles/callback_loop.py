@@ -86,14 +86,14 @@ def prepare() -> None:
 
 
 def run_callback(
-    models: Iterable[mujoco.MjModel], starts: Sequence[Array], ctrl: Array, shown: Array
+    models: Iterable[mujoco.MjModel], starts: Sequence[Array], ctrl: Sequence[Array], shown: Array
 ) -> None:
     """Step needles one after the other.
 
     Args:
       models: one for each needle, which may be the same one with other numbers.
       starts: joints at the start, (joints,) each.
-      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+      ctrl: at the start and at the ends of steps, SI, (N + 1, inputs) each.
       shown: receives the outputs at the end of every step, (needles, N, outputs).
     """
     for model, start, inputs, outputs in zip(models, starts, ctrl, shown, strict=True):
