@@ -96,14 +96,13 @@ class Setup:
         return self.discretisation.arrangement is Arrangement.CHAIN
 
     def has_bodies_of(self, other: "Setup") -> bool:
-        """Whether the bodies are those of another set-up of the same `size`, servo included."""
+        """Whether the bodies are those of another set-up of the same `size`."""
         same_ends = (self.needle.tip_inertia_kg_m2, self.drive.rotor_inertia_kg_m2) == (
             other.needle.tip_inertia_kg_m2,
             other.drive.rotor_inertia_kg_m2,
         )
         return (
             same_ends
-            and self.servo_n_m_per_rad == other.servo_n_m_per_rad
             and self.needle.diameter_mm == other.needle.diameter_mm
             and self.needle.density_g_cm3 == other.needle.density_g_cm3
             and bool(np.array_equal(self.nodes_mm, other.nodes_mm))

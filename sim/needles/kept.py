@@ -50,10 +50,11 @@ class _Compiled:
 
     def become(self, setup: Setup) -> None:
         """Write the numbers of another set-up of the same size."""
-        same = setup.has_bodies_of(self.setup)
+        other_bodies = not setup.has_bodies_of(self.setup)
         set_numbers(self.model, setup)
-        if not same:
+        if other_bodies:
             set_bodies(self.model, setup)
+        if other_bodies or setup.servo_n_m_per_rad != self.setup.servo_n_m_per_rad:
             with data_of(self.model) as data:
                 mujoco.mj_setConst(self.model, data)
         self.setup = setup
