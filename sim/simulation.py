@@ -205,8 +205,8 @@ def simulate(
         (sim.needles.callback_loop); no shape is kept.
 
     Raises:
-      InvalidValue: the set-ups differ in elements or rows of the law table; or there are not as many
-        inputs as set-ups, or their durations differ.
+      InvalidValue: set-ups of MuJoCo's steps differ in elements or rows of the law table; or there are
+        not as many inputs as set-ups, or their durations differ.
       SimulationFailed: MuJoCo stopped, or its step did not end where the callback's did.
     """
     install()
@@ -214,15 +214,16 @@ def simulate(
     stepped = _at_steps(inputs, len(setups), step_s)
     ctrl = _controls_of_each(stepped, setups)
     starts = [_start(setup, own[0]) for setup, own in zip(setups, ctrl, strict=True)]
-    outputs = np.empty((len(ctrl), len(ctrl[0]), memory_map.OUTPUTS))
+    outputs = [np.empty((len(own), memory_map.OUTPUTS)) for own in ctrl]
     shape: dict[str, Array] = {}
     if callback_alone:
         own = models_in_turn(setups) if models is None else models
-        callback_loop.run_callback(own, starts, ctrl, outputs[:, 1:])
+        callback_loop.run_callback(own, starts, ctrl, [shown[1:] for shown in outputs])
     else:
         with models_of(setups) if models is None else nullcontext(models) as own:
             shape = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
-        outputs[:, 1:] = shape.pop("sensordata")
+        for shown, recorded in zip(outputs, shape.pop("sensordata"), strict=True):
+            shown[1:] = recorded
     return [
         _run(setup, stepped[i], starts[i], ctrl[i][0], outputs[i], {k: v[i] for k, v in shape.items()})
         for i, setup in enumerate(setups)

@@ -179,9 +179,10 @@ def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
     """Write the numbers of a set-up, but those of its bodies, into a model of the same `size`."""
     model.opt.timestep = setup.discretisation.step_s
     model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
-    model.jnt_stiffness[:] = _joint_stiffness(setup)
+    stiffness = _joint_stiffness(setup)
+    model.jnt_stiffness[:] = stiffness
     model.actuator_gear[memory_map.U_DRIVE, 0] = _drive_gear(setup)
-    model.actuator_gear[memory_map.U_CARRIAGE, 0] = _rail_n_per_m(setup)
+    model.actuator_gear[memory_map.U_CARRIAGE, 0] = stiffness[0]  # a servo's motor has its spring's
     if setup.drive.torque_limit_n_mm is not None:
         model.actuator_forcerange[memory_map.U_DRIVE] = _torque_range_n_m(setup.drive.torque_limit_n_mm)
 

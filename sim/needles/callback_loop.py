@@ -86,7 +86,10 @@ def prepare() -> None:
 
 
 def run_callback(
-    models: Iterable[mujoco.MjModel], starts: Sequence[Array], ctrl: Sequence[Array], shown: Array
+    models: Iterable[mujoco.MjModel],
+    starts: Sequence[Array],
+    ctrl: Sequence[Array],
+    shown: Sequence[Array],
 ) -> None:
     """Step needles one after the other.
 
@@ -94,7 +97,7 @@ def run_callback(
       models: one for each needle, which may be the same one with other numbers.
       starts: joints at the start, (joints,) each.
       ctrl: at the start and at the ends of steps, SI, (N + 1, inputs) each.
-      shown: receives the outputs at the end of every step, (needles, N, outputs).
+      shown: receives the outputs at the end of every step, (N, outputs) each.
     """
     for model, start, inputs, outputs in zip(models, starts, ctrl, shown, strict=True):
         with data_of(model) as data:

@@ -83,6 +83,6 @@ def test_a_needle_at_rest_stays_there_whatever_ran_before():
         joints = np.full(models[0].nq, 0.5)
         joints[0] = 0.0
         outputs = np.full((1, 19, memory_map.OUTPUTS), np.nan)
-        run_callback(models, [joints], ctrl, outputs)
+        run_callback(models, [joints], list(ctrl), list(outputs))
     np.testing.assert_allclose(outputs[0, :, memory_map.O_TIP_ANGLE], 0.5, rtol=1e-12)
     np.testing.assert_allclose(outputs[0, :, memory_map.O_FRICTION], 0.0, atol=1e-12)
