@@ -396,6 +396,9 @@ the gap. By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 
 NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more beside what is at the
 floor, and no finer mesh and no search with drift is spent on it."""
+SLOPES_OF_ITS_OWN = 1.15
+"""Gap up to which a fit to the log ends with slopes from runs as fine as it is, since it may explain the
+log; slopes from half as fine ones lead there, and are good enough above. A choice that saves time."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
 MOST_TRIPLES, TRIPLE_BASES, TRIPLE_SHARE = 12, 4, 0.5

@@ -3,41 +3,31 @@
 Each call returns, in order, its value, or a `Failure` if it could not be simulated or was stopped.
 Other errors are raised, from workers too. Worker processes end with this one, however it ends.
 
-If there are fewer calls than processes, the other cores are used by threads within calls
-(`side_by_side`): simulations release Python's lock. Libraries of linear algebra get one thread per
-process: with one per core in each, they would wait for each other. Results do not depend on any of this.
+Cores that no other process computes on are used by threads within calls (diagnosis.cores). Libraries of
+linear algebra get one thread per process: with one per core in each, they would wait for each other.
+Results do not depend on any of this.
 """
 
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    Executor,
-    Future,
-    ProcessPoolExecutor,
-    ThreadPoolExecutor,
-    wait,
-)
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
-from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import active_children, parent_process
 from threading import Thread
 from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
 
+from diagnosis.cores import Cores, computing, share, sharing
 from diagnosis.stopping import NEVER, StoppedEarly, StopSignal, listen
 from sim.simulation import SimulationFailed
 
 Heard = Callable[[str, int, int], None]
 """Is told the stage, its tasks that are done, and all of them."""
 T = TypeVar("T")
-S = TypeVar("S")
-
-_THREADS: ContextVar[int] = ContextVar("threads", default=1)
-"""That a call may use here and now."""
 
 _LOOK_S = 0.1  # between two looks at the signal to stop
 
@@ -100,6 +90,15 @@ class Workers:
             self.stop.leave_out(stage)
         return found
 
+    def begin(self, function: Callable[..., T], *arguments: Any) -> Callable[[], T]:
+        """A call whose value is computed meanwhile; without other processes, once it is asked for.
+
+        Its errors are raised where the value is asked for, whatever they are.
+        """
+        if self.pool is None:
+            return partial(function, *arguments)
+        return self.pool.submit(function, *arguments).result
+
     def _here(self, stage: str, function: Callable[..., T], tasks: Sequence[Task]) -> list[T | Failure]:
         found: list[T | Failure] = []
         for task in tasks:
@@ -111,8 +110,7 @@ class Workers:
     def _over_processes(
         self, pool: Executor, stage: str, function: Callable[..., T], tasks: Sequence[Task]
     ) -> list[T | Failure]:
-        threads = max(1, self.count // max(len(tasks), 1))
-        calls = [pool.submit(_attempt_on, threads, function, task) for task in tasks]
+        calls = [pool.submit(_attempt_in_pool, function, task) for task in tasks]
         running: set[Future[T | Failure]] = set(calls)
         while running and not self.stop.due:
             self.progress(stage, len(calls) - len(running), len(calls))
@@ -138,23 +136,10 @@ def _undone(task: Task) -> Failure:
     return Failure(effects=task.effects, reason="stopped early: not tried", stopped=True)
 
 
-def _attempt_on(threads: int, function: Callable[..., T], task: Task) -> T | Failure:
-    """The same in a process of the pool, which may use so many threads."""
-    _THREADS.set(threads)
-    return attempt(function, task)
-
-
-def side_by_side(function: Callable[[S], T], items: Sequence[S]) -> list[T]:
-    """The function of each item, in order, on the threads that this call may use.
-
-    Raises:
-      Exception: the error of the first item that fails.
-    """
-    threads = min(_THREADS.get(), len(items))
-    if threads <= 1:
-        return [function(item) for item in items]
-    with ThreadPoolExecutor(threads) as pool:
-        return list(pool.map(function, items))
+def _attempt_in_pool(function: Callable[..., T], task: Task) -> T | Failure:
+    """The same in a process of the pool, which shares its cores with others."""
+    with computing():
+        return attempt(function, task)
 
 
 @contextmanager
@@ -163,12 +148,12 @@ def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER
     if count <= 1:
         yield Workers(progress=progress, stop=stop)
         return
-    others, before = active_children(), _THREADS.set(count)
-    pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop,))
+    others, cores = active_children(), Cores(count=count)
+    pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop, cores))
     try:
-        yield Workers(pool=pool, count=count, progress=progress, stop=stop)
+        with sharing(cores):
+            yield Workers(pool=pool, count=count, progress=progress, stop=stop)
     finally:
-        _THREADS.reset(before)
         pool.shutdown(wait=False, cancel_futures=True)
         ours = [process for process in active_children() if process not in others]
         for process in ours:
@@ -177,7 +162,7 @@ def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER
             process.join()
 
 
-def _begin(stop: StopSignal) -> None:
+def _begin(stop: StopSignal, cores: Cores) -> None:
     """Initialise a process of the pool.
 
     Signals reach the whole process group; only the parent reacts to them.
@@ -185,6 +170,7 @@ def _begin(stop: StopSignal) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     threadpool_limits(1)
+    share(cores)
     listen(stop)
     Thread(target=_end_with_the_parent, daemon=True).start()
 

@@ -26,8 +26,11 @@ class Record(BaseModel):
             raise _explained(type(self), error) from None
 
     def but(self, **changes: Any) -> Any:
-        """A copy with some fields changed, validated again."""
-        return type(self)(**{**dict(self), **changes})
+        """A copy with some fields changed, validated again; itself where none differs."""
+        own = {name: vars(self)[name] for name in type(self).__pydantic_fields__}
+        if all(name in own and own[name] == value for name, value in changes.items()):
+            return self
+        return type(self)(**{**own, **changes})
 
 
 def _explained(record: type[BaseModel], error: ValidationError) -> InvalidValue:

@@ -15,6 +15,7 @@ ROOMS = (
     "stages",
     "time_left",
     "progress",
+    "cores",
     "workers",
     "engines",
     "log",

@@ -88,6 +88,7 @@ def fit_effects(
     *,
     most_iterations: int = _MOST_ITERATIONS,
     slopes: Array | None = None,
+    from_a_fit: bool = False,
 ) -> Fit:
     """Fit a set of effects.
 
@@ -96,6 +97,7 @@ def fit_effects(
       enough: cost below which the fit is of use; it is given up if it cannot get there.
       most_iterations: largest number of Gauss-Newton iterations.
       slopes: Jacobian of residuals and prior, (N, n), from a similar fit; None: it is computed.
+      from_a_fit: whether it starts where another fit ended: finite differences are small at once.
 
     Raises:
       SimulationFailed: the rig cannot be simulated at the start, or near a later iterate.
@@ -108,7 +110,7 @@ def fit_effects(
         )
     x = np.clip(parameterization.joined({}) if start is None else start, objective.low, objective.high)
     differences = max((e.differences for e in parameterization.all), key=len)
-    for difference in differences if slopes is None else differences[-1:]:
+    for difference in differences[-1:] if from_a_fit or slopes is not None else differences:
         objective = Objective(problem, parameterization, difference, slopes)
         x, status = _minimised(
             objective, x, Stopping(objective, problem.tolerance_sigma, enough), most_iterations

@@ -156,7 +156,7 @@ class Stopping:
             raise self._ended(self._there, Termination.BEHIND)
         freedom = slopes.shape[1]
         noise = cost / max(at_x.size - freedom, 1)
-        offset = np.sqrt(promised / (freedom * noise)) if noise > 0 else 0.0
+        offset = np.sqrt(max(promised, 0.0) / (freedom * noise)) if noise > 0 else 0.0
         if offset <= self.tolerance:
             raise self._ended(self._there, Termination.OFFSET)
         self._last = bool(offset <= _ONE_MORE * self.tolerance)

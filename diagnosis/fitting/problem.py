@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.cores import side_by_side
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
@@ -15,7 +16,6 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 

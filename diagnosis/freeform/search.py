@@ -40,7 +40,7 @@ WORTH_MORE = 3  # one of so many families gets more than the first iterations
 CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
-WORTH_A_FINAL = 2.0  # times the least gap on the decimated log
+WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 2.0, 1.3  # times the least gap; where that closes the gap
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,7 +95,8 @@ def free_form_fits(
         fitted += _each(BESIDE, _to_its_end, pairs, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
     far = least > FAR_GAP
-    worth = [f for f in fitted if f.fit.gap <= WORTH_A_FINAL * least]
+    reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
+    worth = [f for f in fitted if f.fit.gap <= reach * least]
     last = _distinct(sorted(worth, key=lambda f: f.score))[: FAR_FINALISTS if far else FINALISTS]
     finals = _each(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
     names = {f.family.name for f in finals}

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.cores import side_by_side
 from diagnosis.criteria import NUMERICAL_ERROR_WARNED
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
@@ -13,7 +14,6 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction, predict
 from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 

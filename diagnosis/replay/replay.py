@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.cores import side_by_side
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
@@ -19,7 +20,6 @@ from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, sensed
-from diagnosis.workers import side_by_side
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]

@@ -2,17 +2,16 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from html import unescape
 from pathlib import Path
-from typing import TypeVarTuple
-
-import matplotlib.pyplot as plt
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, TypeVarTuple
 
 from diagnosis.report.html_parts import document, heading, paragraph, picture
 from sim.files import ResultSet, write_text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Shown = TypeVarTuple("Shown")
 
@@ -46,13 +45,16 @@ class MissingPart(str):
     place: str
     why: str
 
-    def __new__(cls, what: str, place: str, error: Exception) -> "MissingPart":
+    def __new__(cls, what: str, place: str, why: str) -> "MissingPart":
         """The sentence."""
-        why = f"{type(error).__name__}: {error}".removesuffix(": ")
         sentence = f"The {what} for this place could not be made ({why}). {_REST}"
         part = super().__new__(cls, paragraph(sentence, "warning"))
         part.what, part.place, part.why = what, place, why
         return part
+
+    def __getnewargs__(self) -> tuple[str, str, str]:  # type: ignore[override]
+        """From which another process makes the same."""
+        return self.what, self.place, self.why
 
 
 def page_of(title: str, parts: Iterable[str]) -> Page:
@@ -76,13 +78,12 @@ def write_page(make: Callable[[], Page], results: ResultSet, path: Path) -> None
     results.optional(path, write)
 
 
-def drawn(draw: Callable[[*Shown], Figure], describe: Callable[[*Shown], str], *shown: *Shown) -> str:
+def drawn(draw: "Callable[[*Shown], Figure]", describe: Callable[[*Shown], str], *shown: *Shown) -> str:
     """A picture of what is shown, described in words; if it fails, a sentence in its place."""
-    with _closing_what_fails():
-        try:
-            return picture(draw(*shown), describe(*shown))
-        except Exception as error:
-            return MissingPart("picture", "under", error)
+    try:
+        return picture(draw(*shown), describe(*shown))
+    except Exception as error:
+        return MissingPart("picture", "under", _in_words(error))
 
 
 def section(make: Callable[[*Shown], list[str]], *shown: *Shown, title: str = "") -> list[str]:
@@ -94,8 +95,12 @@ def section(make: Callable[[*Shown], list[str]], *shown: *Shown, title: str = ""
     try:
         return make(*shown)
     except Exception as error:
-        missing = MissingPart("section", "after", error)
+        missing = MissingPart("section", "after", _in_words(error))
         return [heading(title, level=1), missing] if title else [missing]
+
+
+def _in_words(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}".removesuffix(": ")
 
 
 def _missing(parts: Iterable[str]) -> Iterator[str]:
@@ -107,14 +112,3 @@ def _missing(parts: Iterable[str]) -> Iterator[str]:
         if isinstance(part, MissingPart):
             where = f"{part.place} {above!r}" if above else "at the top"
             yield f"the {part.what} {where} ({part.why})"
-
-
-@contextmanager
-def _closing_what_fails() -> Iterator[None]:
-    """Figures that were begun are closed."""
-    before = set(plt.get_fignums())
-    try:
-        yield
-    finally:
-        for number in set(plt.get_fignums()) - before:
-            plt.close(number)

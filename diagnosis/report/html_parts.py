@@ -5,15 +5,15 @@ import html
 import io
 import re
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from PIL import Image
 
 from diagnosis.report.html_style import STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _DPI = 100
 _COLOURS = 64  # of lines and letters: a third of the bytes that all colours take
@@ -97,8 +97,8 @@ def folded(summary: str, content: str, *, unfolded: bool = False) -> str:
     return f"<details{state}><summary>{html.escape(summary)}</summary>{content}</details>"
 
 
-def picture(figure: Figure, alt: str = "") -> str:
-    """A figure inside the page; it is closed.
+def picture(figure: "Figure", alt: str = "") -> str:
+    """A figure inside the page.
 
     Args:
       alt: what the picture shows, for readers who cannot see it.
@@ -106,7 +106,6 @@ def picture(figure: Figure, alt: str = "") -> str:
     width, height = (round(_DPI * side) for side in figure.get_size_inches())
     wide = " wide" if width > _DPI * _WIDE_AT else ""
     data = base64.b64encode(_png(figure)).decode()
-    plt.close(figure)
     image = (
         f'<img alt="{html.escape(alt)}" width="{width}" height="{height}" '
         f'src="data:image/png;base64,{data}">'
@@ -114,11 +113,15 @@ def picture(figure: Figure, alt: str = "") -> str:
     return f'<figure class="scroll{wide}" tabindex="0" aria-label="Picture">{image}</figure>'
 
 
-def _png(figure: Figure) -> bytes:
+def _png(figure: "Figure") -> bytes:
     """A picture of few colours, drawn once: `savefig` would draw a second time for the layout alone."""
+    from matplotlib import rc_context  # noqa: PLC0415 - takes longer than a page without pictures
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
+
     canvas: Any = FigureCanvasAgg(figure)
     figure.set_dpi(_DPI)
-    canvas.draw()
+    with rc_context({"text.hinting": "no_hinting"}):  # hinting takes a tenth of the time
+        canvas.draw()
     drawn = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     small = io.BytesIO()
     drawn.quantize(_COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(small, "png")

@@ -4,7 +4,7 @@ The answer comes first, then why to believe it, and last what only few will look
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from diagnosis.report import html_parts as html
@@ -20,21 +20,31 @@ from diagnosis.report.sections.search import search_section
 from diagnosis.report.sections.sensors import sensors_section
 from diagnosis.report.sections.where import where_section
 from diagnosis.result import Diagnosis
+from diagnosis.workers import Workers
 
 
 def page(found: Diagnosis, report: Mapping[str, Any]) -> Page:
     """The whole page; `report` is report.json."""
-    body = [
-        *section(missing_section, found),
-        *section(agreement_section, found),
-        *section(where_section, found),
-        *section(parameters_section, found, report),
-        *section(alternatives_section, found),
-        *section(limits_section, found),
-        *section(search_section, found),
-        *section(sensors_section, found),
-        *section(rig_section, found),
+    return page_begun(found, report, Workers())()
+
+
+def page_begun(found: Diagnosis, report: Mapping[str, Any], workers: Workers) -> Callable[[], Page]:
+    """The same, whose sections are made in other processes meanwhile, if there are any."""
+    calls = [
+        workers.begin(section, missing_section, found),
+        workers.begin(section, agreement_section, found),
+        workers.begin(section, where_section, found),
+        workers.begin(section, parameters_section, found, report),
+        workers.begin(section, alternatives_section, found),
+        workers.begin(section, limits_section, found),
+        workers.begin(section, search_section, found),
+        workers.begin(section, sensors_section, found),
+        workers.begin(section, rig_section, found),
     ]
+    return lambda: _page(found, [part for call in calls for part in call()])
+
+
+def _page(found: Diagnosis, body: list[str]) -> Page:
     name = f"{found.log.name}: gap report" if found.log.name else TITLE
     return page_of(name, [*front(found), html.contents(_titles(body)), *body])
 

@@ -1,19 +1,20 @@
 """A diagnosis as files: `report.json`, `report.html`, `gap.rrd`, `predictions/` (gap-report/1)."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
-from diagnosis.report.fallible import write_page
-from diagnosis.report.html_report import page
+from diagnosis.report.fallible import Page, write_page
 from diagnosis.report.json_report import as_json
-from diagnosis.report.recording import log_gap
 from diagnosis.report.sentences import headline
 from diagnosis.result import Diagnosis
+from diagnosis.workers import Workers, process_pool
 from sim.files import Destination, ResultSet, publishing, write_text
 
 
@@ -23,23 +24,46 @@ def output_paths(log: RigLog, folder: Path) -> list[Path]:
     return [*whole, *(folder / "predictions" / t.name for t in log.trials)]
 
 
-def write_report(diagnosis: Diagnosis, destination: Destination) -> ResultSet:
+def write_report(diagnosis: Diagnosis, destination: Destination, *, workers: int = 2) -> ResultSet:
     """Write everything as one, the numbers first: a page or recording that fails is left out, and
     of a page the pictures that fail.
+
+    Args:
+      workers: number of processes that draw the page while this one writes; 1: this one draws, too.
 
     Raises:
       OutputExists, UnsafeOutput, UnwritableOutput: nothing is written.
     """
     paths = output_paths(diagnosis.log, destination.folder)
     report = as_json(diagnosis)
-    with publishing(destination, paths) as results:
+    with publishing(destination, paths) as results, process_pool(workers) as processes:
         told, shown, recording, *predictions = paths
+        page = _page_begun(diagnosis, report, processes)
         write_text(results.at(told), json.dumps(report, indent=1, allow_nan=False))
         for path, table in zip(predictions, _predictions(diagnosis), strict=True):
             write_text(results.at(path), table.to_csv(index=False, float_format="%.6g"))
-        write_page(lambda: page(diagnosis, report), results, shown)
-        results.optional(recording, lambda part: log_gap(diagnosis, headline(diagnosis), part))
+        results.optional(recording, partial(_record, diagnosis))
+        write_page(page, results, shown)
     return results
+
+
+def _page_begun(diagnosis: Diagnosis, report: Mapping[str, Any], workers: Workers) -> Callable[[], Page]:
+    """The page, when it is asked for; a library that is broken is told then and costs the page alone."""
+    try:
+        from diagnosis.report import html_report  # noqa: PLC0415 - matplotlib takes 0.4 s
+    except ImportError as broken:
+        return partial(_raise, broken)
+    return html_report.page_begun(diagnosis, report, workers)
+
+
+def _raise(error: Exception) -> Page:
+    raise error
+
+
+def _record(diagnosis: Diagnosis, path: Path) -> None:
+    from diagnosis.report.recording import log_gap  # noqa: PLC0415 - rerun takes as long
+
+    log_gap(diagnosis, headline(diagnosis), path)
 
 
 def _predictions(diagnosis: Diagnosis) -> Iterator[pd.DataFrame]:

@@ -1,5 +1,6 @@
 """A fitted explanation: its score, what it names, and whether it explains the log."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -188,7 +189,8 @@ class Candidate:
 
     def _is_off(self, name: str) -> bool:
         if self.names:
-            return abs(float(self.fit.parts[name][0])) > SCATTER_NAMED * SCATTER[name]
+            off = math.expm1(float(self.fit.parts[name][0]))  # fitted as log of the scale
+            return abs(off) > SCATTER_NAMED * SCATTER[name]
         away, spread = scatter_of(self.fit)
         entry = open_scatter(self.fit).index(name)
         certain = SCATTER_CERTAIN_SIGMA * float(np.sqrt(spread[entry, entry]))

@@ -1,14 +1,17 @@
 """Fitting many sets of effects, with a record of what was made, dropped or failed."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR
+from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR, SLOPES_OF_ITS_OWN
 from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.complexity import complexity_penalty
@@ -17,14 +20,32 @@ from diagnosis.selection.screening import Screened
 from diagnosis.stopping import NEVER, listening
 from diagnosis.workers import Failure, Task, Workers, attempt
 
+Array = NDArray[np.float64]
 Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
 """Candidates, and the record of how they came about."""
 
 
 def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> Made:
-    """Candidates of calls of `fit_effects` (problem, names, start, enough), in their order."""
+    """Candidates of calls of `fit_in_turn` (problem, names, start, enough), in their order."""
     tasks = [Task(effects=tuple(call[1]), arguments=call) for call in calls]
-    return candidates_of(stage, workers.each(stage, fit_effects, tasks))
+    return candidates_of(stage, workers.each(stage, fit_in_turn, tasks))
+
+
+def fit_in_turn(
+    problem: FitProblem, names: Sequence[str], start: Array | None = None, enough: float = np.inf
+) -> Fit:
+    """Fit with slopes from runs half as fine, a quarter of the cost; then, where that comes near the
+    noise, from there with slopes of its own. The decimated log is coarse enough as it is.
+
+    Raises:
+      SimulationFailed: as `fit_effects`.
+    """
+    if problem.callback_alone:
+        return fit_effects(problem, names, start, enough)
+    first = fit_effects(replace(problem, differences_halved=True), names, start, enough)
+    if first.gap > SLOPES_OF_ITS_OWN or first.status.termination is Termination.BEHIND:
+        return first
+    return fit_effects(problem, names, first.x, enough, from_a_fit=True)
 
 
 def candidates_of(stage: str, results: Sequence[Fit | Failure]) -> Made:

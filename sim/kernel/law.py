@@ -32,6 +32,7 @@ from sim.kernel.compiled import Array, embedded
 from sim.kernel.stage.curves import contact_factor, past_after, rate_factor
 
 _INNER_ITERATIONS = 40
+_LEAST_RISE = 1e-6  # of the tissue's slope, where friction falls as fast as tissue gives way
 _LEAST = 0.1  # of the slope at the same stiffness, that tissue which softens has for Newton's method
 
 
@@ -130,41 +131,66 @@ def slip_law(
 
 @embedded
 def site_law(
-    omega: float, row: Array, extra: float, old: Memory, stage: Stage
+    omega: float, row: Array, extra: float, old: Memory, stage: Stage, slip: float
 ) -> tuple[float, float, float, Memory]:
     """As `slip_law`, against the rate of the shaft, rad/s, with the tissue in series.
+
+    Args:
+      slip: slip rate from which the iteration starts, rad/s: the last one of this site.
 
     Returns:
       torque per length, N m / m, its slope against omega, N m s / rad / m, the slip rate, rad/s,
       and the memory that the stage leaves.
     """
-    torque, slope, new = slip_law(omega, row, extra, old, stage)
     k = row[memory_map.L_STIFFNESS]
     if row[memory_map.L_VARIES] != 0.0:
         k *= stage.factor
     if k <= 0.0:
+        torque, slope, new = slip_law(omega, row, extra, old, stage)
         return torque, slope, omega, new
-    s = omega
-    # torque(s) - elastic(omega - s) = 0: rising in s, so bracketed Newton.
-    low, high = -math.inf, math.inf
-    elastic, resistance = _elastic(0.0, k, row, old.phi, stage.g)
+    # torque(s) - elastic(omega - s) = 0: bracketed Newton. Where friction falls so fast with s that
+    # this falls, too, the slope of the tissue alone points to where it rises. The last step is
+    # straight: what it misses is of the order of its square.
+    s, low, high = slip, -math.inf, math.inf
+    share, least = _slip_tolerance(row, extra)
+    torque, slope, new = slip_law(s, row, extra, old, stage)
+    elastic, resistance = _elastic(omega - s, k, row, old.phi, stage.g)
+    rise, change = slope + resistance, 0.0
     for _ in range(_INNER_ITERATIONS):
         miss = torque - elastic
         if miss > 0.0:
             high = s
         else:
             low = s
-        change = miss / (slope + resistance)
-        if abs(change) <= 1e-13 * (1.0 + abs(s)):
+        change = miss / (rise if rise > _LEAST_RISE * resistance else resistance)
+        if abs(change) <= share * (abs(s) + least):
             break
         s -= change
         if not low < s < high:
             s = 0.5 * (low + high)
         torque, slope, new = slip_law(s, row, extra, old, stage)
         elastic, resistance = _elastic(omega - s, k, row, old.phi, stage.g)
+        rise, change = slope + resistance, 0.0
+    s -= change
     phi = old.phi + stage.g * (omega - s)
     left = Memory(new.dry, new.turn, new.axial, phi, new.past)
-    return torque, slope * resistance / (slope + resistance), s, left
+    rise = max(rise, _LEAST_RISE * resistance)
+    return torque - slope * change, slope * resistance / rise, s, left
+
+
+@embedded
+def _slip_tolerance(row: Array, extra: float) -> tuple[float, float]:
+    """Of the last change of the slip rate of a site in tissue that yields, relative above a rate, rad/s:
+    rounding where there is a memory, little where there are corners, 0.1 ppm of a smooth law, any of a
+    straight one."""
+    dry = row[memory_map.L_KINETIC] + row[memory_map.L_STATIC] + row[memory_map.L_SHARED] + extra
+    if dry > 0.0 or 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
+        return 1e-13, 1.0
+    if row[memory_map.L_CONTACT] != 0.0 or row[memory_map.L_RATE_STEP] > 0.0:
+        return 1e-11, 1.0
+    if row[memory_map.L_EXPONENT] != 1.0:
+        return 1e-7, row[memory_map.L_PLATEAU]
+    return math.inf, 1.0
 
 
 @embedded

@@ -103,8 +103,9 @@ TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffne
 U_DRIVE, U_CARRIAGE, U_INSERTED, U_SPEED, U_TIP, U_TISSUE, INPUTS = range(7)
 
 # --- state of one contact site: presliding of the dry element, of the shared one
-# (turning, axial), twist of the tissue, slip so far or age. Two sites per element and row. --
-Z_DRY, Z_TURN, Z_AXIAL, PHI, PAST, SITE = range(6)
+# (turning, axial), twist of the tissue, slip so far or age; and the slip rate where tissue yields,
+# from which the next iteration starts. Two sites per element and row. --
+Z_DRY, Z_TURN, Z_AXIAL, PHI, PAST, SLIP, SITE = range(7)
 
 # --- running sums and last values that the sensors show ----------------------------
 (

@@ -22,6 +22,7 @@ from sim.kernel.stage.assemble import (
     add_viscous,
     drive_torque,
     hardening_energy,
+    hardening_power,
     is_idle,
     is_linear,
     slack,
@@ -262,6 +263,8 @@ def advance(
         solved, count, recoverable, stored = newton(
             law, w, frame, drive - slip_from, tip_torque, nonlinear, again
         )
+        for r in range(rows):
+            recoverable += hardening_power(w, r, law[r], frame)
         torque, friction, power = _friction(w, frame, drive - slip_from, tip_torque, share, tissue)
         slip = slip_from + slipped(w, frame, drive - slip_from, torque)
         turning = (drive_is - drive_was) / h if shaft.servo > 0.0 else w.omega[0]
@@ -273,7 +276,7 @@ def advance(
     for i in range(n + 1):
         end[i] = w.theta[i] + frame.g * w.omega[i]
         nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]
-    heat, hardening = keep_sets(w, frame, sets, sets_after)
+    heat, kept_energy = keep_sets(w, frame, sets, sets_after)
     for r in range(rows):
         if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
             continue
@@ -303,7 +306,7 @@ def advance(
     nxt[memory_map.O_FAILED] = now[memory_map.O_FAILED] + failed
     nxt[memory_map.O_ITERATIONS] = iterations
     _show_shaft(w, end, nxt)
-    nxt[memory_map.O_SHAFT_ENERGY] += hardening
+    nxt[memory_map.O_SHAFT_ENERGY] += kept_energy
 
 
 @inlined

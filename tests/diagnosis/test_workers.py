@@ -2,7 +2,6 @@
 
 import os
 import signal
-import threading
 import time
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
@@ -12,7 +11,7 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from diagnosis.stopping import StopReason, StopSignal, raise_if_stopped
-from diagnosis.workers import Failure, Task, Workers, attempt, process_pool, side_by_side
+from diagnosis.workers import Failure, Task, Workers, attempt, process_pool
 from models.errors import InvalidValue
 from sim.simulation import SimulationFailed
 
@@ -200,31 +199,10 @@ def test_a_process_that_is_lost_is_an_error_and_the_others_end_too():
     assert within(5.0, lambda: active_children() == others)
 
 
-def threads_used(_):
-    """On how many threads three items at once run, seen from within a call."""
-    together = threading.Barrier(3, timeout=1.0)
-
-    def meets(_):
-        try:
-            together.wait()
-        except threading.BrokenBarrierError:
-            return False
-        return True
-
-    return all(side_by_side(meets, range(3)))
-
-
-def test_cores_that_fewer_calls_leave_go_to_threads():
-    with process_pool(3) as three:
-        one, two = ([Task(effects=(), arguments=(i,)) for i in range(n)] for n in (1, 2))
-        assert three.each("", threads_used, one) == [True]
-        assert three.each("", threads_used, two) == [False, False]
-        assert threads_used(None)  # this process waits for nobody then
-    assert not threads_used(None)
-
-
-def test_side_by_side_is_in_order_and_raises_what_the_first_item_raises():
-    with process_pool(2):
-        assert side_by_side(work, [0, 2, 4]) == [0, 20, 40]
-        with pytest.raises(SimulationFailed, match="for 1"):
-            side_by_side(work, [0, 1, 2, 3])
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_is_begun_ends_when_its_value_is_asked_for(count):
+    with process_pool(count) as workers:
+        good, bad = workers.begin(work, 2), workers.begin(misuse, 2)
+        assert good() == 20
+        with pytest.raises(InvalidValue):
+            bad()

@@ -46,6 +46,12 @@ def test_a_copy_is_validated_again_and_leaves_the_original():
     assert thick.but(diameter_mm=0.59) == NITINOL
 
 
+def test_a_copy_without_a_change_is_the_record_itself():
+    assert NITINOL.but(diameter_mm=0.59) is NITINOL
+    with pytest.raises(InvalidValue, match="one of the fields"):
+        NITINOL.but(diametre_mm=0.59)
+
+
 def test_an_error_of_a_nested_record_carries_field_value_and_expectation():
     with pytest.raises(InvalidValue) as raised:
         Tissue(layers=[{"interface": {"kinetic_n_mm_per_mm": 2e-3, "static_n_mm_per_mm": 1e-3}}])

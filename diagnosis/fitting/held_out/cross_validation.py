@@ -9,13 +9,13 @@ began late only affects that trial: it is fitted there, with the other parameter
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.cores import side_by_side
 from diagnosis.fitting.bounded_least_squares import bounded_least_squares
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.nuisance import CONVENTIONS
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import predict, residuals
-from diagnosis.workers import side_by_side
 
 Array = NDArray[np.float64]
 

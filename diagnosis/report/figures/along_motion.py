@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import TURNING_DEG_S
 from diagnosis.in_sigma import over_sigma
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
 from diagnosis.report.sentences import label_of
 from diagnosis.residuals.along_motion import BASE_ANGLE, RATE, SINCE_REVERSAL, Coordinate, part_means
@@ -28,9 +28,7 @@ def draw_along_motion(found: Diagnosis) -> Figure:
     explained = trial_residuals(found.log, found.assessment.explained, found.noise)
     nominal = by_sensor(trial_residuals(found.log, found.nominal, found.noise))
     both = {"nominal": nominal, "explained": by_sensor(explained)}
-    figure, axes = plt.subplots(
-        len(nominal), 3, figsize=(WIDE, 2.9 * len(nominal)), layout="constrained", squeeze=False
-    )
+    figure, axes = subplots(len(nominal), 3, figsize=(WIDE, 2.9 * len(nominal)), squeeze=False)
     for row, sensor in zip(axes, nominal, strict=True):
         for name, own in both.items():
             residuals = own[sensor]

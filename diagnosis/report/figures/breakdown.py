@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from diagnosis.in_sigma import over_sigma
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import HATCHES, PREDICTIONS, WIDE
 from diagnosis.report.sentences import label_of
 from diagnosis.result import Diagnosis
@@ -16,7 +16,7 @@ from diagnosis.result import Diagnosis
 def draw_breakdown(found: Diagnosis) -> Figure:
     """Residual / sigma of nominal and explained, by part."""
     labels = [label_of(found, name) for name in PREDICTIONS]
-    figure, axes = plt.subplots(1, 4, figsize=(WIDE, 3), layout="constrained")
+    figure, axes = subplots(1, 4, figsize=(WIDE, 3))
     both = (found.assessment.breakdown, found.assessment.breakdown_after)
     signals, phases = list(both[0].signal), list(both[0].phase)
     bands = [f"{low:g} to {high:g} Hz" for low, high, _ in both[0].band_hz]

@@ -4,12 +4,12 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS, WIDE
 from diagnosis.result import Diagnosis
 
@@ -40,7 +40,7 @@ def limit_shares(found: Diagnosis) -> list[LimitShare]:
 def draw_limits(found: Diagnosis) -> Figure:
     """A bar for each effect, as long as what may go unseen."""
     shares = [one for one in limit_shares(found) if math.isfinite(one.share_percent)]
-    figure, axis = plt.subplots(figsize=(WIDE, 1.0 + 0.27 * len(shares)), layout="constrained")
+    figure, axis = subplots(figsize=(WIDE, 1.0 + 0.27 * len(shares)))
     rows, percent = np.arange(len(shares)), np.array([one.share_percent for one in shares])
     lowest = 10.0 ** math.floor(math.log10(max(percent.min(initial=1.0), 1e-6)))
     axis.barh(rows, percent - lowest, left=lowest, color=PREDICTIONS["nominal"], height=0.6)

@@ -2,11 +2,11 @@
 
 from itertools import combinations
 
-import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from diagnosis.assessment.joint_uncertainty import JointUncertainty
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS
 
 _PAIRS = 6
@@ -23,9 +23,7 @@ def draw_joint(joint: JointUncertainty) -> Figure:
     pairs = pairs_of(joint)
     columns = min(_COLUMNS, len(pairs))
     rows = -(-len(pairs) // columns)
-    figure, axes = plt.subplots(
-        rows, columns, figsize=(3.7 * columns, 3.1 * rows), layout="constrained", squeeze=False
-    )
+    figure, axes = subplots(rows, columns, figsize=(3.7 * columns, 3.1 * rows), squeeze=False)
     for axis, (i, j) in zip(axes.flat, pairs, strict=False):
         _draw_pair(axis, joint, i, j)
     for axis in list(axes.flat)[len(pairs) :]:

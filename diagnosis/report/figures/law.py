@@ -3,13 +3,13 @@
 import math
 from textwrap import fill
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from diagnosis.freeform.in_words import VARIABLES, course_of, repeating
 from diagnosis.freeform.missing import Law
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS
 
 Array = NDArray[np.float64]
@@ -25,7 +25,7 @@ def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
     Args:
       period_deg: after which the law repeats itself; it is drawn over one period; 0: it does not.
     """
-    figure, axis = plt.subplots(figsize=_SIZE, layout="constrained")
+    figure, axis = subplots(figsize=_SIZE)
     x, y, below, above = _over_a_period(law, period_deg)
     off = np.abs(np.array([y - below, above - y]))
     colour = PREDICTIONS["explained"]
@@ -37,6 +37,7 @@ def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
         axis.plot(x, y, color=colour, marker="o", ms=4, label="free-form law")
         axis.set_xlabel(_label(law, period_deg))
         axis.legend(fontsize=8)
+        axis.locator_params(axis="x", nbins=6)
         if x[0] > 0 and x[-1] > _DECADES * x[0]:
             axis.set_xscale("log")
     axis.set_title(

@@ -5,7 +5,6 @@ rate for dry friction, in proportion to the rate for damping. The lag (base minu
 the compliance of the shaft: a line for an elastic one, with a jump for play.
 """
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import (
     LABELS,
     LINES,
@@ -41,9 +41,7 @@ def draw_loops(found: Diagnosis) -> Figure:
     """Loops of the trials that tell most, in the order of the log."""
     shown = telling_trials(found)
     rows, columns = len(shown), max(len(_pictures(found.log.trials[i])) for i in shown)
-    figure, axes = plt.subplots(
-        rows, columns, figsize=(WIDE / 2 * columns, 3.0 * rows), layout="constrained", squeeze=False
-    )
+    figure, axes = subplots(rows, columns, figsize=(WIDE / 2 * columns, 3.0 * rows), squeeze=False)
     for row, i in zip(axes, shown, strict=True):
         trial = found.log.trials[i]
         predictions = {"nominal": found.nominal[i], "explained": found.assessment.explained[i]}

@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
 from diagnosis.report.sentences import label_of
 from diagnosis.residuals.residual_shape import ResidualShape
@@ -18,9 +18,7 @@ def draw_memory(found: Diagnosis) -> Figure:
     told = found.assessment
     shapes = {"nominal": told.shape, "explained": told.shape_after}
     sensors = list(told.breakdown.signal)
-    figure, axes = plt.subplots(
-        len(sensors), 2, figsize=(WIDE, 2.9 * len(sensors)), layout="constrained", squeeze=False
-    )
+    figure, axes = subplots(len(sensors), 2, figsize=(WIDE, 2.9 * len(sensors)), squeeze=False)
     for row, sensor in zip(axes, sensors, strict=True):
         _draw_spectrum(row[0], sensor, shapes, label_of(found, "explained"))
         _draw_autocorrelation(row[1], sensor, shapes)

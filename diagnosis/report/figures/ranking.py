@@ -1,8 +1,8 @@
 """The probabilities of the explanations: a set of effects is one bar."""
 
-import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS
 from diagnosis.report.sentences import explanations
 from diagnosis.result import Diagnosis
@@ -13,7 +13,7 @@ _SHOWN = 6
 def draw_ranking(found: Diagnosis) -> Figure:
     """The first of the explanations."""
     best = explanations(found)[:_SHOWN]
-    figure, axis = plt.subplots(figsize=(8, 0.9 + 0.3 * len(best)), layout="constrained")
+    figure, axis = subplots(figsize=(8, 0.9 + 0.3 * len(best)))
     bars = axis.barh(range(len(best)), [p for _, p in best], color=PREDICTIONS["explained"])
     axis.bar_label(bars, [f" {p:.3f}" for _, p in best], fontsize=9)
     axis.set_yticks(range(len(best)), [name for name, _ in best], fontsize=9)

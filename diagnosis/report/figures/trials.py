@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import Prediction
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import (
     LABELS,
     LINES,
@@ -34,9 +34,7 @@ _MEANS = 100  # of a trial
 def draw_trial(found: Diagnosis, i: int) -> Figure:
     """Measured, nominal and explained of one trial, residuals below."""
     trial, predictions, left = found.log.trials[i], _predictions(found, i), _residuals(found, i)
-    figure, axes = plt.subplots(
-        2, 2, figsize=(WIDE, 3.8), height_ratios=(3, 2), sharex=True, layout="constrained"
-    )
+    figure, axes = subplots(2, 2, figsize=(WIDE, 3.8), height_ratios=(3, 2), sharex=True)
     for (above, below), sensor in zip(axes.T, SENSORS, strict=True):
         time = trial["time_s"]
         if trial.has(sensor):

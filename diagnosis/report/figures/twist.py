@@ -3,12 +3,12 @@
 from itertools import cycle
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from diagnosis.replay.twist import ShaftTwist
+from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import LINES, MEASURED, PREDICTIONS, WIDE
 
 Array = NDArray[np.float64]
@@ -23,7 +23,7 @@ def draw_twist(twist: ShaftTwist, best: str = "explained") -> Figure:
     Args:
       best: what the explanation is called.
     """
-    figure, (angle, added) = plt.subplots(1, 2, figsize=(WIDE, 3.4), layout="constrained")
+    figure, (angle, added) = subplots(1, 2, figsize=(WIDE, 3.4))
     alone = [name for name in twist.along if name not in PREDICTIONS]
     looks: dict[str, dict[str, Any]] = {
         name: {"color": c, "ls": LINES[name], "lw": 1.6} for name, c in PREDICTIONS.items()

@@ -39,9 +39,12 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     """What leading sets name of stiffness and damping, without the prior of scatter that pulls it.
 
-    That is the best, and those at the noise floor that this prior alone keeps behind it.
+    That is the best, and those at the noise floor that this prior alone keeps behind it. Where even
+    twice what the prior costs would leave the best far above the noise, there is nothing to ask.
     """
     best = state.best
+    if best.floor.gap**2 - 2 * best.fit.prior / best.fit.samples > best.floor.gap_limit**2:
+        return state
     reach = best.score - best.fit.prior + CONTENDING
     near = [c for c in state.candidates if c.floor.reached and c.score - c.fit.prior <= reach]
     near = [c for c in (best, *near) if c.scatter_named]

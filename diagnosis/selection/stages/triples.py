@@ -17,6 +17,7 @@ from diagnosis.criteria import (
 from diagnosis.fitting.fit import Fit
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.record import dropped
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
     not_worth,
@@ -44,6 +45,9 @@ def three_effects(state: SearchState, workers: Workers) -> SearchState:
     if worth and explained:
         worth = promising_on_the_log(stage, worth, _only(pairs).cost, state, workers)
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
+    needless = [c for c in fitted if c.as_good_as_none]
+    fitted = [c for c in fitted if c not in needless]
+    fits = (*fits, *dropped(stage, needless, "one of its effects is as good as none"))
     state = state.noting(*record, *not_worth(stage, screened, worth), *fits)
     if not fitted:
         return state

@@ -145,7 +145,7 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
     """Every covered site of a row that is more than viscous.
 
     Returns the power that goes into twisted tissue and bent shaft, W, and the energy stored in the
-    tissue, J, but for what `hardening_energy` adds.
+    tissue, J, but for what tissue that hardens adds to both.
     """
     x, theta, omega, spring = w.x, w.theta, w.omega, w.spring
     lower, diagonal, upper, rhs = w.lower, w.diagonal, w.upper, w.rhs
@@ -180,16 +180,16 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
             before[slot, k, memory_map.PHI],
             before[slot, k, memory_map.PAST],
         )
-        torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage)
+        last = after[slot, k, memory_map.SLIP]
+        torque, slope, slip, new = site_law(rate + advected, row, extra, old, stage, last)
         after[slot, k, memory_map.Z_DRY] = new.dry
         after[slot, k, memory_map.Z_TURN] = new.turn
         after[slot, k, memory_map.Z_AXIAL] = new.axial
         after[slot, k, memory_map.PHI] = new.phi
         after[slot, k, memory_map.PAST] = new.past
+        after[slot, k, memory_map.SLIP] = slip
         stiffness = factor * weight * row[memory_map.L_STIFFNESS]
         stored += 0.5 * stiffness * new.phi * new.phi
-        if row[memory_map.L_CONTACT] == memory_map.TWIST:
-            stiffness *= contact_factor(abs(new.phi), row)[0]
         recoverable += stiffness * new.phi * (rate + advected - slip)
         if curvature != 0.0:
             angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
@@ -207,15 +207,36 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
 
 
 @embedded
+def hardening_power(w: Workspace, r: int, row: Array, frame: Frame) -> float:
+    """Power that tissue of a row takes beyond that at its stiffness at rest, where it hardens, W."""
+    power = 0.0
+    for site in range(2 * w.loads[r].shape[0] if _hardens(row) else 0):
+        e, k = site // 2, site % 2
+        phi, was = w.end[r, e, k, memory_map.PHI], w.start[r, e, k, memory_map.PHI]
+        factor = contact_factor(abs(phi), row)[0]
+        power += _stiffness_at(w, r, row, frame, e, k) * (factor - 1.0) * phi * (phi - was) / frame.g
+    return power
+
+
+@embedded
 def hardening_energy(w: Workspace, r: int, row: Array, frame: Frame) -> float:
     """Energy stored in the tissue of a row that hardens, beyond that at its stiffness at rest, J."""
-    if row[memory_map.L_CONTACT] != memory_map.TWIST or row[memory_map.L_POINT] != 0.0:
-        return 0.0
-    factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
     energy = 0.0
-    for site in range(2 * w.loads[r].shape[0]):
+    for site in range(2 * w.loads[r].shape[0] if _hardens(row) else 0):
         e, k = site // 2, site % 2
         phi = abs(w.end[r, e, k, memory_map.PHI])
-        stiffness = factor * row[memory_map.L_STIFFNESS] * (w.loads[r, e, k] + w.loads[r, e, 2 + k])
-        energy += 0.5 * stiffness * phi * phi * (mean_factor(phi, row) - 1.0)
+        factor = mean_factor(phi, row)
+        energy += 0.5 * _stiffness_at(w, r, row, frame, e, k) * phi * phi * (factor - 1.0)
     return energy
+
+
+@inlined
+def _hardens(row: Array) -> bool:
+    return row[memory_map.L_CONTACT] == memory_map.TWIST and row[memory_map.L_POINT] == 0.0
+
+
+@inlined
+def _stiffness_at(w: Workspace, r: int, row: Array, frame: Frame, e: int, k: int) -> float:
+    """Stiffness at rest of the tissue of a site, N m / rad."""
+    factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
+    return factor * row[memory_map.L_STIFFNESS] * (w.loads[r, e, k] + w.loads[r, e, 2 + k])

@@ -1,10 +1,10 @@
 """The three pictures of the page."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from diagnosis.report.figures.layout import subplots
 from models import published
 from sim.simulation import Run, simulate
 from studies.published.criteria import ELEMENTS, RESOLVED_SIGMA
@@ -32,7 +32,7 @@ def _label(fit: FigureFit) -> str:
 
 def draw_residuals(study: MaterialStudy) -> Figure:
     """Draw the residual of every figure for the stated rig and the leading explanations."""
-    figure, axis = plt.subplots(figsize=(11, 3.6), layout="constrained")
+    figure, axis = subplots(figsize=(11, 3.6))
     place = np.arange(len(study.figures))
     axis.axhspan(-RESOLVED_SIGMA, RESOLVED_SIGMA, color="0.92")
     axis.axhline(0, color="k", lw=1)
@@ -48,7 +48,7 @@ def draw_residuals(study: MaterialStudy) -> Figure:
 
 def draw_quick_turns(study: MaterialStudy) -> Figure:
     """Draw tip and base over time in the quick turn, at both depths of Table IV."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), layout="constrained", sharey=True)
+    figure, axes = subplots(1, 2, figsize=(11, 3.6), sharey=True)
     for axis, (depth_cm, row) in zip(axes, published.TABLE_IV_SETTLE_S.items(), strict=True):
         for fit, colour in zip(_leading(study), _COLOURS, strict=False):
             _draw_run(axis, _quick_turn(fit, 10 * depth_cm), colour, _label(fit))
@@ -76,7 +76,7 @@ def _draw_run(axis: Axes, run: Run, colour: str, label: str) -> None:
 def draw_fits(study: MaterialStudy) -> Figure:
     """Draw the root mean square residual of the best fits, and with each figure left out in turn."""
     fits = sorted(study.fits, key=lambda f: f.aicc)[:_SHOWN_FITS]
-    figure, axis = plt.subplots(figsize=(11, 0.24 * len(fits) + 1), layout="constrained")
+    figure, axis = subplots(figsize=(11, 0.24 * len(fits) + 1))
     colours = ["tab:red" if f in study.verdict.accepted else "0.7" for f in fits]
     rows = range(len(fits))
     axis.barh(rows, [f.rms_residual for f in fits], color=colours)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit, one_trial, priors, solved
 
-from diagnosis.criteria import FAR_GAP
+from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.freeform import search
 from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
 from diagnosis.workers import Workers
@@ -139,9 +139,13 @@ def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):
     assert sum(f.final for f in run(gaps, gaps)) == search.FAR_FINALISTS < search.FINALISTS
 
 
-def test_laws_far_behind_the_best_do_not_go_to_the_log_itself(fitted):
+@pytest.mark.parametrize(
+    ("least", "reach"),
+    [(1.0, search.WORTH_A_FINAL_BESIDE), (1.01 * CLOSED_GAP, search.WORTH_A_FINAL)],
+)
+def test_laws_far_behind_the_best_do_not_go_to_the_log_itself(least, reach, fitted):
     run, _ = fitted
-    gaps = {"a": 1.0, "b": 0.9 * search.WORTH_A_FINAL, "c": 1.1 * search.WORTH_A_FINAL}
+    gaps = {"a": least, "b": 0.95 * reach * least, "c": 1.05 * reach * least}
     assert [f.family.name for f in run(gaps, gaps) if f.final] == ["a", "b"]
 
 

@@ -3,13 +3,14 @@
 import base64
 import io
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from html_outline import HtmlOutline
+from matplotlib.figure import Figure
 from PIL import Image
 
 from diagnosis.report import html_parts as html
+from diagnosis.report.figures.layout import subplots
 
 TEXT = "a < b & <script>"
 SAFE = "a &lt; b &amp; &lt;script&gt;"
@@ -66,19 +67,18 @@ def test_a_table_without_a_caption_is_named_by_its_head():
 
 
 @pytest.mark.parametrize(("width", "look"), [(6.0, "scroll"), (11.0, "scroll wide")])
-def test_a_picture_is_inside_the_page_with_its_size_and_closed(width, look):
-    figure, _ = plt.subplots(figsize=(width, 2.0))
+def test_a_picture_is_inside_the_page_with_its_size(width, look):
+    figure = Figure(figsize=(width, 2.0))
     found = HtmlOutline(html.picture(figure, alt="what it shows"))
     (image,), (box,) = found.attributes("img"), found.attributes("figure")
     assert image["src"].startswith("data:image/png;base64,")
     assert image["alt"] == "what it shows"
     assert (image["width"], image["height"]) == (str(round(100 * width)), "200")
     assert box["class"] == look
-    assert not plt.fignum_exists(figure.number)
 
 
 def test_a_picture_of_few_colours_keeps_its_white_and_its_lines():
-    figure, axis = plt.subplots(figsize=(4.0, 2.0))
+    figure, axis = subplots(figsize=(4.0, 2.0))
     axis.plot([0, 1], color="#940f1c", lw=9)
     encoded = HtmlOutline(html.picture(figure)).attributes("img")[0]["src"].split(",")[1]
     drawn = np.asarray(Image.open(io.BytesIO(base64.b64decode(encoded))).convert("RGB"), int)

@@ -4,9 +4,9 @@ from dataclasses import replace
 from datetime import date
 from itertools import pairwise
 
-import matplotlib.pyplot as plt
 import pytest
 from html_outline import HtmlOutline
+from matplotlib.figure import Figure
 
 from diagnosis.report import html_report
 from diagnosis.report.answer import answer
@@ -41,7 +41,7 @@ def undrawn(monkeypatch):
     """Pages without their pictures, which take half a second each."""
     for module in (agreement, alternatives, limits, parameters):
         for name in [n for n in vars(module) if n.startswith("draw_")]:
-            monkeypatch.setattr(module, name, lambda *_: plt.figure())
+            monkeypatch.setattr(module, name, lambda *_: Figure())
     monkeypatch.setattr(html_report, "where_section", lambda _: [])
 
 

@@ -110,10 +110,12 @@ def test_a_constant_that_is_off_for_certain_is_named_alone():
     assert off_by(0.002, 0.0).named == ()  # certain, and less than two simulations differ by
 
 
-def test_beside_an_effect_a_constant_is_named_beyond_its_scatter():
-    beyond = 1.01 * SCATTER_NAMED * SCATTER["stiffness_error"]
-    assert off_by(beyond, 0.0, names=("tip_drag",)).named == ("tip_drag", "stiffness_error")
-    assert off_by(0.9 * beyond, 0.0, names=("tip_drag",)).named == ("tip_drag",)
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_beside_an_effect_a_constant_is_named_beyond_its_scatter(sign):
+    """The scatter is a fraction of the constant, whose logarithm is fitted."""
+    for share, named in ((1.005, ("stiffness_error",)), (0.995, ())):
+        off = np.log1p(sign * share * SCATTER_NAMED * SCATTER["stiffness_error"])
+        assert off_by(off, 0.0, names=("tip_drag",)).named == ("tip_drag", *named)
 
 
 def test_a_ratio_that_is_off_does_not_say_which_constant_is():

@@ -2,19 +2,11 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
-import pytest
 
 from diagnosis.in_sigma import over_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def drawn(axis):

@@ -1,16 +1,7 @@
 """The residual by part, as bars."""
 
-import matplotlib.pyplot as plt
-import pytest
-
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def test_the_breakdown_shows_nominal_and_explained_of_every_part(dry):

@@ -3,17 +3,10 @@
 import math
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import pytest
 
 from diagnosis.effects import LIBRARY
 from diagnosis.report.figures.detection_limits import describe_limits, draw_limits, limit_shares
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def limited(found, **limits):

@@ -1,8 +1,6 @@
 """Ellipses of pairs of parameters."""
 
-import matplotlib.pyplot as plt
 import numpy as np
-import pytest
 from diagnosis_fixtures import fit_of
 
 from diagnosis.assessment.joint_uncertainty import joint_uncertainty
@@ -10,12 +8,6 @@ from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
 
 THREE = ("tip_drag", "torque_bias", "tip_angle_bias")
 SPREAD = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 4.0]]) * 1e-4
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def joint(count=3):

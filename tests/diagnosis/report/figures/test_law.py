@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from free_forms import LAW
@@ -12,12 +11,6 @@ from diagnosis.report.figures.law import describe_law, draw_law
 WAYS = replace(
     LAW, variable="direction", x=(-1.0, 1.0), y=(0.1, 0.2), low=(0.08, 0.17), high=(0.12, 0.21)
 )
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def test_the_curve_and_its_band_are_those_of_the_law():

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -10,12 +9,6 @@ from diagnosis.log.trial import Trial
 from diagnosis.report.figures.loops import describe_loops, draw_loops, telling_trials
 
 NAMES = ["measured", "nominal", "explained"]
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def without(found, column):

@@ -2,17 +2,10 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 from diagnosis.report.figures.memory import describe_memory, draw_memory
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def test_spectra_are_those_of_the_assessment_beside_white_noise(dry):

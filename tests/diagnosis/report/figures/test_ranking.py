@@ -2,17 +2,8 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
-import pytest
-
 from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
 from diagnosis.report.sentences import explanations
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def paired(found):

@@ -2,19 +2,12 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.report.figures.trials import describe_trial, draw_trial
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def test_a_trial_shows_both_sensors_with_residuals_below(dry):

@@ -1,19 +1,11 @@
 """Angle along the shaft."""
 
-import matplotlib.pyplot as plt
 import numpy as np
-import pytest
 
 from diagnosis.replay.twist import ShaftTwist
 from diagnosis.report.figures.twist import describe_twist, draw_twist
 
 NODES = np.array([0.0, 50.0, 100.0])
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def twist(**along):

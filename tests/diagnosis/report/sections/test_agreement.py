@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import pytest
+from matplotlib.figure import Figure
 
 from diagnosis.report.sections import agreement
 from diagnosis.report.sections.agreement import agreement_section
@@ -14,7 +14,7 @@ from diagnosis.selection.verdict import VerdictKind
 @pytest.fixture(autouse=True)
 def _undrawn(monkeypatch):
     for name in ("draw_trial", "draw_loops", "draw_twist"):
-        monkeypatch.setattr(agreement, name, lambda *_: plt.figure())
+        monkeypatch.setattr(agreement, name, lambda *_: Figure())
 
 
 def test_every_trial_has_a_picture_of_its_own_then_loops_and_twist(dry):

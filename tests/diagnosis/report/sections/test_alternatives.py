@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import pytest
+from matplotlib.figure import Figure
 
 from diagnosis.report.sections import alternatives
 from diagnosis.report.sections.alternatives import alternatives_section
@@ -13,7 +13,7 @@ from diagnosis.selection.verdict import VerdictKind
 
 @pytest.fixture(autouse=True)
 def _undrawn(monkeypatch):
-    monkeypatch.setattr(alternatives, "draw_ranking", lambda _: plt.figure())
+    monkeypatch.setattr(alternatives, "draw_ranking", lambda _: Figure())
 
 
 def test_probabilities_stand_in_a_picture_and_a_table_before_what_cannot_be_told(dry):

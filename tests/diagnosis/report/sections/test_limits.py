@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 
 from diagnosis.report.sections import limits
 from diagnosis.report.sections.limits import limits_section
 
 
 def test_limits_stand_in_a_picture_and_a_table(dry, monkeypatch):
-    monkeypatch.setattr(limits, "draw_limits", lambda _: plt.figure())
+    monkeypatch.setattr(limits, "draw_limits", lambda _: Figure())
     _, _, picture, table = limits_section(dry.found)
     assert "chuck_backlash" in picture
     assert "chuck_backlash" in table

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import pytest
+from matplotlib.figure import Figure
 
 from diagnosis.report.sections import parameters
 from diagnosis.report.sections.parameters import parameters_section
@@ -12,7 +12,7 @@ from diagnosis.selection.verdict import VerdictKind
 
 @pytest.fixture(autouse=True)
 def _undrawn(monkeypatch):
-    monkeypatch.setattr(parameters, "draw_joint", lambda _: plt.figure())
+    monkeypatch.setattr(parameters, "draw_joint", lambda _: Figure())
 
 
 def test_values_stand_above_their_joint_uncertainty(dry):

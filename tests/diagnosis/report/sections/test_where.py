@@ -1,7 +1,7 @@
 """Where the residual is."""
 
-import matplotlib.pyplot as plt
 import pytest
+from matplotlib.figure import Figure
 
 from diagnosis.report.sections import where
 from diagnosis.report.sections.where import where_section
@@ -13,7 +13,7 @@ PICTURES = ("draw_breakdown", "draw_along_motion", "draw_memory")
 @pytest.fixture
 def undrawn(monkeypatch):
     for name in PICTURES:
-        monkeypatch.setattr(where, name, lambda _: plt.figure())
+        monkeypatch.setattr(where, name, lambda _: Figure())
 
 
 def test_every_picture_has_a_heading_a_sentence_and_words_for_who_cannot_see_it(dry, undrawn):

@@ -78,26 +78,41 @@ def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
     assert np.exp(best.best.fit.parts["stiffness_error"][0]) == pytest.approx(1.2, rel=0.01)
 
 
-def test_sets_that_the_prior_of_scatter_alone_keeps_behind_are_freed_of_it_too(asked, still_start):
-    """Of two sets whose stiffness is off by 20 %, with a prior of 30 and of 300."""
+Off = namedtuple("Off", ["names", "fit", "score", "floor", "scatter_named"])
 
-    Off = namedtuple("Off", ["names", "fit", "score", "floor", "scatter_named"])
 
-    def off(names, prior, cost, reached):
-        fit = SimpleNamespace(prior=prior, parts={"stiffness_error": np.array([0.2])})
-        floor = SimpleNamespace(reached=reached)
-        return Off(names, fit, cost + prior, floor, ("stiffness_error",))
+def off(names, prior, cost=0.0, *, reached=False, gap=1.0):
+    """A candidate, fitted to 1000 readings, whose stiffness is off by 20 %."""
+    fit = SimpleNamespace(prior=prior, parts={"stiffness_error": np.array([0.2])}, samples=1000)
+    floor = SimpleNamespace(reached=reached, gap=gap, gap_limit=1.02)
+    return Off(names, fit, cost + prior, floor, ("stiffness_error",))
 
-    best, near = off(("tip_drag",), 30.0, 0.0, False), off(("tip_angle_scale",), 300.0, 5.0, True)
-    far = off(("torque_bias",), 30.0, 10.0 + CONTENDING, True)
-    above = off(("stiction",), 300.0, 5.0, False)
-    state = SimpleNamespace(
+
+def found_by_then(best, *others):
+    return SimpleNamespace(
         best=best,
-        candidates=(best, near, far, above),
+        candidates=(best, *others),
         problem=SimpleNamespace(
             parameterization=lambda names: SimpleNamespace(joined=lambda parts: np.zeros(2))
         ),
         adding=lambda made: made,
     )
-    module.scatter_of_the_best(state, Workers())
+
+
+def test_sets_that_the_prior_of_scatter_alone_keeps_behind_are_freed_of_it_too(asked):
+    best, near = off(("tip_drag",), 30.0), off(("tip_angle_scale",), 300.0, 5.0, reached=True)
+    far = off(("torque_bias",), 30.0, 10.0 + CONTENDING, reached=True)
+    above = off(("stiction",), 300.0, 5.0)
+    module.scatter_of_the_best(found_by_then(best, near, far, above), Workers())
     assert asked == [("tip_drag", "stiffness_error"), ("tip_angle_scale", "stiffness_error")]
+
+
+@pytest.mark.parametrize(("share", "fitted"), [(1.01, 1), (0.99, 0)])
+def test_scatter_is_freed_only_where_its_prior_may_be_what_keeps_the_best_above_the_noise(
+    share, fitted, asked
+):
+    """Twice what the prior costs, 30, has to make up for what the residual is beyond its limit."""
+    gap = np.sqrt(1.02**2 + 2 * 30.0 / 1000 / share)
+    best = off(("tip_drag",), 30.0, gap=gap)
+    module.scatter_of_the_best(found_by_then(best), Workers())
+    assert asked == [("tip_drag", "stiffness_error")][:fitted]

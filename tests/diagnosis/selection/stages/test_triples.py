@@ -73,6 +73,30 @@ def test_none_is_tried_where_one_effect_explains_the_log_or_no_pair_was_fitted(
     assert asked_for(state, monkeypatch, explained=explained, pairs=pairs) == []
 
 
+@pytest.mark.parametrize(("exponent", "finalists"), [(0.98, 1), (0.995, 0)])
+def test_three_of_which_one_is_as_good_as_none_are_not_fitted_to_the_log(
+    exponent, finalists, still_start, monkeypatch
+):
+    names = ("tip_drag", "torque_bias", "shear_thinning")
+    three = scored(names, 1.0)
+    own = three.fit.parameterization
+    told = [f"{o}.{p.name}" for o, p in zip(own.owners, own.parameters, strict=True)]
+    x, at = three.fit.x.copy(), told.index("shear_thinning.exponent")
+    x[at] = own.parameters[at].to_fit(exponent)
+    three = replace(three, fit=replace(three.fit, x=x))
+    asked = []
+    monkeypatch.setattr(module, "screen_all", lambda *_: ([], ()))
+    monkeypatch.setattr(module, "fit_screened", lambda *_: ([three], ()))
+    monkeypatch.setattr(
+        module, "fit_finalists", lambda _, __, found, ___: (asked.extend(found), ([], ()))[1]
+    )
+    monkeypatch.setattr(type(still_start), "rechecked", lambda state: (state, False))
+    found = module.three_effects(still_start, Workers())
+    assert len(asked) == finalists
+    assert len(found.triples) == finalists
+    assert sum("as good as none" in entry.reason for entry in found.record) == 1 - finalists
+
+
 @pytest.mark.slow
 def test_three_effects_are_found_among_others():
     rig = RigParameters(kinetic_n_mm_per_mm=0.001, tip_drag_n_mm_s_per_rad=0.15, torque_bias_n_mm=0.05)

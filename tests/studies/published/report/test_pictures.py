@@ -1,16 +1,9 @@
 """The pictures of the page."""
 
-import matplotlib.pyplot as plt
 import pytest
 
 from models import published
 from studies.published.report.pictures import draw_fits, draw_quick_turns, draw_residuals
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def test_residuals_are_drawn_for_every_figure_and_leading_fit(study):
