@@ -90,7 +90,8 @@ def node_positions_mm(
     inserted_mm: float,
     sheath: bool,
 ) -> tuple[Array, int]:
-    """Positions of the nodes from the chuck, mm, (n + 1,), and how many elements share the free length.
+    """Positions of the nodes from the chuck, mm, (n + 1,), read-only, and how many elements share the
+    free length.
 
     An Eulerian mesh has nodes at the entry and at every boundary between layers, and even spacing in
     between.
@@ -98,22 +99,26 @@ def node_positions_mm(
     Raises:
       InvalidValue: the mesh is Eulerian and the needle has not entered the tissue.
     """
-    total = free_mm + inserted_mm
     if mesh is Mesh.LAGRANGIAN:
-        return np.linspace(0.0, total, discretisation.elements + 1), 0
+        return _nodes_mm(0.0, 0, (0.0, free_mm + inserted_mm), discretisation.elements), 0
     if inserted_mm <= 0:
         raise InvalidValue(
             "inserted_mm", inserted_mm, "a depth above 0 mm, because the mesh is fixed to the tissue"
         )
     boundaries = tuple(tissue.boundaries_mm(inserted_mm).tolist())
-    inside = free_mm + _even_between(boundaries, discretisation.elements)
-    if free_mm == 0:
-        return inside, 0
-    outside = discretisation.free_elements or (8 if sheath else 1)
-    return np.concatenate([np.linspace(0.0, free_mm, outside + 1)[:-1], inside]), outside
+    outside = 0 if free_mm == 0 else discretisation.free_elements or (8 if sheath else 1)
+    return _nodes_mm(free_mm, outside, boundaries, discretisation.elements), outside
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=256)  # a fit simulates the same trials again and again
+def _nodes_mm(free_mm: float, outside: int, boundaries: tuple[float, ...], elements: int) -> Array:
+    """Node positions: of `outside` elements that share the free length, then between boundaries."""
+    inside = free_mm + _even_between(boundaries, elements)
+    nodes = np.concatenate([np.linspace(0.0, free_mm, outside + 1)[:-1], inside])
+    nodes.setflags(write=False)
+    return nodes
+
+
 def _even_between(boundaries: tuple[float, ...], elements: int) -> Array:
     """Node positions: `elements` distributed over the stretches by length, at least two each."""
     lengths = np.diff(boundaries)

@@ -1,5 +1,7 @@
 """The law table: the input of the compiled tissue, made of the records that users write."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,8 +30,10 @@ _REMEMBERED = {
 }
 
 
+@lru_cache(maxsize=128)  # trial after trial of a fit asks for the same
 def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) -> Array:
-    """Rows of `sim.kernel.memory_map`, SI: tissue layers, other laws of the tissue, sheath, entry, tip.
+    """Rows of `sim.kernel.memory_map`, SI: tissue layers, other laws of the tissue, sheath, entry, tip;
+    read-only.
 
     Args:
       rows: pad with rows that do nothing up to this number, so that models of
@@ -46,7 +50,9 @@ def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) ->
         table.append(_tip(needle))
     while len(table) < rows:
         table.append(_inactive_row())
-    return np.array(table)
+    whole = np.array(table)
+    whole.setflags(write=False)
+    return whole
 
 
 def _inactive_row() -> Array:

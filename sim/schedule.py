@@ -5,6 +5,7 @@ relative to the tissue; `speed_mm_s` is positive into it.
 """
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ def mesh_for(inserted_mm: Array) -> Mesh:
     return Mesh.EULERIAN if constant and inserted_mm[0] > 0 else Mesh.LAGRANGIAN
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Schedule:
     """Inputs at increasing times; every array has the shape of `time_s`, (N,).
 
@@ -60,15 +61,14 @@ class Schedule:
             object.__setattr__(self, "tissue_factor", np.ones(time.shape))
         if time.ndim != 1 or time.size < 2:
             raise InvalidValue("time_s", time.shape, "at least two samples in one dimension")
-        for name in ("time_s", *COLUMNS):
-            values = np.asarray(getattr(self, name), float)
+        columns = {name: np.asarray(getattr(self, name), float) for name in ("time_s", *COLUMNS)}
+        for name, values in columns.items():
             object.__setattr__(self, name, values)
             if values.shape != time.shape:
                 raise InvalidValue(name, values.shape, f"as many samples as time_s: {time.shape}")
-            if not np.isfinite(values).all():
-                bad = int(np.argmin(np.isfinite(values)))
-                raise InvalidValue(f"{name}[{bad}]", float(values[bad]), "a finite number")
-        back = np.diff(time) <= 0
+        if not np.isfinite(list(columns.values())).all():
+            raise _not_finite(columns)
+        back = time[1:] <= time[:-1]
         if back.any():
             i = int(np.argmax(back))
             raise InvalidValue(
@@ -80,17 +80,22 @@ class Schedule:
                 low = int(np.argmax(values < -LENGTH_TOLERANCE_MM))
                 raise InvalidValue(f"{name}[{low}]", float(values[low]), "a length of at least 0 mm")
 
+    @cached_property
+    def _resampled(self) -> dict[float, "Schedule"]:
+        """By step: the runs of a fit ask thousands of times for the same."""
+        return {}
+
     @property
     def duration_s(self) -> float:
         """Time from the first sample to the last, s."""
         return float(self.time_s[-1] - self.time_s[0])
 
-    @property
+    @cached_property
     def longest_mm(self) -> float:
         """Largest length between chuck and tip in the schedule, mm."""
         return float((self.free_mm + self.inserted_mm).max())
 
-    @property
+    @cached_property
     def mesh(self) -> Mesh:
         """The mesh for these inputs."""
         return mesh_for(self.inserted_mm)
@@ -105,6 +110,18 @@ class Schedule:
 
     def at_steps(self, step_s: float) -> "Schedule":
         """The same inputs at the ends of equal steps, the last at or after the end."""
+        if step_s not in self._resampled:
+            self._resampled[step_s] = self._at_steps(step_s)
+        return self._resampled[step_s]
+
+    def _at_steps(self, step_s: float) -> "Schedule":
         time = self.time_s[0] + step_s * np.arange(self.steps(step_s) + 1)
         inputs = {name: np.interp(time, self.time_s, getattr(self, name)) for name in COLUMNS}
         return Schedule(time_s=time, **inputs)
+
+
+def _not_finite(columns: dict[str, Array]) -> InvalidValue:
+    """The error for the first number that is not finite."""
+    name, values = next((n, v) for n, v in columns.items() if not np.isfinite(v).all())
+    bad = int(np.argmin(np.isfinite(values)))
+    return InvalidValue(f"{name}[{bad}]", float(values[bad]), "a finite number")

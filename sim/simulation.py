@@ -15,7 +15,7 @@ from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.needles import callback_loop
-from sim.needles.kept import batch_of, models_of
+from sim.needles.kept import batch_of, models_in_turn, models_of
 from sim.schedule import Schedule
 from sim.spec import Setup
 
@@ -143,6 +143,18 @@ def controls(inputs: Schedule, setup: Setup) -> Array:
     return ctrl
 
 
+def _controls_of_each(inputs: Sequence[Schedule], setups: Sequence[Setup]) -> list[Array]:
+    """`ctrl` of every set-up; those with the same inputs, drive and free length share it."""
+    made: dict[tuple[Schedule, DriveKind, float], Array] = {}
+    each = []
+    for own, setup in zip(inputs, setups, strict=True):
+        key = own, setup.drive.kind, setup.free_mm
+        if key not in made:
+            made[key] = controls(own, setup)
+        each.append(made[key])
+    return each
+
+
 def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjData:
     """Data of an untwisted needle at rest, at the first of the inputs.
 
@@ -150,15 +162,15 @@ def initial_data(model: mujoco.MjModel, setup: Setup, ctrl: Array) -> mujoco.MjD
       ctrl: the inputs at the start, SI, (inputs,).
     """
     data = mujoco.MjData(model)
-    data.qpos[:] = _start(setup, ctrl, model.nq)
+    data.qpos[:] = _start(setup, ctrl)
     data.ctrl[:] = ctrl
     mujoco.mj_forward(model, data)
     return data
 
 
-def _start(setup: Setup, ctrl: Array, joints: int) -> Array:
+def _start(setup: Setup, ctrl: Array) -> Array:
     """Joints of an untwisted needle, the carriage's first: m, then rad, (joints,)."""
-    qpos = np.zeros(joints)
+    qpos = np.zeros(memory_map.FIRST_JOINT + setup.nodes_mm.size)
     qpos[0] = ctrl[memory_map.U_CARRIAGE]
     if setup.drive.kind is DriveKind.ANGLE:
         qpos[1 : 2 if _is_chain(setup) else None] = ctrl[memory_map.U_DRIVE]
@@ -181,7 +193,8 @@ def simulate(
     """Run needles of one model size in a batch, with the same inputs or each with its own.
 
     Args:
-      setups: may differ in anything but the number of nodes, the number of rows and the step.
+      setups: may differ in anything but the step, and, with MuJoCo's steps, the number of nodes and of
+        rows.
       inputs: sampled at any times; resampled to the step. One for all set-ups, or one for each, all
         with the same start and end.
       models: models of the set-ups whose numbers were changed after compilation: their stiffness,
@@ -192,24 +205,28 @@ def simulate(
         (sim.needles.callback_loop); no shape is kept.
 
     Raises:
-      InvalidValue: the set-ups differ in elements or rows of the law table; or there are not as many
-        inputs as set-ups, or their durations differ.
+      InvalidValue: set-ups of MuJoCo's steps differ in elements or rows of the law table; or there are
+        not as many inputs as set-ups, or their durations differ.
       SimulationFailed: MuJoCo stopped, or its step did not end where the callback's did.
     """
     install()
-    with models_of(setups) if models is None else nullcontext(list(models)) as own:
-        first = own[0]
-        _refuse_other_sizes(own)
-        stepped = _at_steps(inputs, len(setups), first.opt.timestep)
-        ctrl = np.stack([controls(each, setup) for each, setup in zip(stepped, setups, strict=True)])
-        starts = [_start(setup, each[0], first.nq) for setup, each in zip(setups, ctrl, strict=True)]
-        if callback_alone:
-            raw = {"sensordata": callback_loop.run_callback(own, starts, ctrl)}
-        else:
-            raw = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
+    step_s = models[0].opt.timestep if models else setups[0].discretisation.step_s
+    stepped = _at_steps(inputs, len(setups), step_s)
+    ctrl = _controls_of_each(stepped, setups)
+    starts = [_start(setup, own[0]) for setup, own in zip(setups, ctrl, strict=True)]
+    outputs = [np.empty((len(own), memory_map.OUTPUTS)) for own in ctrl]
+    shape: dict[str, Array] = {}
+    if callback_alone:
+        own = models_in_turn(setups) if models is None else models
+        callback_loop.run_callback(own, starts, ctrl, [shown[1:] for shown in outputs])
+    else:
+        with models_of(setups) if models is None else nullcontext(models) as own:
+            shape = _rollout(own, starts, ctrl, keep_shape=keep_shape, threads=threads)
+        for shown, recorded in zip(outputs, shape.pop("sensordata"), strict=True):
+            shown[1:] = recorded
     return [
-        _run(setups[i], stepped[i], starts[i], ctrl[i, 0], {k: v[i] for k, v in raw.items()})
-        for i in range(len(setups))
+        _run(setup, stepped[i], starts[i], ctrl[i][0], outputs[i], {k: v[i] for k, v in shape.items()})
+        for i, setup in enumerate(setups)
     ]
 
 
@@ -229,49 +246,57 @@ def _refuse_other_sizes(models: Sequence[mujoco.MjModel]) -> None:
 def _rollout(
     models: Sequence[mujoco.MjModel],
     starts: Sequence[Array],
-    ctrl: Array,
+    ctrl: Sequence[Array],
     *,
     keep_shape: bool,
     threads: int,
 ) -> dict[str, Array]:
-    """Step the models; returns MuJoCo's records at the ends of steps, (needles, N, ...) each.
+    """Step models of one size; returns MuJoCo's records at the ends of steps, (needles, N, ...) each.
 
     Args:
       starts: joints at the start, (joints,) each.
-      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+      ctrl: at the start and at the ends of steps, SI, (N + 1, inputs) each.
     """
+    _refuse_other_sizes(models)
     record = ["sensordata", "qpos", "userdata"] if keep_shape else ["sensordata"]
+    inputs = np.stack(ctrl)
     with batch_of(models, threads) as batch:
         batch.state[:] = 0.0
-        batch.qpos, batch.ctrl = np.stack(starts), ctrl[:, 0]
+        batch.qpos, batch.ctrl = np.stack(starts), inputs[:, 0]
         batch.forward()
-        return dict(batch.rollout(ctrl.shape[1] - 1, ctrl[:, 1:], record=record))
+        return dict(batch.rollout(inputs.shape[1] - 1, inputs[:, 1:], record=record))
 
 
 def _at_steps(inputs: Schedule | Sequence[Schedule], count: int, step_s: float) -> list[Schedule]:
-    """The inputs of every set-up at the ends of steps; shared inputs are resampled once."""
+    """The inputs of every set-up at the ends of steps; shared ones stay shared."""
     each = [inputs] * count if isinstance(inputs, Schedule) else list(inputs)
     if len(each) != count:
         raise InvalidValue("inputs", len(each), f"one schedule, or one for each of {count} set-ups")
-    distinct = {id(own): own for own in each}
-    stepped = {key: own.at_steps(step_s) for key, own in distinct.items()}
-    spans = {(float(own.time_s[0]), own.time_s.size) for own in stepped.values()}
+    stepped = [own.at_steps(step_s) for own in each]
+    spans = {(float(own.time_s[0]), own.time_s.size) for own in stepped}
     if len(spans) > 1:
         raise InvalidValue(
             "inputs", sorted(spans), "schedules with the same start and the same number of steps"
         )
-    return [stepped[id(own)] for own in each]
+    return stepped
 
 
-def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[str, Array]) -> Run:
-    """The run of a rollout from the joints `start` with the inputs `ctrl`."""
-    outputs = np.vstack([_at_rest(setup, start, ctrl), raw["sensordata"]])
+def _run(
+    setup: Setup,
+    inputs: Schedule,
+    start: Array,
+    ctrl: Array,
+    outputs: Array,
+    shape: dict[str, Array],
+) -> Run:
+    """The run from the joints `start` with the inputs `ctrl`, given the outputs after the start."""
+    outputs[0] = _at_rest(setup, start, ctrl)
     if setup.drive.kind is DriveKind.ANGLE and setup.discretisation.order > 1:
         _centre_inertia(outputs)
     refuse_untrustworthy(outputs, inputs.time_s, setup.discretisation.step_s)
-    if "qpos" not in raw:
+    if not shape:
         return Run(setup=setup, inputs=inputs, outputs=outputs)
-    angles = np.vstack([start[1:], raw["qpos"][:, 1:]])
+    angles = np.vstack([start[1:], shape["qpos"][:, 1:]])
     if _is_chain(setup):
         angles = np.cumsum(angles, axis=1)
     return Run(
@@ -279,7 +304,7 @@ def _run(setup: Setup, inputs: Schedule, start: Array, ctrl: Array, raw: dict[st
         inputs=inputs,
         outputs=outputs,
         angles_rad=angles,
-        tissue_rad=_tissue(setup, raw["userdata"]),
+        tissue_rad=_tissue(setup, shape["userdata"]),
     )
 
 

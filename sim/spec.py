@@ -96,14 +96,13 @@ class Setup:
         return self.discretisation.arrangement is Arrangement.CHAIN
 
     def has_bodies_of(self, other: "Setup") -> bool:
-        """Whether the bodies are those of another set-up of the same `size`, servo included."""
+        """Whether the bodies are those of another set-up of the same `size`."""
         same_ends = (self.needle.tip_inertia_kg_m2, self.drive.rotor_inertia_kg_m2) == (
             other.needle.tip_inertia_kg_m2,
             other.drive.rotor_inertia_kg_m2,
         )
         return (
             same_ends
-            and self.servo_n_m_per_rad == other.servo_n_m_per_rad
             and self.needle.diameter_mm == other.needle.diameter_mm
             and self.needle.density_g_cm3 == other.needle.density_g_cm3
             and bool(np.array_equal(self.nodes_mm, other.nodes_mm))
@@ -131,7 +130,7 @@ class Setup:
             sheath=self.drive.sheath_friction_n_mm_per_mm > 0,
         )
 
-    @property
+    @cached_property
     def servo_n_m_per_rad(self) -> float:
         """Stiffness between drive shaft and needle, N m / rad; 0 if the drive gives torque."""
         if self.drive.kind is DriveKind.TORQUE:
@@ -180,9 +179,10 @@ def set_numbers(model: mujoco.MjModel, setup: Setup) -> None:
     """Write the numbers of a set-up, but those of its bodies, into a model of the same `size`."""
     model.opt.timestep = setup.discretisation.step_s
     model.numeric_data[:] = np.concatenate(list(_numbers(setup).values()))
-    model.jnt_stiffness[:] = _joint_stiffness(setup)
+    stiffness = _joint_stiffness(setup)
+    model.jnt_stiffness[:] = stiffness
     model.actuator_gear[memory_map.U_DRIVE, 0] = _drive_gear(setup)
-    model.actuator_gear[memory_map.U_CARRIAGE, 0] = _rail_n_per_m(setup)
+    model.actuator_gear[memory_map.U_CARRIAGE, 0] = stiffness[0]  # a servo's motor has its spring's
     if setup.drive.torque_limit_n_mm is not None:
         model.actuator_forcerange[memory_map.U_DRIVE] = _torque_range_n_m(setup.drive.torque_limit_n_mm)
 
@@ -206,8 +206,7 @@ def set_bodies(model: mujoco.MjModel, setup: Setup) -> None:
 
 def _joint_stiffness(setup: Setup) -> Array:
     """Of the carriage, N / m, the servo and the joints along the shaft, N m / rad."""
-    springs = springs_n_m_per_rad(setup)
-    torsion = springs if setup.is_chain else np.zeros(springs.size)
+    torsion = springs_n_m_per_rad(setup) if setup.is_chain else np.zeros(setup.nodes_mm.size - 1)
     return np.concatenate([[_rail_n_per_m(setup), setup.servo_n_m_per_rad], torsion])
 
 

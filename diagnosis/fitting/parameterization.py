@@ -6,6 +6,7 @@ unit, so that a step of 0.001 is small for each, but not lost in rounding.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,18 +33,23 @@ class Parameterization:
     effects: tuple[Effect, ...]
     nuisance: tuple[Effect, ...]
 
-    @property
+    @cached_property
     def all(self) -> tuple[Effect, ...]:
         """Effects and nuisance, in the order of the vector."""
         return (*self.effects, *self.nuisance)
 
-    @property
+    @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """Parameters of all effects, then of the nuisance."""
         return tuple(p for e in self.all for p in e.parameters)
 
     def bounds(self) -> tuple[Array, Array]:
         """Lowest and highest vector."""
+        low, high = self._bounds
+        return low.copy(), high.copy()
+
+    @cached_property
+    def _bounds(self) -> tuple[Array, Array]:
         low = [p.to_fit(p.low) for p in self.parameters]
         high = [p.to_fit(p.high) for p in self.parameters]
         return np.array(low), np.array(high)
@@ -64,7 +70,7 @@ class Parameterization:
 
     def values(self, x: Array) -> list[float]:
         """Parameter values of a vector, clipped to the bounds against rounding."""
-        within = np.clip(x, *self.bounds())
+        within = np.clip(x, *self._bounds)
         near = np.where(np.abs(within - x) < _ROUNDING, within, x)
         return [p.from_fit(float(v)) for p, v in zip(self.parameters, near, strict=True)]
 
@@ -87,7 +93,7 @@ class Parameterization:
         """The effect that every entry of the vector belongs to."""
         return tuple(e.name for e in self.all for _ in e.parameters)
 
-    @property
+    @cached_property
     def weights(self) -> Array:
         """Weights of the prior on every entry, 1 / standard deviation; 0 without a prior."""
         spread = [p.prior_sigma for e in self.effects for p in e.parameters]

@@ -255,6 +255,11 @@ class FreeLaw:
         whole: Tissue = tissue.but(layers=shaped, throughout=self.throughout, at_tip=self.at_tip)
         return whole
 
+    @property
+    def follows_torque(self) -> bool:
+        """Whether the inputs of the needle depend on the torque."""
+        return any(curve.variable is Variable.TORQUE for curve in self._of_the_needle())
+
     def driven(self, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Schedule:
         """The inputs of the needle, with the variation of its tissue.
 

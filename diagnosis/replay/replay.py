@@ -73,12 +73,10 @@ def predict(
       SimulationFailed: one of them cannot be simulated.
     """
     rigs = [rig.on_trial(trial.name) for rig in rigs]
-    seen = [rig.without_sensors() for rig in rigs]
-    needles = list(dict.fromkeys(seen))
-    done = _run(nominal, trial, needles, resolution, callback_alone=callback_alone)
-    runs = dict(zip(needles, done, strict=True))
-    each = zip(rigs, seen, strict=True)
-    return [_sensed(rig, runs[needle], trial.time_s) for rig, needle in each]
+    number: dict[RigParameters, int] = {}
+    each = [number.setdefault(rig.without_sensors, len(number)) for rig in rigs]
+    runs = _run(nominal, trial, list(number), resolution, callback_alone=callback_alone)
+    return [_sensed(rig, runs[i], trial.time_s) for rig, i in zip(rigs, each, strict=True)]
 
 
 def shape_of(
@@ -115,7 +113,8 @@ def _run(
     inputs = []
     for rig in rigs:
         logged = schedule_with_past(rig, trial)
-        torque = np.interp(logged.time_s, trial.time_s, trial.smooth_torque_n_mm) if rig.free else None
+        follows = rig.free is not None and rig.free.follows_torque
+        torque = np.interp(logged.time_s, trial.time_s, trial.smooth_torque_n_mm) if follows else None
         inputs.append(driven(rig, logged, start_s, torque))
     setups = [
         rig.setup(nominal, own, elements=elements, step_s=step_s)

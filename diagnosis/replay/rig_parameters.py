@@ -6,7 +6,7 @@ shaft with encoder, torque sensor, bearing, chuck.
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.free_law import FreeLaw
@@ -93,13 +93,12 @@ class RigParameters:
     pasts: tuple[Past, ...] = ()
     free: FreeLaw | None = None
 
-    def needle(self, rig: NominalRig, length_mm: float) -> Needle:
-        """The needle, with the length that a trial needs."""
+    def needle(self, rig: NominalRig) -> Needle:
+        """The needle; each trial has a length of its own, which is in its set-up."""
         nominal = dict(rig.needle)
         nominal["shear_modulus_gpa"] *= self.stiffness_scale
         needle = Needle(
             **nominal,
-            length_mm=length_mm,
             tip_drag_n_mm_s_per_rad=self.tip_drag_n_mm_s_per_rad,
             curvature_n_mm_per_mm=self.curvature_n_mm_per_mm,
             curvature_phase_deg=self.curvature_phase_deg,
@@ -146,6 +145,7 @@ class RigParameters:
         )
         return self.free.drive(drive) if self.free else drive
 
+    @cached_property
     def without_sensors(self) -> "RigParameters":
         """The same rig with ideal sensors."""
         return replace(
@@ -178,12 +178,13 @@ class RigParameters:
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle for a schedule, as returned by `driven`."""
         shaft = max(schedule.longest_mm, 1.0)
+        needle, tissue, drive = _parts(self, rig)
         standing = schedule.mesh is Mesh.EULERIAN
         inserted = schedule.inserted_mm[0] if standing else shaft - schedule.free_mm[0]
         return Setup(
-            needle=self.needle(rig, shaft),
-            tissue=self.tissue(rig),
-            drive=self.drive(rig),
+            needle=needle,
+            tissue=tissue,
+            drive=drive,
             # A mesh that goes with the needle has the free length in it as well.
             discretisation=_siblings(elements if standing else 2 * elements, step_s),
             mesh=schedule.mesh,
@@ -194,6 +195,11 @@ class RigParameters:
             if standing
             else self.material_share_growing_depth,
         )
+
+
+@lru_cache(maxsize=128)  # trial after trial asks for the same
+def _parts(parameters: RigParameters, rig: NominalRig) -> tuple[Needle, Tissue, Drive]:
+    return parameters.needle(rig), parameters.tissue(rig), parameters.drive(rig)
 
 
 @lru_cache(maxsize=64)

@@ -18,6 +18,7 @@ turned_by      turn since the last reversal, for a reading with hysteresis, in i
 
 from collections.abc import Callable
 from enum import StrEnum
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,8 +78,9 @@ OF_THE_NEEDLE = (
 """Variables that are known only once the needle was simulated."""
 
 
+@lru_cache(maxsize=32)  # rig after rig asks for the same
 def of_inputs(variable: Variable, inputs: Schedule, start_s: float) -> Array:
-    """Values at the times of the inputs, (N,).
+    """Values at the times of the inputs, (N,); not to be changed.
 
     Args:
       start_s: start of the trial; earlier inputs are its past.

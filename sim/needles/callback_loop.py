@@ -7,7 +7,7 @@ fit, differences between runs) may be the callback's.
 """
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any
 
@@ -85,28 +85,34 @@ def prepare() -> None:
     _loop(0, 0, 0, False, 1.0, one, one, one, one, one, one, one, none, bare)
 
 
-def run_callback(models: Sequence[mujoco.MjModel], starts: Sequence[Array], ctrl: Array) -> Array:
-    """Outputs at the end of every step, (needles, N, outputs).
+def run_callback(
+    models: Iterable[mujoco.MjModel],
+    starts: Sequence[Array],
+    ctrl: Sequence[Array],
+    shown: Sequence[Array],
+) -> None:
+    """Step needles one after the other.
 
     Args:
+      models: one for each needle, which may be the same one with other numbers.
       starts: joints at the start, (joints,) each.
-      ctrl: at the start and at the ends of steps, SI, (needles, N + 1, inputs).
+      ctrl: at the start and at the ends of steps, SI, (N + 1, inputs) each.
+      shown: receives the outputs at the end of every step, (N, outputs) each.
     """
-    shown = np.empty((len(models), ctrl.shape[1] - 1, memory_map.OUTPUTS))
-    for i, (model, start) in enumerate(zip(models, starts, strict=True)):
+    for model, start, inputs, outputs in zip(models, starts, ctrl, shown, strict=True):
         with data_of(model) as data:
-            _run(model, data, start, ctrl[i], shown[i])
-    return shown
+            _run(model, data, start, inputs, outputs)
 
 
 def _run(model: mujoco.MjModel, data: mujoco.MjData, start: Array, ctrl: Array, shown: Array) -> None:
     data.qpos[:], data.ctrl[:] = start, ctrl[0]
-    mujoco.mj_forward(model, data)
+    passive, _ = install()
+    passive.ctypes(model._address, data._address)  # the start, as `mj_forward` has it done
     head = model.numeric_data[: memory_map.HEADER]
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
     end = data.userdata[memory_map.CLOCK + memory_map.block(n, rows) :]
     _loop(
-        install()[0].address,
+        passive.address,
         model._address,
         data._address,
         head[memory_map.H_CHAIN] != 0,

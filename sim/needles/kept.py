@@ -5,7 +5,7 @@ size (`Setup.size`) reuse the same models, in which new numbers are written; the
 reuse the same batches. An object in use is not available to other threads.
 """
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -50,10 +50,11 @@ class _Compiled:
 
     def become(self, setup: Setup) -> None:
         """Write the numbers of another set-up of the same size."""
-        same = setup.has_bodies_of(self.setup)
+        other_bodies = not setup.has_bodies_of(self.setup)
         set_numbers(self.model, setup)
-        if not same:
+        if other_bodies:
             set_bodies(self.model, setup)
+        if other_bodies or setup.servo_n_m_per_rad != self.setup.servo_n_m_per_rad:
             with data_of(self.model) as data:
                 mujoco.mj_setConst(self.model, data)
         self.setup = setup
@@ -75,6 +76,16 @@ def models_of(setups: Sequence[Setup]) -> Iterator[list[mujoco.MjModel]]:
     """A model for each set-up; use them only inside the `with` block."""
     with ExitStack() as stack:
         yield [stack.enter_context(_model_of(setup)) for setup in setups]
+
+
+def models_in_turn(setups: Iterable[Setup]) -> Iterator[mujoco.MjModel]:
+    """A model for each set-up, one after the other; use each before the next.
+
+    Set-ups of one size get the same model, whose bodies are written only where they differ.
+    """
+    for setup in setups:
+        with _model_of(setup) as model:
+            yield model
 
 
 @contextmanager

@@ -137,7 +137,7 @@ def study_insertions(
 def of_fit(fit: FigureFit, shaft_mm: float) -> InsertionHypothesis:
     """A fit to the tables as a hypothesis on the insertion: the same tissue, drive and motion."""
     found = fit.hypothesis.rig(fit.x)
-    rig = InsertionRig(model=found.model.without_sensors(), turn=found.turn, shaft_mm=shaft_mm)
+    rig = InsertionRig(model=found.model.without_sensors, turn=found.turn, shaft_mm=shaft_mm)
     return InsertionHypothesis(
         name=" and ".join(fit.hypothesis.names),
         basis=f"Tables II, IV, V, {fit.hypothesis.free_length}; {shaft_mm:g} mm of shaft",

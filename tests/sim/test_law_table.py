@@ -72,3 +72,8 @@ def test_padding_rows_have_no_friction_and_only_fill_up():
     acting = [column.L_VISCOUS, column.L_KINETIC, column.L_STATIC, column.L_SHARED, column.L_STIFFNESS]
     assert not padded[1:, acting].any()
     assert law_table(NITINOL, Drive(), VISCOUS, rows=1).shape == short.shape
+
+
+def test_a_table_that_others_may_share_cannot_be_changed():
+    with pytest.raises(ValueError, match="read-only"):
+        law_table(NITINOL, Drive(), VISCOUS)[0, 0] = 1.0

@@ -1,5 +1,7 @@
 """Inputs of a run, and what is wrong with bad ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -71,3 +73,11 @@ def test_rows_keep_every_input():
     np.testing.assert_array_equal(part.time_s, [0.5, 1.0, 1.5])
     np.testing.assert_array_equal(part.drive, [1.0, 2.0, 3.0])
     assert part.tip_torque_n_mm.shape == (3,)
+
+
+def test_inputs_are_resampled_once_for_each_step():
+    ramp = Schedule(**columns(drive=np.arange(4.0)))
+    assert ramp.at_steps(0.02) is ramp.at_steps(0.02)
+    assert ramp.at_steps(0.01).time_s.size > ramp.at_steps(0.02).time_s.size
+    turned = replace(ramp, drive=-ramp.drive)
+    np.testing.assert_array_equal(turned.at_steps(0.02).drive, -ramp.at_steps(0.02).drive)

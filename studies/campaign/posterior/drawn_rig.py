@@ -44,7 +44,7 @@ class DrawnRig:
     def setup(self) -> Setup:
         """The model of the rig; raises InvalidValue if its values make none."""
         how = self.motion.discretisation
-        return self.rig.without_sensors().setup(
+        return self.rig.without_sensors.setup(
             self.nominal, self.schedule(), elements=how.elements, step_s=how.step_s
         )
 

@@ -16,7 +16,7 @@ def twist_test_torque_n_mm(fit: FigureFit) -> float:
     """Base torque that the rig of a fit would have shown in the twist test, N mm."""
     model = fit.hypothesis.rig(fit.x).model
     length = published.TWIST_TEST_LENGTH.value
-    compliance = length / model.needle(STATED, length).rigidity_n_mm2
+    compliance = length / model.needle(STATED).rigidity_n_mm2
     compliance += 1 / model.base_stiffness_n_mm_per_rad if model.base_stiffness_n_mm_per_rad else 0.0
     return math.radians(published.TWIST_TEST_ANGLE.value) / compliance
 

@@ -149,3 +149,11 @@ def test_a_curve_over_the_rate_is_in_the_tissue():
     law = FreeLaw(rate_curve=factors, rate_range_rad_s=(0.02, 3.0))
     (layer,) = law.tissue(Tissue(layers=(Layer(interface=LAYER),))).layers
     assert (layer.interface.rate_curve, layer.interface.rate_range_rad_s) == (factors, (0.02, 3.0))
+
+
+@pytest.mark.parametrize("acts_on", [ActsOn.DRIVE_ANGLE, ActsOn.TISSUE, ActsOn.TIP_READING])
+@pytest.mark.parametrize("variable", [Variable.TORQUE, Variable.TIME])
+def test_only_a_curve_of_the_needle_over_the_torque_follows_it(acts_on, variable):
+    law = FreeLaw(curves=(curve(acts_on, variable, values=(1.0, 2.0, 1.0, 2.0)),))
+    of_needle = acts_on is not ActsOn.TIP_READING
+    assert law.follows_torque == (of_needle and variable is Variable.TORQUE)

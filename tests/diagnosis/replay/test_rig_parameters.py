@@ -48,7 +48,7 @@ NEEDS = {  # what a field shows beside only
 def test_every_parameter_changes_the_needle_or_its_sensors(name):
     about = replace(NOMINAL, **NEEDS.get(name, {}))
     changed = replace(about, **{name: 0.7 * getattr(about, name) or 0.001})
-    assert (changed.without_sensors() == about.without_sensors()) is (name in SENSORS)
+    assert (changed.without_sensors == about.without_sensors) is (name in SENSORS)
     if name == "material_share_growing_depth":
         ready = prepared(trial(turns()))
         deeper = replace(ready, inserted_mm=90 + ready.time_s, free_mm=60 - ready.time_s)
@@ -80,3 +80,14 @@ def test_two_layers_keep_the_total_damping():
     shallow, deep = (layer.interface.viscous_n_mm_s_per_mm for layer in layers)
     assert deep == pytest.approx(3 * shallow)
     assert 0.4 * shallow + 0.6 * deep == pytest.approx(RIG.tissue.damping_n_mm_s_per_mm)
+
+
+def test_what_is_the_same_in_every_trial_is_made_once():
+    ready = prepared(trial(turns()))
+    shallower = replace(ready, inserted_mm=ready.inserted_mm - 10.0)
+    rig = RigParameters(kinetic_n_mm_per_mm=0.001)
+    one, other, another = setup(rig, ready), setup(rig, shallower), setup(NOMINAL, ready)
+    assert one.tissue is other.tissue
+    assert one.law is other.law
+    assert another.tissue != one.tissue
+    assert other.inserted_mm == one.inserted_mm - 10.0

@@ -82,7 +82,26 @@ def test_a_needle_at_rest_stays_there_whatever_ran_before():
     with models_of([setup]) as models:
         joints = np.full(models[0].nq, 0.5)
         joints[0] = 0.0
-        outputs = run_callback(models, [joints], ctrl)
-    assert outputs.shape == (1, 19, memory_map.OUTPUTS)
+        outputs = np.full((1, 19, memory_map.OUTPUTS), np.nan)
+        run_callback(models, [joints], list(ctrl), list(outputs))
     np.testing.assert_allclose(outputs[0, :, memory_map.O_TIP_ANGLE], 0.5, rtol=1e-12)
     np.testing.assert_allclose(outputs[0, :, memory_map.O_FRICTION], 0.0, atol=1e-12)
+
+
+def test_needles_of_several_sizes_run_as_each_does_alone():
+    coarse, fine, soft = (
+        Setup(
+            needle=NITINOL,
+            tissue=Tissue.uniform(viscous_n_mm_s_per_mm=BETA, kinetic_n_mm_per_mm=level),
+            discretisation=Discretisation(elements=elements, arrangement=Arrangement.SIBLINGS),
+            free_mm=50.0,
+            inserted_mm=inserted,
+        )
+        for elements, level, inserted in ((5, 0.001, 100.0), (8, 0.001, 100.0), (5, 0.0, 90.0))
+    )
+    setups = [coarse, fine, soft, coarse]
+    together = simulate(setups, INPUTS, callback_alone=True)
+    for setup, run in zip(setups, together, strict=True):
+        alone = simulate([setup], INPUTS, callback_alone=True)[0]
+        np.testing.assert_array_equal(run.outputs, alone.outputs)
+    assert not np.array_equal(together[0].outputs, together[2].outputs)

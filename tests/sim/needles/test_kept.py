@@ -9,7 +9,7 @@ from models.drive import Drive, DriveKind
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
-from sim.needles.kept import Kept, batch_of, compile_model, data_of, models_of
+from sim.needles.kept import Kept, batch_of, compile_model, data_of, models_in_turn, models_of
 from sim.schedule import Schedule
 from sim.simulation import SimulationFailed, simulate
 from sim.spec import Setup
@@ -111,6 +111,16 @@ def test_two_needles_of_one_size_never_share_a_model():
     with models_of([setup(0.01), setup(0.02)]) as (one, other):
         assert one is not other
         assert not np.array_equal(one.numeric_data, other.numeric_data)
+
+
+def test_needles_in_turn_share_a_model_that_has_the_numbers_of_each():
+    wanted = [setup(0.01), setup(0.02), setup(0.02, inserted=80.0), setup(0.01)]
+    used = []
+    for one, model in zip(wanted, models_in_turn(wanted), strict=True):
+        used.append(model)
+        for name, value in arrays(compile_model(one)).items():
+            np.testing.assert_array_equal(getattr(model, name), value, err_msg=name)
+    assert all(model is used[0] for model in used)
 
 
 def test_needles_of_other_sizes_share_no_model():
