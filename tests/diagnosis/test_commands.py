@@ -50,7 +50,7 @@ def test_diagnose_asks_for_a_log_or_the_paper(capsys):
 
 def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch, capsys, wide):
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
-    monkeypatch.setattr(write, "page", lambda *_: PAGE)  # its pictures take a second
+    monkeypatch.setattr(write, "_page_begun", lambda *_: lambda: PAGE)  # its pictures take a second
     assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().out
     assert all(sentence in " ".join(said.split()) for sentence in answer(dry.found))
@@ -105,7 +105,7 @@ def test_diagnose_without_out_writes_a_report_to_a_folder_of_its_own(
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
-    monkeypatch.setattr(write, "page", lambda *_: PAGE)
+    monkeypatch.setattr(write, "_page_begun", lambda *_: lambda: PAGE)
     for folder in ("out/diagnose", "out/diagnose-2"):
         assert main(["diagnose", str(dry.folder)]) == 0
         assert f"wrote      {folder}/report.html" in capsys.readouterr().out
@@ -126,7 +126,7 @@ def test_json_alone_goes_to_the_screen_and_to_no_file(dry, tmp_path, monkeypatch
 def test_the_summary_fits_the_screen(dry, tmp_path, monkeypatch, capsys, width):
     monkeypatch.setenv("COLUMNS", str(width))
     monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
-    monkeypatch.setattr(write, "page", lambda *_: PAGE)
+    monkeypatch.setattr(write, "_page_begun", lambda *_: lambda: PAGE)
     assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().out
     assert "…" not in said

@@ -1,10 +1,13 @@
 """Which sets of effects are fitted, and why others are not."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, scored
 
-from diagnosis.criteria import CONTENDING, FINALISTS, NEAR_FLOOR
+from diagnosis.criteria import CONTENDING, FINALISTS, NEAR_FLOOR, SLOPES_OF_ITS_OWN
+from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.selection import fitting
@@ -38,6 +41,7 @@ def made(monkeypatch):
         return fit_of(effects, by_trial=[white * np.sqrt(abs(cost) / float(white @ white))], cost=cost)
 
     monkeypatch.setattr(fitting, "fit_effects", fit_effects)
+    monkeypatch.setattr(fitting, "fit_in_turn", fit_effects)
     return names
 
 
@@ -162,3 +166,27 @@ def test_calls_come_back_in_their_order(made):
     calls = [(PROBLEM, (n,), np.array([c])) for n, c in (("tip_drag", 3.0), ("stiction", 1.0))]
     found, _ = fit_all("any", calls, Workers())
     assert [c.fit.cost for c in found] == [3.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("gap", "termination", "decimated", "goes"),
+    [
+        (0.99 * SLOPES_OF_ITS_OWN, Termination.OFFSET, False, [(True, False), (False, True)]),
+        (1.01 * SLOPES_OF_ITS_OWN, Termination.OFFSET, False, [(True, False)]),
+        (1.0, Termination.BEHIND, False, [(True, False)]),
+        (1.0, Termination.OFFSET, True, [(False, False)]),
+    ],
+)
+def test_slopes_are_of_half_as_fine_runs_until_a_fit_to_the_log_comes_near_the_noise(
+    gap, termination, decimated, goes, monkeypatch
+):
+    seen = []
+
+    def fit_effects(problem, names, start, enough, *, from_a_fit=False):
+        seen.append((problem.differences_halved, from_a_fit))
+        status = FitStatus(termination=termination, message="ended")
+        return fit_of(names, by_trial=[np.full(SAMPLES, gap)], status=status)
+
+    monkeypatch.setattr(fitting, "fit_effects", fit_effects)
+    fitting.fit_in_turn(replace(PROBLEM, callback_alone=decimated), ("tip_drag",), np.zeros(1))
+    assert seen == goes
