@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.detection_limits import detection_limits
-from diagnosis.assessment.forward_step import gap_with_one_more, on_decimated
+from diagnosis.assessment.forward_step import Further, further_effects, gap_with_one_more
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, covariance, intervals
 from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
@@ -32,7 +32,7 @@ from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StopSignal
-from diagnosis.workers import Failure, Task, Workers, attempt
+from diagnosis.workers import Failure, Workers
 from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
@@ -110,7 +110,8 @@ def assess(
     """
     stop = workers.stop
     complete = not stop.left_out
-    near, after, lost = nearest_candidate(problem, coarse, nominal, verdict, effects, workers)
+    further = _further(coarse, verdict, effects, workers)
+    near, after, lost = nearest_candidate(problem, coarse, nominal, verdict, further, effects, workers)
     rig = near.fit.parameterization.rig(near.fit.x)
     predictions = replay(problem.log, rig, problem.resolution)
     arguments = (problem.log, problem.noise, rig, predictions, problem.resolution)
@@ -120,7 +121,8 @@ def assess(
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
-    with_one_more, limits = _further_effects(coarse, verdict, effects, workers)
+    with_one_more = gap_with_one_more(verdict.best.fit, further) if further else {}
+    limits = _limits(coarse, verdict, further, effects, workers) if further else {}
     spread = covariance(problem, near.fit, change, left=_above_noise(near))
     own = intervals(near.fit, spread)
     if stop.due:
@@ -212,20 +214,23 @@ def _above_noise(best: Candidate) -> float:
     return 1.0 if best.floor.reached else max(1.0, best.floor.gap, best.floor.slow)
 
 
-def _further_effects(
+def _further(
     coarse: FitProblem, verdict: Verdict, effects: Sequence[str], workers: Workers
-) -> tuple[dict[str, float], dict[str, dict[str, float]]]:
-    """The gap with one more effect, and detection limits if the log is explained."""
-    best, stop = verdict.best.fit, workers.stop
-    base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
-    if isinstance(base, Failure):
-        if base.stopped:
-            stop.leave_out(ONE_MORE)
-        if base.stopped and verdict.settled:
-            stop.leave_out(LIMITS)
-        return {}, {}
-    arguments = (coarse, best, base, effects, workers)
-    left = stop.unless_due(ONE_MORE, lambda: gap_with_one_more(*arguments)) or {}
+) -> Further | None:
+    """Each further effect beside the best; None if that was stopped, or cannot be simulated."""
+    found, stop = further_effects(coarse, verdict.best.fit, effects, workers), workers.stop
+    if stop.due:
+        stop.leave_out(ONE_MORE)
+    if stop.due and verdict.settled:
+        stop.leave_out(LIMITS)
+    return None if stop.due or isinstance(found, Failure) else found
+
+
+def _limits(
+    coarse: FitProblem, verdict: Verdict, further: Further, effects: Sequence[str], workers: Workers
+) -> dict[str, dict[str, float]]:
+    """Detection limits, if the log is explained."""
     if not verdict.settled:
-        return left, {}
-    return left, stop.unless_due(LIMITS, lambda: detection_limits(*arguments)) or {}
+        return {}
+    arguments = (coarse, verdict.best.fit, further.base, effects, workers)
+    return workers.stop.unless_due(LIMITS, lambda: detection_limits(*arguments)) or {}

@@ -7,6 +7,7 @@ to the noise: such a fit would most likely be imitation, since the search would 
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -32,33 +33,56 @@ def on_decimated(coarse: FitProblem, best: Fit) -> Fit:
     return fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
 
 
-def gap_with_one_more(
-    coarse: FitProblem, best: Fit, base: Fit, effects: Sequence[str], workers: Workers
-) -> dict[str, float]:
-    """Gap that the best fit may reach with one more effect, by effect, smallest first.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Further:
+    """The best fit on the decimated log, and each further effect beside it.
 
-    Args:
-      base: the best fit on the decimated log.
+    Attributes:
+      base: the best fit, repeated on the decimated log.
+      screened: every effect that it does not have, at its best start.
     """
-    screened = _one_more(coarse, base, effects, workers)
+
+    base: Fit
+    screened: tuple[Screened, ...]
+
+
+def further_effects(
+    coarse: FitProblem, best: Fit, effects: Sequence[str], workers: Workers
+) -> Further | Failure:
+    """Each further effect beside the best fit; a failure if that cannot be repeated when decimated."""
+    base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
+    if isinstance(base, Failure):
+        return base
+    return Further(base=base, screened=_one_more(coarse, base, effects, workers))
+
+
+def gap_with_one_more(best: Fit, further: Further) -> dict[str, float]:
+    """Gap that the best fit may reach with one more effect, by effect, smallest first."""
+    base = further.base
     samples = max(base.samples, 1)
     # The floor of the decimated log is not exactly that of the log: ratios carry over.
     scale = best.gap / np.sqrt(base.cost / samples) if base.cost > 0 else 1.0
-    left = {s.names[-1]: float(scale * np.sqrt(s.cost / samples)) for s in screened}
+    left = {s.names[-1]: float(scale * np.sqrt(s.cost / samples)) for s in further.screened}
     return dict(sorted(left.items(), key=lambda item: item[1]))
 
 
 def forward_selection(
-    problem: FitProblem, coarse: FitProblem, best: Fit, effects: Sequence[str], workers: Workers
+    problem: FitProblem,
+    coarse: FitProblem,
+    best: Fit,
+    further: Further,
+    effects: Sequence[str],
+    workers: Workers,
 ) -> Fit:
     """The best fit with further effects, added while each removes a good share of the cost.
 
     Args:
       problem: the log itself; coarse: the decimated log.
+      further: each further effect beside the best.
     """
-    base = attempt(on_decimated, Task(effects=best.names, arguments=(coarse, best)))
-    while not isinstance(base, Failure) and len(best.names) < MOST_OF_NEAREST:
-        promising = min(_one_more(coarse, base, effects, workers), key=lambda s: s.cost, default=None)
+    while len(best.names) < MOST_OF_NEAREST:
+        base = further.base
+        promising = min(further.screened, key=lambda s: s.cost, default=None)
         if promising is None or promising.cost > STEP_LEAVES * base.cost:
             break
         arguments = (coarse, promising.names, promising.start)
@@ -71,11 +95,15 @@ def forward_selection(
             break
         if floor_of(found.by_trial).small:
             break
-        best, base = found, wider
+        best = found
+        if len(best.names) < MOST_OF_NEAREST:
+            further = Further(base=wider, screened=_one_more(coarse, wider, effects, workers))
     return best
 
 
-def _one_more(coarse: FitProblem, base: Fit, effects: Sequence[str], workers: Workers) -> list[Screened]:
+def _one_more(
+    coarse: FitProblem, base: Fit, effects: Sequence[str], workers: Workers
+) -> tuple[Screened, ...]:
     """Screening of all further effects on top of a fit."""
     tasks = [
         Task(effects=(name,), arguments=(coarse, base, name, _STARTS))
@@ -83,4 +111,4 @@ def _one_more(coarse: FitProblem, base: Fit, effects: Sequence[str], workers: Wo
         if name not in base.names
     ]
     results = workers.each("adding another effect", screen, tasks)
-    return [found[0] for found in results if not isinstance(found, Failure)]
+    return tuple(found[0] for found in results if not isinstance(found, Failure))

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.forward_step import forward_selection
+from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.intervals import Interval
 from diagnosis.fitting.fit import nominal_fit
@@ -92,6 +92,7 @@ def nearest_candidate(
     coarse: FitProblem,
     nominal: Sequence[Prediction],
     verdict: Verdict,
+    further: Further | None,
     effects: Sequence[str],
     workers: Workers,
 ) -> tuple[Candidate, HeldOut, tuple[str, ...]]:
@@ -103,11 +104,12 @@ def nearest_candidate(
     Args:
       problem: the log itself; coarse: the decimated log.
       nominal: readings of the nominal rig by trial.
+      further: each further effect beside the best of the verdict; None: not looked at.
       effects: names of effects that may be tried.
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return verdict.best, *_held_out(problem, verdict.best)
-    near = _with_further_effects(problem, coarse, verdict.best, effects, workers)
+    near = _with_further_effects(problem, coarse, verdict.best, further, effects, workers)
     after, lost = _held_out(problem, near)
     exact = nominal_fit(nominal_residuals(problem, nominal))
     if floor_of(after).gap < exact.gap:
@@ -119,13 +121,16 @@ def _with_further_effects(
     problem: FitProblem,
     coarse: FitProblem,
     best: Candidate,
+    further: Further | None,
     effects: Sequence[str],
     workers: Workers,
 ) -> Candidate:
+    if further is None:
+        return best
     if workers.stop.due:
         workers.stop.leave_out(ONE_MORE)
         return best
-    fit = forward_selection(problem, coarse, best.fit, effects, workers)
+    fit = forward_selection(problem, coarse, best.fit, further, effects, workers)
     return best if fit is best.fit else candidate(fit)
 
 

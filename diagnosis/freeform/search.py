@@ -3,8 +3,8 @@
 Every family is fitted through the simulation: for a few iterations on the decimated log, the best
 third for a few more; the best to their end there, the strength of their prior estimated, alone and
 beside the library's effects that came nearest; the best of these on the log itself, and checked on
-trials that the fit has not seen. Where all leave far more than noise, fewer go there, and not to their
-end.
+trials that the fit has not seen. Where one closes the gap at once, only those near it go on. Where all
+leave far more than noise, fewer go to the log itself, and not to their end.
 """
 
 from collections.abc import Callable, Sequence
@@ -37,6 +37,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
 )
 FIRST_ITERATIONS, ITERATIONS = 2, 10
 WORTH_MORE = 3  # one of so many families gets more than the first iterations
+IN_REACH = 2.0  # times the least gap, where that is closed: of 300 families beyond none came near later
 CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
@@ -85,9 +86,9 @@ def free_form_fits(
     families = families_of(ranges_of(coarse, nominal))
     base = fit_effects(coarse, ())
     first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
-    better, rest = _split(first, len(first) // WORTH_MORE)
+    better, rest = _best_in_reach(first, len(first) // WORTH_MORE)
     first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
-    near, _ = _split(first, CONTENDERS)
+    near, _ = _best_in_reach(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
     if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
         best = sorted(fitted, key=lambda f: f.score)[:ACCOMPANIED]
@@ -171,10 +172,13 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
     return float(np.sqrt(np.mean(np.concatenate(squares))))
 
 
-def _split(fits: Sequence[FreeFit], count: int) -> tuple[list[FreeFit], list[FreeFit]]:
-    """The best of some fits, and the rest."""
+def _best_in_reach(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:
+    """The best of some fits, where one closes the gap those near it alone; and the rest."""
+    least = min((f.fit.gap for f in fits), default=np.inf)
+    reach = IN_REACH * least if least <= CLOSED_GAP else np.inf
     ranked = sorted(fits, key=lambda f: f.score)
-    return ranked[:count], ranked[count:]
+    best = [f for f in ranked[:most] if f.fit.gap <= reach]
+    return best, [f for f in ranked if f not in best]
 
 
 def _distinct(ranked: Sequence[FreeFit]) -> list[FreeFit]:

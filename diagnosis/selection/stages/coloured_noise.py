@@ -1,4 +1,7 @@
-"""The colour of the noise, once an effect is known."""
+"""The colour of the noise, once an effect is known.
+
+Where that is another, effects are fitted once more, from where they are.
+"""
 
 from dataclasses import replace
 
@@ -20,8 +23,8 @@ def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
     if noise.colour.keys() == state.problem.noise.colour.keys():
         return again
     out = dropped("coloured noise", state.candidates, "the noise has another colour")
-    again = replace(again, candidates=(), singles=()).noting(*out)
+    again = replace(again, candidates=()).noting(*out)
     again = run_stages((nominal_rig, stiffness_or_damping_alone, single_effects), again, workers)
-    if workers.stop.due and not again.singles:
+    if workers.stop.due and not any(c.names for c in again.candidates):
         return state.noting(*stopped_in(again.record[len(state.record) :]))  # no effect was fitted
     return again

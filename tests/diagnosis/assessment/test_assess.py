@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import log_of
 
 from diagnosis.assessment import assess as module
-from diagnosis.assessment import nearest
+from diagnosis.assessment import forward_step, nearest
 from diagnosis.assessment.assess import assess
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import fit_effects, nominal_fit
@@ -111,7 +111,7 @@ def test_where_held_out_trials_cannot_be_simulated_the_gap_is_that_of_the_fit(lo
 def test_where_the_best_cannot_be_simulated_coarsely_nothing_further_is_told(
     log, nominal, fitted, monkeypatch
 ):
-    monkeypatch.setattr(module, "on_decimated", failing)
+    monkeypatch.setattr(forward_step, "on_decimated", failing)
     told = assessed(log, nominal, fitted)
     assert told.with_one_more == told.detection_limits == {}
     assert told.parameters

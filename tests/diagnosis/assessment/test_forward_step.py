@@ -5,7 +5,12 @@ from dataclasses import replace
 import pytest
 from diagnosis_fixtures import log_of
 
-from diagnosis.assessment.forward_step import forward_selection, gap_with_one_more, on_decimated
+from diagnosis.assessment.forward_step import (
+    forward_selection,
+    further_effects,
+    gap_with_one_more,
+    on_decimated,
+)
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import fit_effects
@@ -36,7 +41,9 @@ def test_the_best_fit_is_about_as_good_on_the_decimated_log(dry_log):
 
 def test_what_the_log_has_would_add_most(dry_log):
     coarse, best, base = dry_log
-    left = gap_with_one_more(coarse, best, base, EFFECTS, Workers())
+    further = further_effects(coarse, best, EFFECTS, Workers())
+    assert further.base.cost == base.cost
+    left = gap_with_one_more(best, further)
     assert list(left) == sorted(left, key=lambda name: left[name])
     assert next(iter(left)) == "coulomb_friction"
     assert left["coulomb_friction"] < 0.5 * best.gap
@@ -47,10 +54,10 @@ def test_what_cannot_be_simulated_adds_nothing(dry_log):
     def failing(*_):
         raise SimulationFailed("lost its numbers")
 
-    coarse, best, base = dry_log
+    coarse, best, _ = dry_log
     lost = replace(LIBRARY["tip_drag"], apply=failing)
     coarse = replace(coarse, library={**coarse.library, "tip_drag": lost})
-    found = gap_with_one_more(coarse, best, base, EFFECTS, Workers())
+    found = gap_with_one_more(best, further_effects(coarse, best, EFFECTS, Workers()))
     assert set(found) == set(EFFECTS) - {"tip_drag"}
 
 
@@ -71,7 +78,8 @@ FOUR = ("torque_bias", "coulomb_friction", "tip_drag", "tip_angle_scale")
 @pytest.mark.slow
 def test_effects_are_added_while_each_takes_off_a_good_share_but_not_down_to_the_noise(many):
     problem, coarse, best = many
-    found = forward_selection(problem, coarse, best, FOUR, Workers())
+    further = further_effects(coarse, best, FOUR, Workers())
+    found = forward_selection(problem, coarse, best, further, FOUR, Workers())
     assert len(found.names) == 2
     assert found.names[0] == "coulomb_friction"
     assert found.names[1] in {"torque_bias", "tip_angle_scale"}
@@ -82,4 +90,5 @@ def test_effects_are_added_while_each_takes_off_a_good_share_but_not_down_to_the
 def test_where_no_effect_takes_off_much_the_fit_stays_as_it_is(dry_log):
     """Negative control: next to the whole truth there is nothing to add."""
     coarse, best, _ = dry_log
-    assert forward_selection(coarse, coarse, best, ("tip_drag",), Workers()) is best
+    further = further_effects(coarse, best, ("tip_drag",), Workers())
+    assert forward_selection(coarse, coarse, best, further, ("tip_drag",), Workers()) is best

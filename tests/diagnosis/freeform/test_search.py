@@ -123,7 +123,7 @@ def fitted(monkeypatch):
 
 def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itself(fitted):
     run, seen = fitted
-    gaps = {f"law {i}": 1.05 + 0.1 * i for i in range(12)}
+    gaps = {f"law {i}": 1.05 + 0.05 * i for i in range(12)}
     found = run(gaps, gaps)
     finals = [f.family.name for f in found if f.final]
     assert finals == [f"law {i}" for i in range(search.FINALISTS)]
@@ -131,6 +131,15 @@ def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itse
     assert sorted(f.family.name for f in found) == sorted(gaps)
     assert all(f.final for f in found[: search.FINALISTS])
     assert len(seen) == 12 + search.CONTENDERS + search.FINALISTS
+
+
+@pytest.mark.parametrize(("least", "ended"), [(1.0, ["a", "b"]), (1.01 * CLOSED_GAP, ["a", "b", "c"])])
+def test_where_one_law_closes_the_gap_at_once_only_those_near_it_go_on(least, ended, fitted):
+    run, seen = fitted
+    gaps = {"a": least, "b": 0.95 * search.IN_REACH * least, "c": 1.05 * search.IN_REACH * least}
+    found = run(gaps, gaps)
+    assert [name for name, _, _ in seen[len(gaps) : len(gaps) + len(ended)]] == ended
+    assert sorted(f.family.name for f in found) == sorted(gaps)  # each is told, however far it came
 
 
 def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):

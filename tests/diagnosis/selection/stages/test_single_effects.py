@@ -1,5 +1,8 @@
 """Every effect is screened; the promising are fitted."""
 
+import numpy as np
+
+from diagnosis.selection.fitting import fit_screened
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages import single_effects as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
@@ -15,6 +18,25 @@ def test_every_effect_is_tried_and_the_best_is_fitted_to_the_log_itself(dry_star
     assert found.singles[0].names == ("coulomb_friction",)
     assert ("coulomb_friction",) in [c.names for c in found.candidates]
     assert found.best.floor.reached
+
+
+def test_what_was_fitted_before_starts_from_where_it_was(dry_start, monkeypatch):
+    begun = single_effects(nominal_rig(dry_start, Workers()), Workers())
+    ends = {c.names: c.fit.x for c in begun.singles}
+    starts = []
+
+    def fitted(stage, problem, screened, *others, **known):
+        starts.extend(screened)
+        return fit_screened(stage, problem, screened, *others, **known)
+
+    monkeypatch.setattr(module, "fit_screened", fitted)
+    again = single_effects(begun, Workers())
+    assert len(ends) > 1
+    for names, x in ends.items():
+        (start,) = [s.start for s in starts if s.names == names]
+        np.testing.assert_array_equal(start, x)
+    assert again.singles[0].names == begun.singles[0].names
+    assert again.singles[0].fit.cost <= begun.singles[0].fit.cost
 
 
 def test_what_promises_too_little_beside_noise_alone_is_not_fitted(still_start):
