@@ -5,7 +5,7 @@ STAMP := .venv/.installed
 # Tests over two processes; those that share a fixture stay together.
 SPREAD := -n 2 --dist loadgroup
 
-.PHONY: setup compiled demo test quick fuzz coverage check format bench docs package clean
+.PHONY: setup compiled compiled-sim compiled-rig demo test quick fuzz coverage check format bench docs package clean
 
 setup: $(STAMP)
 
@@ -18,9 +18,15 @@ $(STAMP): pyproject.toml constraints.txt
 demo: $(STAMP)
 	CI=1 $(BIN)/needle demo --out out/demo --force
 
-# Compiled once, before processes would each do it.
+# Compiled once, before processes would each do it; simulation and independent rig side by side.
 compiled: $(STAMP)
-	$(BIN)/python -c "from sim.simulation import prepare_processes as sim; from validation.rig.simulation import compile_kernels as rig; sim(); rig()"
+	$(MAKE) --no-print-directory -j2 compiled-sim compiled-rig
+
+compiled-sim:
+	$(BIN)/python -c "from sim.simulation import prepare_processes; prepare_processes()"
+
+compiled-rig:
+	$(BIN)/python -c "from validation.rig.simulation import compile_kernels; compile_kernels()"
 
 test: compiled
 	CI=1 $(BIN)/python -m pytest $(SPREAD)

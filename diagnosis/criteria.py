@@ -405,6 +405,8 @@ MOST_TRIPLES, TRIPLE_BASES, TRIPLE_SHARE = 12, 4, 0.5
 """Sets of three that are fitted, leading pairs that they build on, and the share that a third effect has
 to promise of what the pair leaves beyond noise: the true one takes off all of it, and promised 0.83 to 1
 on 7 blind logs of seed 77."""
+MOST_QUIETENED = 4.0
+"""Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_CONTENDERS = 12

@@ -30,12 +30,14 @@ class RigLog:
     Attributes:
       warnings: what is doubtful, and what was done about it.
       name: name of its folder; empty: it was not read from one.
+      means_of: number of readings that a sample is the mean of.
     """
 
     rig: NominalRig
     trials: tuple[Trial, ...]
     warnings: tuple[str, ...] = ()
     name: str = ""
+    means_of: int = 1
 
 
 def read_rig_log(folder: Path) -> RigLog:

@@ -24,10 +24,11 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
     sigma_deg = rounded.get(BASE) or base_noise_deg(log.rig, filled)
     trials = []
     for trial, rows in zip(log.trials, filled, strict=True):
-        ready = _prepared(trial, rows, sigma_deg)
+        smooth = _prepared(trial, rows, sigma_deg)
         counted = without_repeats(rows, log.rig, steps)
-        trials.append(_with_inertia(replace(ready, readings=counted), log.rig))
-    return PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded), sigma_deg
+        trials.append(_with_inertia(replace(smooth, readings=counted), log.rig))
+    ready = PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded, means_of=log.means_of)
+    return ready, sigma_deg
 
 
 def _with_inertia(trial: PreparedTrial, rig: NominalRig) -> PreparedTrial:

@@ -114,11 +114,13 @@ class PreparedLog:
 
     Attributes:
       rounded: least noise of columns that are read in coarse steps.
+      means_of: number of readings that a sample is the mean of.
     """
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
     rounded: Mapping[str, float] = field(default_factory=dict)
+    means_of: int = 1
 
     def drifting(self, size_sigma: float) -> "PreparedLog":
         """The log with a torque sensor that may drift by so much within a trial, in sigma."""

@@ -37,6 +37,7 @@ def averaged(log: RigLog) -> RigLog:
         rig=_quieter(log.rig, count),
         trials=tuple(_means(trial, count * step_s, count) for trial in log.trials),
         warnings=(*log.warnings, said),
+        means_of=count,
     )
 
 

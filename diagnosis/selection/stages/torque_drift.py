@@ -4,8 +4,11 @@ A drift could take over a part of what friction does, so that it is tried last, 
 take off most of what one of the leading explanations leaves beyond noise. One of more than
 DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; and where a constant offset does as
 well, it is that, which is an effect of the library.
+
+Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -15,11 +18,12 @@ from diagnosis.criteria import (
     DRIFT_SHARE,
     DRIFT_SIZE_SIGMA,
     FINALISTS,
+    MOST_QUIETENED,
     NEAR_FLOOR,
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.replay.drift import drift_range_sigma
+from diagnosis.replay.drift import TORQUE, drift_range_sigma
 from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists
@@ -89,11 +93,18 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:
     predictions = replay(problem.log, fit.parameterization.rig(fit.x), problem.resolution)
-    return drift_range_sigma(problem.log, problem.noise, predictions)
+    sigma = drift_range_sigma(problem.log, problem.noise, predictions)
+    return sigma * problem.noise[TORQUE] / _noise_of_a_reading_n_mm(problem)
 
 
 def _size_n_mm(problem: FitProblem) -> float:
-    return DRIFT_SIZE_SIGMA * problem.noise["base_torque_n_mm"]
+    return DRIFT_SIZE_SIGMA * _noise_of_a_reading_n_mm(problem)
+
+
+def _noise_of_a_reading_n_mm(problem: FitProblem) -> float:
+    """As found, or as claimed, if that is more; of samples that are means, that of a single reading."""
+    found, claimed = problem.noise[TORQUE], problem.log.rig.sensors.base_torque_noise_n_mm
+    return math.sqrt(problem.log.means_of) * max(found, min(claimed, MOST_QUIETENED * found))
 
 
 def _drifting(state: SearchState) -> SearchState:

@@ -1,12 +1,13 @@
 """Drift of the torque sensor, allowed for where nothing else explains a log."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, start_of_search
 
-from diagnosis.criteria import DRIFT_RANGE_SIGMA
+from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SIZE_SIGMA, MOST_QUIETENED
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
@@ -59,6 +60,27 @@ def test_a_drift_of_no_working_sensor_explains_nothing():
     before, after = searched(drifted(4 * DRIFT_RANGE_SIGMA))
     assert after.problem is before.problem
     assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
+
+
+@pytest.mark.parametrize(("means_of", "explained"), [(1, False), (9, True)])
+def test_a_drift_is_as_large_beside_the_noise_of_a_reading_that_means_have_quietened(
+    means_of, explained
+):
+    """12 sigma of means of nine readings are 4 sigma of one."""
+    log = replace(drifted(2.0 * DRIFT_RANGE_SIGMA), means_of=means_of)
+    _, after = searched(log)
+    assert bool(after.problem.log.trials[0].torque_drift_sigma) is explained
+    assert after.best.floor.reached is explained
+
+
+@pytest.mark.parametrize(
+    ("claimed", "told"), [(0.5, 1.0), (2.0, 2.0), (10.0 * MOST_QUIETENED, MOST_QUIETENED)]
+)
+def test_a_filter_takes_off_noise_but_not_off_a_drift(claimed, told):
+    sensors = SimpleNamespace(base_torque_noise_n_mm=claimed)
+    log = SimpleNamespace(rig=SimpleNamespace(sensors=sensors), means_of=4)
+    problem = SimpleNamespace(log=log, noise={"base_torque_n_mm": 1.0})
+    assert torque_drift._size_n_mm(problem) == pytest.approx(2 * told * DRIFT_SIZE_SIGMA)
 
 
 def test_a_constant_offset_is_an_effect_of_the_library_and_no_drift():
