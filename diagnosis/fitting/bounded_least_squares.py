@@ -1,4 +1,4 @@
-"""Linear least squares within bounds."""
+"""Linear least squares within bounds, and what they promise of a fit."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,3 +18,11 @@ def bounded_least_squares(matrix: Array, wanted: Array, low: Array, high: Array)
         return np.zeros(0)
     solved = lsq_linear(matrix, wanted, bounds=(low - _ROOM, high + _ROOM), method="bvls")
     return np.asarray(np.clip(solved.x, low, high))
+
+
+def promised_reduction(slopes: Array, residual: Array, low: Array, high: Array) -> float:
+    """What a step between `low` and `high` takes off the sum of squares, by the linear model."""
+    basis, root = np.linalg.qr(slopes)
+    seen = basis.T @ residual
+    step = bounded_least_squares(root, -seen, low, high)
+    return float(seen @ seen - np.sum((seen + root @ step) ** 2))

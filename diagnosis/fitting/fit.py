@@ -16,6 +16,7 @@ from mujoco import minimize
 from numpy.typing import NDArray
 
 from diagnosis.effects import FITTED
+from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
@@ -68,6 +69,13 @@ class Fit:
     def prior(self) -> float:
         """Cost of the prior alone."""
         return float(np.sum((self.parameterization.weights * self.x) ** 2))
+
+    @property
+    def promised_cost(self) -> float:
+        """Cost that one more step would leave, by the linear model."""
+        low, high = self.parameterization.bounds()
+        residual = np.concatenate([*self.by_trial, self.parameterization.weights * self.x])
+        return self.cost - promised_reduction(self.slopes, residual, low - self.x, high - self.x)
 
     @property
     def slopes(self) -> Array:

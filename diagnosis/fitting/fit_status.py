@@ -24,7 +24,7 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
-from diagnosis.fitting.bounded_least_squares import bounded_least_squares
+from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.objective import Objective
 
 Array = NDArray[np.float64]
@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
 _FUTILE = 10.0  # times what the linear model promises
+_IDLE_SIGMA = 0.1  # by which a parameter changes the residuals over its range, as a norm
 _MOST_TRIES = 8  # steps along one direction, each shorter
 _SHORT = 0.01  # differences that slopes were taken over: a shorter step is beyond them
 
@@ -160,7 +161,16 @@ class Stopping:
         if offset <= self.tolerance:
             raise self._ended(self._there, Termination.OFFSET)
         self._last = bool(offset <= _ONE_MORE * self.tolerance)
-        return slopes
+        return self._without_idle(slopes)
+
+    def _without_idle(self, slopes: Array) -> Array:
+        """Slopes, 0 along parameters that change nothing here, whatever they are.
+
+        The optimiser would send such a one across its whole range, and shorten the steps of all others
+        when that leaves more.
+        """
+        reach = np.linalg.norm(slopes, axis=0) * (self.objective.high - self.objective.low)
+        return np.where(reach < _IDLE_SIGMA, 0.0, slopes)
 
     def after_step(self, trace: Sequence[minimize.IterLog]) -> None:
         """Called by `mujoco.minimize` after every step that reduced the cost."""
@@ -176,8 +186,5 @@ class Stopping:
 
     def _promised(self, residual: Array, slopes: Array) -> float:
         """Reduction of the cost that the linear model predicts, within bounds."""
-        basis, root = np.linalg.qr(slopes)
-        seen = basis.T @ residual
         low, high = self.objective.low - self._there, self.objective.high - self._there
-        step = bounded_least_squares(root, -seen, low, high)
-        return float(seen @ seen - np.sum((seen + root @ step) ** 2))
+        return promised_reduction(slopes, residual, low, high)

@@ -66,6 +66,13 @@ class LogRanges:
         """Nominal damping."""
         return float(self.problem.log.rig.tissue.damping_n_mm_s_per_mm)
 
+    @property
+    def deg_per_n_mm(self) -> float:
+        """Angle of the base over its torque, root mean squares of all trials by the nominal rig."""
+        turned = np.concatenate([trial.base_motion_deg for trial in self.problem.log.trials])
+        torque = np.concatenate([own.base_torque_n_mm for own in self.nominal])
+        return float(np.sqrt(np.mean(turned**2) / np.mean(torque**2)))
+
 
 def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
     """Ranges of a log, given readings of the nominal rig by trial."""

@@ -1,8 +1,8 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for a few iterations on the decimated log, the best
-third for a few more; the best to their end there, the strength of their prior estimated, alone and
-beside the library's effects that came nearest; the best of these on the log itself, and checked on
+Every family is fitted through the simulation: for a few iterations on the decimated log, the most
+promising third for a few more; the best to their end there, the strength of their prior estimated, alone
+and beside the library's effects that came nearest; the best of these on the log itself, and checked on
 trials that the fit has not seen. Where one closes the gap at once, only those near it go on. Where all
 leave far more than noise, fewer go to the log itself, and not to their end.
 """
@@ -65,9 +65,22 @@ class FreeFit:
     @property
     def score(self) -> float:
         """Least is best: the cost in units of itself, and a penalty for what the data determine."""
+        return self._score(self.fit.cost)
+
+    @property
+    def promise(self) -> float:
+        """The score that one more step of the fit promises."""
+        return self._score(self.fit.promised_cost)
+
+    @property
+    def promised_gap(self) -> float:
+        """The gap that one more step of the fit promises, with the prior."""
+        return float(np.sqrt(max(self.fit.promised_cost, 0.0) / self.fit.samples))
+
+    def _score(self, cost: float) -> float:
         samples = self.fit.samples
         freedom = well_determined(self.family, self.fit) + 2.0 * len(self.beside)
-        return samples * float(np.log(self.fit.cost / samples)) + freedom * float(np.log(samples))
+        return samples * float(np.log(cost / samples)) + freedom * float(np.log(samples))
 
 
 def free_form_fits(
@@ -86,9 +99,9 @@ def free_form_fits(
     families = families_of(ranges_of(coarse, nominal))
     base = fit_effects(coarse, ())
     first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
-    better, rest = _best_in_reach(first, len(first) // WORTH_MORE)
+    better, rest = _promising(first, len(first) // WORTH_MORE)
     first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
-    near, _ = _best_in_reach(first, CONTENDERS)
+    near, _ = _promising(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
     if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
         best = sorted(fitted, key=lambda f: f.score)[:ACCOMPANIED]
@@ -172,12 +185,15 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
     return float(np.sqrt(np.mean(np.concatenate(squares))))
 
 
-def _best_in_reach(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:
-    """The best of some fits, where one closes the gap those near it alone; and the rest."""
+def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:
+    """The most promising fits, where one closes the gap those near it alone; and the rest.
+
+    A law far from straight has come nowhere after its first steps, and its slopes tell that it will.
+    """
     least = min((f.fit.gap for f in fits), default=np.inf)
     reach = IN_REACH * least if least <= CLOSED_GAP else np.inf
-    ranked = sorted(fits, key=lambda f: f.score)
-    best = [f for f in ranked[:most] if f.fit.gap <= reach]
+    ranked = sorted(fits, key=lambda f: f.promise)
+    best = [f for f in ranked[:most] if min(f.fit.gap, f.promised_gap) <= reach]
     return best, [f for f in ranked if f not in best]
 
 

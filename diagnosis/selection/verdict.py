@@ -125,13 +125,12 @@ def refuted(verdict: Verdict, form: str) -> Verdict:
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
     """Candidates at the floor, but for effects that add nothing to a rig that is off itself."""
-    unidentifiable = min(
-        (c.score for c in candidates if c.unidentifiable and c.floor.reached), default=math.inf
-    )
+    off = (c.score for c in candidates if not c.names and c.jointly_significant and c.floor.reached)
+    alone = min(off, default=math.inf)
     return [
         c
         for c in candidates
-        if c.explains and (c.score < unidentifiable or c.only_scatter or not c.jointly_significant)
+        if c.explains and (c.score <= alone or c.only_scatter or not c.jointly_significant)
     ]
 
 

@@ -64,6 +64,11 @@ class Added:
     says: str
     period_deg: float = 0.0
 
+    @property
+    def of_the_drive(self) -> bool:
+        """Whether it is an angle of the drive, or its rate."""
+        return self.acts_on in (ActsOn.DRIVE_ANGLE, ActsOn.DRIVE_SLIP)
+
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
 
@@ -119,8 +124,13 @@ ADDED = (
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of terms that may be added to an angle or a reading."""
-    seen = (a for a in ADDED if a.variable in ranges.ends and a.sensor in ranges.missing)
-    return tuple(family_of(a, curve_of(a, ranges), ranges) for a in seen)
+    shown = (_where_it_shows(a, ranges) for a in ADDED if a.variable in ranges.ends)
+    return tuple(family_of(a, curve_of(a, ranges), ranges) for a in shown if a.sensor in ranges.missing)
+
+
+def _where_it_shows(added: Added, ranges: LogRanges) -> Added:
+    """An angle of the drive shows in the torque, where the tip is not measured."""
+    return replace(added, sensor=TORQUE) if added.of_the_drive and TIP not in ranges.missing else added
 
 
 def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
@@ -136,7 +146,7 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
     if added.variable is Variable.PAST:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:
-        return separate_values(ranges.missing[added.sensor] * TURNED_BY)
+        return separate_values(_size(added, ranges) * TURNED_BY)
     curve = bent_curve if added.variable in SIGNED else smooth_curve
     return curve(*ranges.ends[added.variable], PLACES)
 
@@ -144,9 +154,7 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
 def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     """The family of one addition."""
     period = f", every {curve.period:.3g} deg" if curve.period else ""
-    scale = (
-        1.0 if added.variable in (Variable.PAST, Variable.TURNED_BY) else ranges.missing[added.sensor]
-    )
+    scale = 1.0 if added.variable in (Variable.PAST, Variable.TURNED_BY) else _size(added, ranges)
     name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}"
 
     return Family(
@@ -166,12 +174,18 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     )
 
 
+def _size(added: Added, ranges: LogRanges) -> float:
+    """Of what is missing, in deg or N mm."""
+    missing = ranges.missing[added.sensor]
+    return missing * ranges.deg_per_n_mm if added.of_the_drive and added.sensor == TORQUE else missing
+
+
 def _unit(added: Added) -> str:
     if added.variable in (Variable.PAST, Variable.TURNED_BY):
         return "-"
     if added.acts_on is ActsOn.DRIVE_SLIP:
         return "deg/s"
-    return "N mm" if added.sensor == TORQUE else "deg"
+    return "N mm" if added.acts_on in (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING) else "deg"
 
 
 def _points(curve: SmoothCurve, *c: float) -> Points:

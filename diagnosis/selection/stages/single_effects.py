@@ -28,14 +28,17 @@ def single_effects(state: SearchState, workers: Workers) -> SearchState:
         stage, [(state.coarse, start, effect) for effect in state.effects], workers
     )
     state = state.noting(*record)
-    # Where something is missing, scatter has taken over a part of it, and screening may be blind.
-    missing = not candidate(start).floor.small
-    worth = [s for s in screened if missing or s.gain >= WORTH_FITTING]
+    worth = [s for s in screened if _missing(candidate(start)) or s.gain >= WORTH_FITTING]
     state = state.noting(*not_worth(stage, screened, worth))
     starts = _from_where_they_were(worth, state.singles)
     singles, record = fit_screened(stage, state.coarse, starts, len(starts), workers, used=PAIR_BASES)
     state = replace(state.noting(*record), singles=tuple(singles))
     return state.adding(fit_finalists("finalists", state.problem, singles, workers))
+
+
+def _missing(scatter: Candidate) -> bool:
+    """Whether scatter may have taken over a part of what is missing, so that screening is blind."""
+    return not scatter.floor.small or bool(scatter.scatter_named) or scatter.jointly_significant
 
 
 def _from_where_they_were(worth: Sequence[Screened], fitted: Sequence[Candidate]) -> list[Screened]:

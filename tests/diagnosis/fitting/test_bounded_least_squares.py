@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from diagnosis.fitting.bounded_least_squares import bounded_least_squares
+from diagnosis.fitting.bounded_least_squares import bounded_least_squares, promised_reduction
 
 
 @pytest.fixture
@@ -38,3 +38,14 @@ def test_an_entry_without_room_stays(system):
 
 def test_nothing_to_move_is_no_step():
     assert bounded_least_squares(np.zeros((5, 0)), np.ones(5), np.zeros(0), np.zeros(0)).size == 0
+
+
+def test_what_is_promised_is_what_the_least_squares_take_off(system):
+    matrix, wanted = system
+    low, high = np.array([-1.0, -1.0, -1.0]), np.array([0.4, 5.0, 5.0])
+    x = bounded_least_squares(matrix, wanted, low, high)
+    taken = wanted @ wanted - np.sum((matrix @ x - wanted) ** 2)
+    assert promised_reduction(matrix, -wanted, low, high) == pytest.approx(taken)
+    assert promised_reduction(matrix, matrix @ x - wanted, low - x, high - x) == pytest.approx(
+        0.0, abs=1e-6
+    )

@@ -144,3 +144,36 @@ def test_what_bounds_forbid_is_not_promised():
     with pytest.raises(Ended) as ended:
         Stopping(line, 0.1).jacobian(x, line(x))
     assert ended.value.termination is Termination.OFFSET
+
+
+class Bent(Line):
+    """The same, with a third parameter that does nothing near its bound, and much elsewhere."""
+
+    def __init__(self):
+        super().__init__()
+        self.low, self.high = np.full(3, -10.0), np.full(3, 10.0)
+        left = self.read + self.slopes @ self.best
+        self.slopes = np.column_stack([self.slopes, -1e-5 * np.sign(left)])
+
+    def __call__(self, x):
+        flat = x.ravel()
+        rows = self.read + self.slopes[:, :2] @ flat[:2] - 100.0 * max(flat[2] + 9.0, 0.0)
+        return rows.reshape(-1, *x.shape[1:])
+
+
+def test_a_parameter_that_does_nothing_holds_up_no_other():
+    """Its slope, 1e-5 of the noise, would send it across its range, whatever the others do."""
+    objective = Bent()
+    stopping = Stopping(objective, tolerance=0.01)
+    start = np.array([5.0, 5.0, -10.0])
+    found, _ = minimize.least_squares(
+        start,
+        stopping,
+        bounds=[objective.low, objective.high],
+        jacobian=stopping.jacobian,
+        x_scale="jac",
+        iter_callback=stopping.after_step,
+        verbose=minimize.Verbosity.SILENT,
+    )
+    np.testing.assert_allclose(found.ravel()[:2], objective.best, atol=1e-6)
+    assert found.ravel()[2] == -10.0

@@ -7,6 +7,7 @@ import pytest
 from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit, one_trial, priors, solved
 
 from diagnosis.criteria import CLOSED_GAP, FAR_GAP
+from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
 from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
 from diagnosis.workers import Workers
@@ -140,6 +141,20 @@ def test_where_one_law_closes_the_gap_at_once_only_those_near_it_go_on(least, en
     found = run(gaps, gaps)
     assert [name for name, _, _ in seen[len(gaps) : len(gaps) + len(ended)]] == ended
     assert sorted(f.family.name for f in found) == sorted(gaps)  # each is told, however far it came
+
+
+def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more(fitted, monkeypatch):
+    """Of ten, three go on; the last is the only one whose next step would close the gap."""
+    run, seen = fitted
+    gaps = {f"law {i}": 3.0 + 0.1 * i for i in range(10)}
+    promised = Fit.promised_cost.fget
+    last = max(gaps.values()) ** 2 * 100
+    monkeypatch.setattr(
+        Fit, "promised_cost", property(lambda fit: 100.0 if fit.cost >= last - 1e-6 else promised(fit))
+    )
+    monkeypatch.setattr(search, "CONTENDERS", 3)
+    run(gaps, gaps)
+    assert [name for name, _, _ in seen[10:13]] == ["law 9", "law 0", "law 1"]
 
 
 def test_fewer_go_to_the_log_itself_where_all_leave_far_more_than_noise(fitted):

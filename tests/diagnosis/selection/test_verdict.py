@@ -93,6 +93,19 @@ def test_a_rig_whose_constants_are_off_is_named_by_no_effect_that_adds_nothing()
     assert set(found.confusable) == {("damping_error",), ("stiffness_error",)}
 
 
+@pytest.mark.parametrize(("left", "kind"), [(0.0, VerdictKind.UNDECIDED), (0.02, VerdictKind.EXPLAINED)])
+def test_an_effect_in_place_of_a_constant_that_is_off_is_a_rival_and_one_beside_it_is_none(left, kind):
+    """One whose fit leaves the damping as far off adds nothing."""
+    scales = tuple(LIBRARY[name] for name in SCATTER)
+    off = fit_of((), x=[0.0, 0.02], jacobian=[[[1e3, 0.0], [0.0, 1e3]] * 10], nuisance=scales)
+    alone = replace(scored([], 100.0), fit=off)
+    assert alone.named == ("damping_error",)
+    slopes = [[[0.0, 1e3, 0.0], [0.0, 0.0, 1e3]] * 10]
+    beside = fit_of(("tip_drag",), x=[-3.0, 0.0, left], jacobian=slopes, nuisance=scales)
+    found = verdict_on([alone, replace(scored(["tip_drag"], 104.0), fit=beside)])
+    assert (found.kind, found.effects) == (kind, ("damping_error",))
+
+
 @pytest.mark.parametrize(
     ("off", "kind"), [(0.025, VerdictKind.EXPLAINED), (0.001, VerdictKind.UNDECIDED)]
 )

@@ -64,6 +64,20 @@ def test_an_offset_of_the_drive_turns_the_whole_needle():
     assert same_readings(ANGLE, rig_of("drive angle over time", 3.0), bias)
 
 
+def test_an_angle_of_the_drive_shows_in_the_torque_where_the_tip_is_not_measured():
+    """Its scale is the angle that the nominal rig turns by for the torque that is missing."""
+    ranges = covered(ANGLE, torque=TORQUE + 0.3, seen=(LATE, TORQUE))
+    assert set(ranges.missing) == {"base_torque_n_mm"}
+    found = {family.name: family for family in families(ranges)}
+    assert {"drive angle over time", "drive slip over torque"} <= set(found)
+    assert not any(name.startswith("tip reading") for name in found)
+    assert found["drive angle over time"].unit == "deg"
+    level = found["drive angle over time"].effect.parameters[0]
+    alone = FAMILIES["drive angle over time"].effect.parameters[0]
+    # 0.01 N mm for each degree: 0.3 N mm are 30 deg; beside the tip it is what that misses, 2 deg.
+    assert level.high / alone.high == pytest.approx(15.0, rel=0.01)
+
+
 def test_what_repeats_says_after_how_much():
     names = [name for name in FAMILIES if ", every 360 deg" in name]
     assert sorted(names) == [

@@ -1,7 +1,9 @@
 """Every effect is screened; the promising are fitted."""
 
 import numpy as np
+from diagnosis_fixtures import log_of, start_of_search
 
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.fitting import fit_screened
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages import single_effects as module
@@ -44,6 +46,14 @@ def test_what_promises_too_little_beside_noise_alone_is_not_fitted(still_start):
     out = [e for e in found.record if e.reason == "screening promises too little"]
     assert out
     assert not {e.effects for e in out} & {c.names for c in found.singles}
+
+
+def test_beside_a_damping_that_is_off_by_little_everything_is_fitted():
+    """Scatter of the constants has taken it over: screened beside that, nothing promises anything."""
+    log = log_of(RigParameters(damping_scale=1.02), speed=-1.0, seed=1)
+    start = start_of_search(log, ("damping_error", "tip_drag", "torque_bias"))
+    found = single_effects(nominal_rig(start, Workers()), Workers())
+    assert {c.names[0] for c in found.singles} == set(start.effects)
 
 
 def test_where_the_decimated_log_cannot_be_fitted_the_state_stays(still_start, monkeypatch):
