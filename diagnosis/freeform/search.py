@@ -1,9 +1,9 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for a few iterations on the decimated log, the most
-promising third for a few more; the best to their end there, the strength of their prior estimated, alone
-and beside the library's effects that came nearest; the best of these on the log itself, and checked on
-trials that the fit has not seen. Where one closes the gap at once, only those near it go on. Where all
+Every family is fitted through the simulation: for one iteration on the decimated log, the most
+promising quarter for a few more; the best to their end there, the strength of their prior estimated,
+alone and beside the library's effects that came nearest; the best of these on the log itself, and checked
+on trials that the fit has not seen. Where one closes the gap at once, only those near it go on. Where all
 leave far more than noise, fewer go to the log itself, and not to their end.
 """
 
@@ -35,9 +35,9 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "free-form laws beside an effect",
     "finalists, free-form laws",
 )
-FIRST_ITERATIONS, ITERATIONS = 2, 10
-WORTH_MORE = 3  # one of so many families gets more than the first iterations
-IN_REACH = 2.0  # times the least gap, where that is closed: of 300 families beyond none came near later
+FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
+WORTH_MORE = 4  # one of so many families gets more than the first iteration
+IN_REACH = 3.0  # times the least gap, where that is closed or promises to be
 CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
@@ -141,7 +141,7 @@ def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
 
 def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
     own = with_family(coarse, first.family)
-    fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=FIRST_ITERATIONS)
+    fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=MORE_ITERATIONS)
     return replace(first, fit=fit, gap_after=fit.gap)
 
 
@@ -188,12 +188,12 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
 def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:
     """The most promising fits, where one closes the gap those near it alone; and the rest.
 
-    A law far from straight has come nowhere after its first steps, and its slopes tell that it will.
+    A law far from straight comes nowhere with its first step, and its slopes tell that it will.
     """
-    least = min((f.fit.gap for f in fits), default=np.inf)
-    reach = IN_REACH * least if least <= CLOSED_GAP else np.inf
     ranked = sorted(fits, key=lambda f: f.promise)
-    best = [f for f in ranked[:most] if min(f.fit.gap, f.promised_gap) <= reach]
+    least = min((f.promised_gap for f in fits), default=np.inf)
+    reach = IN_REACH * least if least <= CLOSED_GAP else np.inf
+    best = [f for f in ranked[:most] if f.promised_gap <= reach]
     return best, [f for f in ranked if f not in best]
 
 

@@ -146,7 +146,7 @@ def test_where_one_law_closes_the_gap_at_once_only_those_near_it_go_on(least, en
 def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more(fitted, monkeypatch):
     """Of ten, three go on; the last is the only one whose next step would close the gap."""
     run, seen = fitted
-    gaps = {f"law {i}": 3.0 + 0.1 * i for i in range(10)}
+    gaps = {f"law {i}": 2.0 + 0.1 * i for i in range(10)}
     promised = Fit.promised_cost.fget
     last = max(gaps.values()) ** 2 * 100
     monkeypatch.setattr(
