@@ -155,7 +155,7 @@ def _law(one: FreeFit) -> Law:
     own = [owner == family.name for owner in fit.parameterization.owners]
     low, high = fit.parameterization.bounds()
     rng = np.random.default_rng(_SEED)
-    draws = rng.multivariate_normal(fit.x, free_covariance(fit), size=_DRAWS)
+    draws = rng.multivariate_normal(fit.x, free_covariance(fit), size=_DRAWS, method="eigh")
     curves = [_points(one, np.clip(x, low, high), own)[1] for x in draws]
     ends = np.quantile(curves, [0.025, 0.975], axis=0)
     x, y = _points(one, fit.x, own)

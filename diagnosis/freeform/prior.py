@@ -30,7 +30,7 @@ def free_covariance(fit: Fit, *, without: int | None = None) -> Array:
     """
     weights = np.diag(fit.parameterization.weights**2)
     data = information(fit, without=without) - weights
-    return np.asarray(np.linalg.pinv(data / max(1.0, fit.gap**2) + weights))
+    return np.asarray(np.linalg.pinv(data / max(1.0, fit.gap**2) + weights, hermitian=True))
 
 
 def well_determined(family: Family, fit: Fit) -> float:

@@ -2,9 +2,9 @@
 
 Every family is fitted through the simulation: for one iteration on the decimated log, the most
 promising quarter for a few more; the best to their end there, the strength of their prior estimated,
-alone and beside the library's effects that came nearest; the best of these on the log itself, and checked
-on trials that the fit has not seen. Where one closes the gap at once, only those near it go on. Where all
-leave far more than noise, fewer go to the log itself, and not to their end.
+alone and beside the library's effects that came nearest; the best of these on the log itself, and
+checked on trials that the fit has not seen. Where one closes the gap at once, only those near it go on.
+Where all leave far more than noise, fewer go to the log itself, and not to their end.
 """
 
 from collections.abc import Callable, Sequence

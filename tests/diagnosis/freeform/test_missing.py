@@ -179,6 +179,20 @@ def test_a_band_stays_within_the_bounds_of_its_parameters():
     assert (law.low[0], law.high[0]) == (0.0, 0.2)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("seed", range(10))
+def test_a_law_of_which_the_data_tell_much_and_nothing_has_a_band(seed):
+    """Slopes over eleven decades, two of them alike: the covariance is singular to rounding."""
+    rng = np.random.default_rng(seed)
+    slopes = rng.normal(size=(300, CURVE.size)) * 10.0 ** rng.uniform(-6, 5, CURVE.size)
+    slopes[:, 3] = slopes[:, 4] * (1 + 1e-9)
+    family = family_of()
+    fit = linear_fit(family, [slopes], [np.zeros(300)], x=np.zeros(CURVE.size))
+    law = law_of(FreeFit(family=family, fit=fit, gap_after=1.0, final=True))
+    assert np.isfinite([*law.low, *law.high]).all()
+    assert all(low <= high for low, high in zip(law.low, law.high, strict=True))
+
+
 def test_the_curve_is_of_its_own_parameters_and_names_what_is_beside_it():
     other = replace(family_of().effect, name="tip_drag", parameters=(LEVEL,))
     family = family_of(parameters=[LEVEL], curve=lambda level: ((0.0,), (level,)))
