@@ -67,12 +67,15 @@ def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | 
 def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, family: Family) -> bool:
     """Whether a family in place of an effect is at the noise floor, and leaves clearly less.
 
-    Without imperfections and drift of sensors on either side, which may compensate for a wrong form.
+    Without imperfections and drift of sensors on either side, which may compensate for a wrong form;
+    where the explanation with its imperfections leaves clearly less still, they did not.
     """
     plain = tuple(n for n in best.names if n not in IMPERFECTIONS)
     others = tuple(n for n in plain if n != name)
     known = _from(best, plain, coarse)
-    fits = _Comparison(problem=problem, coarse=coarse, known=known, family=family, replaced=name)
+    fits = _Comparison(
+        problem=problem, coarse=coarse, best=best, known=known, family=family, replaced=name
+    )
     alone = (*(n for n in others if n in SCATTER), family.name)
     compensated = len(alone) <= len(others)
     return (compensated and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
@@ -85,12 +88,14 @@ class _Comparison:
     """A family in place of an effect of an explanation.
 
     Attributes:
-      known: the explanation, fitted to the decimated log.
+      best: the explanation.
+      known: the same without imperfections of sensors, fitted to the decimated log.
       replaced: the effect.
     """
 
     problem: FitProblem
     coarse: FitProblem
+    best: Fit
     known: Fit
     family: Family
     replaced: str
@@ -102,7 +107,15 @@ class _Comparison:
             return False
         known = _from(self.known, self.known.names, self.problem)
         form = _from(form, names, with_family(self.problem, self.family))
-        return form.cost < share * known.cost and floor_of(form.by_trial).small
+        if form.cost >= share * known.cost or not floor_of(form.by_trial).small:
+            return False
+        return form.cost < self._whole(known).cost / SECOND_LEAVES
+
+    def _whole(self, known: Fit) -> Fit:
+        """The explanation with its imperfections of sensors, on the log itself."""
+        if len(self.best.names) == len(known.names):
+            return known
+        return _from(self.best, self.best.names, self.problem)
 
     def _on_the_decimated_log(self, names: tuple[str, ...], enough: float) -> Fit | None:
         """A fit from where the explanation is; None: its first step promises nothing."""

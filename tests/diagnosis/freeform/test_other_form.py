@@ -81,6 +81,17 @@ def test_two_effects_that_are_there_stand():
     assert form_of(*fitted(both, ("layered_tissue", "torque_bias"))) is None
 
 
+def test_an_effect_stands_beside_an_imperfection_that_is_there():
+    """Without the filter of the torque, a stiffness that changes takes the place of a part of it."""
+    elastic = LIBRARY["tissue_viscoelasticity"].apply(RigParameters(torque_low_pass_s=0.0025), 0.06, 0.2)
+    assert form_of(*fitted(elastic, ("tissue_viscoelasticity", "torque_low_pass"))) is None
+
+
+def test_an_imperfection_that_compensates_for_the_wrong_form_saves_no_effect():
+    pair = ("layered_tissue", "torque_clock")
+    assert form_of(*fitted(EVENLY, pair)).name == "damping over position"
+
+
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
     monkeypatch.setattr("diagnosis.freeform.other_form.families_of", pytest.fail)
     assert form_of(*fitted(RigParameters(torque_bias_n_mm=0.05), ("torque_bias",))) is None
