@@ -395,7 +395,7 @@ SECOND_LEAVES = 0.99
 the gap. By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 % once."""
 NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more beside what is at the
-floor, and no finer mesh and no search with drift is spent on it."""
+floor, and no finer mesh is spent on it."""
 SLOPES_OF_ITS_OWN = 1.15
 """Gap up to which a fit to the log ends with slopes from runs as fine as it is, since it may explain the
 log; slopes from half as fine ones lead there, and are good enough above. A choice that saves time."""
@@ -410,7 +410,7 @@ MOST_QUIETENED = 4.0
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_CONTENDERS = 12
-"""Leading explanations of the decimated log that are fitted with drift before all is searched anew."""
+"""Leading explanations of the decimated log that are fitted with drift."""
 DRIFT_RANGE_SIGMA = 6.0
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
 no roughness but a fault, and the answer stays unknown."""

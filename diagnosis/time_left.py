@@ -6,16 +6,14 @@ decimated and to the whole log, as their ratio differs from log to log:
     pace = (time that they took) / (sum of their u),    left = sum over tasks to come of pace * u.
 
 How many come depends on what explains the log. Where one effect does, most stages are short or skipped;
-where nothing does, none is, and the search may be repeated with a torque sensor that drifts. As long as
-this is open, the time that is left lies between these two.
+where nothing does, none is. As long as this is open, the time that is left lies between these two.
 """
 
 from collections.abc import Iterable
 
-from diagnosis.stages import ALIKE, DRIFT, REPLAYING, SCREENING_PAIRS, STAGES, Log, Usual, usual
+from diagnosis.stages import ALIKE, REPLAYING, SCREENING_PAIRS, STAGES, Log, Usual, usual
 
 _ORDER = list(STAGES)
-_SEARCH = _ORDER[_ORDER.index(REPLAYING) + 1 : _ORDER.index(DRIFT) + 1]
 _LEAST_DONE_S = 1.0  # usual time of the tasks that are done, before which the pace says nothing
 
 
@@ -28,7 +26,7 @@ class TimeLeft:
         self._stage, self._at_s = REPLAYING, 0.0
         self._done = self._tasks = self._before = 0
         self._place = REPLAYING  # the last stage that began, if its place in the order is known
-        self._explained = self._repeated = False
+        self._explained = False
 
     def heard(self, stage: str, done: int, tasks: int, at_s: float) -> None:
         """Take note of a stage, with its tasks that are done and all of them."""
@@ -46,7 +44,6 @@ class TimeLeft:
     def _begin(self, stage: str, tasks: int) -> None:
         if stage not in STAGES:
             return
-        self._repeated |= self._place == DRIFT and stage in _SEARCH
         self._place = stage
         if stage == SCREENING_PAIRS:
             self._explained = tasks <= usual(stage).least
@@ -60,18 +57,12 @@ class TimeLeft:
         if sum(self._usual_s.values()) < _LEAST_DONE_S:
             return None
         least_s = self._left_s(most=False)
-        return least_s, least_s if self._explained else self._left_s(most=True) + self._once_more_s()
+        return least_s, least_s if self._explained else self._left_s(most=True)
 
     def _left_s(self, *, most: bool) -> float:
         now, later = usual(self._stage), _ORDER[_ORDER.index(self._place) + 1 :]
         to_come = max(self._tasks, _tasks(now, most=most) - self._before) - self._done
         return self._takes_s(now, to_come) + self._all_s(later, most=most)
-
-    def _once_more_s(self) -> float:
-        """The search once more, with a torque sensor that drifts."""
-        if self._repeated or self._place not in _SEARCH:
-            return 0.0
-        return self._all_s(_SEARCH, most=True)
 
     def _all_s(self, stages: Iterable[str], *, most: bool) -> float:
         return sum(self._takes_s(usual(s), _tasks(usual(s), most=most)) for s in stages)

