@@ -50,7 +50,7 @@ def run(out: Path | None, *, force: bool, console: Console) -> int:
     folder = whole.folder
     began = time.monotonic()
 
-    _announce(console, 1, "compiling the tissue (once per machine, about 20 s)")
+    _announce(console, 1, "compiling the tissue (once per machine, up to a minute)")
     prepare_processes()
     _announce(console, 2, f"insertion: {protocol.description}")
     recording = perform(protocol)

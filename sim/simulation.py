@@ -95,7 +95,7 @@ class Run:
 def prepare_processes() -> None:
     """Compile and install the tissue callback, so that processes forked afterwards inherit it.
 
-    The first call on a machine compiles for about 20 s; the machine code is cached on disk.
+    The first call on a machine compiles for up to a minute; the machine code is cached on disk.
     """
     install()
     callback_loop.prepare()
