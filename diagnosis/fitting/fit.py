@@ -10,6 +10,7 @@ by MuJoCo's own box-bounded Gauss-Newton; the columns of one Jacobian run as a b
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from mujoco import minimize
@@ -70,7 +71,7 @@ class Fit:
         """Cost of the prior alone."""
         return float(np.sum((self.parameterization.weights * self.x) ** 2))
 
-    @property
+    @cached_property
     def promised_cost(self) -> float:
         """Cost that one more step would leave, by the linear model."""
         low, high = self.parameterization.bounds()
