@@ -12,6 +12,7 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from models import units
 
 Array = NDArray[np.float64]
 
@@ -68,10 +69,10 @@ class LogRanges:
 
     @property
     def deg_per_n_mm(self) -> float:
-        """Angle of the base over its torque, root mean squares of all trials by the nominal rig."""
-        turned = np.concatenate([trial.base_motion_deg for trial in self.problem.log.trials])
-        torque = np.concatenate([own.base_torque_n_mm for own in self.nominal])
-        return float(np.sqrt(np.mean(turned**2) / np.mean(torque**2)))
+        """Twist of the longest nominal shaft over the torque that it asks for."""
+        log = self.problem.log
+        shaft_mm = max(float(np.max(trial.free_mm + trial.inserted_mm)) for trial in log.trials)
+        return shaft_mm / log.rig.rigidity_n_mm2 / units.DEG
 
 
 def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import turns
+from diagnosis_fixtures import RIG, turns
 from free_forms import covered, same_readings
 
 from diagnosis.effects import LIBRARY
@@ -65,7 +65,7 @@ def test_an_offset_of_the_drive_turns_the_whole_needle():
 
 
 def test_an_angle_of_the_drive_shows_in_the_torque_where_the_tip_is_not_measured():
-    """Its scale is the angle that the nominal rig turns by for the torque that is missing."""
+    """Its scale is the twist of the nominal shaft under the torque that is missing."""
     ranges = covered(ANGLE, torque=TORQUE + 0.3, seen=(LATE, TORQUE))
     assert set(ranges.missing) == {"base_torque_n_mm"}
     found = {family.name: family for family in families(ranges)}
@@ -74,8 +74,17 @@ def test_an_angle_of_the_drive_shows_in_the_torque_where_the_tip_is_not_measured
     assert found["drive angle over time"].unit == "deg"
     level = found["drive angle over time"].effect.parameters[0]
     alone = FAMILIES["drive angle over time"].effect.parameters[0]
-    # 0.01 N mm for each degree: 0.3 N mm are 30 deg; beside the tip it is what that misses, 2 deg.
-    assert level.high / alone.high == pytest.approx(15.0, rel=0.01)
+    trial = ranges.problem.log.trials[0]
+    twist_rad = 0.3 * (trial.free_mm + trial.inserted_mm).max() / RIG.rigidity_n_mm2
+    # Beside the tip it is what that misses: 2 deg.
+    assert level.high / alone.high == pytest.approx(np.degrees(twist_rad) / 2.0)
+
+
+def test_an_angle_of_a_drive_that_never_turns_has_a_scale():
+    still = np.zeros(ANGLE.size)
+    found = families(covered(still, torque=still + 0.3, seen=(still, still)))
+    assert "drive angle over time" in {family.name for family in found}
+    assert all(np.isfinite(p.high) for family in found for p in family.effect.parameters)
 
 
 def test_what_repeats_says_after_how_much():
