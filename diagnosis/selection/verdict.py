@@ -125,13 +125,20 @@ def refuted(verdict: Verdict, form: str) -> Verdict:
 
 def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
     """Candidates at the floor, but for effects that add nothing to a rig that is off itself."""
-    off = (c.score for c in candidates if not c.names and c.jointly_significant and c.floor.reached)
-    alone = min(off, default=math.inf)
+    alone = min(
+        (c.score for c in candidates if not _effects(c) and c.jointly_significant and c.floor.reached),
+        default=math.inf,
+    )
     return [
         c
         for c in candidates
         if c.explains and (c.score <= alone or c.only_scatter or not c.jointly_significant)
     ]
+
+
+def _effects(one: Candidate) -> tuple[str, ...]:
+    """Effects that it has, beside imperfections of sensors."""
+    return tuple(name for name in one.names if name not in IMPERFECTIONS)
 
 
 def _without_needless_scatter(at_floor: Sequence[Candidate]) -> list[Candidate]:

@@ -77,11 +77,18 @@ def test_what_is_as_good_as_the_nominal_rig_is_none():
     assert found.effects == ()
 
 
-def test_a_rig_whose_constants_are_off_is_named_by_no_effect_that_adds_nothing():
+@pytest.mark.parametrize("imperfections", [(), ("torque_clock",)])
+def test_a_rig_whose_constants_are_off_is_named_by_no_effect_that_adds_nothing(imperfections):
     """Stiffness and damping off by 2 % for certain, and open which: an effect behind it is no rival."""
     scales = tuple(LIBRARY[name] for name in SCATTER)
-    off = fit_of((), x=[0.02, -0.02], jacobian=[[[1e3, -1e3]] * 10], nuisance=scales)
-    ratio = replace(scored([], 100.0), fit=off)
+    idle = [0.0] * len(imperfections)
+    off = fit_of(
+        imperfections,
+        x=[*idle, 0.02, -0.02],
+        jacobian=[[[*idle, 1e3, -1e3]] * 10],
+        nuisance=scales,
+    )
+    ratio = replace(scored(imperfections, 100.0), fit=off)
     assert ratio.unidentifiable
     beside = fit_of(
         ("tip_drag",), x=[-3.0, 0.02, -0.02], jacobian=[[[0, 1e3, -1e3]] * 10], nuisance=scales
