@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -110,7 +111,7 @@ def assess(
     """
     stop = workers.stop
     complete = not stop.left_out
-    further = _further(coarse, verdict, effects, workers)
+    further = cache(lambda: _further(coarse, verdict, effects, workers))  # where it is asked for first
     near, after, lost = nearest_candidate(problem, coarse, nominal, verdict, further, effects, workers)
     rig = near.fit.parameterization.rig(near.fit.x)
     predictions = replay(problem.log, rig, problem.resolution)
@@ -121,8 +122,9 @@ def assess(
     before = trial_residuals(log, at_samples(problem, nominal), problem.noise)
     left = trial_residuals(log, explained, problem.noise)
     where = residual_breakdown(before), residual_breakdown(left)
-    with_one_more = gap_with_one_more(verdict.best.fit, further) if further else {}
-    limits = _limits(coarse, verdict, further, effects, workers) if further else {}
+    beside = further()
+    with_one_more = gap_with_one_more(verdict.best.fit, beside) if beside else {}
+    limits = _limits(coarse, verdict, beside, effects, workers) if beside else {}
     spread = covariance(problem, near.fit, change, left=_above_noise(near))
     own = intervals(near.fit, spread)
     if stop.due:

@@ -9,7 +9,7 @@ power explained is a share of that of the nominal residual beyond noise,
 The intervals are wider than for an explanation that reaches the noise floor, by residual / sigma.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,7 +92,7 @@ def nearest_candidate(
     coarse: FitProblem,
     nominal: Sequence[Prediction],
     verdict: Verdict,
-    further: Further | None,
+    further: Callable[[], Further | None],
     effects: Sequence[str],
     workers: Workers,
 ) -> tuple[Candidate, HeldOut, tuple[str, ...]]:
@@ -104,12 +104,12 @@ def nearest_candidate(
     Args:
       problem: the log itself; coarse: the decimated log.
       nominal: readings of the nominal rig by trial.
-      further: each further effect beside the best of the verdict; None: not looked at.
+      further: asks for each further effect beside the best of the verdict; None: there is no time.
       effects: names of effects that may be tried.
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return verdict.best, *_held_out(problem, verdict.best)
-    near = _with_further_effects(problem, coarse, verdict.best, further, effects, workers)
+    near = _with_further_effects(problem, coarse, verdict.best, further(), effects, workers)
     after, lost = _held_out(problem, near)
     exact = nominal_fit(nominal_residuals(problem, nominal))
     if floor_of(after).gap < exact.gap:

@@ -81,7 +81,6 @@ def test_a_verdict_stands_where_the_assessment_alone_is_cut_short(stopped_at):
         "adding another effect",
         "detection limits",
         "noise of the base angle in the intervals",
-        "numerical error",
         "twist along the shaft",
         "next experiment",
     }

@@ -56,6 +56,6 @@ def test_what_leaves_more_on_held_out_trials_than_the_nominal_rig_is_not_nearest
     monkeypatch.setattr(module, "nominal_residuals", lambda *_: before)
     two = SimpleNamespace(log=SimpleNamespace(trials=("one", "two")))
     unknown = SimpleNamespace(kind=VerdictKind.UNKNOWN, best=best)
-    near, after, _ = module.nearest_candidate(two, None, (), unknown, object(), (), Workers())
+    near, after, _ = module.nearest_candidate(two, None, (), unknown, object, (), Workers())
     assert near.names == effects
     assert floor_of(after).gap == pytest.approx(min(left, 1.0) * np.sqrt(12.5))
