@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import EQUIVALENT_FITS, EQUIVALENT_LEAVES, EQUIVALENT_SIZE, SIMPLE_LEAD
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.nuisance import CONVENTIONS
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 Parts = dict[str, Array]
 
 _DIFFERENCE = 1e-3  # of the nuisance, in the units of a fit
-_SMALL = 0.2  # share of a start at which the effect of a scale is straight
+_SMALL = 0.2  # share of a start at which the effect of a scale, or of a filter, is straight
 _ITERATIONS = 6
 
 
@@ -112,7 +112,7 @@ def equivalent_sets(
 
 def covers(names: Sequence[str], others: Sequence[str]) -> bool:
     """Whether each of the others is among the names, or contained in one that is."""
-    return set(others) <= {inner for n in names for inner in (n, *LIBRARY[n].contains)}
+    return set(others) <= {inner for n in names for inner in (n, *FITTED[n].contains)}
 
 
 def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
@@ -165,7 +165,7 @@ def _column(chosen: _Chosen, name: str) -> _Column:
         part, there = half[name], chosen.own[name]
     else:
         each = starts(effect)
-        share = _SMALL if effect.parameters[0].neutral == 1.0 else 1.0
+        share = _SMALL if effect.parameters[0].neutral == 1.0 or name in IMPERFECTIONS else 1.0
         part = there = _moved(effect, each[len(each) // 2], share)
     change = chosen.middle - _readings(chosen.problem, half | {name: there})
     return _Column(name=name, part=part, change=change)

@@ -2,7 +2,8 @@
 
 Equivalent sets of as many effects as the chosen one, or of fewer, become candidates: scores decide as
 among all others. Larger ones are named beside it: one cause is likelier than several that happen to
-be equal, and no log can tell.
+be equal, and no log can tell. Imperfections of sensors, which have no name in a verdict, may take the
+place of effects in candidates: a low-pass filter of the torque is nearly a delay.
 """
 
 from collections.abc import Sequence
@@ -51,12 +52,14 @@ def told_apart(found: SearchState, workers: Workers) -> ToldApart:
     if workers.stop.due:
         workers.stop.leave_out(_STAGE)
         return first
-    effects = [name for name in found.effects if name in LIBRARY]
+    open_ = set(first.verdict.best.names) & set(IMPERFECTIONS)
+    effects = [name for name in found.effects if name not in open_]
     equal = equivalent_sets(first.coarse, first.verdict.best, effects, workers)
     few = [e for e in equal if len(e.names) <= len(first.verdict.effects)]
     wider = _fitted(found, first.verdict.best, few, workers)
     last = first if wider is found else _judged(wider, first.checked)
-    alike = [first.verdict.effects, *(e.names for e in equal)]
+    named = (e.names for e in equal if set(e.names) <= set(LIBRARY))
+    alike = [first.verdict.effects, *named]
     return replace(last, verdict=_beside(last.verdict, alike))
 
 

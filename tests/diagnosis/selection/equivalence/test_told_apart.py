@@ -19,10 +19,13 @@ WORKERS = Workers()
 ALIKE = frozenset(("damping_error", "stiffness_error"))
 
 
-def verdict_of(rig, *names, workers=WORKERS, **values):
+LAGS = ("torque_sensor_delay", "torque_low_pass")
+
+
+def verdict_of(rig, *names, workers=WORKERS, effects=EFFECTS, **values):
     """The verdict on a log of a rig, where a search has tried one set of effects alone."""
     log = joined(log_of(rig, seconds=6.0), log_of(rig, seed=1, speed=-1.0, seconds=6.0))
-    state = start_of_search(log, EFFECTS)
+    state = start_of_search(log, effects)
     parts = {name: np.log([value]) for name, value in values.items()}
     start = state.problem.parameterization(names).joined(parts)
     found = replace(state, candidates=(candidate(fit_effects(state.problem, names, start)),))
@@ -62,6 +65,22 @@ def test_two_that_are_off_differently_are_undecided_between_all_pairs():
     told = {frozenset(names) for names in found.confusable}
     assert {ALIKE, frozenset(("torque_scale", "damping_error"))} <= told
     assert frozenset(("torque_scale", "stiffness_error")) in told
+
+
+def test_an_imperfection_of_a_sensor_that_nobody_tried_takes_the_place_of_an_effect():
+    """A low-pass filter of 5 ms is nearly a delay, and nothing that a verdict names."""
+    rig = RigParameters(torque_low_pass_s=0.005)
+    found = verdict_of(rig, "torque_sensor_delay", effects=LAGS, torque_sensor_delay=0.005)
+    assert found.kind is VerdictKind.NONE or () in found.confusable
+    assert not any("torque_low_pass" in names for names in found.confusable)
+
+
+def test_a_delay_of_the_torque_is_named_beside_filters():
+    """Negative control: 60 ms of delay and of a filter differ where the base turns on and off."""
+    found = verdict_of(
+        RigParameters(torque_delay_s=0.06), LAGS[0], effects=LAGS, torque_sensor_delay=0.06
+    )
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("torque_sensor_delay",))
 
 
 def test_an_effect_of_its_own_kind_is_named_alone():
