@@ -355,10 +355,11 @@ NOISE_TRUST = 0.08
 """Noise re-estimated from the residual may differ from the first estimate (good to 2 %) by this share;
 beyond, something fast is left in the residual."""
 
-BASE_NOISE_GAP, BASE_NOISE_READINGS = 2.0, 4
+BASE_NOISE_GAP, BASE_NOISE_READINGS, BASE_NOISE_MORE = 2.0, 4, 2.0
 """Gap up to which it is asked what of a residual above the floor the noise of the base's encoder makes,
 a choice that saves time; and simulated readings of the encoder, of which the one that changes most
-counts: a real one changes more once in five logs, and the limits beside it have room for that."""
+counts: a real one changes more once in five logs, and the limits beside it have room for that. None
+changes more than the last times another one."""
 
 # What a rig may be off by without a name (fitting/nuisance.py)
 
@@ -405,12 +406,17 @@ MOST_TRIPLES, TRIPLE_BASES, TRIPLE_SHARE = 12, 4, 0.5
 """Sets of three that are fitted, leading pairs that they build on, and the share that a third effect has
 to promise of what the pair leaves beyond noise: the true one takes off all of it, and promised 0.83 to 1
 on 7 blind logs of seed 77."""
+WORTH_THE_LOG = 0.05
+"""Share that a richer set has to take off what the set that it builds on leaves beyond noise, on the
+decimated log, before it is fitted to the log itself, where nothing explains that: the true one takes off
+all but the error of the coarse needle, which rough friction makes up to 0.8 of the cost at the floor."""
 MOST_QUIETENED = 4.0
 """Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_CONTENDERS = 12
-"""Leading explanations of the decimated log that are fitted with drift."""
+"""Leading explanations of the decimated log that are fitted with drift, half of them single effects:
+without drift these leave more than any pair of which one effect does what a drift does."""
 DRIFT_RANGE_SIGMA = 6.0
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
 no roughness but a fault, and the answer stays unknown."""

@@ -45,6 +45,10 @@ class NoiseFloor:
             slow_limit=float(np.hypot(self.slow_limit, change.slow)),
         )
 
+    def times(self, factor: float) -> "NoiseFloor":
+        """The floor of residuals so many times as large."""
+        return replace(self, gap=factor * self.gap, slow=factor * self.slow)
+
     @property
     def small(self) -> bool:
         """Whether the residual is no larger than noise."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     BASE_NOISE_GAP,
+    BASE_NOISE_MORE,
     BASE_NOISE_READINGS,
     SCATTER,
     SCATTER_CERTAIN_SIGMA,
@@ -95,25 +96,26 @@ class Candidate:
         """
         if self.floor.reached or self.floor.gap > BASE_NOISE_GAP or not self.names:
             return self
-        changes = self._base_noise_changes(problem)
-        floors = [floor_of(own) for own in changes]
-        worst = NoiseFloor(gap=max(f.gap for f in floors), slow=max(f.slow for f in floors))
-        shifts = [shift_statistic(replace(self.fit, by_trial=own)) for own in changes]
-        return replace(
-            self, floor=self.floor.allowing(worst), shift_limit=self.shift_limit + max(shifts)
-        )
+        floor, shift_limit, worst = self.floor, self.shift_limit, NoiseFloor(gap=0.0, slow=0.0)
+        for own in self._base_noise_changes(problem):
+            one = floor_of(own)
+            worst = NoiseFloor(gap=max(worst.gap, one.gap), slow=max(worst.slow, one.slow))
+            floor = self.floor.allowing(worst)
+            shift = shift_statistic(replace(self.fit, by_trial=own))
+            shift_limit = max(shift_limit, self.shift_limit + shift)
+            if not self.floor.allowing(worst.times(BASE_NOISE_MORE)).reached:
+                break  # none of the others changes so much more
+        return replace(self, floor=floor, shift_limit=shift_limit)
 
-    def _base_noise_changes(self, problem: FitProblem) -> list[tuple[Array, ...]]:
+    def _base_noise_changes(self, problem: FitProblem) -> Iterator[tuple[Array, ...]]:
         """By how much residuals of each trial change from reading to reading of the encoder."""
         rig, rng = self.fit.parameterization.rig(self.fit.x), np.random.default_rng(_SEED)
         sharp = problem.sharpened()
         true = sharp.residuals([rig], callback_alone=True)
-        found = []
         for _ in range(BASE_NOISE_READINGS):
             runs = sharp.read_again(rng).residuals([rig], callback_alone=True)
             each = zip(runs, true, strict=True)
-            found.append(tuple(run[0] - left[0] for run, left in each))
-        return found
+            yield tuple(run[0] - left[0] for run, left in each)
 
     def cross_validated(self, problem: FitProblem) -> "Candidate":
         """The same with held-out trials, if it is at the noise floor."""

@@ -55,6 +55,11 @@ class SearchState:
         checked = check(self.problem, self.candidates, self.checked)
         return replace(self, checked=checked), checked.explains
 
+    def at_the_floor(self, one: Candidate) -> bool:
+        """Whether a candidate that was checked leaves nothing beyond noise."""
+        found = self.checked.of(one.fit, self.checked.noise) if self.checked else None
+        return found is not None and found.floor.reached
+
     def renoised(self, noise: Noise) -> "SearchState":
         """The state in units of another noise."""
         fine, coarse = self.problem, self.coarse

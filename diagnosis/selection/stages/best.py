@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import Any
 
-from diagnosis.criteria import BASE_NOISE_GAP, CONTENDING, FINALISTS
+from diagnosis.criteria import CONTENDING, FINALISTS
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.state import SearchState
@@ -21,10 +21,13 @@ def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
 def best_without_each_effect(state: SearchState, workers: Workers) -> SearchState:
     """The best without each of its effects, which may only compensate for errors of the others.
 
-    Fewer leave no less, so that far above the noise there is nothing to ask.
+    Fewer leave no less, so that above the noise there is nothing to ask.
     """
     best = state.best
-    if len(best.names) < 2 or best.floor.gap > BASE_NOISE_GAP:
+    if len(best.names) < 2:
+        return state
+    state, _ = state.rechecked()
+    if not state.at_the_floor(best):
         return state
     known = {frozenset(c.names) for c in state.candidates}
     fewer = [s for s in combinations(best.names, len(best.names) - 1) if frozenset(s) not in known]

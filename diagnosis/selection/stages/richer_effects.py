@@ -11,10 +11,13 @@ from diagnosis.effects import FITTED
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists
+from diagnosis.selection.stages.stage import worth_the_log
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 Array = NDArray[np.float64]
+
+STAGE = "richer effects"
 
 
 def richer_effects(state: SearchState, workers: Workers) -> SearchState:
@@ -23,45 +26,70 @@ def richer_effects(state: SearchState, workers: Workers) -> SearchState:
     Fitted from far off they may have ended in a local minimum, above what they contain.
     """
     leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:FINALISTS]
-    if not any(_richer(c, state.effects) for c in leading) or state.rechecked()[1]:
+    if not any(_richer(c, state) for c in leading) or state.rechecked()[1]:
         return state
-    return _with_richer(leading, state, workers)
+    ahead, state = _ahead(leading, state, workers)
+    worth, behind = worth_the_log(STAGE, ahead, leading[:1])
+    return _on_the_log(worth, state.noting(*behind), workers)
 
 
 def richer_effects_in_place_of_three(state: SearchState, workers: Workers) -> SearchState:
     """The same of three effects, also where they explain the log: no pair of theirs asked for more."""
     leading = sorted(state.triples, key=lambda c: c.score)[:1]
-    return _with_richer(leading, state, workers)
+    return _on_the_log(*_ahead(leading, state, workers), workers)
 
 
-def _with_richer(leading: Sequence[Candidate], state: SearchState, workers: Workers) -> SearchState:
-    stage = "richer effects"
-    inner = next((c for c in leading if _richer(c, state.effects)), None)
+def _ahead(
+    leading: Sequence[Candidate], state: SearchState, workers: Workers
+) -> tuple[list[Candidate], SearchState]:
+    """The best richer set of the decimated log, if it is ahead of all that lead, and the state."""
+    inner = next((c for c in leading if _richer(c, state)), None)
     if inner is None:
-        return state
+        return [], state
     enough = leading[0].score + CONTENDING
     calls = [
         (state.coarse, names, start, enough)
-        for simple, rich in _richer(inner, state.effects)
+        for simple, rich in _richer(inner, state)
         for names, start in _starts_beyond(state.coarse, inner, simple, rich)
     ]
-    fitted, record = fit_all(stage, calls, workers)
+    fitted, record = fit_all(STAGE, calls, workers)
     ahead = sorted((c for c in fitted if c.score < leading[0].score), key=lambda c: c.score)
-    state = replace(state.noting(*record), pairs=(*state.pairs, *ahead[:1]))
-    return state.adding(fit_finalists(f"finalists, {stage}", state.problem, ahead[:1], workers))
+    return ahead[:1], state.noting(*record)
 
 
-def _richer(one: Candidate, effects: Sequence[str]) -> list[tuple[str, str]]:
-    """Effects of a candidate, each with one that contains it and is not there."""
-    others = [name for name in effects if name not in one.names]
-    return [(inner, rich) for inner in one.names for rich in others if inner in FITTED[rich].contains]
+def _on_the_log(ahead: Sequence[Candidate], state: SearchState, workers: Workers) -> SearchState:
+    if not ahead:
+        return state
+    made = fit_finalists(f"finalists, {STAGE}", state.problem, ahead, workers)
+    return replace(state, pairs=(*state.pairs, *ahead)).adding(made)
+
+
+def _richer(one: Candidate, state: SearchState) -> list[tuple[str, str]]:
+    """Effects of a candidate, each with one that contains it and fits no better so far in its place."""
+    ahead = {
+        frozenset(c.names)
+        for c in (*state.singles, *state.pairs, *state.triples)
+        if c.fit.cost <= one.fit.cost
+    }
+    return [
+        (inner, rich)
+        for inner in one.names
+        for rich in state.effects
+        if inner in FITTED[rich].contains and frozenset(_with(one, inner, rich)) not in ahead
+        if rich not in one.names
+    ]
+
+
+def _with(one: Candidate, inner: str, rich: str) -> tuple[str, ...]:
+    """Effects of a candidate, a richer one in place of a simple one."""
+    return tuple(rich if name == inner else name for name in one.names)
 
 
 def _starts_beyond(
     problem: FitProblem, one: Candidate, simple: str, rich: str
 ) -> list[tuple[tuple[str, ...], Array]]:
     """The candidate's set with a richer effect in place of a simple one, and where its fit may start."""
-    names = tuple(rich if name == simple else name for name in one.names)
+    names = _with(one, simple, rich)
     values = [
         p.from_fit(float(v))
         for p, v in zip(problem.library[simple].parameters, one.fit.parts[simple], strict=True)

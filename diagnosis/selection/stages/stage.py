@@ -1,10 +1,12 @@
 """What a stage of the search is, and what several of them share."""
 
+import math
 from collections.abc import Callable, Sequence
 
-from diagnosis.criteria import SECOND_LEAVES
+from diagnosis.criteria import NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import Made
 from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, not_fitted
 from diagnosis.selection.screening import Screened, screen
@@ -71,6 +73,29 @@ def taking_off_enough(stage: str, made: Made, without: float, state: SearchState
     out = [c for c in found if c not in enough]
     reason = f"its last effect leaves more than {SECOND_LEAVES:g} of the cost without it"
     return enough, (*record, *dropped(stage, out, reason))
+
+
+def near_the_best(found: Sequence[Candidate], best: Sequence[Candidate], most: int) -> list[Candidate]:
+    """The leading candidates of the decimated log, but for those that leave far more than the best.
+
+    Args:
+      best: what is compared with, besides them.
+      most: number of them at most.
+    """
+    least = min((c.fit.cost for c in (*found, *best)), default=math.inf)
+    ranked = sorted(found, key=lambda c: c.score)
+    return [c for c in ranked if c.fit.cost <= NEAR_FLOOR * least][:most]
+
+
+def worth_the_log(
+    stage: str, fitted: Sequence[Candidate], before: Sequence[Candidate]
+) -> tuple[list[Candidate], tuple[RecordEntry, ...]]:
+    """Of sets on the decimated log, those that leave clearly less beyond noise than the best before."""
+    least = min((c.fit.cost for c in before), default=math.inf)
+    samples = before[0].fit.samples if before else 0
+    worth = [c for c in fitted if least - c.fit.cost >= WORTH_THE_LOG * (least - samples)]
+    out = [c for c in fitted if c not in worth]
+    return worth, dropped(stage, out, "it leaves hardly less beyond noise than fewer or simpler effects")
 
 
 def not_worth(

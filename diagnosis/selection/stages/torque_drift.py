@@ -9,15 +9,18 @@ Sigma is the noise of a reading as the sensor gives it: means and filters quiete
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.criteria import (
+    CONTENDING,
     DRIFT_CONTENDERS,
     DRIFT_RANGE_SIGMA,
     DRIFT_SHARE,
     DRIFT_SIZE_SIGMA,
     FINALISTS,
     MOST_QUIETENED,
+    NEAR_FLOOR,
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -66,11 +69,14 @@ def _with_offset(state: SearchState, best: Candidate, workers: Workers) -> Searc
 
 def _promises(problem: FitProblem, one: Candidate) -> bool:
     """Whether a drift would take off most of what an explanation leaves beyond noise."""
+    left = _cost_with_drift(problem.drifting(_size_n_mm(problem)), one)
+    return one.fit.cost - left > DRIFT_SHARE * max(one.fit.cost - one.fit.prior - one.fit.samples, 0.0)
+
+
+def _cost_with_drift(drifting: FitProblem, one: Candidate) -> float:
+    """Cost of an explanation where it is, on a log that drifts."""
     rig = one.fit.parameterization.rig(one.fit.x)
-    drifting = problem.drifting(_size_n_mm(problem))
-    left = sum(float(own[0] @ own[0]) for own in drifting.residuals([rig]))
-    there = sum(float(own @ own) for own in one.fit.by_trial)
-    return there - left > DRIFT_SHARE * max(there - one.fit.samples, 0.0)
+    return one.fit.prior + sum(float(own[0] @ own[0]) for own in drifting.residuals([rig]))
 
 
 def _refitted(state: SearchState, start: SearchState, workers: Workers) -> SearchState:
@@ -79,14 +85,33 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     Of some 450 blind logs, all eleven that drift explains are explained so, and none by a search from
     the beginning, which would double the time.
     """
-    leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:DRIFT_CONTENDERS]
-    coarse, record = fit_all(STAGE, [(start.coarse, c.names, c.fit.x) for c in leading], workers)
+    contenders = [*_leading(state.singles), *_leading(state.pairs)]
+    costs = [_cost_with_drift(start.coarse, c) for c in contenders]
+    least = min(costs, default=math.inf)
+    near = [c for c, cost in zip(contenders, costs, strict=True) if cost <= NEAR_FLOOR * least]
+    calls = [(start.coarse, c.names, c.fit.x, least + CONTENDING) for c in near]
+    coarse, record = fit_all(STAGE, calls, workers)
     begun = start.adding(([candidate(start.nominal)], record))
     begun = begun.adding(fit_all(STAGE, [(start.problem, ())], workers))
     if not coarse:
         return begun
-    best = sorted(coarse, key=lambda c: c.score)
-    return begun.adding(fit_finalists(STAGE, start.problem, best, workers))
+    return begun.adding(fit_finalists(STAGE, start.problem, _simplest_first(coarse), workers))
+
+
+def _leading(found: Sequence[Candidate]) -> list[Candidate]:
+    """The leading sets on the decimated log, each once."""
+    ranked = sorted(found, key=lambda c: c.score)
+    distinct = {frozenset(c.names): c for c in reversed(ranked)}
+    return sorted(distinct.values(), key=lambda c: c.score)[: DRIFT_CONTENDERS // 2]
+
+
+def _simplest_first(found: Sequence[Candidate]) -> list[Candidate]:
+    """Best first, those last that are behind a part of their own: they would crowd out what is rival."""
+
+    def behind_a_part(one: Candidate) -> bool:
+        return any({*c.names} < {*one.names} and c.score <= one.score for c in found)
+
+    return sorted(found, key=lambda c: (behind_a_part(c), c.score))
 
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:

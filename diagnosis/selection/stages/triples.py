@@ -20,10 +20,12 @@ from diagnosis.selection.fitting import fit_finalists, fit_screened
 from diagnosis.selection.record import dropped
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
+    near_the_best,
     not_worth,
     promising_on_the_log,
     screen_all,
     taking_off_enough,
+    worth_the_log,
 )
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -48,6 +50,9 @@ def three_effects(state: SearchState, workers: Workers) -> SearchState:
     needless = [c for c in fitted if c.as_good_as_none]
     fitted = [c for c in fitted if c not in needless]
     fits = (*fits, *dropped(stage, needless, "one of its effects is as good as none"))
+    if not explained:
+        fitted, behind = worth_the_log(stage, fitted, state.pairs)
+        fits = (*fits, *behind)
     state = state.noting(*record, *not_worth(stage, screened, worth), *fits)
     if not fitted:
         return state
@@ -64,7 +69,7 @@ def _only(pairs: Mapping[tuple[str, ...], Fit]) -> Fit:
 
 
 def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
-    return _fits(sorted(state.pairs, key=lambda c: c.score)[:TRIPLE_BASES])
+    return _fits(near_the_best(state.pairs, state.singles, TRIPLE_BASES))
 
 
 def _explaining(state: SearchState) -> Mapping[tuple[str, ...], Fit]:

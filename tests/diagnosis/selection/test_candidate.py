@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, joined, log_of, problem_of, scored
 
-from diagnosis.criteria import SCATTER, SCATTER_NAMED, SHIFT_LIMIT
+from diagnosis.criteria import BASE_NOISE_READINGS, SCATTER, SCATTER_NAMED, SHIFT_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.parameterization import parameterization_of
+from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate as module
 from diagnosis.selection.candidate import candidate
@@ -225,3 +226,25 @@ def test_a_soft_needle_excuses_nothing():
 def test_what_is_far_above_the_floor_is_not_looked_at():
     far = scored(["tip_drag"], 1.0, floor=NoiseFloor(gap=3, slow=3))
     assert far.allowing_base_noise(None) is far
+
+
+@pytest.mark.parametrize(
+    ("rig", "name", "value", "readings"),
+    [
+        (RigParameters(drive_friction_n_mm=0.5), "drive_friction", 0.5, BASE_NOISE_READINGS),
+        (RigParameters(tip_drag_n_mm_s_per_rad=0.05), "tip_drag", 0.05, 1),
+    ],
+)
+def test_the_encoder_is_read_again_only_where_that_may_be_enough(
+    rig, name, value, readings, monkeypatch
+):
+    one, problem = above_the_floor(rig, name, np.log(value))
+    read_again, seen = FitProblem.read_again, []
+
+    def counted(own, rng):
+        seen.append(own)
+        return read_again(own, rng)
+
+    monkeypatch.setattr(FitProblem, "read_again", counted)
+    one.allowing_base_noise(problem)
+    assert len(seen) == readings

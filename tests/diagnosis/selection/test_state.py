@@ -49,3 +49,11 @@ def test_where_the_same_noise_is_coloured_otherwise_fits_are_kept_in_its_units(u
     (same,) = (c for c in again.candidates if c.names == best.names)
     np.testing.assert_allclose(same.fit.by_trial[0], left[0][0], atol=1e-9)
     assert len(again.singles) == len(undisturbed.singles)
+
+
+def test_only_what_was_checked_and_leaves_nothing_beyond_noise_is_at_the_floor(undisturbed):
+    assert not replace(undisturbed, checked=None).at_the_floor(undisturbed.best)
+    state, explained = undisturbed.rechecked()
+    assert explained
+    assert state.at_the_floor(state.best)
+    assert not state.at_the_floor(scored(("tip_drag",), 1.0))

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, log_of, scored, start_of_search
 
-from diagnosis.criteria import BASE_NOISE_GAP, CONTENDING
+from diagnosis.criteria import CONTENDING
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection import checked
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import best as module
 from diagnosis.workers import Workers
@@ -42,10 +43,13 @@ def test_of_three_effects_each_is_left_out_in_turn_but_for_what_was_fitted(asked
     assert asked == [("tip_drag", "stiction"), ("torque_bias", "stiction")]
 
 
-@pytest.mark.parametrize(("gap", "fitted"), [(0.99, 2), (1.01, 0)])
-def test_far_above_the_noise_none_is_left_out(gap, fitted, asked, still_start):
+@pytest.mark.parametrize(("slow", "fitted"), [(0.99, 2), (1.01, 0)])
+def test_above_the_noise_none_is_left_out(slow, fitted, asked, still_start, monkeypatch):
+    """Where the best leaves more than noise, so does it without one of its effects."""
     pair = scored(["tip_drag", "torque_bias"], 1.0)
-    pair = replace(pair, floor=replace(pair.floor, gap=gap * BASE_NOISE_GAP))
+    left = replace(pair.floor, slow=slow * pair.floor.slow_limit)
+    monkeypatch.setattr(checked, "candidate", lambda _: replace(pair, floor=left))
+    monkeypatch.setattr(checked, "_checked", lambda one, _: one)
     module.best_without_each_effect(replace(still_start, candidates=(pair,)), Workers())
     assert len(asked) == fitted
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from diagnosis_fixtures import scored, sets_screened
 
+from diagnosis.criteria import NEAR_FLOOR
 from diagnosis.selection.stages import imperfections as module
 
 ROUGH = scored(["tip_drag", "tip_clock"], 5.0)
@@ -21,6 +22,17 @@ def test_a_second_imperfection_is_tried_beside_what_has_one(still_start, monkeyp
         ("tip_drag", "tip_clock", "torque_clock"),
         ("tip_drag", "tip_clock", "torque_low_pass"),
     ]
+
+
+def test_none_is_tried_beside_what_leaves_far_more_than_the_best(still_start, monkeypatch):
+    far = replace(ROUGH, fit=replace(ROUGH.fit, cost=1.01 * NEAR_FLOOR * 50.0))
+    best = scored(["tip_drag"], 1.0)
+    best = replace(best, fit=replace(best.fit, cost=50.0))
+    state = replace(still_start, effects=EFFECTIVE, singles=(best,), pairs=(far,))
+    run = module.one_more_imperfection
+    assert sets_screened(run, state, monkeypatch, explained=False) == []
+    near = replace(state, pairs=(replace(ROUGH, fit=replace(ROUGH.fit, cost=0.99 * NEAR_FLOOR * 50.0)),))
+    assert sets_screened(run, near, monkeypatch, explained=False)
 
 
 def test_none_is_tried_where_something_explains_the_log(still_start, monkeypatch):

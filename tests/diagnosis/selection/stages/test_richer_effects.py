@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, start_of_search
+from diagnosis_fixtures import log_of, scored, start_of_search
 
 from diagnosis.criteria import SIMPLE_LEAD
 from diagnosis.fitting.fit import fit_effects
@@ -42,6 +42,18 @@ def test_what_contains_the_best_is_fitted_from_there(taken_for_constant):
 def test_no_richer_effect_is_fitted_where_none_contains_a_leading_one(taken_for_constant):
     without = replace(taken_for_constant, effects=("coulomb_friction", "tip_drag"))
     assert module.richer_effects(without, Workers()) is without
+
+
+def test_none_is_fitted_again_that_leaves_less_already_in_its_place(taken_for_constant):
+    (simple,) = taken_for_constant.singles
+    rich = scored(["stiction"], simple.score + 1.0)
+    known = replace(rich, fit=replace(rich.fit, cost=simple.fit.cost - 1.0))
+    state = replace(taken_for_constant, singles=(simple, known))
+    assert module.richer_effects(state, Workers()) is state
+    above = replace(rich, fit=replace(rich.fit, cost=simple.fit.cost + 1.0))
+    assert module._richer(simple, replace(state, singles=(simple, above))) == [
+        ("coulomb_friction", "stiction")
+    ]
 
 
 def test_no_richer_effect_is_fitted_where_something_explains_the_log(taken_for_constant, monkeypatch):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from diagnosis_fixtures import fit_of, scored
 
-from diagnosis.criteria import SECOND_LEAVES
+from diagnosis.criteria import NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.selection.record import Decision, RecordEntry
@@ -76,3 +76,30 @@ def adding(name, cost, base):
 def failing(*_, **__):
     """What cannot be simulated at all."""
     raise SimulationFailed("the simulation lost its numbers")
+
+
+def leaving(name, cost, samples=100):
+    """A candidate of the decimated log that leaves such a cost."""
+    fit = fit_of((name,), by_trial=[np.zeros(samples)], cost=cost)
+    return replace(scored([name], cost), fit=fit)
+
+
+def test_what_leaves_hardly_less_than_the_best_before_does_not_go_to_the_log():
+    best, behind = leaving("coulomb_friction", 300.0), leaving("tip_drag", 900.0)
+    share = WORTH_THE_LOG * (300.0 - 100)
+    enough, little = leaving("stiction", 300.0 - share), leaving("torque_bias", 301.0 - share)
+    worth, record = module.worth_the_log("any", [enough, little], [behind, best])
+    assert worth == [enough]
+    assert [(e.effects, e.decision) for e in record] == [(("torque_bias",), Decision.DROPPED)]
+    assert module.worth_the_log("any", [little], []) == ([little], ())
+
+
+def test_what_leaves_far_more_than_the_best_is_built_on_by_nothing():
+    near, far = (
+        leaving("tip_drag", 0.99 * NEAR_FLOOR * 100),
+        leaving("stiction", 1.01 * NEAR_FLOOR * 100),
+    )
+    best = leaving("torque_bias", 100.0)
+    assert module.near_the_best([far, near], [best], 4) == [near]
+    assert module.near_the_best([far, near], [], 4) == [near, far]
+    assert module.near_the_best([far, near], [], 1) == [near]

@@ -5,9 +5,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, start_of_search
+from diagnosis_fixtures import log_of, scored, start_of_search
 
-from diagnosis.criteria import DRIFT_RANGE_SIGMA, DRIFT_SIZE_SIGMA, MOST_QUIETENED
+from diagnosis.criteria import (
+    CONTENDING,
+    DRIFT_RANGE_SIGMA,
+    DRIFT_SIZE_SIGMA,
+    MOST_QUIETENED,
+    NEAR_FLOOR,
+)
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
@@ -54,6 +60,34 @@ def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeyp
     after = with_drift(state, Workers())
     assert after.problem is state.problem
     assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
+
+
+def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch):
+    asked = []
+
+    def fit_all(_, calls, __):
+        asked.extend((call[1], call[3]) for call in calls if len(call) > 2)
+        return [], ()
+
+    left = {"torque_bias": 100.0, "tip_drag": 150.0, "stiction": 1.01 * NEAR_FLOOR * 100.0}
+    monkeypatch.setattr(torque_drift, "fit_all", fit_all)
+    monkeypatch.setattr(torque_drift, "_cost_with_drift", lambda _, one: left[one.names[0]])
+    state = start_of_search(drifted(3.5), effects=())
+    pairs = (scored(["tip_drag", "torque_bias"], 2.0), scored(["torque_bias", "tip_drag"], 1.0))
+    singles = [scored([name], score) for name, score in (("stiction", 0.0), ("tip_drag", 9.0))]
+    state = replace(state, pairs=pairs, singles=tuple(singles))
+    torque_drift._refitted(state, torque_drift._drifting(state), Workers())
+    enough = 100.0 + CONTENDING
+    assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
+
+
+def test_effects_behind_a_part_of_their_own_crowd_out_no_rival():
+    """Two lags of the torque that are nearly alike, and one of them with what does nothing."""
+    first, rival = scored(["torque_sensor_delay"], 1.0), scored(["torque_low_pass"], 5.0)
+    idle = [scored(["torque_sensor_delay", name], 2.0) for name in ("tip_clock", "tip_drag")]
+    better = scored(["torque_low_pass", "stiction"], 4.0)
+    ranked = torque_drift._simplest_first([*idle, first, better, rival])
+    assert ranked == [first, better, rival, *idle]
 
 
 def test_a_drift_of_no_working_sensor_explains_nothing():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, fit_of, log_of, scored, sets_screened, start_of_search
 
-from diagnosis.criteria import SECOND_LEAVES, TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
+from diagnosis.criteria import NEAR_FLOOR, SECOND_LEAVES, TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.search import search
@@ -35,6 +35,14 @@ def test_every_other_effect_is_tried_beside_the_leading_pairs_alone(still_start,
         for other in EFFECTS
         if other not in (name, "torque_bias")
     ]
+
+
+def test_nothing_is_tried_beside_a_pair_that_leaves_far_more_than_the_best(still_start, monkeypatch):
+    near, far = (scored([name, "torque_bias"], 1.0) for name in ("tip_drag", "stiction"))
+    near = replace(near, fit=replace(near.fit, cost=50.0))
+    far = replace(far, fit=replace(far.fit, cost=1.01 * NEAR_FLOOR * 50.0))
+    asked = asked_for(still_start, monkeypatch, explained=False, pairs=(near, far))
+    assert {names[:2] for names in asked} == {("tip_drag", "torque_bias")}
 
 
 @pytest.mark.parametrize(
