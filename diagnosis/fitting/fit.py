@@ -121,9 +121,8 @@ def fit_effects(
     differences = max((e.differences for e in parameterization.all), key=len)
     for difference in differences[-1:] if from_a_fit or slopes is not None else differences:
         objective = Objective(problem, parameterization, difference, slopes)
-        x, status = _minimised(
-            objective, x, Stopping(objective, problem.tolerance_sigma, enough), most_iterations
-        )
+        stopping = Stopping(objective, problem.tolerance_sigma, enough, ends_far=problem.callback_alone)
+        x, status = _minimised(objective, x, stopping, most_iterations)
         if status.termination is Termination.BEHIND:
             break
     return _fit(objective, names, x, replace(status, at_bound=_at_bound(objective, x)))

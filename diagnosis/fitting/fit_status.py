@@ -7,6 +7,8 @@ At every Jacobian J the linear model predicts that the cost S = |r|^2 of N resid
 converged   sqrt(P / p) <= tolerance * sqrt(S / (N - p)), the relative offset of Bates and Watts (1981):
             parameters are within so many of their own standard deviations of the minimum. Within
             five times the tolerance one more step is taken, without another Jacobian.
+far         at two Jacobians in turn, S > 3 N and P < (S - N) / 20, in fits that only tell which to do
+            again: such steps do not lead down to the noise.
 behind      S - 10 P is above the cost that a fit has to reach to be of use.
 stalled     no step along the search direction reduces the cost: shorter ones would be below a hundredth
             of the finite difference, at which slopes are meaningless.
@@ -24,6 +26,7 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
+from diagnosis.criteria import NEAR_FLOOR
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.objective import Objective
 
@@ -31,6 +34,7 @@ Array = NDArray[np.float64]
 
 _ONE_MORE = 5.0  # tolerances within which one more step is enough
 _DAMPED = 0.1  # regularizer from which a step is no Gauss-Newton step
+_SLOW = 0.05  # of what is left beyond noise: what a step takes off at most
 _FUTILE = 10.0  # times what the linear model promises
 _IDLE_SIGMA = 0.1  # by which a parameter changes the residuals over its range, as a norm
 _MOST_TRIES = 8  # steps along one direction, each shorter
@@ -45,6 +49,7 @@ class Termination(StrEnum):
     OFFSET = "converged: relative offset"
     STALLED = "stalled: no further reduction"
     ITERATIONS = "stopped: most iterations"
+    FAR = "stopped: far above the noise, and slow"
     BEHIND = "stopped: cannot come near the best"
     FACTORIZATION = "failed: factorization"
     NOTHING_TO_FIT = "nothing to fit"
@@ -69,6 +74,7 @@ _MEANING = {
     Termination.STALLED: "ended after {}: no further step lowers the residual; the values are the best "
     "that were found, and others close by may fit as well",
     Termination.ITERATIONS: "ended after {}, the most that are allowed: more might lower the residual",
+    Termination.FAR: "ended after {}: far above the noise, with little to gain by further steps",
     Termination.BEHIND: "given up after {}: it cannot come near the best explanations",
     Termination.FACTORIZATION: "failed after {}: no next step can be computed; do not use the values",
 }
@@ -122,20 +128,34 @@ class Ended(Exception):
         self.x, self.termination = x, termination
 
 
+def _is_far(cost: float, promised: float, samples: int) -> bool:
+    """Whether a residual is far above the noise, and the next step takes off hardly anything."""
+    return cost > NEAR_FLOOR * samples and promised < _SLOW * (cost - samples)
+
+
 class Stopping:
     """An objective that can end its own minimisation, by raising `Ended`."""
 
-    def __init__(self, objective: Objective, tolerance: float, enough: float = np.inf) -> None:
+    def __init__(
+        self,
+        objective: Objective,
+        tolerance: float,
+        enough: float = np.inf,
+        *,
+        ends_far: bool = False,
+    ) -> None:
         """Wrap an objective.
 
         Args:
           tolerance: relative offset at which the fit has converged.
           enough: cost below which the fit is of use.
+          ends_far: whether it ends where it is far above the noise, and slow.
         """
         self.objective, self.tolerance, self.enough = objective, tolerance, enough
+        self.ends_far = ends_far
         self._there = self._tried = np.zeros(0)
         self._tries = self._jacobians = 0
-        self._last = False
+        self._last = self._slow = False
 
     def __call__(self, x: Array) -> Array:
         """Residuals with the prior, (N,)."""
@@ -155,6 +175,10 @@ class Stopping:
         cost, promised = float(at_x.ravel() @ at_x.ravel()), self._promised(at_x.ravel(), slopes)
         if self._jacobians > 1 and cost - _FUTILE * promised > self.enough:
             raise self._ended(self._there, Termination.BEHIND)
+        slow = self.ends_far and _is_far(cost, promised, at_x.size)
+        if slow and self._slow:
+            raise self._ended(self._there, Termination.FAR)
+        self._slow = slow
         freedom = slopes.shape[1]
         noise = cost / max(at_x.size - freedom, 1)
         offset = np.sqrt(max(promised, 0.0) / (freedom * noise)) if noise > 0 else 0.0

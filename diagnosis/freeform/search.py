@@ -3,7 +3,7 @@
 Every family is fitted through the simulation: for one iteration on the decimated log, the most
 promising quarter for a few more; the best to their end there, the strength of their prior estimated,
 alone and beside the library's effects that came nearest; the best of these on the log itself, and
-checked on trials that the fit has not seen. Where one closes the gap at once, only those near it go on.
+checked on trials that the fit has not seen. Those that promise far more than the least gap do not go on.
 Where all leave far more than noise, fewer go to the log itself, and not to their end.
 """
 
@@ -37,9 +37,10 @@ SCREENING, FITTING, BESIDE, FINALS = (
 )
 FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
 WORTH_MORE = 4  # one of so many families gets more than the first iteration
-IN_REACH = 3.0  # times the least gap, where that is closed or promises to be
+IN_REACH = 3.0  # times the least gap that one promises
 CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
+FINAL_SIGMA = 0.1  # tolerance: a curve has a band of two of these
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
 WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 2.0, 1.3  # times the least gap; where that closes the gap
 
@@ -159,7 +160,8 @@ def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> 
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
-    own = replace(with_family(problem, contender.family), differences_halved=True)
+    own = with_family(problem, contender.family)
+    own = replace(own, differences_halved=True, tolerance_sigma=FINAL_SIGMA)
     iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
     fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=iterations)
     if len(problem.log.trials) == 1:
@@ -186,13 +188,12 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
 
 
 def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:
-    """The most promising fits, where one closes the gap those near it alone; and the rest.
+    """The most promising fits, those in reach of the best alone; and the rest.
 
     A law far from straight comes nowhere with its first step, and its slopes tell that it will.
     """
     ranked = sorted(fits, key=lambda f: f.promise)
-    least = min((f.promised_gap for f in fits), default=np.inf)
-    reach = IN_REACH * least if least <= CLOSED_GAP else np.inf
+    reach = IN_REACH * min((f.promised_gap for f in fits), default=np.inf)
     best = [f for f in ranked[:most] if f.promised_gap <= reach]
     return best, [f for f in ranked if f not in best]
 

@@ -25,6 +25,9 @@ Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
 """Candidates, and the record of how they came about."""
 
 
+_LEADING_SIGMA = 0.1  # tolerance of a fit that leads to where one with slopes of its own begins
+
+
 def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> Made:
     """Candidates of calls of `fit_in_turn` (problem, names, start, enough), in their order."""
     tasks = [Task(effects=tuple(call[1]), arguments=call) for call in calls]
@@ -42,7 +45,8 @@ def fit_in_turn(
     """
     if problem.callback_alone:
         return fit_effects(problem, names, start, enough)
-    first = fit_effects(replace(problem, differences_halved=True), names, start, enough)
+    rough = replace(problem, differences_halved=True, tolerance_sigma=_LEADING_SIGMA)
+    first = fit_effects(rough, names, start, enough)
     if first.gap > SLOPES_OF_ITS_OWN or first.status.termination is Termination.BEHIND:
         return first
     return fit_effects(problem, names, first.x, enough, from_a_fit=True)

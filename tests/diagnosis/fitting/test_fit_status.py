@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from mujoco import minimize
 
+from diagnosis.criteria import NEAR_FLOOR
 from diagnosis.fitting.fit import _minimised
-from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, in_words
+from diagnosis.fitting.fit_status import _SLOW, Ended, FitStatus, Stopping, Termination, in_words
 
 
 def said(residual, **options):
@@ -171,3 +172,50 @@ def test_a_parameter_that_does_nothing_holds_up_no_other():
     # A gradient of 0.02 sigma ends a fit; standard deviations are 1 / sqrt(200), and 1.7 times that.
     np.testing.assert_allclose(found[:2], objective.best, atol=0.02 * 2 / np.sqrt(200))
     assert found[2] == -10.0
+
+
+class Bumpy(Line):
+    """The same line through so much that no line can follow that the cost is `times` that of noise."""
+
+    def __init__(self, times):
+        super().__init__()
+        steep = np.where(np.arange(200) % 2 == 0, 1.0, -1.0)
+        self.read = 1.0 + 2.0 * self.time + np.sqrt(times) * steep
+        self.best = np.linalg.lstsq(-self.slopes, self.read, rcond=None)[0]
+
+
+def ends_at(objective, promised, *, ends_far):
+    """After how many Jacobians a fit ends that is promised such a share of what is beyond noise."""
+    left = objective(objective.best)
+    far = np.sqrt(promised * (left @ left - 200) / 200)
+    x = objective.best + np.array([far, 0.0])
+    stopping = Stopping(objective, 1e-3, ends_far=ends_far)
+    for taken in range(3):
+        try:
+            stopping.jacobian(x, objective(x))
+        except Ended as ended:
+            return ended.termination, taken
+    return None
+
+
+@pytest.mark.parametrize(
+    ("times", "promised", "ends_far", "after"),
+    [
+        (1.05 * NEAR_FLOOR, 0.9 * _SLOW, True, (Termination.FAR, 1)),
+        (1.05 * NEAR_FLOOR, 1.1 * _SLOW, True, None),  # such a step is worth taking
+        (0.9 * NEAR_FLOOR, 0.9 * _SLOW, True, None),  # near the noise every bit tells
+        (1.05 * NEAR_FLOOR, 0.9 * _SLOW, False, None),
+    ],
+)
+def test_far_above_the_noise_two_small_promises_in_turn_end_a_fit(times, promised, ends_far, after):
+    assert ends_at(Bumpy(times), promised, ends_far=ends_far) == after
+
+
+def test_one_small_promise_ends_no_fit():
+    bumpy = Bumpy(2 * NEAR_FLOOR)
+    left = bumpy(bumpy.best)
+    excess = left @ left - 200
+    stopping = Stopping(bumpy, 1e-3, ends_far=True)
+    for promised in (0.9 * _SLOW, 1.1 * _SLOW, 0.9 * _SLOW):
+        x = bumpy.best + np.array([np.sqrt(promised * excess / 200), 0.0])
+        stopping.jacobian(x, bumpy(x))
