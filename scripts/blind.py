@@ -182,8 +182,10 @@ def _limits(limits: pd.DataFrame) -> Table:
 def _calibration(scores: pd.DataFrame) -> Table:
     table = Table("all logs", "measured", title="Calibration")
     share, count = calibration.coverage(scores)
+    chance = calibration.calibration_error_by_chance(scores)
     table.add_row(
-        "calibration error of the probabilities", f"{calibration.calibration_error(scores):.3f}"
+        f"calibration error of the probabilities (by chance, if all were right: {chance:.3f})",
+        f"{calibration.calibration_error(scores):.3f}",
     )
     table.add_row(f"95 % intervals that contain the true value (of {count})", f"{100 * share:.1f} %")
     table.add_row(

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 GAP_GOAL = 1.03
 """Residual / sigma that an exact diagnosis should leave at most."""
@@ -48,10 +49,13 @@ def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
     If several effects are true, the predicted share is the probability of all of them together.
     """
     scores = scores[scores["probability"].notna()]
-    share = np.where(scores["top_right"], scores["probability_right"], scores["probability"])
-    edges = np.clip((share * bins).astype(int), 0, bins - 1)
+    share = _predicted(scores)
     table = pd.DataFrame(
-        {"bin": edges, "predicted": share, "observed": scores["top_right"].astype(float)}
+        {
+            "bin": _bins(share, bins),
+            "predicted": share,
+            "observed": scores["top_right"].astype(float),
+        }
     )
     grouped = table.groupby("bin")
     return pd.DataFrame(
@@ -68,6 +72,30 @@ def calibration_error(scores: pd.DataFrame) -> float:
     table = reliability(scores)
     distance = (table["predicted"] - table["observed"]).abs()
     return float((table["logs"] * distance).sum() / table["logs"].sum())
+
+
+def calibration_error_by_chance(scores: pd.DataFrame, bins: int = 5) -> float:
+    """What the calibration error would be if every probability were right: so few logs tell no better.
+
+    The mean of 2000 draws, in which each first rank is right with the probability that was predicted.
+    """
+    share = _predicted(scores[scores["probability"].notna()])
+    if not share.size:
+        return float("nan")
+    right = np.random.default_rng(1).random((2000, share.size)) < share
+    inside = np.eye(bins)[_bins(share, bins)]
+    return float(np.abs((right - share) @ inside).sum(axis=1).mean() / share.size)
+
+
+def _predicted(scores: pd.DataFrame) -> NDArray[np.float64]:
+    """Probability of the first rank; where several effects are true, of all that are right."""
+    return np.where(scores["top_right"], scores["probability_right"], scores["probability"]).astype(
+        float
+    )
+
+
+def _bins(share: NDArray[np.float64], bins: int) -> NDArray[np.int64]:
+    return np.clip((share * bins).astype(np.int64), 0, bins - 1)
 
 
 def gap_left(scores: pd.DataFrame) -> float:

@@ -22,6 +22,7 @@ def as_json(scores: pd.DataFrame) -> dict[str, Any]:
             for kind, row in calibration.summary(scores).iterrows()
         },
         "calibration_error": _number(calibration.calibration_error(scores)),
+        "calibration_error_by_chance": _number(calibration.calibration_error_by_chance(scores)),
         "intervals": {"count": count, "inside": _number(share)},
         "gap_left": _number(calibration.gap_left(scores)),
         "missing": {name: [*pair] for name, pair in missing_summary(scores).items()},

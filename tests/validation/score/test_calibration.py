@@ -6,6 +6,7 @@ import pytest
 
 from validation.score.calibration import (
     calibration_error,
+    calibration_error_by_chance,
     confidently_wrong,
     coverage,
     gap_left,
@@ -71,6 +72,19 @@ def test_coverage_is_of_all_intervals_and_nan_without_any():
     share, count = coverage(table(inside=[0], intervals=[0]))
     assert np.isnan(share)
     assert count == 0
+
+
+@pytest.mark.parametrize(("logs", "share"), [(400, 0.5), (100, 0.5), (100, 0.9)])
+def test_by_chance_an_error_is_the_mean_distance_of_a_share_from_its_probability(logs, share):
+    """Of a binomial share: sqrt(2 p (1 - p) / (pi n)); the mean of 2000 draws is good to 2 %."""
+    scores = table(top_right=[False] * logs, probability=[share] * logs, probability_right=[0.0] * logs)
+    expected = np.sqrt(2 * share * (1 - share) / (np.pi * logs))
+    assert calibration_error_by_chance(scores) == pytest.approx(expected, rel=0.08)
+
+
+def test_certain_probabilities_leave_nothing_to_chance():
+    scores = table(top_right=[True] * 9, probability=[1.0] * 9, probability_right=[1.0] * 9)
+    assert calibration_error_by_chance(scores) == 0.0
 
 
 def test_a_calibrated_forecaster_has_no_calibration_error():

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pandas as pd
 
-from validation.score.calibration import calibration_error, summary
+from validation.score.calibration import calibration_error, calibration_error_by_chance, summary
 from validation.score.json_summary import as_json
 from validation.score.missing import missing_summary
 
@@ -36,6 +36,7 @@ def test_the_figures_are_those_of_the_tables():
     assert found["format"] == "blind-score/1"
     assert found["logs"] == 2
     assert found["kinds"] == {"outside": summary(scores).loc["outside"].to_dict()}
+    assert found["calibration_error_by_chance"] == calibration_error_by_chance(scores)
     assert found["calibration_error"] == calibration_error(scores)
     assert found["intervals"] == {"count": 0, "inside": None}
     assert found["gap_left"] is None
