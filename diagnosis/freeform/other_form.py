@@ -23,6 +23,7 @@ from diagnosis.criteria import SCATTER, SECOND_LEAVES
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
@@ -118,14 +119,15 @@ class _Comparison:
         return _from(self.best, self.best.names, self.problem)
 
     def _on_the_decimated_log(self, names: tuple[str, ...], enough: float) -> Fit | None:
-        """A fit from where the explanation is; None: its first step promises nothing."""
+        """A fit from where the explanation is; None: it cannot come near enough."""
         # From far off a fit may end in a local minimum, so that the first curve is nearly straight.
         straight = with_family(self.coarse, self.family.with_prior(*_NEARLY_STRAIGHT))
         own = with_family(self.coarse, self.family)
         same = _same_parameters(self.known, self.coarse, self.replaced, self.family)
         if not (same and len(names) == len(self.known.names)):
             form = _from(self.known, names, straight, same, enough=enough)
-            return _from(form, names, own)
+            behind = form.status.termination is Termination.BEHIND
+            return None if behind else _from(form, names, own, enough=enough)
         form = _from(self.known, names, straight, same, iterations=1)
         return None if form.cost > PROMISING * self.known.cost else _from(form, names, own)
 

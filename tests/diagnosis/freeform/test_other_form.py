@@ -1,12 +1,15 @@
 """An effect explains nothing where a free-form law of its kind leaves clearly less."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search
 
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit_status import Termination
+from diagnosis.freeform import other_form as module
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.ranges import ranges_of
@@ -95,6 +98,27 @@ def test_an_imperfection_that_compensates_for_the_wrong_form_saves_no_effect():
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
     monkeypatch.setattr("diagnosis.freeform.other_form.families_of", pytest.fail)
     assert form_of(*fitted(RigParameters(torque_bias_n_mm=0.05), ("torque_bias",))) is None
+
+
+@pytest.mark.parametrize(("behind", "fits"), [(True, 1), (False, 2)])
+def test_a_form_that_cannot_come_near_enough_is_not_fitted_to_its_end(behind, fits, monkeypatch):
+    asked = []
+    ended = Termination.BEHIND if behind else Termination.OFFSET
+    fit = SimpleNamespace(names=("layered_tissue",), status=SimpleNamespace(termination=ended))
+
+    def from_there(_, __, ___, ____=None, *, enough):
+        asked.append(enough)
+        return fit
+
+    monkeypatch.setattr(module, "_from", from_there)
+    monkeypatch.setattr(module, "with_family", lambda *_: None)
+    monkeypatch.setattr(module, "_same_parameters", lambda *_: {})
+    family = SimpleNamespace(with_prior=lambda *_: None)
+    both = {"problem": None, "coarse": None, "best": fit, "known": fit}
+    compared = module._Comparison(**both, family=family, replaced="layered_tissue")
+    found = compared._on_the_decimated_log(("form",), 50.0)
+    assert asked == [50.0] * fits
+    assert found is (None if behind else fit)
 
 
 def test_forms_that_effects_name_are_families():
