@@ -1,5 +1,6 @@
 """Fitting many sets of effects, with a record of what was made, dropped or failed."""
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -72,11 +73,13 @@ def fit_screened(
 
     Once something brings the residual to the noise floor, only what promises to come near it
     is still fitted, and what that contains. A fit that cannot come near enough to be of use is given up.
+    Further starts of a set come after the first of each, and not at all where the set is at the floor
+    and they promise to leave no less.
 
     Args:
       used: how many sets are of use, where none comes to the noise floor.
     """
-    waiting = sorted(screened, key=lambda s: s.cost)[:most]
+    waiting = _first_starts_first(sorted(screened, key=lambda s: s.cost)[:most])
     found, record, skipped = list[Candidate](), list[RecordEntry](), list[Screened]()
     while waiting:
         batch, waiting = waiting[:FITS_AT_ONCE], waiting[FITS_AT_ONCE:]
@@ -87,8 +90,9 @@ def fit_screened(
         at_floor = [c for c in found if c.floor.small]
         floor = min((c.fit.cost for c in at_floor), default=np.inf)
         inner = {i for c in at_floor for n in c.names for i in FITTED[n].contains}
-        skipped += [s for s in waiting if not _still(s, floor, inner)]
-        waiting = [s for s in waiting if _still(s, floor, inner)]
+        worth = [s for s in waiting if _still(s, floor, inner) and not _found(s, at_floor)]
+        skipped += [s for s in waiting if s not in worth]
+        waiting = worth
     record += not_fitted(stage, _sets(skipped), "expected to stay far above what is at the noise floor")
     best = _best_of_each_set(found)
     out = [c for c in found if c not in best]
@@ -152,6 +156,21 @@ def _enough(names: tuple[str, ...], found: Sequence[Candidate], used: int) -> fl
 
 def _still(one: Screened, floor: float, inner: set[str]) -> bool:
     return one.cost <= NEAR_FLOOR * floor or not inner.isdisjoint(one.names)
+
+
+def _found(one: Screened, at_floor: Sequence[Candidate]) -> bool:
+    """Whether its set is at the floor, and leaves no more than this start promises."""
+    return any({*c.names} == {*one.names} and c.fit.cost <= one.cost for c in at_floor)
+
+
+def _first_starts_first(ranked: Sequence[Screened]) -> list[Screened]:
+    """The first start of each set, then the second ones, and so on."""
+    seen = Counter[frozenset[str]]()
+    turns = list[int]()
+    for one in ranked:
+        turns.append(seen[frozenset(one.names)])
+        seen[frozenset(one.names)] += 1
+    return [one for _, one in sorted(zip(turns, ranked, strict=True), key=lambda pair: pair[0])]
 
 
 def _sets(screened: Iterable[Screened]) -> Iterable[tuple[str, ...]]:

@@ -9,7 +9,15 @@ from mujoco import minimize
 
 from diagnosis.criteria import NEAR_FLOOR
 from diagnosis.fitting.fit import _minimised
-from diagnosis.fitting.fit_status import _SLOW, Ended, FitStatus, Stopping, Termination, in_words
+from diagnosis.fitting.fit_status import (
+    _FUTILE_LATER,
+    _SLOW,
+    Ended,
+    FitStatus,
+    Stopping,
+    Termination,
+    in_words,
+)
 
 
 def said(residual, **options):
@@ -137,6 +145,21 @@ def test_what_cannot_come_below_what_is_enough_is_behind_from_the_second_jacobia
                 stopping.jacobian(x, line(x))
         else:
             stopping.jacobian(x, line(x))
+
+
+@pytest.mark.parametrize(("beyond", "ends"), [(-1.0, True), (1.0, False)])
+def test_from_the_third_jacobian_on_less_is_hoped_for(beyond, ends):
+    line = Line()
+    x = line.best + 0.1
+    cost, least = float(line(x) @ line(x)), float(line(line.best) @ line(line.best))
+    stopping = Stopping(line, 1e-3, cost - _FUTILE_LATER * (cost - least) + beyond)
+    for _ in range(2):
+        stopping.jacobian(x, line(x))
+    if ends:
+        with pytest.raises(Ended, match="cannot come near"):
+            stopping.jacobian(x, line(x))
+    else:
+        stopping.jacobian(x, line(x))
 
 
 def test_what_bounds_forbid_is_not_promised():

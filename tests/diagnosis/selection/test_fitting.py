@@ -120,6 +120,39 @@ def test_the_best_start_of_a_set_is_kept(made):
     assert "another start" in out.reason
 
 
+def start_of(names, promise, fitted):
+    return replace(screened("tip_drag", promise, fitted), names=names)
+
+
+def test_the_first_start_of_each_set_is_fitted_before_the_second_of_any(made):
+    two, reversed_ = ("tip_drag", "stiction"), ("stiction", "tip_drag")
+    each = [
+        start_of(two, 3000.0, 3000.0),
+        start_of(reversed_, 3100.0, 2900.0),
+        start_of(("torque_bias",), 3200.0, 3200.0),
+    ]
+    found, _ = fit_screened("pairs", PROBLEM, each, 9, Workers())
+    assert made == [two, ("torque_bias",), reversed_]
+    assert [c.names for c in found] == [reversed_, ("torque_bias",)]
+
+
+@pytest.mark.parametrize(("promise", "fitted"), [(1.01, False), (0.99, True)])
+def test_another_start_of_a_set_at_the_floor_has_to_promise_less(promise, fitted, made, monkeypatch):
+    monkeypatch.setattr(fitting, "FITS_AT_ONCE", 1)
+    each = [start_of(("stiction",), 0.5 * SAMPLES, SAMPLES)]
+    each += [start_of(("stiction",), promise * SAMPLES, SAMPLES)]
+    _, record = fit_screened("single effects", PROBLEM, each, 9, Workers())
+    assert len(made) == 1 + fitted
+    assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
+
+
+def test_another_start_of_a_set_above_the_floor_is_fitted_whatever_it_promises(made, monkeypatch):
+    monkeypatch.setattr(fitting, "FITS_AT_ONCE", 1)
+    each = [start_of(("stiction",), promise * SAMPLES, 2.0 * SAMPLES) for promise in (2.0, 2.5)]
+    fit_screened("single effects", PROBLEM, each, 9, Workers())
+    assert len(made) == 2
+
+
 def test_a_fit_that_fails_is_recorded_and_the_others_go_on(made):
     each = [screened("tip_drag", 2000.0, np.nan), screened("torque_bias", 2100.0)]
     (found,), record = fit_screened("single", PROBLEM, each, 9, Workers())
