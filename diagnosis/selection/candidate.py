@@ -67,6 +67,11 @@ class Candidate:
         """Why it does not explain the log, in words; empty: it does."""
         return next(self._objections(), "")
 
+    @property
+    def held_by_a_bound(self) -> bool:
+        """Whether it would explain the log, but for parameters that stopped at a bound."""
+        return bool(self.reached_bounds) and len(list(self._objections())) == 1
+
     def _objections(self) -> Iterator[str]:
         floor = self.floor
         if not floor.small:

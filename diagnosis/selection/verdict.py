@@ -60,7 +60,10 @@ class Verdict:
 
 
 def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
-    """The verdict on candidates, best first."""
+    """The verdict on candidates, best first.
+
+    One that is held by a bound explains nothing; but where it leads what does, that is open.
+    """
     at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
         return Verdict(
@@ -73,7 +76,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
-    rivals = sorted(alike, key=lambda c: _asks_more_scatter(best, c))
+    held = [c for c in candidates if c.held_by_a_bound and c.score < reached and _alike(best, c)]
+    rivals = sorted((*held, *alike), key=lambda c: _asks_more_scatter(best, c))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
     if rivals and not (best.named and all(_asks_more_scatter(best, c) for c in rivals)):
         kind = VerdictKind.UNDECIDED

@@ -56,6 +56,30 @@ def test_a_richer_form_with_a_second_effect_needs_the_wider_margin():
     assert set(far.effects) == {"stiction", "torque_bias"}
 
 
+def held(names, score):
+    """A candidate of which one parameter stopped at a bound."""
+    one = scored(names, score)
+    (effect,) = names
+    bound = f"{effect}.{LIBRARY[effect].reported[0].name}"
+    return replace(one, fit=replace(one.fit, status=replace(one.fit.status, at_bound=(bound,))))
+
+
+@pytest.mark.parametrize(("lead", "kind"), [(1, VerdictKind.UNDECIDED), (-1, VerdictKind.EXPLAINED)])
+def test_what_is_held_by_a_bound_explains_nothing_but_leaves_open_what_it_leads(lead, kind):
+    """A spring in series near its stiffest, so weak that stiffness of the shaft does nearly as well."""
+    other = held(["base_compliance"], 100.0 - lead)
+    found = verdict_on(sorted((scored(["stiffness_error"], 100.0), other), key=lambda c: c.score))
+    assert (found.kind, found.effects) == (kind, ("stiffness_error",))
+    assert (("base_compliance",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
+
+
+def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
+    above = NoiseFloor(gap=2.0, slow=5.0)
+    far = replace(held(["base_compliance"], 1.0), floor=above)
+    assert verdict_on([far, scored(["stiffness_error"], 100.0)]).kind is VerdictKind.EXPLAINED
+    assert verdict_on([held(["base_compliance"], 1.0)]).kind is VerdictKind.UNKNOWN
+
+
 def test_what_is_above_the_noise_floor_explains_nothing():
     above = NoiseFloor(gap=2.0, slow=5.0)
     found = verdict_on([scored(["tip_drag"], 1.0, floor=above), scored([], 100.0, floor=above)])
