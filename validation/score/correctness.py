@@ -45,7 +45,7 @@ def correctness(
 ) -> Correctness:
     """Compare a report with the ground truth of its log; `trials` as in `read_scores`."""
     true, verdict = set(answer["effects"]), report["verdict"]
-    optional = _optional(answer, true)
+    optional = optional_effects(answer)
     named = set(report["effects"]) - optional
     equal = [set(names) for names in answer.get("acceptable", [])]
     may_be = [set(names) - {"none"} - optional for names in report.get("confusable", [])]
@@ -67,8 +67,9 @@ def correctness(
     )
 
 
-def _optional(answer: Mapping[str, Any], true: set[str]) -> set[str]:
+def optional_effects(answer: Mapping[str, Any]) -> set[str]:
     """Effects that may be named or not: small errors of stiffness and damping beside another effect."""
+    true = set(answer["effects"])
     scales = {n: p["scale"] for n, p in answer["parameters"].items() if n in PARAMETER_ERRORS}
     return {
         name

@@ -10,7 +10,7 @@ import pandas as pd
 from diagnosis.effects import LIBRARY
 from models.errors import InvalidValue
 from validation.score.answers import FILE, read_answers
-from validation.score.correctness import correctness
+from validation.score.correctness import correctness, optional_effects
 from validation.score.missing import missing_scores
 
 
@@ -45,8 +45,9 @@ def reports_in(folder: Path, trials: int | None = None, limit_s: float | None = 
 def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> dict[str, Any]:
     true, diagnosed = set(answer["effects"]), set(report["effects"])
     compared = correctness(answer, report, trials)
-    ranking = {r["effect"]: r["probability"] for r in report.get("ranking", [])}
-    top = max(ranking, key=lambda name: ranking[name]) if ranking else ""
+    ranking = report.get("ranking", [])
+    first = max(ranking, key=lambda row: row["probability"]) if ranking else None
+    right_rows = [row for row in ranking if _is_right(answer, row)]
     right = " + ".join(sorted(true)) or answer["verdict"]
     inside = [_inside(answer, report, effect, name) for effect, name in _parameters(answer)]
     known = [x for x in inside if x is not None]
@@ -62,10 +63,10 @@ def _row(answer: dict[str, Any], report: dict[str, Any], trials: int | None) -> 
         "open": compared.undecidable,
         "signature": min(answer.get("signature", {}).values(), default=np.nan),
         "over_hidden": _over_limit(answer, report),
-        "top": top,
-        "probability": ranking.get(top, np.nan),
-        "top_right": top == right,
-        "probability_right": ranking.get(right, 0.0),
+        "top": first["effect"] if first else "",
+        "probability": first["probability"] if first else np.nan,
+        "top_right": first in right_rows,
+        "probability_right": sum((row["probability"] for row in right_rows), 0.0),
         "inside": sum(known),
         "intervals": len(known),
         "gap_before": report.get("gap", {}).get("before", np.nan),
@@ -87,6 +88,15 @@ def _over_limit(answer: dict[str, Any], report: dict[str, Any]) -> float:
         return float("nan")
     true = first.distance_from_neutral(strength)
     return true / first.distance_from_neutral(limit)
+
+
+def _is_right(answer: dict[str, Any], row: dict[str, Any]) -> bool:
+    """Whether a row of the ranking names the true effects; what is optional may be there or not."""
+    if not answer["effects"]:
+        return bool(row["effect"] == answer["verdict"])
+    optional = optional_effects(answer)
+    named = set(row.get("effects", row["effect"].split(" + ")))
+    return named - optional == set(answer["effects"]) - optional
 
 
 def _kind(answer: dict[str, Any]) -> str:

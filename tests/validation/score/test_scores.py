@@ -112,6 +112,35 @@ def test_the_first_rank_is_right_if_it_is_a_true_effect(scored):
     assert list(table["probability_right"]) == [0.7, 0.2]
 
 
+@pytest.mark.parametrize(("scale", "right"), [(1.01, 0.9), (1.4, 0.2)])
+def test_a_first_rank_may_name_a_small_parameter_error_or_not(scored, scale, right):
+    """Both rows are right where the error is small; where it is not, the one that names it."""
+    answer = explained("tip_drag", "stiffness_error", stiffness_error={"scale": scale})
+    ranking = [
+        {"effect": "tip_drag", "effects": ["tip_drag"], "probability": 0.7},
+        {
+            "effect": "stiffness_error + tip_drag",
+            "effects": ["tip_drag", "stiffness_error"],
+            "probability": 0.2,
+        },
+        {"effect": "none", "effects": [], "probability": 0.1},
+    ]
+    table = scored({"a": answer}, {"a": explained("tip_drag") | {"ranking": ranking}})
+    assert bool(table["top_right"]["a"]) is (scale == 1.01)
+    assert table["probability_right"]["a"] == pytest.approx(right)
+
+
+def test_of_a_nominal_rig_the_verdict_itself_is_right(scored):
+    none = {"verdict": "none", "effects": [], "parameters": {}}
+    ranking = [
+        {"effect": "none", "effects": [], "probability": 0.6},
+        {"effect": "unknown", "effects": [], "probability": 0.4},
+    ]
+    table = scored({"a": none}, {"a": none | {"ranking": ranking}})
+    assert table["top_right"]["a"]
+    assert table["probability_right"]["a"] == 0.6
+
+
 def test_reports_of_few_trials_or_within_a_limit_are_kept_apart(tmp_path):
     names = [reports_in(tmp_path, t, s).name for t in (None, 2) for s in (None, 20.0)]
     assert names == ["reports", "reports_in_20_s", "reports_of_2", "reports_of_2_in_20_s"]
