@@ -18,7 +18,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
-from diagnosis.selection.complexity import complexity_penalty
+from diagnosis.selection.complexity import most_penalty
 from diagnosis.workers import Failure, Task, Workers
 
 _ROUNDS = 4  # sizes grow with the strength, but for dry friction below what breaks loose
@@ -75,6 +75,6 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
 def _asked(best: Fit, base: Fit, name: str) -> float:
     """Reduction of the cost that an effect needs to be named."""
     names = (*best.names, name)
-    asked = complexity_penalty(names, best.samples) + SIMPLE_LEAD
-    asked -= complexity_penalty(best.names, best.samples)
+    asked = most_penalty(names, best.samples) + SIMPLE_LEAD
+    asked -= most_penalty(best.names, best.samples)
     return max(asked, (1 - SECOND_LEAVES) * base.cost) if best.names else asked

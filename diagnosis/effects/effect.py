@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.replay.rig_parameters import RigParameters
 
@@ -121,8 +122,8 @@ class Effect:
     Attributes:
       title: in plain words.
       apply: adds the effect to a rig, given parameter values in order.
-      contains: simpler effects that are special cases of this one; each with starts for a fit of
-        this one, given the parameter values of the simpler one.
+      contains: simpler effects that are special cases of this one; each with typical forms of this one,
+        given the parameter values of the simpler one. Fits start from the first two.
       needs: column of a log without which the effect is not visible; empty: no further column.
       differences: steps of finite differences, in the units of the fit, for one fit after the
         other. A wide step averages over the roughness that stick and slip cause in a residual.
@@ -147,6 +148,11 @@ class Effect:
     corrects: str = ""
     check: str = ""
     other_forms: tuple[str, ...] = ()
+
+    def weakened(self, part: NDArray[np.float64], share: float) -> NDArray[np.float64]:
+        """Coordinates of its parameters in a fit, (n,), with this share of their strength."""
+        each = zip(self.parameters, part, strict=True)
+        return np.array([p.to_fit(p.towards_neutral(p.from_fit(float(x)), share)) for p, x in each])
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

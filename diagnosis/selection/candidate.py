@@ -45,6 +45,7 @@ class Candidate:
       shift: held-out shift statistic; about 1 where all trials tell the same.
       shift_limit: largest that is of an explanation.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
+      shape_open: whether typical forms of its law explain the log too: a bound is nothing against it.
     """
 
     fit: Fit
@@ -56,6 +57,7 @@ class Candidate:
     shift: float = 0.0
     shift_limit: float = SHIFT_LIMIT
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
+    shape_open: bool = False
 
     @property
     def explains(self) -> bool:
@@ -141,6 +143,8 @@ class Candidate:
     @property
     def reached_bounds(self) -> tuple[str, ...]:
         """Parameters of named effects that stopped at a bound, as effect.parameter."""
+        if self.shape_open:
+            return ()
         library = [LIBRARY[name] for name in self.names if name in LIBRARY]
         told = {f"{effect.name}.{p.name}" for effect in library for p in effect.reported}
         return tuple(name for name in self.fit.status.at_bound if name in told)
@@ -206,5 +210,5 @@ class Candidate:
 
 def candidate(fit: Fit) -> Candidate:
     """A fit with its score and noise floor."""
-    score = fit.cost + complexity_penalty(fit.names, fit.samples) - gain_of_exact_constants(fit)
+    score = fit.cost + complexity_penalty(fit) - gain_of_exact_constants(fit)
     return Candidate(fit=fit, score=score, floor=floor_of(fit.by_trial))

@@ -9,13 +9,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CONTENDING, FINALISTS, FITS_AT_ONCE, NEAR_FLOOR, SLOPES_OF_ITS_OWN
+from diagnosis.criteria import (
+    CONTENDING,
+    FINALISTS,
+    FITS_AT_ONCE,
+    MOST_FINALISTS,
+    NEAR_FLOOR,
+    SIMPLE_LEAD,
+    SLOPES_OF_ITS_OWN,
+)
 from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.complexity import complexity_penalty
+from diagnosis.selection.complexity import choice_penalty
 from diagnosis.selection.record import RecordEntry, dropped, failed, made, not_fitted
 from diagnosis.selection.screening import Screened
 from diagnosis.stopping import NEVER, listening
@@ -107,15 +115,16 @@ def fit_finalists(
     Args:
       contenders: on the decimated log, best first.
     """
-    near = [c for c in contenders if c.score - contenders[0].score <= CONTENDING]
-    finalists, beyond = near[:FINALISTS], near[FINALISTS:]
+    near = _within(CONTENDING, contenders)
+    most = min(max(FINALISTS, len(_within(SIMPLE_LEAD, contenders))), MOST_FINALISTS)
+    finalists, beyond = near[:most], near[most:]
     far = [c for c in contenders if c not in near]
     enough = NEAR_FLOOR * problem.samples
     found, record = fit_all(stage, [(problem, c.names, c.fit.x, enough) for c in finalists], workers)
     if finalists and not found and workers.stop.due:
         found, record = _in_short(stage, problem, finalists[0], record)
     lost = (
-        *dropped(stage, beyond, f"{FINALISTS} others are better on the decimated log"),
+        *dropped(stage, beyond, f"{most} others are better on the decimated log"),
         *dropped(stage, far, f"behind the best on the decimated log by more than {CONTENDING:g}"),
     )
     return found, (*record, *lost)
@@ -151,7 +160,7 @@ def _enough(names: tuple[str, ...], found: Sequence[Candidate], used: int) -> fl
         return np.inf
     last = best[0] if at_floor else best[used - 1]
     score = max(best[0].score + CONTENDING, last.score)
-    return score - complexity_penalty(names, best[0].fit.samples)
+    return score - choice_penalty(names)
 
 
 def _still(one: Screened, floor: float, inner: set[str]) -> bool:
@@ -171,6 +180,11 @@ def _first_starts_first(ranked: Sequence[Screened]) -> list[Screened]:
         turns.append(seen[frozenset(one.names)])
         seen[frozenset(one.names)] += 1
     return [one for _, one in sorted(zip(turns, ranked, strict=True), key=lambda pair: pair[0])]
+
+
+def _within(lead: float, ranked: Sequence[Candidate]) -> list[Candidate]:
+    """Those that are behind the first by no more than that."""
+    return [c for c in ranked if c.score - ranked[0].score <= lead]
 
 
 def _sets(screened: Iterable[Screened]) -> Iterable[tuple[str, ...]]:

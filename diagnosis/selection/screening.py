@@ -12,11 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.parameterization import starts
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
 
 Array = NDArray[np.float64]
+
+_WEAK = 0.2  # share of a start from which a fit begins where no more is left than noise
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,7 +51,8 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
     parameterization = problem.parameterization((*base.names, name))
     # What the nuisance has found already costs no more than its prior to name.
     found = [base.parts[name]] if name in base.parts else []
-    own = [*found, *starts(effect)[:most_starts]]
+    share = _WEAK if floor_of(base.by_trial).reached else 1.0
+    own = [*found, *(effect.weakened(start, share) for start in starts(effect)[:most_starts])]
     columns = [parameterization.joined(base.parts | {name: s}) for s in own]
     runs = problem.residuals([parameterization.rig(x) for x in columns], callback_alone=True)
     projection = Projection(base, name)

@@ -131,7 +131,7 @@ def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
 
 
 def _halved(problem: FitProblem, parts: Parts) -> Parts:
-    return {name: _moved(problem.library[name], part, 0.5) for name, part in parts.items()}
+    return {name: problem.library[name].weakened(part, 0.5) for name, part in parts.items()}
 
 
 def _reading(problem: FitProblem, trial: PreparedTrial, rig: RigParameters) -> PreparedTrial:
@@ -152,12 +152,6 @@ def _readings(problem: FitProblem, parts: Parts) -> Array:
     return np.concatenate([trial[0] for trial in problem.residuals([_rig(problem, parts)])])
 
 
-def _moved(effect: Effect, part: Array, share: float) -> Array:
-    """A part of a vector at another strength of its effect."""
-    each = zip(effect.parameters, part, strict=True)
-    return np.array([p.to_fit(p.towards_neutral(p.from_fit(float(x)), share)) for p, x in each])
-
-
 def _column(chosen: _Chosen, name: str) -> _Column:
     """What an effect changes beside half of what was chosen."""
     effect, half = chosen.problem.library[name], chosen.halved
@@ -166,7 +160,7 @@ def _column(chosen: _Chosen, name: str) -> _Column:
     else:
         each = starts(effect)
         share = _SMALL if effect.parameters[0].neutral == 1.0 or name in IMPERFECTIONS else 1.0
-        part = there = _moved(effect, each[len(each) // 2], share)
+        part = there = effect.weakened(each[len(each) // 2], share)
     change = chosen.middle - _readings(chosen.problem, half | {name: there})
     return _Column(name=name, part=part, change=change)
 
@@ -189,7 +183,7 @@ def _promising(chosen: _Chosen, columns: Sequence[_Column]) -> list[tuple[tuple[
         names = tuple(c.name for c in own)
         if not covers(names, tuple(chosen.own)):
             each = zip(own, one.amounts, strict=True)
-            found.append((names, {c.name: _moved(problem.library[c.name], c.part, a) for c, a in each}))
+            found.append((names, {c.name: problem.library[c.name].weakened(c.part, a) for c, a in each}))
     return found
 
 

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from diagnosis.effects import LIBRARY
@@ -23,6 +24,12 @@ def test_an_effect_at_no_strength_is_the_nominal_rig(name):
         assert p.distance_from_neutral(weaker) == pytest.approx(0.3 * p.distance_from_neutral(start))
         gone = p.towards_neutral(start, 1e-9)
         assert gone > 1e6 if math.isinf(p.neutral) else gone == pytest.approx(p.neutral, abs=1e-8)
+
+
+def test_an_effect_is_weakened_in_the_coordinates_of_a_fit():
+    part = np.array([math.log(3.0), 0.35])
+    weak = LIBRARY["layered_tissue"].weakened(part, 0.2)
+    np.testing.assert_allclose(weak, [0.2 * math.log(3.0), 0.35])  # where they meet is a shape
 
 
 @pytest.mark.parametrize("name", LIBRARY)

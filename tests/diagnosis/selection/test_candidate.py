@@ -72,7 +72,7 @@ def test_what_is_above_the_floor_is_not_simulated_on_held_out_trials(monkeypatch
 
 def test_the_score_is_the_cost_and_the_penalty():
     fit = fit_of(("tip_drag",), by_trial=np.ones((2, 50)))
-    assert candidate(fit).score == pytest.approx(100 + complexity_penalty(("tip_drag",), 100))
+    assert candidate(fit).score == pytest.approx(100 + complexity_penalty(fit))
 
 
 @pytest.mark.parametrize(("shift", "explains"), [(SHIFT_LIMIT, True), (SHIFT_LIMIT + 0.1, False)])

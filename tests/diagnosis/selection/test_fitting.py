@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, scored
 
-from diagnosis.criteria import CONTENDING, FINALISTS, NEAR_FLOOR, SLOPES_OF_ITS_OWN
+from diagnosis.criteria import (
+    CONTENDING,
+    FINALISTS,
+    MOST_FINALISTS,
+    NEAR_FLOOR,
+    SIMPLE_LEAD,
+    SLOPES_OF_ITS_OWN,
+)
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.prepared_log import PreparedLog
@@ -161,12 +169,8 @@ def test_a_fit_that_fails_is_recorded_and_the_others_go_on(made):
 
 
 def test_finalists_are_the_best_within_reach(made):
-    near = [
-        scored([n], 100.0 + i)
-        for i, n in enumerate(
-            ("tip_drag", "stiction", "torque_bias", "tip_angle_bias", "tip_angle_scale")
-        )
-    ]
+    names = ("tip_drag", "stiction", "torque_bias", "tip_angle_bias", "tip_angle_scale")
+    near = [scored([n], 100.0 + 1.1 * SIMPLE_LEAD * i) for i, n in enumerate(names)]
     far = scored(["entry_friction"], 101.0 + CONTENDING)
     found, record = fit_finalists("finalists", PROBLEM, [*near, far], Workers())
     assert len(found) == FINALISTS == 4
@@ -174,6 +178,15 @@ def test_finalists_are_the_best_within_reach(made):
     out = {e.effects: e.reason for e in record if e.decision is Decision.DROPPED}
     assert "4 others are better" in out["tip_angle_scale",]
     assert "by more than 60" in out["entry_friction",]
+
+
+def test_where_many_fit_about_as_well_more_are_finalists(made):
+    alike = [scored([name], 100.0 + 0.1 * i) for i, name in enumerate(list(LIBRARY)[:12])]
+    fit_finalists("finalists", PROBLEM, alike[:6], Workers())
+    assert len(made) == 6
+    made.clear()
+    fit_finalists("finalists", PROBLEM, alike, Workers())
+    assert len(made) == MOST_FINALISTS
 
 
 def test_a_finalist_that_stays_far_above_the_noise_is_given_up(made, monkeypatch):

@@ -68,5 +68,5 @@ def test_only_what_the_fit_adjusts_counts():
 
 def test_the_score_of_a_candidate_is_less_by_the_gain():
     fit = linear_fit(np.eye(2) * 1e8, np.zeros(2))
-    wanted = fit.cost + complexity_penalty((), fit.samples) - gain_of_exact_constants(fit)
+    wanted = fit.cost + complexity_penalty(fit) - gain_of_exact_constants(fit)
     assert candidate(fit).score == pytest.approx(wanted)

@@ -63,3 +63,13 @@ def test_what_scatter_has_found_costs_only_its_prior_to_name():
     # The rest of the fit is where it is for the sake of the prior too, a little.
     assert best.cost == pytest.approx(base.cost - prior**2, rel=0.01)
     assert best.start[0] == pytest.approx(scale[0])
+
+
+def test_where_nothing_but_noise_is_left_fits_begin_weak():
+    """Two layers of ratio 1.05 are far from any strong start, from which a fit may end elsewhere."""
+    coarse = coarse_of(log_of(RigParameters(layer_ratio=1.05)))
+    base = fit_effects(coarse, ())
+    best = screen(coarse, base, "layered_tissue")[0]
+    effect = coarse.library["layered_tissue"]
+    strong = [p.distance_from_neutral(p.start[0]) for p in effect.parameters[:1]]
+    assert abs(best.start[0]) == pytest.approx(0.2 * strong[0], rel=0.02)
