@@ -42,7 +42,7 @@ def _verdict(found: Diagnosis) -> str:
             verb = "explain" if len(effects) > 1 else "explains"
             return _capital(f"{titles(effects)} {verb} the gap: residual {before} → {after}")
         case VerdictKind.UNDECIDED:
-            sets = "; or ".join(titles(names) for names in found.verdict.confusable)
+            sets = "; or ".join(titles(names) or _NOTHING for names in found.verdict.confusable)
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
             near = found.assessment.nearest
@@ -93,8 +93,8 @@ def alike(found: Diagnosis) -> str:
         return ""
     others = "; or ".join(titles(names) for names in verdict.confusable[1:])
     return (
-        f"Cannot be told from: {others}. These change every reading of this log in the same way; "
-        "the named cause is the likeliest one, not the only one"
+        f"Cannot be told from: {others}. These change the readings of this log in the same way, or "
+        "nearly so; the named cause is the likeliest one, not the only one"
     )
 
 

@@ -77,9 +77,9 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
     held = [c for c in candidates if c.held_by_a_bound and c.score < reached and _alike(best, c)]
-    rivals = sorted((*held, *alike), key=lambda c: _asks_more_scatter(best, c))
+    rivals = sorted((*held, *alike), key=lambda c: _less_likely(best, c, reached))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
-    if rivals and not (best.named and all(_asks_more_scatter(best, c) for c in rivals)):
+    if rivals and not (best.named and all(_less_likely(best, c, reached) for c in rivals)):
         kind = VerdictKind.UNDECIDED
     return Verdict(
         kind=kind,
@@ -87,7 +87,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         confusable=tuple(tuple(c.named) for c in (best, *rivals)) if rivals else (),
         best=best,
         rivals=tuple(rivals),
-        ranking=_ranking(candidates, known=True),
+        ranking=_ranking((*at_floor, *held), known=True),
     )
 
 
@@ -156,12 +156,15 @@ def _without_needless_scatter(at_floor: Sequence[Candidate]) -> list[Candidate]:
 
 
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:
-    """The simplest of those that score within reach of the best."""
+    """Of the fewest effects among those within reach of the best; of the simplest form that does.
+
+    Nothing is the answer only where it is the likeliest one.
+    """
     best = at_floor[0]
-    near = [c for c in at_floor if c.score - best.score <= SIMPLE_LEAD]
-    simplest = min(near, key=lambda c: (len(c.named), c.fit.size, c.score))
-    leads = simplest.score - best.score
-    return best if _nested(best, simplest) and leads > NESTED_LEAD else simplest
+    near = [c for c in at_floor if c.score - best.score <= SIMPLE_LEAD and (_says(c) or c is best)]
+    fewest = min(near, key=lambda c: (len(c.named), c.score))
+    forms = (c for c in near if _nested(fewest, c) and c.fit.size < fewest.fit.size)
+    return next((c for c in forms if c.score - fewest.score <= NESTED_LEAD), fewest)
 
 
 def _alike(best: Candidate, other: Candidate) -> bool:
@@ -169,7 +172,7 @@ def _alike(best: Candidate, other: Candidate) -> bool:
 
     An effect may be taken for an imperfection of a sensor, so that these count here.
     """
-    if not _says(best) or not _says(other):
+    if not _says(best):
         return False
     if set(best.named) == set(other.named):
         return False
@@ -178,12 +181,18 @@ def _alike(best: Candidate, other: Candidate) -> bool:
     return not _covers(other, best)
 
 
-def _asks_more_scatter(best: Candidate, other: Candidate) -> bool:
-    """Whether the other is behind by what stiffness and damping would have to be off for it.
+def _less_likely(best: Candidate, other: Candidate, reached: float) -> bool:
+    """Whether less of a lead than SIMPLE_LEAD decides, so that the other is only named beside the best.
 
-    That is known and no noise, so that less of a lead is enough: it is named beside the best.
+    It is a richer form of the best, which the data do not ask for; or behind by what stiffness and
+    damping would have to be off for it, which is known and no noise.
+
+    Args:
+      reached: score of the best.
     """
-    return other.fit.prior - best.fit.prior > NESTED_LEAD and other.score > best.score
+    richer = _nested(best, other) and best.fit.size < other.fit.size
+    more_scatter = other.fit.prior - best.fit.prior > NESTED_LEAD and other.score > best.score
+    return more_scatter or (richer and other.score - reached > NESTED_LEAD)
 
 
 def _nested(one: Candidate, other: Candidate) -> bool:

@@ -24,8 +24,7 @@ def verdict(*each):
         (8, VerdictKind.EXPLAINED, ("stiction",)),
         (3, VerdictKind.UNDECIDED, ("coulomb_friction",)),
         (-3, VerdictKind.UNDECIDED, ("coulomb_friction",)),
-        (-8, VerdictKind.UNDECIDED, ("coulomb_friction",)),
-        (-12, VerdictKind.EXPLAINED, ("coulomb_friction",)),
+        (-8, VerdictKind.EXPLAINED, ("coulomb_friction",)),
     ],
 )
 def test_an_effect_and_one_that_contains_it_are_told_apart_by_their_scores(lead, kind, effects):
@@ -33,6 +32,26 @@ def test_an_effect_and_one_that_contains_it_are_told_apart_by_their_scores(lead,
     assert (found.kind, found.effects) == (kind, effects)
     if kind is VerdictKind.UNDECIDED:
         assert set(found.confusable) == {("coulomb_friction",), ("stiction",)}
+
+
+@pytest.mark.parametrize(("lead", "beside"), [(8, True), (12, False)])
+def test_a_richer_form_that_nothing_asks_for_but_fits_is_named_beside(lead, beside):
+    found = verdict((["coulomb_friction"], 100.0), (["stiction"], 100.0 + lead))
+    assert (("stiction",) in found.confusable) is beside
+
+
+def test_of_unrelated_effects_the_one_with_more_parameters_may_be_the_best():
+    """What they cost is in the score."""
+    found = verdict((["base_compliance"], 103.0), (["layered_tissue"], 100.0))
+    assert (found.kind, found.effects) == (VerdictKind.UNDECIDED, ("layered_tissue",))
+
+
+def test_a_ranking_is_of_what_explains_the_log():
+    above = scored(["tip_drag"], 90.0, floor=NoiseFloor(gap=2.0, slow=5.0))
+    found = verdict_on([above, scored(["entry_friction"], 100.0), scored(["stiction"], 104.0)])
+    ranking = dict(found.ranking)
+    assert ranking["tip_drag",] == 0.0
+    assert ranking["entry_friction",] == pytest.approx(1 / (1 + np.exp(-2)))
 
 
 @pytest.mark.parametrize(("lead", "kind"), [(8, VerdictKind.UNDECIDED), (12, VerdictKind.EXPLAINED)])
@@ -94,11 +113,24 @@ def test_what_was_not_checked_on_held_out_trials_explains_nothing():
     assert found.kind is VerdictKind.UNKNOWN
 
 
-def test_what_is_as_good_as_the_nominal_rig_is_none():
-    found = verdict(([], 105.0), (["tip_drag"], 100.0))
-    assert found.kind is VerdictKind.NONE
-    assert found.settled
-    assert found.effects == ()
+@pytest.mark.parametrize(
+    ("lead", "kind", "effects", "confusable"),
+    [
+        (-1, VerdictKind.NONE, (), ()),
+        (1, VerdictKind.UNDECIDED, ("tip_drag",), (("tip_drag",), ())),
+        (9, VerdictKind.UNDECIDED, ("tip_drag",), (("tip_drag",), ())),
+        (11, VerdictKind.EXPLAINED, ("tip_drag",), ()),
+    ],
+)
+def test_an_effect_has_to_lead_the_nominal_rig(lead, kind, effects, confusable):
+    found = verdict(([], 100.0 + lead), (["tip_drag"], 100.0))
+    assert (found.kind, found.effects, found.confusable) == (kind, effects, confusable)
+
+
+def test_the_nominal_rig_may_be_beaten_by_two_effects_that_are_alike():
+    found = verdict(([], 108.0), (["tip_angle_scale"], 100.0), (["base_angle_scale"], 101.0))
+    assert (found.kind, found.effects) == (VerdictKind.UNDECIDED, ("tip_angle_scale",))
+    assert set(found.confusable) == {("tip_angle_scale",), ("base_angle_scale",), ()}
 
 
 @pytest.mark.parametrize("imperfections", [(), ("torque_clock",)])
