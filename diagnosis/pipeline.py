@@ -168,10 +168,10 @@ def _judged(told: ToldApart, *, cut: bool) -> Judged:
     if verdict.kind is VerdictKind.EXPLAINED:
         verdict = replace(verdict, effects=strongest_first(problem, verdict.best))
     if cut:
-        verdict = provisional(verdict, checked.candidates)
+        verdict = provisional(verdict, told.candidates)
     return Judged(
         problem=problem,
         coarse=told.coarse,
         verdict=verdict,
-        record=(*found.record, *judged(checked.candidates)),
+        record=(*found.record, *judged(told.candidates)),
     )

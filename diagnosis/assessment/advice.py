@@ -83,7 +83,7 @@ def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
 def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
     one, other = verdict.best, verdict.rivals[0]
     found = best_experiment(problem, one.fit, other.fit, experiments(problem.log))
-    names = [" with ".join(c.named) for c in (one, other)]
+    names = [" with ".join(c.named) or "the nominal rig" for c in (one, other)]
     apart = f"{names[0]} and {names[1]} would lie {found.separation:.1f} standard deviations apart"
     runs = (DECISIVE_SIGMA / max(found.separation, 1e-3)) ** 2
     if found.separation >= DECISIVE_SIGMA:

@@ -23,8 +23,14 @@ def _apply(rig: RigParameters, kinetic: float, static: float, stribeck: float) -
 
 
 def _beyond_dry_friction(level: float) -> tuple[tuple[float, ...], ...]:
-    """Starts at which friction falls within the rates of the motion, about the constant level."""
-    return ((0.8 * level, 1.5 * level, 0.8), (0.7 * level, 2.5 * level, 0.2))
+    """Typical forms about a constant level: friction falls within the rates at which needles turn."""
+    return (
+        (0.8 * level, 1.5 * level, 0.8),
+        (0.7 * level, 2.5 * level, 0.2),
+        (0.8 * level, 2.0 * level, 0.4),
+        (0.85 * level, 1.3 * level, 0.1),
+        (0.9 * level, 1.4 * level, 0.05),
+    )
 
 
 EFFECT = Effect(

@@ -30,6 +30,12 @@ class Projection:
         moved = self._from_fit(by_trial)
         return np.asarray(moved - self._basis @ (self._basis.T @ moved))
 
+    def answered_cost(self, by_trial: Sequence[Array]) -> float:
+        """Cost where residuals are these, one array per trial, and the fit answers, bounds aside."""
+        there = self._residual + self._from_fit(by_trial)
+        beside = there - self._basis @ (self._basis.T @ there)
+        return float(beside @ beside)
+
     def reachable_cost(self, by_trial: Sequence[Array] | None = None) -> float:
         """Lowest cost within the bounds, if any positive multiple of a difference is added to the fit.
 

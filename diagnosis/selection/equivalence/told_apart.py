@@ -9,16 +9,24 @@ place of effects in candidates: a low-pass filter of the torque is nearly a dela
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import SIMPLE_LEAD
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
+from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.equivalence.equivalent_sets import Equivalent, covers, equivalent_sets
-from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
+from diagnosis.selection.fitting import candidates_of, fit_all
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
-from diagnosis.workers import Workers
+from diagnosis.workers import Failure, Task, Workers
+
+Array = NDArray[np.float64]
 
 _STAGE = "what cannot be told apart"
 
@@ -30,11 +38,23 @@ class ToldApart:
     Attributes:
       state: of the search, with the equivalent sets that were fitted.
       checked: its candidates.
+      forms: richer laws that may be there without showing their shape.
     """
 
     state: SearchState
     checked: Checked
     verdict: Verdict
+    forms: Sequence[WeakForm] = ()
+
+    @property
+    def candidates(self) -> list[Candidate]:
+        """What the verdict is on, best first."""
+        return with_their_scores(self.checked.candidates, self.forms)
+
+    @property
+    def problem(self) -> FitProblem:
+        """The log, with the noise that the best explanation leaves."""
+        return replace(self.state.problem, noise=self.checked.noise)
 
     @property
     def coarse(self) -> FitProblem:
@@ -52,20 +72,46 @@ def told_apart(found: SearchState, workers: Workers) -> ToldApart:
     if workers.stop.due:
         workers.stop.leave_out(_STAGE)
         return first
+    found, forms = _with_weak_forms(found, first, workers)
+    first = _judged(found, first.checked, forms)
     open_ = set(first.verdict.best.names) & set(IMPERFECTIONS)
     effects = [name for name in found.effects if name not in open_]
     equal = equivalent_sets(first.coarse, first.verdict.best, effects, workers)
     few = [e for e in equal if len(e.names) <= len(first.verdict.effects)]
     wider = _fitted(found, first.verdict.best, few, workers)
-    last = first if wider is found else _judged(wider, first.checked)
+    last = first if wider is found else _judged(wider, first.checked, forms)
     named = (e.names for e in equal if set(e.names) <= set(LIBRARY))
     alike = [first.verdict.effects, *named]
     return replace(last, verdict=_beside(last.verdict, alike))
 
 
-def _judged(found: SearchState, known: Checked | None = None) -> ToldApart:
+def _judged(
+    found: SearchState, known: Checked | None = None, forms: Sequence[WeakForm] = ()
+) -> ToldApart:
     checked = check(found.problem, found.candidates, known or found.checked)
-    return ToldApart(state=found, checked=checked, verdict=verdict_on(checked.candidates))
+    verdict = verdict_on(with_their_scores(checked.candidates, forms))
+    return ToldApart(state=found, checked=checked, verdict=verdict, forms=forms)
+
+
+def _with_weak_forms(
+    found: SearchState, first: ToldApart, workers: Workers
+) -> tuple[SearchState, Sequence[WeakForm]]:
+    """The state with richer laws that may be there without showing their shape, and their scores."""
+    verdict = first.verdict
+    tasks = [
+        Task(effects=one.names, arguments=(first.problem, one))
+        for one in (verdict.best, *verdict.rivals)
+    ]
+    results = workers.each(_STAGE, weak_forms, tasks)
+    forms = [form for own in results if not isinstance(own, Failure) for form in own]
+    known = {frozenset(c.names) for c in found.candidates}
+    near = [f for f in forms if f.score - verdict.best.score <= SIMPLE_LEAD and {*f.names} not in known]
+    tasks = [Task(effects=f.names, arguments=(found.problem, f.names, f.start)) for f in near]
+    return found.adding(candidates_of(_STAGE, workers.each(_STAGE, _one_step, tasks))), forms
+
+
+def _one_step(problem: FitProblem, names: tuple[str, ...], start: Array) -> Fit:
+    return fit_effects(problem, names, start, most_iterations=1, from_a_fit=True)
 
 
 def _fitted(
@@ -89,6 +135,6 @@ def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:
     most = max(len(names) for names in told)
     for names in sorted(alike, key=len):
         beyond = verdict.kind is VerdictKind.UNDECIDED and len(names) > most
-        if not beyond and not any(covers(names, known) for known in told):
+        if not beyond and not any(known and covers(names, known) for known in told):
             told.append(names)
     return replace(verdict, confusable=tuple(told) if len(told) > 1 else ())

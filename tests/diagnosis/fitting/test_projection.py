@@ -47,3 +47,11 @@ def test_nothing_is_left_of_what_the_fit_could_take_back(fit):
     moved = np.concatenate(fit.by_trial) + np.vstack(fit.jacobian) @ [0.3, -0.2, 0.1]
     beyond = Projection(fit, "tip_drag").beyond(np.split(moved, len(fit.by_trial)))
     np.testing.assert_allclose(beyond, 0.0, atol=1e-8)
+
+
+def test_the_answered_cost_is_what_least_squares_leave_of_other_residuals(fit):
+    slopes, residual = np.vstack(fit.jacobian), np.concatenate(fit.by_trial)
+    other = residual + np.random.default_rng(7).normal(size=residual.size)
+    left = other - slopes @ np.linalg.lstsq(slopes, other)[0]
+    found = Projection(fit, "tip_drag").answered_cost(np.split(other, len(fit.by_trial)))
+    assert found == pytest.approx(left @ left)
