@@ -35,6 +35,7 @@ STAGES: tuple[Stage, ...] = (
     single_effects,
     coloured_noise,
     finer_mesh_near_the_floor,
+    richer_effects,
     pairs,
     richer_effects,
     one_more_imperfection,

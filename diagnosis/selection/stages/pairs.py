@@ -5,6 +5,7 @@ from itertools import product
 
 from diagnosis.criteria import MOST_PAIRS, PAIR_BASES, SECOND_LEAVES, WORTH_FITTING
 from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
     not_worth,
@@ -21,7 +22,9 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     stage = "pairs"
     state, alone = state.rechecked()
     bases = product(state.singles[: 1 if alone else PAIR_BASES], state.effects)
-    calls = [(state.coarse, base.fit, effect) for base, effect in bases if effect not in base.names]
+    calls = [
+        (state.coarse, base.fit, effect) for base, effect in bases if not overlap(effect, base.names)
+    ]
     screened, record = screen_all(stage, calls, workers)
     state = state.noting(*record)
     worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]

@@ -3,21 +3,17 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from diagnosis.criteria import CONTENDING, FINALISTS
 from diagnosis.effects import FITTED
-from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists
+from diagnosis.selection.richer_forms import forms_beyond, with_richer
 from diagnosis.selection.stages.stage import worth_the_log
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
-Array = NDArray[np.float64]
-
 STAGE = "richer effects"
+_STARTS = 2  # forms from which fits start
 
 
 def richer_effects(state: SearchState, workers: Workers) -> SearchState:
@@ -50,7 +46,8 @@ def _ahead(
     calls = [
         (state.coarse, names, start, enough)
         for simple, rich in _richer(inner, state)
-        for names, start in _starts_beyond(state.coarse, inner, simple, rich)
+        for names in [with_richer(inner, simple, rich)]
+        for start in forms_beyond(state.coarse, inner, simple, rich)[:_STARTS]
     ]
     fitted, record = fit_all(STAGE, calls, workers)
     ahead = sorted((c for c in fitted if c.score < leading[0].score), key=lambda c: c.score)
@@ -65,38 +62,20 @@ def _on_the_log(ahead: Sequence[Candidate], state: SearchState, workers: Workers
 
 
 def _richer(one: Candidate, state: SearchState) -> list[tuple[str, str]]:
-    """Effects of a candidate, each with one that contains it and fits no better so far in its place."""
-    ahead = {
+    """Effects of a candidate, each with one that contains it and was not yet well fitted in its place.
+
+    A fit that stalled may be far from its minimum: where friction sticks and slips a cost is rough.
+    """
+    done = {
         frozenset(c.names)
         for c in (*state.singles, *state.pairs, *state.triples)
-        if c.fit.cost <= one.fit.cost
+        if c.fit.cost <= one.fit.cost and c.fit.status.converged
     }
+    done |= {frozenset(entry.effects) for entry in state.record if entry.stage == STAGE}
     return [
         (inner, rich)
         for inner in one.names
         for rich in state.effects
-        if inner in FITTED[rich].contains and frozenset(_with(one, inner, rich)) not in ahead
+        if inner in FITTED[rich].contains and frozenset(with_richer(one, inner, rich)) not in done
         if rich not in one.names
     ]
-
-
-def _with(one: Candidate, inner: str, rich: str) -> tuple[str, ...]:
-    """Effects of a candidate, a richer one in place of a simple one."""
-    return tuple(rich if name == inner else name for name in one.names)
-
-
-def _starts_beyond(
-    problem: FitProblem, one: Candidate, simple: str, rich: str
-) -> list[tuple[tuple[str, ...], Array]]:
-    """The candidate's set with a richer effect in place of a simple one, and where its fit may start."""
-    names = _with(one, simple, rich)
-    values = [
-        p.from_fit(float(v))
-        for p, v in zip(problem.library[simple].parameters, one.fit.parts[simple], strict=True)
-    ]
-    effect, parameterization = problem.library[rich], problem.parameterization(names)
-    found = []
-    for start in effect.contains[simple](*values):
-        own = np.array([p.to_fit(v) for p, v in zip(effect.parameters, start, strict=True)])
-        found.append((names, parameterization.joined({**one.fit.parts, rich: own})))
-    return found

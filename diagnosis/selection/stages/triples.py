@@ -18,6 +18,7 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_finalists, fit_screened
 from diagnosis.selection.record import dropped
+from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
     near_the_best,
@@ -40,7 +41,7 @@ def three_effects(state: SearchState, workers: Workers) -> SearchState:
         (state.coarse, pair, name)
         for names, pair in pairs.items()
         for name in state.effects
-        if name not in names
+        if not overlap(name, names)
     ]
     screened, record = screen_all(stage, calls, workers)
     worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]

@@ -30,6 +30,7 @@ def test_the_stages_are_these_in_this_order():
         "single_effects",
         "coloured_noise",
         "finer_mesh_near_the_floor",
+        "richer_effects",
         "pairs",
         "richer_effects",
         "one_more_imperfection",

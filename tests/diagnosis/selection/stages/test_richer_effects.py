@@ -8,9 +8,11 @@ from diagnosis_fixtures import log_of, scored, start_of_search
 
 from diagnosis.criteria import SIMPLE_LEAD
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.held_out.cross_validation import information
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
+from diagnosis.selection.record import made
 from diagnosis.selection.stages import richer_effects as module
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -50,6 +52,12 @@ def test_none_is_fitted_again_that_leaves_less_already_in_its_place(taken_for_co
     known = replace(rich, fit=replace(rich.fit, cost=simple.fit.cost - 1.0))
     state = replace(taken_for_constant, singles=(simple, known))
     assert module.richer_effects(state, Workers()) is state
+    stalled = replace(known.fit.status, termination=Termination.STALLED)
+    rough = replace(known, fit=replace(known.fit, status=stalled))
+    again = replace(taken_for_constant, singles=(simple, rough))
+    assert module._richer(simple, again)
+    tried = again.noting(*made(module.STAGE, [rough]))
+    assert not module._richer(simple, tried)
     above = replace(rich, fit=replace(rich.fit, cost=simple.fit.cost + 1.0))
     assert module._richer(simple, replace(state, singles=(simple, above))) == [
         ("coulomb_friction", "stiction")
