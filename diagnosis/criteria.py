@@ -419,6 +419,10 @@ DRIFT_SHARE = 0.3
 DRIFT_CONTENDERS = 12
 """Leading explanations of the decimated log that are fitted with drift, half of them single effects:
 without drift these leave more than any pair of which one effect does what a drift does."""
+JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3
+"""Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
+allowed for; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
+Choices; the search tries them last."""
 DRIFT_RANGE_SIGMA = 6.0
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
 no roughness but a fault, and the answer stays unknown."""

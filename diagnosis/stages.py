@@ -68,6 +68,7 @@ STAGES = {
     "mesh refinement": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "finer mesh near the floor": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "finer mesh": _whole("fitting with a finer mesh", 5.0, 0, 0),
+    "jumps of readings": _coarse("fitting with jumps of readings", 0.3, 0, 0),
     DRIFT: _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
     ALIKE: _coarse("looking for equivalent explanations", 0.03, 24, 24),
     CHECKING: _coarse("checking on held-out trials", 0.0, 1, 1),

@@ -23,7 +23,7 @@ from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.replay.drift import drift_range_sigma, with_drift
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
 from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
@@ -59,6 +59,7 @@ class Assessment:
       parameters: intervals of parameters, by accepted effect.
       joint: joint uncertainty of the parameters of the nearest explanation.
       imperfections: imperfections of sensors in the nearest explanation, with their parameters.
+      reading_jumps: readings that are off from a moment on, in the nearest explanation.
       torque_drift_sigma: largest range of the drift within a trial that was allowed for.
       with_one_more: gap that the best fit may reach with one more effect, by effect.
       detection_limits: parameters at the largest strength that may go unseen, by effect; empty if
@@ -79,6 +80,7 @@ class Assessment:
     parameters: dict[str, dict[str, Interval]]
     joint: JointUncertainty
     imperfections: dict[str, dict[str, Interval]]
+    reading_jumps: tuple[ReadingJump, ...]
     torque_drift_sigma: float
     with_one_more: dict[str, float]
     detection_limits: dict[str, dict[str, float]]
@@ -147,6 +149,7 @@ def assess(
         parameters=accepted,
         joint=joint_uncertainty(near.fit, spread, named),
         imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
+        reading_jumps=rig.jumps,
         torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,
         detection_limits=limits,

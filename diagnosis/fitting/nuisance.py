@@ -5,10 +5,10 @@ needle slides while it is twisted, it is unknown which rate the tissue resists: 
 a fixed place, as in the paper's equation (9), or the material derivative of the sliding shaft;
 this is fitted separately for trials of constant depth and of growing depth.
 
-Each trial that began late has its own parameters for the motion of the base before it.
+Each trial that began late has its own parameters for the motion of the base before it. And where a
+reading jumps within a trial, the size of that is fitted.
 """
 
-import math
 from dataclasses import replace
 from functools import partial
 
@@ -16,18 +16,19 @@ from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import Past, RigParameters
+from diagnosis.replay.rig_parameters import Past, ReadingJump, RigParameters
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
 CONVENTIONS = {"slip_constant_depth": 0.5, "slip_growing_depth": 0.5}
 PRIOR_SIGMA = SCATTER | CONVENTIONS
 _START_UNIT_DEG, _MOST_TURN_DEG = 30.0, 3600.0
+_MOST_JUMP = 1e4  # sigma of the reading
 
 
 def prior_sigma(effect: Effect) -> float:
     """Standard deviation of a nuisance effect's prior, in the units of the fit; infinite: none."""
-    return START_SPREAD_DEG / _START_UNIT_DEG if effect.trial else PRIOR_SIGMA.get(effect.name, math.inf)
+    return PRIOR_SIGMA.get(effect.name, effect.parameters[0].prior_sigma)
 
 
 def _constant_depth(rig: RigParameters, share: float) -> RigParameters:
@@ -46,6 +47,7 @@ _TURN = Parameter(
     start=(0.0,),
     scale=_START_UNIT_DEG,
     reported=False,
+    prior_sigma=START_SPREAD_DEG / _START_UNIT_DEG,
 )
 _SHARE = Parameter(name="share", unit="-", low=0.0, high=1.0, start=(0.0,))
 SLIP_CONSTANT_DEPTH = Effect(
@@ -82,6 +84,38 @@ def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
         )
         for trial in log.trials
         if trial.late_start is not None
+    )
+
+
+def _with_jump(trial: str, sensor: str, time_s: float, rig: RigParameters, size: float) -> RigParameters:
+    jump = ReadingJump(trial=trial, sensor=sensor, time_s=time_s, size=size)
+    return replace(rig, jumps=(*rig.jumps, jump))
+
+
+def reading_jump(trial: str, sensor: str, time_s: float, *, sigma: float) -> Effect:
+    """The nuisance effect of a reading that jumps at a sample, by a size that is open.
+
+    Args:
+      sensor: its column.
+      time_s: first sample that is off.
+      sigma: noise of the reading, the unit of the fit.
+    """
+    size = Parameter(
+        name="size",
+        unit="deg" if sensor == "tip_angle_deg" else "N mm",
+        low=-_MOST_JUMP * sigma,
+        high=_MOST_JUMP * sigma,
+        start=(0.0,),
+        scale=sigma,
+        reported=False,
+    )
+    return Effect(
+        name=f"jump of {sensor} in {trial} at {time_s:g} s",
+        title=f"a jump of the reading {sensor} in {trial} at {time_s:g} s",
+        place=Place.SENSOR,
+        parameters=(size,),
+        apply=partial(_with_jump, trial, sensor, time_s),
+        trial=trial,
     )
 
 

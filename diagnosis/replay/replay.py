@@ -125,7 +125,10 @@ def _run(
 
 def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
     tip, torque = sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
-    return Prediction(
-        tip_angle_deg=np.interp(at_s, run.time_s, tip),
-        base_torque_n_mm=np.interp(at_s, run.time_s, torque),
-    )
+    shown = {
+        "tip_angle_deg": np.interp(at_s, run.time_s, tip),
+        "base_torque_n_mm": np.interp(at_s, run.time_s, torque),
+    }
+    for jump in rig.jumps:
+        shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)
+    return Prediction(**shown)

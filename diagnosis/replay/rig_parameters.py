@@ -36,6 +36,28 @@ class Past:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ReadingJump:
+    """A reading that is off from a moment on: an encoder that lost counts, a gauge that was knocked.
+
+    Attributes:
+      trial: name of the trial.
+      sensor: column of the reading.
+      time_s: first sample that is off.
+      size: by which it is off, in the unit of the column.
+    """
+
+    trial: str
+    sensor: str
+    time_s: float
+    size: float
+
+    @property
+    def unit(self) -> str:
+        """Of the size."""
+        return "deg" if self.sensor.endswith("_deg") else "N mm"
+
+
+@dataclass(frozen=True, kw_only=True)
 class RigParameters:
     """Parameters that may differ from the nominal rig.
 
@@ -53,6 +75,7 @@ class RigParameters:
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
       pasts: turns of the base before trials that began late.
+      jumps: readings that are off from a moment on.
       free: a free-form law; None: none.
     """
 
@@ -91,6 +114,7 @@ class RigParameters:
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
     pasts: tuple[Past, ...] = ()
+    jumps: tuple[ReadingJump, ...] = ()
     free: FreeLaw | None = None
 
     def needle(self, rig: NominalRig) -> Needle:
@@ -160,6 +184,7 @@ class RigParameters:
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,
+            jumps=(),
             free=self.free.without_sensors() if self.free else None,
         )
 
@@ -168,12 +193,13 @@ class RigParameters:
         return next((past for past in self.pasts if past.trial == trial), Past(trial=trial))
 
     def on_trial(self, trial: str) -> "RigParameters":
-        """The rig for one trial, without the pasts of others."""
+        """The rig for one trial, without the pasts and jumps of others."""
         own = tuple(past for past in self.pasts if past.trial == trial)
+        jumps = tuple(jump for jump in self.jumps if jump.trial == trial)
         free = self.free.on_trial(trial) if self.free else None
-        if own == self.pasts and free is self.free:
+        if own == self.pasts and jumps == self.jumps and free is self.free:
             return self
-        return replace(self, pasts=own, free=free)
+        return replace(self, pasts=own, jumps=jumps, free=free)
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle for a schedule, as returned by `driven`."""

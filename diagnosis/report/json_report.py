@@ -45,6 +45,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "sensors": {
             "imperfections": _parameters(told.imperfections),
             "torque_drift_sigma": told.torque_drift_sigma,
+            "reading_jumps": [asdict(jump) for jump in told.reading_jumps],
         },
         "where": _where(diagnosis),
         "next_experiment": told.next_experiment,

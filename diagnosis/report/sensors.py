@@ -3,6 +3,7 @@
 from diagnosis.assessment.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
+from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.result import Diagnosis
 
 
@@ -14,9 +15,17 @@ def imperfections(found: Diagnosis) -> str:
         lines.append(
             f"a drift of the torque sensor, by up to {in_sigma(told.torque_drift_sigma)} within a trial"
         )
+    lines += map(_jumped, told.reading_jumps)
     if not lines:
         return ""
     return f"The sensors are not perfect; the diagnosis allows for this: {'; '.join(lines)}"
+
+
+def _jumped(jump: ReadingJump) -> str:
+    return (
+        f"a jump of {jump.sensor} by {jump.size:+.3g} {jump.unit} at {jump.time_s:g} s in {jump.trial}, "
+        "which stays, as if counts were lost"
+    )
 
 
 def _told(name: str, parameters: dict[str, Interval]) -> str:

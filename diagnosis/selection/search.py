@@ -21,6 +21,7 @@ from diagnosis.selection.stages.imperfections import one_more_imperfection
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
+from diagnosis.selection.stages.reading_jumps import with_reading_jumps
 from diagnosis.selection.stages.richer_effects import richer_effects, richer_effects_in_place_of_three
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
@@ -49,5 +50,5 @@ STAGES: tuple[Stage, ...] = (
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; where nothing explains the log, with drift of the torque as well."""
-    return with_drift(run_stages(STAGES, state, workers), workers)
+    """The state after all stages; where nothing explains the log, with jumps of readings, or drift."""
+    return with_drift(with_reading_jumps(run_stages(STAGES, state, workers), workers), workers)

@@ -85,7 +85,7 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     Of some 450 blind logs, all eleven that drift explains are explained so, and none by a search from
     the beginning, which would double the time.
     """
-    contenders = [*_leading(state.singles), *_leading(state.pairs)]
+    contenders = [*leading_sets(state.singles), *leading_sets(state.pairs)]
     costs = [_cost_with_drift(start.coarse, c) for c in contenders]
     least = min(costs, default=math.inf)
     near = [c for c, cost in zip(contenders, costs, strict=True) if cost <= NEAR_FLOOR * least]
@@ -95,17 +95,17 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     begun = begun.adding(fit_all(STAGE, [(start.problem, ())], workers))
     if not coarse:
         return begun
-    return begun.adding(fit_finalists(STAGE, start.problem, _simplest_first(coarse), workers))
+    return begun.adding(fit_finalists(STAGE, start.problem, simplest_first(coarse), workers))
 
 
-def _leading(found: Sequence[Candidate]) -> list[Candidate]:
+def leading_sets(found: Sequence[Candidate]) -> list[Candidate]:
     """The leading sets on the decimated log, each once."""
     ranked = sorted(found, key=lambda c: c.score)
     distinct = {frozenset(c.names): c for c in reversed(ranked)}
     return sorted(distinct.values(), key=lambda c: c.score)[: DRIFT_CONTENDERS // 2]
 
 
-def _simplest_first(found: Sequence[Candidate]) -> list[Candidate]:
+def simplest_first(found: Sequence[Candidate]) -> list[Candidate]:
     """Best first, those last that are behind a part of their own: they would crowd out what is rival."""
 
     def behind_a_part(one: Candidate) -> bool:

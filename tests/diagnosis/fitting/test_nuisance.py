@@ -1,5 +1,6 @@
 """What every fit leaves open."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -12,10 +13,11 @@ from diagnosis.fitting.nuisance import (
     late_starts_of,
     nuisance_of,
     prior_sigma,
+    reading_jump,
 )
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.start.late_start import LateStart
-from diagnosis.replay.rig_parameters import NOMINAL, Past
+from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump
 
 STILL = prepared(trial(turns()))
 SLIDING = prepared(trial(turns(), speed=-1.0))
@@ -64,3 +66,14 @@ def test_a_log_without_late_trials_has_no_pasts():
 def test_everything_that_is_open_has_a_prior():
     log = PreparedLog(rig=RIG, trials=(SLIDING, GROWING))
     assert {e.name for e in nuisance_of(log)} == set(PRIOR_SIGMA)
+
+
+def test_the_size_of_a_jump_is_open_without_a_prior():
+    jump = reading_jump("trial_02.csv", "tip_angle_deg", 7.38, sigma=0.3)
+    assert jump.trial == "trial_02.csv"
+    assert prior_sigma(jump) == math.inf
+    (size,) = jump.parameters
+    assert size.to_fit(0.6) == pytest.approx(2.0)  # in sigma
+    rig = jump.apply(jump.apply(NOMINAL, 1.0), 2.0)
+    wanted = ReadingJump(trial="trial_02.csv", sensor="tip_angle_deg", time_s=7.38, size=1.0)
+    assert rig.jumps == (wanted, replace(wanted, size=2.0))

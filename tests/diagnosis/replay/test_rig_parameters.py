@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.replay.rig_parameters import NOMINAL, Past, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, RigParameters
 from diagnosis.replay.sensors import driven, sensed
 from sim.schedule import Schedule
 
@@ -43,7 +43,7 @@ NEEDS = {  # what a field shows beside only
 
 
 @pytest.mark.parametrize(
-    "name", [f.name for f in fields(RigParameters) if f.name not in ("pasts", "free")]
+    "name", [f.name for f in fields(RigParameters) if f.name not in ("pasts", "jumps", "free")]
 )
 def test_every_parameter_changes_the_needle_or_its_sensors(name):
     about = replace(NOMINAL, **NEEDS.get(name, {}))
@@ -91,3 +91,12 @@ def test_what_is_the_same_in_every_trial_is_made_once():
     assert one.law is other.law
     assert another.tissue != one.tissue
     assert other.inserted_mm == one.inserted_mm - 10.0
+
+
+def test_a_jump_is_of_its_trial_and_of_its_sensor_alone():
+    jump = ReadingJump(trial="one", sensor="tip_angle_deg", time_s=1.0, size=2.0)
+    rig = RigParameters(jumps=(jump,))
+    assert rig.on_trial("one") is rig
+    assert rig.on_trial("two") == NOMINAL
+    assert rig.without_sensors == NOMINAL
+    assert (jump.unit, replace(jump, sensor="base_torque_n_mm").unit) == ("deg", "N mm")

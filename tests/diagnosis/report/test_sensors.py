@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from diagnosis.assessment.intervals import Interval
+from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.report.sensors import imperfections
 
 RATE = Interval(value=0.00183, low=0.0018, high=0.0019, unit="-")
@@ -27,3 +28,11 @@ def test_each_imperfection_is_told_with_its_value(dry):
 def test_a_drift_is_told_with_its_range(dry):
     found = having(dry.found, torque_drift_sigma=2.345)
     assert "drift of the torque sensor, by up to 2.35 σ within a trial" in imperfections(found)
+
+
+def test_a_jump_is_told_with_its_size_time_and_trial(dry):
+    jump = ReadingJump(trial="trial_02.csv", sensor="tip_angle_deg", time_s=7.38, size=1.0234)
+    said = imperfections(having(dry.found, reading_jumps=(jump,)))
+    assert "a jump of tip_angle_deg by +1.02 deg at 7.38 s in trial_02.csv" in said
+    torque = replace(jump, sensor="base_torque_n_mm", size=-0.05)
+    assert "by -0.05 N mm" in imperfections(having(dry.found, reading_jumps=(torque,)))

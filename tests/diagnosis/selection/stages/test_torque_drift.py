@@ -86,7 +86,7 @@ def test_effects_behind_a_part_of_their_own_crowd_out_no_rival():
     first, rival = scored(["torque_sensor_delay"], 1.0), scored(["torque_low_pass"], 5.0)
     idle = [scored(["torque_sensor_delay", name], 2.0) for name in ("tip_clock", "tip_drag")]
     better = scored(["torque_low_pass", "stiction"], 4.0)
-    ranked = torque_drift._simplest_first([*idle, first, better, rival])
+    ranked = torque_drift.simplest_first([*idle, first, better, rival])
     assert ranked == [first, better, rival, *idle]
 
 

@@ -1,0 +1,121 @@
+"""Where nothing explains a log: a reading that jumps within a trial, since an encoder lost counts.
+
+The step in the residual of each leading explanation that takes most off its cost tells sensor, trial
+and sample. If that is a good part of what is left beyond noise, the leading explanations are fitted
+again with a jump there, whose size is open; and once more, if another jump is left. It is allowed for
+only if the log is explained so: what else steps once, as a chuck that slips, changes several readings,
+each in its own way. So a trial has to have both, tip and torque.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from diagnosis.criteria import CONTENDING, FINALISTS, JUMP_LEAST_SAMPLES, JUMP_SHARE, MOST_JUMPS
+from diagnosis.effects.effect import Effect
+from diagnosis.fitting.nuisance import reading_jump
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.residuals.largest_step import ResidualStep, largest_step
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.fitting import fit_all, fit_finalists
+from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.stages.torque_drift import leading_sets, simplest_first
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+STAGE = "jumps of readings"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Place:
+    """A sensor in a trial, and its rows in the residuals of a fit."""
+
+    trial: PreparedTrial
+    sensor: str
+    rows: slice
+
+
+def with_reading_jumps(state: SearchState, workers: Workers) -> SearchState:
+    """The state with jumps allowed for, where that explains the log; else the state itself."""
+    if workers.stop.due:
+        workers.stop.leave_out(STAGE)
+        return state
+    state, explained = state.rechecked()
+    if explained:
+        return state
+    jumping = state
+    for _ in range(MOST_JUMPS):
+        jump = _largest_jump(jumping)
+        if jump is None:
+            break
+        jumping, explained = _refitted(state, jumping, jump, workers).rechecked()
+        if explained:
+            return jumping.noting(_entry(Decision.KEPT, "with it the log is explained"))
+    if jumping is state:
+        return state
+    return state.noting(_entry(Decision.DROPPED, "no explanation reaches the noise with one"))
+
+
+def _largest_jump(state: SearchState) -> Effect | None:
+    """The jump that leaves least of one of the leading explanations, if it takes off enough."""
+    places = list(_places(state.problem))
+    rows = [place.rows for place in places]
+    least, found = np.inf, None
+    for one in sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]:
+        left = np.concatenate([*one.fit.by_trial, one.fit.parameterization.weights * one.fit.x])
+        step = largest_step(left, one.fit.slopes, rows, JUMP_LEAST_SAMPLES)
+        if step and _is_enough(step, one) and one.fit.cost - step.gain < least:
+            least, found = one.fit.cost - step.gain, step
+    return _effect(state.problem, places[found.block], found.sample) if found else None
+
+
+def _is_enough(step: ResidualStep, one: Candidate) -> bool:
+    return step.gain > JUMP_SHARE * (one.fit.cost - one.fit.prior - one.fit.samples)
+
+
+def _places(problem: FitProblem) -> Iterator[_Place]:
+    """Where a jump may be: the sensors of trials that have all of them."""
+    end = 0
+    for trial in problem.log.trials:
+        for sensor in filter(trial.has, SENSORS):
+            start, end = end, end + int(np.isfinite(trial.readings[sensor]).sum())
+            if all(map(trial.has, SENSORS)):
+                yield _Place(trial=trial, sensor=sensor, rows=slice(start, end))
+
+
+def _effect(problem: FitProblem, place: _Place, sample: int) -> Effect:
+    trial, sensor = place.trial, place.sensor
+    time_s = trial.time_s[np.isfinite(trial.readings[sensor])]
+    return reading_jump(trial.name, sensor, float(time_s[sample]), sigma=problem.noise[sensor])
+
+
+def _refitted(state: SearchState, jumping: SearchState, jump: Effect, workers: Workers) -> SearchState:
+    """What the search has come to, fitted with one more jump from where it is.
+
+    Args:
+      state: without any jump.
+      jumping: with those that were found so far.
+    """
+    fine, coarse = (replace(p, nuisance=(*p.nuisance, jump)) for p in (jumping.problem, jumping.coarse))
+    contenders = [*leading_sets(state.singles), *leading_sets(state.pairs)]
+    calls = [(coarse, c.names, coarse.parameterization(c.names).joined(c.fit.parts)) for c in contenders]
+    fitted, record = fit_all(STAGE, calls, workers)
+    begun = SearchState(
+        problem=fine,
+        coarse=coarse,
+        effects=state.effects,
+        nominal=state.nominal,
+        singles=state.singles,
+        pairs=state.pairs,
+        record=(*jumping.record, _entry(Decision.MADE, jump.title), *record),
+    )
+    begun = begun.adding(fit_all(STAGE, [(fine, ())], workers))
+    near = [c for c in fitted if c.score - min(c.score for c in fitted) <= CONTENDING]
+    return begun.adding(fit_finalists(STAGE, fine, simplest_first(near), workers)) if near else begun
+
+
+def _entry(decision: Decision, reason: str) -> RecordEntry:
+    return RecordEntry(stage=STAGE, effects=(), decision=decision, reason=reason)

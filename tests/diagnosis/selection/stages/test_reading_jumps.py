@@ -1,0 +1,108 @@
+"""A reading that jumps within a trial is allowed for, where that and an effect explain a log."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import joined, log_of, start_of_search
+
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import Trial
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.record import Decision
+from diagnosis.selection.stages.nominal_rig import nominal_rig
+from diagnosis.selection.stages.reading_jumps import STAGE, with_reading_jumps
+from diagnosis.stopping import StopReason, StopSignal
+from diagnosis.workers import Workers
+
+TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
+NOISE = {TIP: 0.3, TORQUE: 0.015}
+
+
+def off(log: RigLog, column: str, *jumps: tuple[float, float]) -> RigLog:
+    """The log with readings of the last trial that are off by so many sigma from so many seconds on."""
+    *others, last = log.trials
+    table = last.table.copy()
+    for time_s, sigmas in jumps:
+        table.loc[table["time_s"] >= time_s, column] += sigmas * NOISE[column]
+    return replace(log, trials=(*others, Trial(name=last.name, table=table)))
+
+
+def two(rig: RigParameters) -> RigLog:
+    return joined(log_of(rig, seconds=8.0), log_of(rig, seed=1, speed=-1.0, seconds=8.0))
+
+
+def searched(log):
+    """What the nominal rig leaves, then with jumps if that is needed."""
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    return state, with_reading_jumps(state, Workers())
+
+
+def decisions(state):
+    return [e.decision for e in state.record if e.stage == STAGE and not e.effects and e.score is None]
+
+
+@pytest.mark.parametrize("column", [TIP, TORQUE])
+def test_a_jump_is_found_with_its_time_and_size(column):
+    before, after = searched(off(two(NOMINAL), column, (5.0, 8.0)))
+    assert not before.best.floor.reached
+    assert after.best.floor.reached
+    rig = after.best.fit.parameterization.rig(after.best.fit.x)
+    (jump,) = rig.jumps
+    assert (jump.sensor, jump.trial) == (column, "trial_02.csv")
+    assert jump.time_s == pytest.approx(5.0, abs=0.011)
+    assert jump.size == pytest.approx(8.0 * NOISE[column], abs=0.3 * NOISE[column])
+    assert decisions(after)[-1] is Decision.KEPT
+
+
+def test_two_jumps_are_found_one_after_the_other():
+    _, after = searched(off(two(NOMINAL), TIP, (2.0, 8.0), (6.0, -13.0)))
+    assert after.best.floor.reached
+    assert len(after.best.fit.parameterization.rig(after.best.fit.x).jumps) == 2
+
+
+def test_an_effect_is_found_beside_a_jump():
+    rig = RigParameters(kinetic_n_mm_per_mm=0.001)
+    state = start_of_search(off(two(rig), TIP, (5.0, 8.0)), ("coulomb_friction",))
+    start = state.coarse.parameterization(("coulomb_friction",)).joined(
+        {"coulomb_friction": np.log([0.001])}
+    )
+    single = candidate(fit_effects(state.coarse, ("coulomb_friction",), start))
+    fine = candidate(fit_effects(state.problem, ("coulomb_friction",), start))
+    state = replace(state, singles=(single,), candidates=(candidate(state.nominal), fine))
+    found = with_reading_jumps(state, Workers())
+    assert found.best.names == ("coulomb_friction",)
+    assert found.best.floor.reached
+    assert np.exp(found.best.fit.x[0]) == pytest.approx(0.001, rel=0.02)
+
+
+def test_a_log_that_is_explained_is_left_alone():
+    before, after = searched(two(NOMINAL))
+    assert (after.problem, after.candidates) == (before.problem, before.candidates)
+    assert after.record == before.record
+
+
+def test_what_is_no_jump_is_left_alone():
+    """Dry friction leaves much, and no step takes most of it off."""
+    before, after = searched(two(RigParameters(kinetic_n_mm_per_mm=0.001)))
+    assert after.problem is before.problem
+    assert not before.best.floor.reached
+    assert Decision.KEPT not in decisions(after)
+
+
+def test_without_the_other_sensor_a_jump_may_be_the_needle_itself():
+    log = off(two(NOMINAL), TIP, (5.0, 8.0))
+    trials = [Trial(name=t.name, table=t.table.drop(columns=TORQUE)) for t in log.trials]
+    before, after = searched(replace(log, trials=tuple(trials)))
+    assert after.problem is before.problem
+    assert not after.best.floor.reached
+
+
+def test_after_a_stop_it_is_left_out():
+    stop = StopSignal()
+    stop.request(StopReason.INTERRUPTED)
+    state = start_of_search(two(NOMINAL), effects=())
+    assert with_reading_jumps(state, Workers(stop=stop)) is state
+    assert stop.left_out == [STAGE]
