@@ -70,9 +70,10 @@ class Candidate:
         return next(self._objections(), "")
 
     @property
-    def held_by_a_bound(self) -> bool:
-        """Whether it would explain the log, but for parameters that stopped at a bound."""
-        return bool(self.reached_bounds) and len(list(self._objections())) == 1
+    def refused_for_values(self) -> bool:
+        """Whether it would explain the log, but for parameters at a bound or as good as none."""
+        values = bool(self.reached_bounds) + bool(self.as_good_as_none)
+        return values == len(list(self._objections())) > 0
 
     def _objections(self) -> Iterator[str]:
         floor = self.floor

@@ -62,7 +62,8 @@ class Verdict:
 def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first.
 
-    One that is held by a bound explains nothing; but where it leads what does, that is open.
+    One whose parameters are at a bound, or as good as none, explains nothing; but where it leads what
+    does, that is open.
     """
     at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
@@ -76,8 +77,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
-    held = [c for c in candidates if c.held_by_a_bound and c.score < reached and _alike(best, c)]
-    rivals = sorted((*held, *alike), key=lambda c: _less_likely(best, c, reached))
+    refused = [c for c in candidates if c.refused_for_values and c.score < reached and _alike(best, c)]
+    rivals = sorted((*refused, *alike), key=lambda c: _less_likely(best, c, reached))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
     if rivals and not (best.named and all(_less_likely(best, c, reached) for c in rivals)):
         kind = VerdictKind.UNDECIDED
@@ -87,7 +88,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         confusable=tuple(tuple(c.named) for c in (best, *rivals)) if rivals else (),
         best=best,
         rivals=tuple(rivals),
-        ranking=_ranking((*at_floor, *held), known=True),
+        ranking=_ranking((*at_floor, *refused), known=True),
     )
 
 

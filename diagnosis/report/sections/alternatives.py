@@ -15,8 +15,8 @@ from diagnosis.selection.verdict import VerdictKind
 _RANKING = (
     "Probability of each explanation, given the library, the noise and these trials. Effects that "
     f"explain a log together are one explanation. Odds below {math.exp(SIMPLE_LEAD / 2):.0f} to 1 "
-    "decide nothing: a second effect, or more parameters, must lead by more than that to be named. "
-    f"An effect that contains a simpler one must lead it by {math.exp(NESTED_LEAD / 2):.0f} to 1."
+    "leave it undecided, and a second effect must lead by more than that to be named. Between an effect "
+    f"and a simpler one that it contains, {math.exp(NESTED_LEAD / 2):.0f} to 1 decides."
 )
 
 

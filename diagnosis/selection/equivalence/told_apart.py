@@ -101,6 +101,7 @@ def _with_weak_forms(
     tasks = [
         Task(effects=one.names, arguments=(first.problem, one))
         for one in (verdict.best, *verdict.rivals)
+        if one.explains
     ]
     results = workers.each(_STAGE, weak_forms, tasks)
     forms = [form for own in results if not isinstance(own, Failure) for form in own]

@@ -92,6 +92,22 @@ def test_what_is_held_by_a_bound_explains_nothing_but_leaves_open_what_it_leads(
     assert (("base_compliance",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
 
 
+def test_what_is_as_good_as_none_explains_nothing_but_leaves_open_what_it_leads():
+    """Shear thinning of an exponent of 0.995, which dry friction replaces less well."""
+    x = [0.995, 0.0]
+    weak = replace(scored(["shear_thinning"], 60.0), fit=fit_of(("shear_thinning",), x=x))
+    assert weak.as_good_as_none
+    found = verdict_on([weak, scored(["coulomb_friction"], 100.0)])
+    assert (found.kind, found.effects) == (VerdictKind.UNDECIDED, ("coulomb_friction",))
+    assert ("shear_thinning",) in found.confusable
+    beside = replace(
+        scored(["tip_drag", "shear_thinning"], 60.0),
+        fit=fit_of(("tip_drag", "shear_thinning"), x=[-3.0, *x]),
+    )
+    alone = verdict_on([beside, scored(["tip_drag"], 100.0)])
+    assert (alone.kind, alone.effects) == (VerdictKind.EXPLAINED, ("tip_drag",))
+
+
 def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
     above = NoiseFloor(gap=2.0, slow=5.0)
     far = replace(held(["base_compliance"], 1.0), floor=above)
