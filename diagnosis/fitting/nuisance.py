@@ -16,7 +16,7 @@ from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import Past, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, RigParameters
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
@@ -102,7 +102,7 @@ def reading_jump(trial: str, sensor: str, time_s: float, *, sigma: float) -> Eff
     """
     size = Parameter(
         name="size",
-        unit="deg" if sensor == "tip_angle_deg" else "N mm",
+        unit="deg" if sensor.endswith("_deg") else "N mm",
         low=-_MOST_JUMP * sigma,
         high=_MOST_JUMP * sigma,
         start=(0.0,),
@@ -117,6 +117,12 @@ def reading_jump(trial: str, sensor: str, time_s: float, *, sigma: float) -> Eff
         apply=partial(_with_jump, trial, sensor, time_s),
         trial=trial,
     )
+
+
+def moment_of(jump: Effect) -> float:
+    """The time of a jump of a reading, s."""
+    (one,) = jump.apply(NOMINAL, 0.0).jumps
+    return one.time_s
 
 
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:

@@ -129,6 +129,6 @@ def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
         "tip_angle_deg": np.interp(at_s, run.time_s, tip),
         "base_torque_n_mm": np.interp(at_s, run.time_s, torque),
     }
-    for jump in rig.jumps:
+    for jump in (one for one in rig.jumps if one.sensor in shown):
         shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)
     return Prediction(**shown)

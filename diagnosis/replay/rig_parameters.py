@@ -20,6 +20,9 @@ from sim.spec import Setup
 LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
 
 
+BASE = "base_angle_deg"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Past:
     """The turns of the base before a trial that began late.
@@ -38,6 +41,8 @@ class Past:
 @dataclass(frozen=True, kw_only=True)
 class ReadingJump:
     """A reading that is off from a moment on: an encoder that lost counts, a gauge that was knocked.
+
+    For the needle, a base that reads more than it turned is a chuck that slipped.
 
     Attributes:
       trial: name of the trial.
@@ -184,7 +189,7 @@ class RigParameters:
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,
-            jumps=(),
+            jumps=tuple(jump for jump in self.jumps if jump.sensor == BASE),
             free=self.free.without_sensors() if self.free else None,
         )
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from diagnosis.replay.bearing import bearing_torque_n_mm
-from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.rig_parameters import BASE, RigParameters
 from sim.schedule import Schedule
 from sim.simulation import SimulationFailed
 
@@ -39,6 +39,9 @@ def driven(
     if rig.free is not None:
         torque = np.zeros(logged.time_s.size) if torque_n_mm is None else torque_n_mm
         logged = rig.free.driven(logged, start_s, torque)
+    for jump in rig.jumps:
+        if jump.sensor == BASE:
+            logged = replace(logged, drive=logged.drive - jump.size * (logged.time_s >= jump.time_s))
     if rig.base_scale == 1.0 and rig.inserted_offset_mm == 0.0:
         return logged
     inserted_mm = np.maximum(logged.inserted_mm + rig.inserted_offset_mm, 0.0)

@@ -3,8 +3,9 @@
 The step in the residual of each leading explanation that takes most off its cost tells sensor, trial
 and sample. If that is a good part of what is left beyond noise, the leading explanations are fitted
 again with a jump there, whose size is open; and once more, if another jump is left. It is allowed for
-only if the log is explained so: what else steps once, as a chuck that slips, changes several readings,
-each in its own way. So a trial has to have both, tip and torque.
+only if the log is explained so, and not as well by a chuck that slipped at that moment, or a base that
+lost counts, which move the needle against its reading. That shows for a moment in the torque, so that
+a trial has to have both, tip and torque.
 """
 
 from collections.abc import Iterator
@@ -12,12 +13,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.criteria import CONTENDING, FINALISTS, JUMP_LEAST_SAMPLES, JUMP_SHARE, MOST_JUMPS
+from diagnosis.criteria import (
+    CONTENDING,
+    FINALISTS,
+    JUMP_LEAST_SAMPLES,
+    JUMP_SHARE,
+    MOST_JUMPS,
+    SIMPLE_LEAD,
+)
 from diagnosis.effects.effect import Effect
-from diagnosis.fitting.nuisance import reading_jump
+from diagnosis.fitting.nuisance import moment_of, reading_jump
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.replay.rig_parameters import BASE
 from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists
@@ -52,11 +61,25 @@ def with_reading_jumps(state: SearchState, workers: Workers) -> SearchState:
         if jump is None:
             break
         jumping, explained = _refitted(state, jumping, jump, workers).rechecked()
+        if explained and _may_be_a_slip(jumping, jump, workers):
+            return state.noting(_entry(Decision.DROPPED, "a slip between base and needle does as well"))
         if explained:
             return jumping.noting(_entry(Decision.KEPT, "with it the log is explained"))
     if jumping is state:
         return state
     return state.noting(_entry(Decision.DROPPED, "no explanation reaches the noise with one"))
+
+
+def _may_be_a_slip(state: SearchState, jump: Effect, workers: Workers) -> bool:
+    """Whether the best explanation does as well with the base off at that moment, not the reading."""
+    best = state.best
+    others = tuple(e for e in state.problem.nuisance if e is not jump)
+    sigma_deg = state.problem.noise["tip_angle_deg"]  # both read the needle, and the base may be exact
+    slip = reading_jump(jump.trial, BASE, moment_of(jump), sigma=sigma_deg)
+    problem = replace(state.problem, nuisance=(*others, slip))
+    start = problem.parameterization(best.names).joined(best.fit.parts)
+    found, _ = fit_all(STAGE, [(problem, best.names, start)], workers)
+    return any(c.fit.cost - best.fit.cost <= SIMPLE_LEAD for c in found)
 
 
 def _largest_jump(state: SearchState) -> Effect | None:

@@ -9,9 +9,11 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.replay import predict
+from diagnosis.replay.rig_parameters import BASE, NOMINAL, ReadingJump, RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
+from diagnosis.selection.stages import reading_jumps as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.reading_jumps import STAGE, with_reading_jumps
 from diagnosis.stopping import StopReason, StopSignal
@@ -106,3 +108,30 @@ def test_after_a_stop_it_is_left_out():
     state = start_of_search(two(NOMINAL), effects=())
     assert with_reading_jumps(state, Workers(stop=stop)) is state
     assert stop.left_out == [STAGE]
+
+
+def test_a_base_that_lost_counts_or_a_chuck_that_slipped_is_no_jump_of_the_tip():
+    """A slip of 3 deg twists the needle: the torque tells, until it has relaxed."""
+    slip = ReadingJump(trial="trial_02.csv", sensor=BASE, time_s=5.0, size=3.0)
+    problem = start_of_search(two(NOMINAL), effects=()).problem
+    slipped = [
+        predict(problem.log.rig, trial, [NOMINAL, RigParameters(jumps=(slip,))])
+        for trial in problem.log.trials
+    ]
+    log = two(NOMINAL)
+    trials = []
+    for trial, (without, with_it) in zip(log.trials, slipped, strict=True):
+        change = {name: with_it[name] - without[name] for name in (TIP, TORQUE)}
+        table = trial.table.assign(**{name: trial.table[name] + d for name, d in change.items()})
+        trials.append(Trial(name=trial.name, table=table))
+    before, after = searched(replace(log, trials=tuple(trials)))
+    assert not before.best.floor.reached
+    assert after.problem is before.problem
+    assert decisions(after)[-1] is Decision.DROPPED
+
+
+def test_where_a_slip_does_as_well_it_stays_open_which_it_is(monkeypatch):
+    monkeypatch.setattr(module, "SIMPLE_LEAD", 1e9)
+    before, after = searched(off(two(NOMINAL), TIP, (5.0, 8.0)))
+    assert after.problem is before.problem
+    assert "does as well" in [e for e in after.record if e.stage == STAGE][-1].reason
