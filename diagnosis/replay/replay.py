@@ -19,7 +19,7 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.replay.sensors import driven, sensed
+from diagnosis.replay.sensors import driven, reads_ahead, sensed
 from sim.simulation import Run, simulate
 
 Array = NDArray[np.float64]
@@ -76,7 +76,7 @@ def predict(
     number: dict[RigParameters, int] = {}
     each = [number.setdefault(rig.without_sensors, len(number)) for rig in rigs]
     runs = _run(nominal, trial, list(number), resolution, callback_alone=callback_alone)
-    return [_sensed(rig, runs[i], trial.time_s) for rig, i in zip(rigs, each, strict=True)]
+    return [_sensed(rig, runs[i], trial) for rig, i in zip(rigs, each, strict=True)]
 
 
 def shape_of(
@@ -123,7 +123,9 @@ def _run(
     return simulate(setups, inputs, keep_shape=keep_shape, callback_alone=callback_alone)
 
 
-def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
+def _sensed(rig: RigParameters, run: Run, trial: PreparedTrial) -> Prediction:
+    """Readings at the samples of a trial; as read where a sensor's clock is past the end of it."""
+    at_s = trial.time_s
     tip, torque = sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
     shown = {
         "tip_angle_deg": np.interp(at_s, run.time_s, tip),
@@ -131,4 +133,8 @@ def _sensed(rig: RigParameters, run: Run, at_s: Array) -> Prediction:
     }
     for jump in (one for one in rig.jumps if one.sensor in shown):
         shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)
+    for sensor, ahead in reads_ahead(rig, run.time_s, at_s).items():
+        if trial.has(sensor):
+            read = trial.readings[sensor]
+            shown[sensor] = np.where(ahead & np.isfinite(read), read, shown[sensor])
     return Prediction(**shown)

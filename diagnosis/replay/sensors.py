@@ -81,6 +81,25 @@ def sensed(
     return tip + more[0], torque + more[1]
 
 
+def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Array]:
+    """By sensor: samples at which its clock is past the end of the run, where nothing is known, (N,).
+
+    Args:
+      run_s: times of the run.
+      at_s: times of the samples.
+    """
+    clocks = {
+        "tip_angle_deg": (rig.tip_clock_ratio, rig.tip_delay_s),
+        "base_torque_n_mm": (rig.torque_clock_ratio, rig.torque_delay_s),
+    }
+    start_s, end_s = run_s[0], run_s[-1]
+    return {
+        sensor: start_s + (at_s - start_s) * ratio - delay_s > end_s
+        for sensor, (ratio, delay_s) in clocks.items()
+        if ratio > 1.0
+    }
+
+
 def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:
     """Values a delay ago, by a clock that drifts; before the first sample, that sample."""
     if clock_ratio == 1.0 and delay_s == 0.0:

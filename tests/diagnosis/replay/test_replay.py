@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_of, prepared, trial, turns
+from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_of, prepared, problem_of, trial, turns
 
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
@@ -67,6 +67,21 @@ def test_rigs_side_by_side_read_what_each_reads_alone():
         alone = predict(RIG, ready, [rig])[0]
         for sensor in SENSORS:
             np.testing.assert_array_equal(together[sensor], alone[sensor])
+
+
+@pytest.mark.parametrize("sensor", ["tip_angle_deg", "base_torque_n_mm"])
+def test_what_a_fast_clock_shows_past_the_end_of_a_trial_is_taken_as_read(sensor):
+    """A clock of 2 % is past the end of 6 s from 5.88 s on; nobody knows the motion there."""
+    (one,) = problem_of(log_of(RigParameters(), seconds=6.0)).log.trials
+    ratio = {"tip_angle_deg": "tip_clock_ratio", "base_torque_n_mm": "torque_clock_ratio"}[sensor]
+    (found,) = predict(RIG, one, [RigParameters(**{ratio: 1.02})])
+    past = one.time_s * 1.02 > one.time_s[-1]
+    assert 5 < past.sum() < 20
+    read = one.readings[sensor]
+    np.testing.assert_array_equal(found[sensor][past], read[past])
+    assert not np.any(found[sensor][~past] == read[~past])
+    (exact,) = predict(RIG, one, [RigParameters()])
+    assert not np.any(exact[sensor] == read)
 
 
 def test_residuals_are_in_sigma_sensor_after_sensor_without_what_is_missing():
