@@ -1,4 +1,4 @@
-"""Where nothing explains a log: a reading that jumps within a trial, since an encoder lost counts.
+"""Where no effects explain a log: a reading that jumps within a trial, since an encoder lost counts.
 
 The step in the residual of each leading explanation that takes most off its cost tells sensor, trial
 and sample. If that is a good part of what is left beyond noise, the leading explanations are fitted
@@ -6,6 +6,9 @@ again with a jump there, whose size is open; and once more, if another jump is l
 only if the log is explained so, and not as well by a chuck that slipped at that moment, or a base that
 lost counts, which move the needle against its reading. That shows for a moment in the torque, so that
 a trial has to have both, tip and torque.
+
+It is told beside effects. A jump that explains a log alone is all that the model lacks: the log stays
+unknown, and the jump is told as the law that is missing.
 """
 
 from collections.abc import Iterator
@@ -61,13 +64,25 @@ def with_reading_jumps(state: SearchState, workers: Workers) -> SearchState:
         if jump is None:
             break
         jumping, explained = _refitted(state, jumping, jump, workers).rechecked()
-        if explained and _may_be_a_slip(jumping, jump, workers):
-            return state.noting(_entry(Decision.DROPPED, "a slip between base and needle does as well"))
+        if explained and (why_not := _objection(jumping, jump, workers)):
+            return state.noting(_entry(Decision.DROPPED, why_not))
         if explained:
             return jumping.noting(_entry(Decision.KEPT, "with it the log is explained"))
     if jumping is state:
         return state
     return state.noting(_entry(Decision.DROPPED, "no explanation reaches the noise with one"))
+
+
+def _objection(state: SearchState, jump: Effect, workers: Workers) -> str:
+    """Why a jump with which the log is explained does not count; empty: it does."""
+    if _explains_alone(state):
+        return "it explains the log without any effect"
+    return "a slip between base and needle does as well" if _may_be_a_slip(state, jump, workers) else ""
+
+
+def _explains_alone(state: SearchState) -> bool:
+    """Whether the nominal rig explains the log, with what is allowed for."""
+    return any(c.explains and not c.names for c in (state.checked.candidates if state.checked else ()))
 
 
 def _may_be_a_slip(state: SearchState, jump: Effect, workers: Workers) -> bool:

@@ -36,9 +36,16 @@ def two(rig: RigParameters) -> RigLog:
     return joined(log_of(rig, seconds=8.0), log_of(rig, seed=1, speed=-1.0, seconds=8.0))
 
 
-def searched(log):
-    """What the nominal rig leaves, then with jumps if that is needed."""
-    state = nominal_rig(start_of_search(log, effects=()), Workers())
+DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
+
+
+def searched(log, effects=("coulomb_friction",)):
+    """What dry friction leaves, fitted from where it is, then with jumps if that is needed."""
+    state = nominal_rig(start_of_search(log, effects=effects), Workers())
+    for name in effects:
+        start = state.problem.parameterization((name,)).joined({name: np.log([0.001])})
+        coarse, fine = (fit_effects(p, (name,), start) for p in (state.coarse, state.problem))
+        state = replace(state, singles=(candidate(coarse),)).adding(([candidate(fine)], ()))
     return state, with_reading_jumps(state, Workers())
 
 
@@ -47,12 +54,13 @@ def decisions(state):
 
 
 @pytest.mark.parametrize("column", [TIP, TORQUE])
-def test_a_jump_is_found_with_its_time_and_size(column):
-    before, after = searched(off(two(NOMINAL), column, (5.0, 8.0)))
+def test_a_jump_is_found_with_its_time_and_size_beside_an_effect(column):
+    before, after = searched(off(two(DRY), column, (5.0, 8.0)))
     assert not before.best.floor.reached
     assert after.best.floor.reached
-    rig = after.best.fit.parameterization.rig(after.best.fit.x)
-    (jump,) = rig.jumps
+    assert after.best.names == ("coulomb_friction",)
+    assert np.exp(after.best.fit.x[0]) == pytest.approx(0.001, rel=0.02)
+    (jump,) = after.best.fit.parameterization.rig(after.best.fit.x).jumps
     assert (jump.sensor, jump.trial) == (column, "trial_02.csv")
     assert jump.time_s == pytest.approx(5.0, abs=0.011)
     assert jump.size == pytest.approx(8.0 * NOISE[column], abs=0.3 * NOISE[column])
@@ -60,42 +68,33 @@ def test_a_jump_is_found_with_its_time_and_size(column):
 
 
 def test_two_jumps_are_found_one_after_the_other():
-    _, after = searched(off(two(NOMINAL), TIP, (2.0, 8.0), (6.0, -13.0)))
+    _, after = searched(off(two(DRY), TIP, (2.0, 8.0), (6.0, 8.0)))
     assert after.best.floor.reached
     assert len(after.best.fit.parameterization.rig(after.best.fit.x).jumps) == 2
 
 
-def test_an_effect_is_found_beside_a_jump():
-    rig = RigParameters(kinetic_n_mm_per_mm=0.001)
-    state = start_of_search(off(two(rig), TIP, (5.0, 8.0)), ("coulomb_friction",))
-    start = state.coarse.parameterization(("coulomb_friction",)).joined(
-        {"coulomb_friction": np.log([0.001])}
-    )
-    single = candidate(fit_effects(state.coarse, ("coulomb_friction",), start))
-    fine = candidate(fit_effects(state.problem, ("coulomb_friction",), start))
-    state = replace(state, singles=(single,), candidates=(candidate(state.nominal), fine))
-    found = with_reading_jumps(state, Workers())
-    assert found.best.names == ("coulomb_friction",)
-    assert found.best.floor.reached
-    assert np.exp(found.best.fit.x[0]) == pytest.approx(0.001, rel=0.02)
+def test_a_jump_alone_is_what_is_missing():
+    before, after = searched(off(two(NOMINAL), TIP, (5.0, 8.0)), effects=())
+    assert after.problem is before.problem
+    assert "without any effect" in [e for e in after.record if e.stage == STAGE][-1].reason
 
 
 def test_a_log_that_is_explained_is_left_alone():
-    before, after = searched(two(NOMINAL))
+    before, after = searched(two(DRY))
     assert (after.problem, after.candidates) == (before.problem, before.candidates)
     assert after.record == before.record
 
 
 def test_what_is_no_jump_is_left_alone():
-    """Dry friction leaves much, and no step takes most of it off."""
-    before, after = searched(two(RigParameters(kinetic_n_mm_per_mm=0.001)))
+    """Dry friction leaves much of the nominal rig, and no step takes most of it off."""
+    before, after = searched(two(DRY), effects=())
     assert after.problem is before.problem
     assert not before.best.floor.reached
     assert Decision.KEPT not in decisions(after)
 
 
 def test_without_the_other_sensor_a_jump_may_be_the_needle_itself():
-    log = off(two(NOMINAL), TIP, (5.0, 8.0))
+    log = off(two(DRY), TIP, (5.0, 8.0))
     trials = [Trial(name=t.name, table=t.table.drop(columns=TORQUE)) for t in log.trials]
     before, after = searched(replace(log, trials=tuple(trials)))
     assert after.problem is before.problem
@@ -113,12 +112,12 @@ def test_after_a_stop_it_is_left_out():
 def test_a_base_that_lost_counts_or_a_chuck_that_slipped_is_no_jump_of_the_tip():
     """A slip of 3 deg twists the needle: the torque tells, until it has relaxed."""
     slip = ReadingJump(trial="trial_02.csv", sensor=BASE, time_s=5.0, size=3.0)
-    problem = start_of_search(two(NOMINAL), effects=()).problem
+    problem = start_of_search(two(DRY), effects=()).problem
     slipped = [
-        predict(problem.log.rig, trial, [NOMINAL, RigParameters(jumps=(slip,))])
+        predict(problem.log.rig, trial, [DRY, replace(DRY, jumps=(slip,))])
         for trial in problem.log.trials
     ]
-    log = two(NOMINAL)
+    log = two(DRY)
     trials = []
     for trial, (without, with_it) in zip(log.trials, slipped, strict=True):
         change = {name: with_it[name] - without[name] for name in (TIP, TORQUE)}
@@ -132,6 +131,6 @@ def test_a_base_that_lost_counts_or_a_chuck_that_slipped_is_no_jump_of_the_tip()
 
 def test_where_a_slip_does_as_well_it_stays_open_which_it_is(monkeypatch):
     monkeypatch.setattr(module, "SIMPLE_LEAD", 1e9)
-    before, after = searched(off(two(NOMINAL), TIP, (5.0, 8.0)))
+    before, after = searched(off(two(DRY), TIP, (5.0, 8.0)))
     assert after.problem is before.problem
     assert "does as well" in [e for e in after.record if e.stage == STAGE][-1].reason
