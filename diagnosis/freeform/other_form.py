@@ -120,11 +120,14 @@ class _Comparison:
 
     def _on_the_decimated_log(self, names: tuple[str, ...], enough: float) -> Fit | None:
         """A fit from where the explanation is; None: it cannot come near enough."""
-        # From far off a fit may end in a local minimum, so that the first curve is nearly straight.
+        # From far off a fit may end in a local minimum; another one begins with a nearly straight curve.
         straight = with_family(self.coarse, self.family.with_prior(*_NEARLY_STRAIGHT))
         own = with_family(self.coarse, self.family)
         same = _same_parameters(self.known, self.coarse, self.replaced, self.family)
         if not (same and len(names) == len(self.known.names)):
+            form = _from(self.known, names, own, same, enough=enough)
+            if form.cost <= enough:
+                return form
             form = _from(self.known, names, straight, same, enough=enough)
             behind = form.status.termination is Termination.BEHIND
             return None if behind else _from(form, names, own, enough=enough)

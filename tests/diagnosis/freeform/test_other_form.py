@@ -100,25 +100,33 @@ def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
     assert form_of(*fitted(RigParameters(torque_bias_n_mm=0.05), ("torque_bias",))) is None
 
 
-@pytest.mark.parametrize(("behind", "fits"), [(True, 1), (False, 2)])
-def test_a_form_that_cannot_come_near_enough_is_not_fitted_to_its_end(behind, fits, monkeypatch):
-    asked = []
-    ended = Termination.BEHIND if behind else Termination.OFFSET
-    fit = SimpleNamespace(names=("layered_tissue",), status=SimpleNamespace(termination=ended))
+@pytest.mark.parametrize(
+    ("costs", "found"),
+    [
+        ((40.0,), 40.0),  # near enough at once
+        ((90.0, 60.0, 45.0), 45.0),  # from a nearly straight curve
+        ((90.0, None), None),  # not even that comes near
+    ],
+)
+def test_a_form_is_begun_as_it_is_and_then_nearly_straight(costs, found, monkeypatch):
+    left = iter(costs)
 
-    def from_there(_, __, ___, ____=None, *, enough):
-        asked.append(enough)
-        return fit
+    def from_there(*_, **__):
+        cost = next(left)
+        termination = Termination.OFFSET if cost else Termination.BEHIND
+        return SimpleNamespace(cost=cost, status=SimpleNamespace(termination=termination))
 
     monkeypatch.setattr(module, "_from", from_there)
     monkeypatch.setattr(module, "with_family", lambda *_: None)
     monkeypatch.setattr(module, "_same_parameters", lambda *_: {})
     family = SimpleNamespace(with_prior=lambda *_: None)
-    both = {"problem": None, "coarse": None, "best": fit, "known": fit}
-    compared = module._Comparison(**both, family=family, replaced="layered_tissue")
-    found = compared._on_the_decimated_log(("form",), 50.0)
-    assert asked == [50.0] * fits
-    assert found is (None if behind else fit)
+    known = SimpleNamespace(names=("layered_tissue", "tip_drag"))
+    compared = module._Comparison(
+        problem=None, coarse=None, best=None, known=known, family=family, replaced="layered_tissue"
+    )
+    form = compared._on_the_decimated_log(("form",), 50.0)
+    assert (form.cost if form else None) == found
+    assert next(left, None) is None
 
 
 def test_forms_that_effects_name_are_families():
