@@ -31,7 +31,7 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.rig_parameters import BASE
 from diagnosis.residuals.largest_step import ResidualStep, largest_step
-from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.stages.torque_drift import leading_sets, simplest_first
@@ -150,6 +150,7 @@ def _refitted(state: SearchState, jumping: SearchState, jump: Effect, workers: W
         pairs=state.pairs,
         record=(*jumping.record, _entry(Decision.MADE, jump.title), *record),
     )
+    begun = begun.adding(([candidate(state.nominal)], ()))  # there is always something to check
     begun = begun.adding(fit_all(STAGE, [(fine, ())], workers))
     near = [c for c in fitted if c.score - min(c.score for c in fitted) <= CONTENDING]
     return begun.adding(fit_finalists(STAGE, fine, simplest_first(near), workers)) if near else begun
