@@ -416,7 +416,7 @@ MOST_QUIETENED = 4.0
 """Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
-DRIFT_CONTENDERS = 12
+FAULT_CONTENDERS = 12
 """Leading explanations of the decimated log that are fitted with drift, half of them single effects:
 without drift these leave more than any pair of which one effect does what a drift does."""
 JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3

@@ -37,11 +37,7 @@ def _whole(words: str, task_s: float, least: int, most: int) -> Usual:
 
 
 REPLAYING, CHECKING, ASSESSING = "nominal replay", "held-out trials", "assessment"
-SCREENING_PAIRS, ALIKE, DRIFT = (
-    "screening pairs",
-    "what cannot be told apart",
-    "drift of the torque sensor",
-)
+SCREENING_PAIRS, ALIKE = "screening pairs", "what cannot be told apart"
 STAGES = {
     REPLAYING: _coarse("replaying the nominal rig", 0.0, 1, 1),
     "nominal rig": _whole("fitting the nominal rig", 0.4, 1, 1),
@@ -69,7 +65,7 @@ STAGES = {
     "finer mesh near the floor": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "finer mesh": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "jumps of readings": _coarse("fitting with jumps of readings", 0.3, 0, 0),
-    DRIFT: _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
+    "drift of the torque sensor": _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
     ALIKE: _coarse("looking for equivalent explanations", 0.03, 24, 24),
     CHECKING: _coarse("checking on held-out trials", 0.0, 1, 1),
     "other forms of a law": _whole("comparing with other forms of a law", 1.0, 0, 0),

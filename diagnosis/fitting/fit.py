@@ -75,8 +75,12 @@ class Fit:
     def promised_cost(self) -> float:
         """Cost that one more step would leave, by the linear model."""
         low, high = self.parameterization.bounds()
-        residual = np.concatenate([*self.by_trial, self.parameterization.weights * self.x])
-        return self.cost - promised_reduction(self.slopes, residual, low - self.x, high - self.x)
+        return self.cost - promised_reduction(self.slopes, self.residual, low - self.x, high - self.x)
+
+    @property
+    def residual(self) -> Array:
+        """Residuals and prior, one below the other, (N,)."""
+        return np.concatenate([*self.by_trial, self.parameterization.weights * self.x])
 
     @property
     def slopes(self) -> Array:

@@ -55,12 +55,11 @@ def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[
 def rescaled(fit: Fit, problem: FitProblem, noise: Noise) -> Fit:
     """A fit of the problem with its residuals, slopes and cost in units of another noise."""
     by_trial = in_units_of(problem, fit.by_trial, noise)
-    prior = fit.parameterization.weights * fit.x
     return replace(
         fit,
         by_trial=by_trial,
         jacobian=in_units_of(problem, fit.jacobian, noise),
-        cost=sum(float(r @ r) for r in by_trial) + float(prior @ prior),
+        cost=sum(float(r @ r) for r in by_trial) + fit.prior,
     )
 
 

@@ -16,7 +16,7 @@ from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import Past, ReadingJump, RigParameters
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
@@ -87,42 +87,35 @@ def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
     )
 
 
-def _with_jump(trial: str, sensor: str, time_s: float, rig: RigParameters, size: float) -> RigParameters:
-    jump = ReadingJump(trial=trial, sensor=sensor, time_s=time_s, size=size)
-    return replace(rig, jumps=(*rig.jumps, jump))
+def _with_jump(jump: ReadingJump, rig: RigParameters, size: float) -> RigParameters:
+    return replace(rig, jumps=(*rig.jumps, replace(jump, size=size)))
 
 
-def reading_jump(trial: str, sensor: str, time_s: float, *, sigma: float) -> Effect:
-    """The nuisance effect of a reading that jumps at a sample, by a size that is open.
+def reading_jump(jump: ReadingJump, *, sigma: float) -> Effect:
+    """The nuisance effect of a reading that jumps, by a size that is open.
 
     Args:
-      sensor: its column.
-      time_s: first sample that is off.
+      jump: begun from its size.
       sigma: noise of the reading, the unit of the fit.
     """
+    what = f"{jump.sensor} in {jump.trial} at {jump.time_s:g} s"
     size = Parameter(
         name="size",
-        unit="deg" if sensor.endswith("_deg") else "N mm",
+        unit=jump.unit,
         low=-_MOST_JUMP * sigma,
         high=_MOST_JUMP * sigma,
-        start=(0.0,),
+        start=(jump.size,),
         scale=sigma,
         reported=False,
     )
     return Effect(
-        name=f"jump of {sensor} in {trial} at {time_s:g} s",
-        title=f"a jump of the reading {sensor} in {trial} at {time_s:g} s",
+        name=f"jump of {what}",
+        title=f"a jump of the reading {what}",
         place=Place.SENSOR,
         parameters=(size,),
-        apply=partial(_with_jump, trial, sensor, time_s),
-        trial=trial,
+        apply=partial(_with_jump, jump),
+        trial=jump.trial,
     )
-
-
-def moment_of(jump: Effect) -> float:
-    """The time of a jump of a reading, s."""
-    (one,) = jump.apply(NOMINAL, 0.0).jumps
-    return one.time_s
 
 
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:

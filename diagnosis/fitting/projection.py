@@ -18,7 +18,7 @@ class Projection:
         """For a fit and an effect by name; a nuisance effect of that name is left out of the fit."""
         self._kept = np.array([owner != name for owner in base.parameterization.owners], bool)
         self._prior = base.parameterization.weights * base.x
-        self._residual = np.concatenate([*base.by_trial, self._prior])
+        self._residual = base.residual
         slopes = base.slopes[:, self._kept]
         self._basis, self._root = np.linalg.qr(slopes)
         self._low, self._high = (

@@ -92,9 +92,8 @@ def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Arra
         "tip_angle_deg": (rig.tip_clock_ratio, rig.tip_delay_s),
         "base_torque_n_mm": (rig.torque_clock_ratio, rig.torque_delay_s),
     }
-    start_s, end_s = run_s[0], run_s[-1]
     return {
-        sensor: start_s + (at_s - start_s) * ratio - delay_s > end_s
+        sensor: _shown_s(at_s, run_s[0], ratio, delay_s) > run_s[-1]
         for sensor, (ratio, delay_s) in clocks.items()
         if ratio > 1.0
     }
@@ -104,8 +103,12 @@ def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> A
     """Values a delay ago, by a clock that drifts; before the first sample, that sample."""
     if clock_ratio == 1.0 and delay_s == 0.0:
         return values
-    start_s = time_s[0]
-    return np.asarray(np.interp(start_s + (time_s - start_s) * clock_ratio - delay_s, time_s, values))
+    return np.asarray(np.interp(_shown_s(time_s, time_s[0], clock_ratio, delay_s), time_s, values))
+
+
+def _shown_s(time_s: Array, start_s: float, clock_ratio: float, delay_s: float) -> Array:
+    """Times of which a sensor shows the values."""
+    return start_s + (time_s - start_s) * clock_ratio - delay_s
 
 
 def _low_passed(time_s: Array, values: Array, time_constant_s: float) -> Array:

@@ -52,6 +52,11 @@ def dropped(stage: str, candidates: Iterable[Candidate], reason: str) -> tuple[R
     return tuple(_entry(stage, c, Decision.DROPPED, reason) for c in candidates)
 
 
+def noted(stage: str, decision: Decision, reason: str) -> RecordEntry:
+    """A decision of a stage on no single explanation."""
+    return RecordEntry(stage=stage, effects=(), decision=decision, reason=reason)
+
+
 def not_fitted(stage: str, sets: Iterable[tuple[str, ...]], reason: str) -> tuple[RecordEntry, ...]:
     """Sets of effects that a stage drops before a fit."""
     return tuple(

@@ -5,7 +5,8 @@ log; the best of these are then fitted on the log itself. If none of them brings
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is.
-What the scatter of the rig's own constants explains is `none`.
+What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, readings
+may jump, and the torque may drift.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -21,11 +22,11 @@ from diagnosis.selection.stages.imperfections import one_more_imperfection
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
-from diagnosis.selection.stages.reading_jumps import with_reading_jumps
+from diagnosis.selection.stages.reading_jumps import jumps_of_readings
 from diagnosis.selection.stages.richer_effects import richer_effects, richer_effects_in_place_of_three
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
-from diagnosis.selection.stages.torque_drift import with_drift
+from diagnosis.selection.stages.torque_drift import drift_of_the_torque_sensor
 from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -46,9 +47,11 @@ STAGES: tuple[Stage, ...] = (
     best_without_each_effect,
     scatter_of_the_best,
     finer_mesh,
+    jumps_of_readings,
+    drift_of_the_torque_sensor,
 )
 
 
 def search(state: SearchState, workers: Workers) -> SearchState:
-    """The state after all stages; where nothing explains the log, with jumps of readings, or drift."""
-    return with_drift(with_reading_jumps(run_stages(STAGES, state, workers), workers), workers)
+    """The state after all stages that there was time for."""
+    return run_stages(STAGES, state, workers)

@@ -18,6 +18,7 @@ from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
+from diagnosis.residuals.largest_step import ResidualStep, largest_step
 
 Array = NDArray[np.float64]
 
@@ -43,36 +44,29 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """One step for each angle or reading, if the log is long enough."""
     found = []
     for acts_on, (sensor, place, title) in _PLACES.items():
-        moment = largest_step(ranges, sensor) if sensor in ranges.missing else None
+        moment = largest_event(ranges, sensor) if sensor in ranges.missing else None
         if moment is not None:
             found.append(_step(acts_on, place, title, moment, ranges.missing[sensor]))
     return tuple(found)
 
 
-def largest_step(ranges: LogRanges, sensor: str) -> Moment | None:
+def largest_event(ranges: LogRanges, sensor: str) -> Moment | None:
     """Where the mean of the nominal residual changes most; None: all trials are too short."""
     trials = [t for t in ranges.problem.log.trials if t.has(sensor)]
     best, found = 0.0, None
     for trial, left in zip(trials, ranges.left[sensor], strict=True):
         read = np.isfinite(left)
         time_s = trial.time_s[read] - trial.time_s[0]
-        size, at_s = _largest_change(time_s, left[read])
-        if size > best:
-            best, found = size, Moment(trial=trial.name, time_s=at_s)
+        step = _largest_change(time_s, left[read])
+        if step is not None and step.gain > best:
+            best, found = step.gain, Moment(trial=trial.name, time_s=float(time_s[step.sample]))
     return found
 
 
-def _largest_change(time_s: Array, left: Array) -> tuple[float, float]:
-    """Largest share of the variance that a step explains, times the samples, and its time."""
-    count = np.arange(1, left.size)
-    total = np.cumsum(left)
-    before, after = total[:-1] / count, (total[-1] - total[:-1]) / (left.size - count)
-    explained = count * (left.size - count) / left.size * (after - before) ** 2
-    middle = (time_s[1:] > _LEAST_S) & (time_s[1:] < time_s[-1] - _LEAST_S)
-    if not middle.any():
-        return 0.0, 0.0
-    at = int(np.argmax(np.where(middle, explained, -1.0)))
-    return float(explained[at]), float(time_s[at + 1])
+def _largest_change(time_s: Array, left: Array) -> ResidualStep | None:
+    """The step of a trial that takes most off, beside a mean."""
+    beside = int(np.searchsorted(time_s, _LEAST_S, side="right"))
+    return largest_step(left, np.ones((left.size, 1)), [slice(None)], beside)
 
 
 def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float) -> Family:

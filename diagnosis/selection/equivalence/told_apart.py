@@ -73,7 +73,8 @@ def told_apart(found: SearchState, workers: Workers) -> ToldApart:
         workers.stop.leave_out(_STAGE)
         return first
     found, forms = _with_weak_forms(found, first, workers)
-    first = _judged(found, first.checked, forms)
+    if forms:
+        first = _judged(found, first.checked, forms)
     open_ = set(first.verdict.best.names) & set(IMPERFECTIONS)
     effects = [name for name in found.effects if name not in open_]
     equal = equivalent_sets(first.coarse, first.verdict.best, effects, workers)

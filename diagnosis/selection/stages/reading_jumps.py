@@ -16,25 +16,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.criteria import (
-    CONTENDING,
-    FINALISTS,
-    JUMP_LEAST_SAMPLES,
-    JUMP_SHARE,
-    MOST_JUMPS,
-    SIMPLE_LEAD,
-)
-from diagnosis.effects.effect import Effect
-from diagnosis.fitting.nuisance import moment_of, reading_jump
+from diagnosis.criteria import FINALISTS, JUMP_LEAST_SAMPLES, JUMP_SHARE, MOST_JUMPS, SIMPLE_LEAD
+from diagnosis.fitting.nuisance import reading_jump
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.rig_parameters import BASE
+from diagnosis.replay.rig_parameters import BASE, ReadingJump
 from diagnosis.residuals.largest_step import ResidualStep, largest_step
-from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.fitting import fit_all, fit_finalists
-from diagnosis.selection.record import Decision, RecordEntry
-from diagnosis.selection.stages.torque_drift import leading_sets, simplest_first
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.stages.stage import fitted_again, leading_sets
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -50,11 +42,8 @@ class _Place:
     rows: slice
 
 
-def with_reading_jumps(state: SearchState, workers: Workers) -> SearchState:
+def jumps_of_readings(state: SearchState, workers: Workers) -> SearchState:
     """The state with jumps allowed for, where that explains the log; else the state itself."""
-    if workers.stop.due:
-        workers.stop.leave_out(STAGE)
-        return state
     state, explained = state.rechecked()
     if explained:
         return state
@@ -65,15 +54,15 @@ def with_reading_jumps(state: SearchState, workers: Workers) -> SearchState:
             break
         jumping, explained = _refitted(state, jumping, jump, workers).rechecked()
         if explained and (why_not := _objection(jumping, jump, workers)):
-            return state.noting(_entry(Decision.DROPPED, why_not))
+            return state.noting(noted(STAGE, Decision.DROPPED, why_not))
         if explained:
-            return jumping.noting(_entry(Decision.KEPT, "with it the log is explained"))
+            return jumping.noting(noted(STAGE, Decision.KEPT, "with it the log is explained"))
     if jumping is state:
         return state
-    return state.noting(_entry(Decision.DROPPED, "no explanation reaches the noise with one"))
+    return state.noting(noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with one"))
 
 
-def _objection(state: SearchState, jump: Effect, workers: Workers) -> str:
+def _objection(state: SearchState, jump: ReadingJump, workers: Workers) -> str:
     """Why a jump with which the log is explained does not count; empty: it does."""
     if _explains_alone(state):
         return "it explains the log without any effect"
@@ -85,29 +74,27 @@ def _explains_alone(state: SearchState) -> bool:
     return any(c.explains and not c.names for c in (state.checked.candidates if state.checked else ()))
 
 
-def _may_be_a_slip(state: SearchState, jump: Effect, workers: Workers) -> bool:
+def _may_be_a_slip(state: SearchState, jump: ReadingJump, workers: Workers) -> bool:
     """Whether the best explanation does as well with the base off at that moment, not the reading."""
-    best = state.best
-    others = tuple(e for e in state.problem.nuisance if e is not jump)
+    best, others = state.best, state.problem.nuisance[:-1]
     sigma_deg = state.problem.noise["tip_angle_deg"]  # both read the needle, and the base may be exact
-    slip = reading_jump(jump.trial, BASE, moment_of(jump), sigma=sigma_deg)
+    slip = reading_jump(replace(jump, sensor=BASE), sigma=sigma_deg)
     problem = replace(state.problem, nuisance=(*others, slip))
     start = problem.parameterization(best.names).joined(best.fit.parts)
     found, _ = fit_all(STAGE, [(problem, best.names, start)], workers)
     return any(c.fit.cost - best.fit.cost <= SIMPLE_LEAD for c in found)
 
 
-def _largest_jump(state: SearchState) -> Effect | None:
+def _largest_jump(state: SearchState) -> ReadingJump | None:
     """The jump that leaves least of one of the leading explanations, if it takes off enough."""
     places = list(_places(state.problem))
     rows = [place.rows for place in places]
     least, found = np.inf, None
     for one in sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]:
-        left = np.concatenate([*one.fit.by_trial, one.fit.parameterization.weights * one.fit.x])
-        step = largest_step(left, one.fit.slopes, rows, JUMP_LEAST_SAMPLES)
+        step = largest_step(one.fit.residual, one.fit.slopes, rows, JUMP_LEAST_SAMPLES)
         if step and _is_enough(step, one) and one.fit.cost - step.gain < least:
             least, found = one.fit.cost - step.gain, step
-    return _effect(state.problem, places[found.block], found.sample) if found else None
+    return _jump(places[found.block], found.sample) if found else None
 
 
 def _is_enough(step: ResidualStep, one: Candidate) -> bool:
@@ -124,37 +111,34 @@ def _places(problem: FitProblem) -> Iterator[_Place]:
                 yield _Place(trial=trial, sensor=sensor, rows=slice(start, end))
 
 
-def _effect(problem: FitProblem, place: _Place, sample: int) -> Effect:
+def _jump(place: _Place, sample: int) -> ReadingJump:
     trial, sensor = place.trial, place.sensor
     time_s = trial.time_s[np.isfinite(trial.readings[sensor])]
-    return reading_jump(trial.name, sensor, float(time_s[sample]), sigma=problem.noise[sensor])
+    return ReadingJump(trial=trial.name, sensor=sensor, time_s=float(time_s[sample]), size=0.0)
 
 
-def _refitted(state: SearchState, jumping: SearchState, jump: Effect, workers: Workers) -> SearchState:
+def _refitted(
+    state: SearchState, jumping: SearchState, jump: ReadingJump, workers: Workers
+) -> SearchState:
     """What the search has come to, fitted with one more jump from where it is.
 
     Args:
       state: without any jump.
       jumping: with those that were found so far.
     """
-    fine, coarse = (replace(p, nuisance=(*p.nuisance, jump)) for p in (jumping.problem, jumping.coarse))
+    effect = reading_jump(jump, sigma=state.problem.noise[jump.sensor])
+    fine, coarse = (
+        replace(p, nuisance=(*p.nuisance, effect)) for p in (jumping.problem, jumping.coarse)
+    )
     contenders = [*leading_sets(state.singles), *leading_sets(state.pairs)]
     calls = [(coarse, c.names, coarse.parameterization(c.names).joined(c.fit.parts)) for c in contenders]
-    fitted, record = fit_all(STAGE, calls, workers)
-    begun = SearchState(
+    start = SearchState(
         problem=fine,
         coarse=coarse,
         effects=state.effects,
         nominal=state.nominal,
         singles=state.singles,
         pairs=state.pairs,
-        record=(*jumping.record, _entry(Decision.MADE, jump.title), *record),
+        record=(*jumping.record, noted(STAGE, Decision.MADE, effect.title)),
     )
-    begun = begun.adding(([candidate(state.nominal)], ()))  # there is always something to check
-    begun = begun.adding(fit_all(STAGE, [(fine, ())], workers))
-    near = [c for c in fitted if c.score - min(c.score for c in fitted) <= CONTENDING]
-    return begun.adding(fit_finalists(STAGE, fine, simplest_first(near), workers)) if near else begun
-
-
-def _entry(decision: Decision, reason: str) -> RecordEntry:
-    return RecordEntry(stage=STAGE, effects=(), decision=decision, reason=reason)
+    return fitted_again(STAGE, start, calls, workers)

@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
-from diagnosis.criteria import NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
+from diagnosis.criteria import FAULT_CONTENDERS, NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import Made
+from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.fitting import Made, fit_all, fit_finalists
 from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, not_fitted
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.selection.state import SearchState
@@ -96,6 +97,38 @@ def worth_the_log(
     worth = [c for c in fitted if least - c.fit.cost >= WORTH_THE_LOG * (least - samples)]
     out = [c for c in fitted if c not in worth]
     return worth, dropped(stage, out, "it leaves hardly less beyond noise than fewer or simpler effects")
+
+
+def leading_sets(found: Sequence[Candidate]) -> list[Candidate]:
+    """The leading sets on the decimated log, each once."""
+    ranked = sorted(found, key=lambda c: c.score)
+    distinct = {frozenset(c.names): c for c in reversed(ranked)}
+    return sorted(distinct.values(), key=lambda c: c.score)[: FAULT_CONTENDERS // 2]
+
+
+def fitted_again(
+    stage: str, start: SearchState, calls: Sequence[tuple[Any, ...]], workers: Workers
+) -> SearchState:
+    """The state of a log of which more is allowed for, with the contenders of the one before.
+
+    Args:
+      calls: of `fit_in_turn`, on the decimated log.
+    """
+    coarse, record = fit_all(stage, calls, workers)
+    begun = start.adding(([candidate(start.nominal)], record))
+    begun = begun.adding(fit_all(stage, [(start.problem, ())], workers))
+    if not coarse:
+        return begun
+    return begun.adding(fit_finalists(stage, start.problem, simplest_first(coarse), workers))
+
+
+def simplest_first(found: Sequence[Candidate]) -> list[Candidate]:
+    """Best first, those last that are behind a part of their own: they would crowd out what is rival."""
+
+    def behind_a_part(one: Candidate) -> bool:
+        return any({*c.names} < {*one.names} and c.score <= one.score for c in found)
+
+    return sorted(found, key=lambda c: (behind_a_part(c), c.score))
 
 
 def not_worth(

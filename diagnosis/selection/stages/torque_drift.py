@@ -9,12 +9,10 @@ Sigma is the noise of a reading as the sensor gives it: means and filters quiete
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.criteria import (
     CONTENDING,
-    DRIFT_CONTENDERS,
     DRIFT_RANGE_SIGMA,
     DRIFT_SHARE,
     DRIFT_SIZE_SIGMA,
@@ -26,21 +24,20 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.drift import TORQUE, drift_range_sigma
 from diagnosis.replay.replay import replay
-from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.fitting import fit_all, fit_finalists
-from diagnosis.selection.record import Decision, RecordEntry
+from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.record import Decision, RecordEntry, noted
+from diagnosis.selection.stages.stage import fitted_again, leading_sets
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 STAGE = "drift of the torque sensor"
 _MOST_EFFECTS = 3
+_REASON = "it would remove most of the remaining residual"
 
 
-def with_drift(state: SearchState, workers: Workers) -> SearchState:
+def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchState:
     """The state with drift allowed for, where that explains the log; else the state itself."""
-    if workers.stop.due:
-        workers.stop.leave_out(STAGE)
-        return state
     state, explained = state.rechecked()
     if explained:
         return state
@@ -90,28 +87,7 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     least = min(costs, default=math.inf)
     near = [c for c, cost in zip(contenders, costs, strict=True) if cost <= NEAR_FLOOR * least]
     calls = [(start.coarse, c.names, c.fit.x, least + CONTENDING) for c in near]
-    coarse, record = fit_all(STAGE, calls, workers)
-    begun = start.adding(([candidate(start.nominal)], record))
-    begun = begun.adding(fit_all(STAGE, [(start.problem, ())], workers))
-    if not coarse:
-        return begun
-    return begun.adding(fit_finalists(STAGE, start.problem, simplest_first(coarse), workers))
-
-
-def leading_sets(found: Sequence[Candidate]) -> list[Candidate]:
-    """The leading sets on the decimated log, each once."""
-    ranked = sorted(found, key=lambda c: c.score)
-    distinct = {frozenset(c.names): c for c in reversed(ranked)}
-    return sorted(distinct.values(), key=lambda c: c.score)[: DRIFT_CONTENDERS // 2]
-
-
-def simplest_first(found: Sequence[Candidate]) -> list[Candidate]:
-    """Best first, those last that are behind a part of their own: they would crowd out what is rival."""
-
-    def behind_a_part(one: Candidate) -> bool:
-        return any({*c.names} < {*one.names} and c.score <= one.score for c in found)
-
-    return sorted(found, key=lambda c: (behind_a_part(c), c.score))
+    return fitted_again(STAGE, start, calls, workers)
 
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:
@@ -141,13 +117,9 @@ def _drifting(state: SearchState) -> SearchState:
         coarse=state.coarse.drifting(size_n_mm),
         effects=state.effects,
         nominal=replace(state.nominal, by_trial=left, cost=sum(float(own @ own) for own in left)),
-        record=(*state.record, _entry(Decision.KEPT, "it would remove most of the remaining residual")),
+        record=(*state.record, noted(STAGE, Decision.KEPT, _REASON)),
     )
 
 
 def _dropped(reason: str) -> RecordEntry:
-    return _entry(Decision.DROPPED, reason)
-
-
-def _entry(decision: Decision, reason: str) -> RecordEntry:
-    return RecordEntry(stage=STAGE, effects=(), decision=decision, reason=reason)
+    return noted(STAGE, Decision.DROPPED, reason)

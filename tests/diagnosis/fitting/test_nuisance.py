@@ -69,11 +69,11 @@ def test_everything_that_is_open_has_a_prior():
 
 
 def test_the_size_of_a_jump_is_open_without_a_prior():
-    jump = reading_jump("trial_02.csv", "tip_angle_deg", 7.38, sigma=0.3)
+    lost = ReadingJump(trial="trial_02.csv", sensor="tip_angle_deg", time_s=7.38, size=0.0)
+    jump = reading_jump(lost, sigma=0.3)
     assert jump.trial == "trial_02.csv"
     assert prior_sigma(jump) == math.inf
     (size,) = jump.parameters
     assert size.to_fit(0.6) == pytest.approx(2.0)  # in sigma
     rig = jump.apply(jump.apply(NOMINAL, 1.0), 2.0)
-    wanted = ReadingJump(trial="trial_02.csv", sensor="tip_angle_deg", time_s=7.38, size=1.0)
-    assert rig.jumps == (wanted, replace(wanted, size=2.0))
+    assert rig.jumps == (replace(lost, size=1.0), replace(lost, size=2.0))

@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.events import families, largest_step
+from diagnosis.freeform.families.events import families, largest_event
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(8.0)
@@ -22,7 +22,7 @@ def stepping(at_s, size):
 
 @pytest.mark.parametrize(("at_s", "size"), [(2.0, 1.0), (5.5, -0.8), (7.0, 3.0)])
 def test_a_step_in_noise_is_found_where_it_is(at_s, size):
-    found = largest_step(stepping(at_s, size), "tip_angle_deg")
+    found = largest_event(stepping(at_s, size), "tip_angle_deg")
     assert found.trial == "trial_01.csv"
     # Of 3 sigma and more, a sample on the wrong side is told from one on the right one within a few.
     assert found.time_s == pytest.approx(at_s, abs=0.1)
@@ -31,14 +31,14 @@ def test_a_step_in_noise_is_found_where_it_is(at_s, size):
 def test_gaps_of_a_sensor_do_not_move_the_time():
     tip = ANGLE + NOISE + 2.0 * (TIME > 5.0)
     tip[100:300] = np.nan
-    assert largest_step(covered(ANGLE, tip=tip, seen=AT_REST), "tip_angle_deg").time_s == pytest.approx(
+    assert largest_event(covered(ANGLE, tip=tip, seen=AT_REST), "tip_angle_deg").time_s == pytest.approx(
         5.0, abs=0.1
     )
 
 
 def test_a_trial_that_is_too_short_has_no_middle_to_step_in():
     short = np.linspace(0, 90, 80)
-    assert largest_step(covered(short, tip=short), "tip_angle_deg") is None
+    assert largest_event(covered(short, tip=short), "tip_angle_deg") is None
     assert families(covered(short, tip=short)) == ()
 
 

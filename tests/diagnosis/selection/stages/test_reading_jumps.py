@@ -15,8 +15,7 @@ from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages import reading_jumps as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
-from diagnosis.selection.stages.reading_jumps import STAGE, with_reading_jumps
-from diagnosis.stopping import StopReason, StopSignal
+from diagnosis.selection.stages.reading_jumps import STAGE, jumps_of_readings
 from diagnosis.workers import Workers
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
@@ -46,7 +45,7 @@ def searched(log, effects=("coulomb_friction",)):
         start = state.problem.parameterization((name,)).joined({name: np.log([0.001])})
         coarse, fine = (fit_effects(p, (name,), start) for p in (state.coarse, state.problem))
         state = replace(state, singles=(candidate(coarse),)).adding(([candidate(fine)], ()))
-    return state, with_reading_jumps(state, Workers())
+    return state, jumps_of_readings(state, Workers())
 
 
 def decisions(state):
@@ -99,14 +98,6 @@ def test_without_the_other_sensor_a_jump_may_be_the_needle_itself():
     before, after = searched(replace(log, trials=tuple(trials)))
     assert after.problem is before.problem
     assert not after.best.floor.reached
-
-
-def test_after_a_stop_it_is_left_out():
-    stop = StopSignal()
-    stop.request(StopReason.INTERRUPTED)
-    state = start_of_search(two(NOMINAL), effects=())
-    assert with_reading_jumps(state, Workers(stop=stop)) is state
-    assert stop.left_out == [STAGE]
 
 
 def test_a_base_that_lost_counts_or_a_chuck_that_slipped_is_no_jump_of_the_tip():

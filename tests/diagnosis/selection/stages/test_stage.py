@@ -103,3 +103,12 @@ def test_what_leaves_far_more_than_the_best_is_built_on_by_nothing():
     assert module.near_the_best([far, near], [best], 4) == [near]
     assert module.near_the_best([far, near], [], 4) == [near, far]
     assert module.near_the_best([far, near], [], 1) == [near]
+
+
+def test_effects_behind_a_part_of_their_own_crowd_out_no_rival():
+    """Two lags of the torque that are nearly alike, and one of them with what does nothing."""
+    first, rival = scored(["torque_sensor_delay"], 1.0), scored(["torque_low_pass"], 5.0)
+    idle = [scored(["torque_sensor_delay", name], 2.0) for name in ("tip_clock", "tip_drag")]
+    better = scored(["torque_low_pass", "stiction"], 4.0)
+    ranked = module.simplest_first([*idle, first, better, rival])
+    assert ranked == [first, better, rival, *idle]

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, scored, start_of_search
 
@@ -17,10 +16,9 @@ from diagnosis.criteria import (
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
-from diagnosis.selection.stages import torque_drift
+from diagnosis.selection.stages import stage, torque_drift
 from diagnosis.selection.stages.nominal_rig import nominal_rig
-from diagnosis.selection.stages.torque_drift import STAGE, with_drift
-from diagnosis.stopping import StopSignal
+from diagnosis.selection.stages.torque_drift import STAGE, drift_of_the_torque_sensor
 from diagnosis.workers import Workers
 
 
@@ -36,7 +34,7 @@ def drifted(range_sigma):
 def searched(log):
     """The nominal rig alone, then with drift if that is needed."""
     state = nominal_rig(start_of_search(log, effects=()), Workers())
-    return state, with_drift(state, Workers())
+    return state, drift_of_the_torque_sensor(state, Workers())
 
 
 def test_a_log_that_is_explained_is_left_alone():
@@ -57,7 +55,7 @@ def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeyp
     monkeypatch.setattr(torque_drift, "_promises", lambda problem, one: True)
     dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0)
     state = nominal_rig(start_of_search(dry, effects=()), Workers())
-    after = with_drift(state, Workers())
+    after = drift_of_the_torque_sensor(state, Workers())
     assert after.problem is state.problem
     assert [e.decision for e in after.record if e.stage == STAGE] == [Decision.DROPPED]
 
@@ -70,7 +68,7 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
         return [], ()
 
     left = {"torque_bias": 100.0, "tip_drag": 150.0, "stiction": 1.01 * NEAR_FLOOR * 100.0}
-    monkeypatch.setattr(torque_drift, "fit_all", fit_all)
+    monkeypatch.setattr(stage, "fit_all", fit_all)
     monkeypatch.setattr(torque_drift, "_cost_with_drift", lambda _, one: left[one.names[0]])
     state = start_of_search(drifted(3.5), effects=())
     pairs = (scored(["tip_drag", "torque_bias"], 2.0), scored(["torque_bias", "tip_drag"], 1.0))
@@ -79,15 +77,6 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
     torque_drift._refitted(state, torque_drift._drifting(state), Workers())
     enough = 100.0 + CONTENDING
     assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
-
-
-def test_effects_behind_a_part_of_their_own_crowd_out_no_rival():
-    """Two lags of the torque that are nearly alike, and one of them with what does nothing."""
-    first, rival = scored(["torque_sensor_delay"], 1.0), scored(["torque_low_pass"], 5.0)
-    idle = [scored(["torque_sensor_delay", name], 2.0) for name in ("tip_clock", "tip_drag")]
-    better = scored(["torque_low_pass", "stiction"], 4.0)
-    ranked = torque_drift.simplest_first([*idle, first, better, rival])
-    assert ranked == [first, better, rival, *idle]
 
 
 def test_a_drift_of_no_working_sensor_explains_nothing():
@@ -125,14 +114,6 @@ def test_a_constant_offset_is_an_effect_of_the_library_and_no_drift():
     for effects, named in ((("torque_bias",), ("torque_bias",)), ((), ())):
         state = nominal_rig(start_of_search(log, effects=effects), Workers())
         assert not state.best.floor.reached
-        after = with_drift(state, Workers())
+        after = drift_of_the_torque_sensor(state, Workers())
         assert after.best.names == named
         assert (after.problem is state.problem) is bool(named)
-
-
-def test_after_a_stop_it_is_left_out():
-    state = nominal_rig(start_of_search(drifted(3.5), effects=()), Workers())
-    stop = StopSignal(1e-9)
-    assert with_drift(state, Workers(stop=stop)) is state
-    assert STAGE in stop.left_out
-    assert np.isfinite(state.best.score)
