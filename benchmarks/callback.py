@@ -26,8 +26,8 @@ from benchmarks import report
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
 from sim.kernel.callback import install
+from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
-from sim.simulation import controls, initial_data
 from sim.spec import Setup
 from studies.crosscheck.motion import fast_turn, viscous_setup
 

@@ -15,8 +15,8 @@ from benchmarks.tissues import LENGTH_MM, SMOOTH, TURN_S, Case
 from models.needle import NITINOL
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
+from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
-from sim.simulation import controls, initial_data
 from sim.spec import Setup
 from studies.crosscheck.motion import fast_turn
 

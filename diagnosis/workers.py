@@ -23,7 +23,7 @@ from threadpoolctl import threadpool_limits
 
 from diagnosis.cores import Cores, computing, share, sharing
 from diagnosis.stopping import NEVER, StoppedEarly, StopSignal, listen
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Heard = Callable[[str, int, int], None]
 """Is told the stage, its tasks that are done, and all of them."""

@@ -22,9 +22,10 @@ from sim.loop.hardware import LoopHardware
 from sim.loop.measurement import CHANNELS, Measurement, MeasurementNoise, SensorReadings
 from sim.loop.servo_loop import ServoLoop
 from sim.loop.shaft import CommandedShaft
+from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
+from sim.needles.run import Run, refuse_untrustworthy
 from sim.schedule import Schedule
-from sim.simulation import Run, controls, initial_data, refuse_untrustworthy
 from sim.spec import Setup
 
 __all__ = ["ClosedLoopRun", "FeedbackController", "Measurement", "MeasurementNoise", "run_closed_loop"]
@@ -211,7 +212,7 @@ class _Loop:
         """The run as recorded.
 
         Raises:
-          SimulationFailed: see `sim.simulation.refuse_untrustworthy`.
+          SimulationFailed: see `sim.needles.run.refuse_untrustworthy`.
         """
         step_s = self.setup.discretisation.step_s
         refuse_untrustworthy(self._outputs, self.scheduled.time_s, step_s)

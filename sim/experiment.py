@@ -7,9 +7,10 @@ import mujoco
 import numpy as np
 
 from models.errors import InvalidValue
+from sim.needles.run import Run
 from sim.protocol import Protocol
 from sim.recording.recording import Recording, record
-from sim.simulation import Run, simulate
+from sim.simulation import simulate
 
 
 def perform(protocol: Protocol, model: mujoco.MjModel | None = None) -> Recording:

@@ -32,7 +32,7 @@ MAY_IMPORT_INSIDE = {
     "sim.kernel.stage": {"sim.kernel", "sim.kernel.stage"},
     "sim.loop": {"sim.loop"},
     "sim.needles": {"sim", "sim.kernel", "sim.needles"},
-    "sim.recording": {"sim", "sim.files", "sim.kernel", "sim.recording"},
+    "sim.recording": {"sim", "sim.files", "sim.kernel", "sim.needles", "sim.recording"},
     "studies.campaign": {"studies.campaign", "studies.campaign.posterior", "studies.control"},
     "studies.campaign.posterior": {"studies.campaign.posterior"},
     "studies.crosscheck": {"studies.crosscheck"},

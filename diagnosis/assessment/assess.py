@@ -34,7 +34,7 @@ from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StopSignal
 from diagnosis.workers import Failure, Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 

@@ -27,7 +27,7 @@ from diagnosis.replay.replay import Prediction
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 HeldOut = tuple[Array, ...]

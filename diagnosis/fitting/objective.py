@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.stopping import raise_if_stopped
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 

@@ -25,7 +25,7 @@ from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.replay import replay
 from diagnosis.selection.screening import screen
 from diagnosis.workers import Failure, Task, Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 

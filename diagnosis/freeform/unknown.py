@@ -14,7 +14,7 @@ from diagnosis.replay.replay import Prediction
 from diagnosis.selection.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StoppedEarly
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 FREE_FORM = "free-form laws"
 

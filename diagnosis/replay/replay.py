@@ -20,7 +20,8 @@ from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, reads_ahead, sensed
-from sim.simulation import Run, simulate
+from sim.needles.run import Run
+from sim.simulation import simulate
 
 Array = NDArray[np.float64]
 

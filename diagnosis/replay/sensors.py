@@ -18,8 +18,8 @@ from scipy.signal import lfilter
 
 from diagnosis.replay.bearing import bearing_torque_n_mm
 from diagnosis.replay.rig_parameters import BASE, RigParameters
+from sim.needles.run import SimulationFailed
 from sim.schedule import Schedule
-from sim.simulation import SimulationFailed
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.replay.replay import shape_of
 from diagnosis.replay.rig_parameters import RigParameters
 from models import units
-from sim.simulation import Run
+from sim.needles.run import Run
 
 Array = NDArray[np.float64]
 

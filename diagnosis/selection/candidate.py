@@ -25,7 +25,7 @@ from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.complexity import complexity_penalty
 from diagnosis.selection.scatter import gain_of_exact_constants, open_scatter, scatter_of
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

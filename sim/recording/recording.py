@@ -20,8 +20,8 @@ from models import units
 from models.errors import InvalidValue, NeedleError
 from sim.files import writing
 from sim.kernel import memory_map
+from sim.needles.run import Run
 from sim.recording.html_table import html_table
-from sim.simulation import Run
 
 Array = NDArray[np.float64]
 

@@ -18,8 +18,9 @@ from diagnosis.report.json_report import as_json
 from models.errors import NeedleError
 from sim.batch import simulate_each
 from sim.experiment import checked_error_deg
+from sim.needles.run import Run
 from sim.protocol import Protocol
-from sim.simulation import Run, prepare_processes
+from sim.simulation import prepare_processes
 from studies.campaign.campaign import Campaign, Kind
 from studies.campaign.cases import Case, cases_of
 from studies.campaign.columns import DONE, FAILED, Row

@@ -18,8 +18,8 @@ from sim.closed_loop import ClosedLoopRun, MeasurementNoise, run_closed_loop
 from sim.discretisation import Discretisation
 from sim.kernel import memory_map
 from sim.loop.hardware import LoopHardware
+from sim.needles.run import Run
 from sim.schedule import Schedule
-from sim.simulation import Run
 from sim.spec import Setup
 from studies.control.tip_controllers import ControllerDesign, tip_controller_named
 from studies.crosscheck.paper import integral_deg_s, settling_s

@@ -18,9 +18,10 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
+from sim.needles.run import Run
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
-from sim.simulation import Run, simulate
+from sim.simulation import simulate
 from sim.spec import Setup
 from studies.crosscheck.findings import Check
 

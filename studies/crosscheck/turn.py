@@ -16,7 +16,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.simulation import Run, simulate
+from sim.needles.run import Run
+from sim.simulation import simulate
 from studies.crosscheck import motion, native_needle
 from studies.crosscheck.findings import Check
 

@@ -7,7 +7,7 @@ import pytest
 
 from diagnosis.cores import Cores, computing, sharing, side_by_side
 from diagnosis.workers import Task, process_pool
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 def three_at_once(wait_s=0.0):

@@ -19,7 +19,7 @@ from diagnosis.selection.record import Decision
 from diagnosis.selection.search import search
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
 

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from diagnosis.stopping import StopReason, StopSignal, raise_if_stopped
 from diagnosis.workers import Failure, Task, Workers, attempt, process_pool
 from models.errors import InvalidValue
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 def work(value):

@@ -6,9 +6,10 @@ import pytest
 from models.errors import InvalidValue
 from sim import batch
 from sim.batch import simulate_each
+from sim.needles.run import SimulationFailed
 from sim.paper_protocols import protocol_named
 from sim.protocol import Segment
-from sim.simulation import SimulationFailed, simulate
+from sim.simulation import simulate
 
 SHORT = protocol_named("fig5-10cm").but(
     segments=(Segment(duration_s=0.2, turn_deg=60), Segment(duration_s=0.3, advance_mm=-1))

@@ -12,9 +12,10 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.experiment import perform
 from sim.needles.kept import compile_model
+from sim.needles.run import SimulationFailed
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
-from sim.simulation import SimulationFailed, simulate
+from sim.simulation import simulate
 from sim.spec import Setup
 
 BETA = 0.01725

@@ -16,8 +16,9 @@ from models.needle import Needle
 from models.tissue import RATE_POINTS, Interface, Layer, Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
+from sim.needles.run import Run
 from sim.schedule import Schedule
-from sim.simulation import Run, simulate
+from sim.simulation import simulate
 from sim.spec import Setup
 
 DAMPING, LENGTH_MM, RATE = 0.017, 60.0, 0.8

@@ -16,9 +16,10 @@ from models.statespace import modal_system
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
+from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
 from sim.schedule import Schedule
-from sim.simulation import controls, initial_data, prepare_processes, simulate
+from sim.simulation import prepare_processes, simulate
 from sim.spec import Setup
 from studies.crosscheck import motion
 
@@ -132,27 +133,11 @@ def test_different_tissues_run_side_by_side_as_they_do_alone():
         assert np.array_equal(simulate([one], TURN)[0].outputs, beside.outputs)
 
 
-def test_a_run_from_a_time_on_is_its_last_rows():
-    (whole,) = simulate([setup()], TURN, keep_shape=True)
-    part = whole.since(1.0)
-    assert part.time_s[0] == pytest.approx(1.0)
-    assert np.array_equal(part.tip_deg, whole.tip_deg[-part.time_s.size :])
-    assert np.array_equal(part.angles_rad, whole.angles_rad[-part.time_s.size :])
-    assert whole.since(0.0) is whole
-
-
 def test_set_ups_may_each_have_inputs_of_their_own():
     slower = schedule([0, 1.3, 3], [0, 45, 45], inserted=80.0)
     setups, inputs = [setup(), setup(inserted=80.0), setup()], [TURN, slower, TURN]
     for one, own, beside in zip(setups, inputs, simulate(setups, inputs), strict=True):
         assert np.array_equal(simulate([one], own)[0].outputs, beside.outputs)
-
-
-def test_inputs_are_as_many_as_set_ups_and_last_as_long():
-    with pytest.raises(InvalidValue, match="one for each of 2"):
-        simulate([setup(), setup()], [TURN])
-    with pytest.raises(InvalidValue, match="the same number of steps"):
-        simulate([setup(), setup()], [TURN, schedule([0, 0.3, 4], [0, 90, 90])])
 
 
 def test_a_saved_state_restores_exactly():

@@ -28,7 +28,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from models.errors import InvalidValue
 from models.plain_yaml import read_record, read_yaml
 from models.record import Record
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 _NAME = r"[a-z][a-z0-9_]{2,40}"
 _VERDICTS = ("none", "unknown")  # which a ranking has beside effects

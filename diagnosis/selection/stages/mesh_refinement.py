@@ -30,7 +30,7 @@ from diagnosis.selection.record import RecordEntry, dropped
 from diagnosis.selection.stages.stage import stopped_in
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Task, Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 

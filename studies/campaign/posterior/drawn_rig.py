@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.sensors import driven
+from sim.needles.run import Run
 from sim.protocol import Protocol
 from sim.schedule import Schedule
-from sim.simulation import Run
 from sim.spec import Setup
 from studies.campaign.posterior.rig_posterior import RigPosterior
 

@@ -21,8 +21,9 @@ from controllers.steering.tip_pose import TipPose
 from models.bevel import PREBENT_RADIUS_MM
 from models.needle import NITINOL
 from models.tissue import Interface, Layer, Tissue
+from sim.needles.run import Run
 from sim.schedule import Schedule
-from sim.simulation import Run, simulate
+from sim.simulation import simulate
 from studies.control.steering.camera import Camera, CameraModel
 from studies.control.steering.insertion_setup import lagrangian_setup
 from studies.control.steering.seed_spread import Spread

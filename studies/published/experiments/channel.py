@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from models.errors import InvalidValue
-from sim.simulation import Run, SimulationFailed
+from sim.needles.run import Run, SimulationFailed
 from studies.published.criteria import CHANNEL_ITERATIONS, CHANNEL_RELAXATION, CHANNEL_TOLERANCE_N_MM
 
 Array = NDArray[np.float64]

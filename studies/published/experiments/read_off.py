@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.replay.sensors import sensed
-from sim.simulation import Run
+from sim.needles.run import Run
 from studies.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 from studies.published.experiments.base_turn import TURN_DEG
 from studies.published.experiments.measurement import Quantity, TurnExperiment

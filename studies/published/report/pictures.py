@@ -6,7 +6,8 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.figures.layout import subplots
 from models import published
-from sim.simulation import Run, simulate
+from sim.needles.run import Run
+from sim.simulation import simulate
 from studies.published.criteria import ELEMENTS, RESOLVED_SIGMA
 from studies.published.experiments.measurement import TurnExperiment
 from studies.published.experiments.rig import STATED

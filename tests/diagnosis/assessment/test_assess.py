@@ -17,7 +17,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.verdict import VerdictKind, verdict_on
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
 

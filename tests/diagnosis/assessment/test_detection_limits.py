@@ -17,7 +17,7 @@ from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.search import search
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 # All that dry friction along the shaft could be taken for.
 FRICTION = (

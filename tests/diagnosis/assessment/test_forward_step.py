@@ -17,7 +17,7 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 EFFECTS = ("torque_bias", "coulomb_friction", "tip_drag")
 

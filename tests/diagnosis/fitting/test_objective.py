@@ -11,7 +11,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import RigParameters
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 OPEN = (LIBRARY["stiffness_error"],)
 DRAG = parameterization_of(("tip_drag",), OPEN)

@@ -11,7 +11,7 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
 from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 TRIALS, SAMPLES = 3, 200
 

@@ -17,7 +17,7 @@ from diagnosis.nominal_replay import replay_nominal
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 TOLD = nothing_told(nearest=SimpleNamespace(gap_after=1.01))
 

@@ -10,8 +10,8 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, sensed
+from sim.needles.run import SimulationFailed
 from sim.schedule import Schedule
-from sim.simulation import SimulationFailed
 
 TIME = np.linspace(0, 10, 1001)
 

@@ -17,7 +17,7 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate as module
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.complexity import complexity_penalty
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 SCALES = tuple(LIBRARY[name] for name in SCATTER)
 DRY = RigParameters(kinetic_n_mm_per_mm=0.001)

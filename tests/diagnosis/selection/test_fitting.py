@@ -23,7 +23,7 @@ from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists, 
 from diagnosis.selection.record import Decision
 from diagnosis.selection.screening import Screened
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 SAMPLES = 1000
 PROBLEM = FitProblem(log=PreparedLog(rig=None, trials=()), noise=None, nuisance=())

@@ -15,7 +15,7 @@ from diagnosis.selection.search import STAGES, search
 from diagnosis.selection.stages import single_effects
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 def failing(*_, **__):

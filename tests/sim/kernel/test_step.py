@@ -9,9 +9,9 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.law_table import law_table
+from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
 from sim.schedule import Schedule
-from sim.simulation import controls, initial_data
 from sim.spec import Setup, header
 
 TISSUE = Tissue.uniform(

@@ -7,12 +7,13 @@ import pytest
 from models.drive import Drive
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.discretisation import Arrangement, Discretisation
-from sim.kernel import memory_map
+from sim.discretisation import Discretisation
 from sim.kernel.mesh import XI_LEFT, XI_RIGHT
+from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
+from sim.needles.passive_torques import passive_torques
 from sim.schedule import Schedule
-from sim.simulation import controls, initial_data, passive_torques, simulate
+from sim.simulation import simulate
 from sim.spec import Setup
 
 BETA = 0.01725  # N m s / rad / m, which is N mm s / rad / mm
@@ -91,23 +92,6 @@ def test_a_first_order_step_adds_the_torque_of_the_tissue_and_nothing_else():
         assert not torques.correction.any()
 
 
-def test_what_is_added_to_qfrc_passive_is_the_sum_of_the_parts():
-    """`qfrc_passive` also holds MuJoCo's own joint springs, at the start of the step."""
-    for order in (1, 2, 3):
-        model = compile_model(setup(order=order))
-        data = mujoco.MjData(model)
-        data.ctrl[memory_map.U_INSERTED] = 0.15
-        data.ctrl[memory_map.U_DRIVE] = 0.5
-        mujoco.mj_step(model, data, 3)
-        start = data.qpos.copy()
-        mujoco.mj_forward(model, data)
-        torques = passive_torques(model, data)
-        added = (data.qfrc_passive + model.jnt_stiffness * start)[1:]
-        parts = torques.tissue + torques.other + torques.correction
-        assert added == pytest.approx(parts, abs=1e-10)
-        assert np.abs(parts).max() > 1e-5
-
-
 def test_a_second_order_step_is_corrected_and_the_correction_falls_with_the_step():
     """What lifts a step to second order is of the order of the step."""
 
@@ -129,19 +113,6 @@ def test_play_and_a_growing_free_length_are_told_apart_from_the_tissue(fields, s
     _, _, rows = steps(setup(order=1, **fields), slide_mm_s=slides)
     assert np.abs(rows[-1][2].other).max() > 1e-7
     assert not rows[-1][2].correction.any()
-
-
-def test_siblings_get_the_springs_that_their_model_lists():
-    made = setup(arrangement=Arrangement.SIBLINGS)
-    model = compile_model(made)
-    data = mujoco.MjData(model)
-    data.ctrl[memory_map.U_INSERTED] = 0.15
-    data.ctrl[memory_map.U_DRIVE] = 0.5
-    mujoco.mj_step(model, data, 3)
-    mujoco.mj_forward(model, data)
-    torques = passive_torques(model, data)
-    assert abs(torques.other.sum()) < 1e-9  # inner torques
-    assert np.abs(torques.other).max() > 1e-6
 
 
 def test_a_joint_of_the_chain_turns_all_that_lies_beyond_it(interpreted):

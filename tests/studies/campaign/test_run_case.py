@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sim.experiment import perform
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 from studies.campaign import run_case
 from studies.campaign.campaign import read_campaign
 from studies.campaign.cases import cases_of

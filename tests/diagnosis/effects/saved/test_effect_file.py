@@ -10,7 +10,7 @@ from diagnosis.effects.effect import Place
 from diagnosis.effects.saved.effect_file import effect_as_text, read_effect
 from diagnosis.replay.rig_parameters import NOMINAL
 from models.errors import InvalidValue
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 @pytest.fixture

@@ -21,7 +21,7 @@ from diagnosis.selection.record import Decision
 from diagnosis.selection.stages import mesh_refinement as module
 from diagnosis.selection.stages.mesh_refinement import refined_mesh
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 ELASTIC = {"stiffness": 0.05, "time_constant": 0.4}
 CASES = {"tissue_viscoelasticity": ELASTIC, "damping_error": {"scale": 1.3}}

@@ -10,7 +10,7 @@ from diagnosis.selection.search import search
 from diagnosis.selection.stages import nominal_rig as module
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 def failing(*_, **__):

@@ -10,7 +10,7 @@ from diagnosis.selection.stages import single_effects as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 def test_every_effect_is_tried_and_the_best_is_fitted_to_the_log_itself(dry_start):

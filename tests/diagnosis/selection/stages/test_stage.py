@@ -14,7 +14,7 @@ from diagnosis.selection.stages import stage as module
 from diagnosis.selection.stages.stage import not_worth, run_stages, screen_all, stopped_in
 from diagnosis.stopping import StopSignal
 from diagnosis.workers import Workers
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 
 
 def noting(state, _):

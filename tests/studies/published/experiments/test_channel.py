@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from models.errors import InvalidValue
-from sim.simulation import SimulationFailed
+from sim.needles.run import SimulationFailed
 from studies.published.experiments import channel
 from studies.published.experiments.channel import channel_torque_n_mm, run_in_channel
 from studies.published.experiments.insertion import InsertionRig, deviations_alone_mm
