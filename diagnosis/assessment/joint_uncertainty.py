@@ -68,7 +68,7 @@ class JointUncertainty:
         return float(self.covariance[i, j]) / math.sqrt(product) if product > 0 else 0.0
 
     def ellipse(self, i: int, j: int) -> Array:
-        """Outline of the 95 % region of two parameters, in their units, (2, N)."""
+        """Outline of the 95 % region of two parameters within their bounds, in their units, (2, N)."""
         own = np.ix_([i, j], [i, j])
         size, axes = np.linalg.eigh(self.covariance[own])
         angle = np.linspace(0.0, 2.0 * np.pi, _POINTS)
@@ -78,9 +78,13 @@ class JointUncertainty:
         )
         outline = self.x[[i, j], None] + axes @ circle
         both = (self.parameters[i], self.parameters[j])
-        return np.array(
-            [[p.from_fit(float(v)) for v in row] for p, row in zip(both, outline, strict=True)]
-        )
+        return np.array([_within(p, row) for p, row in zip(both, outline, strict=True)])
+
+
+def _within(parameter: Parameter, row: Array) -> list[float]:
+    """Values of coordinates of a fit, (N,); those beyond a bound are at it."""
+    inside = np.clip(row, parameter.to_fit(parameter.low), parameter.to_fit(parameter.high))
+    return [parameter.from_fit(float(v)) for v in inside]
 
 
 def joint_uncertainty(fit: Fit, spread: Array, effects: Sequence[str]) -> JointUncertainty:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects.effect import Place
+from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.prior import free_covariance, well_determined
 from diagnosis.freeform.search import FreeFit
 
@@ -152,13 +153,12 @@ def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
 def _law(one: FreeFit) -> Law:
     """The curve with a band from draws of its coordinates."""
     family, fit = one.family, one.fit
-    own = [owner == family.name for owner in fit.parameterization.owners]
-    low, high = fit.parameterization.bounds()
+    own = np.array([owner == family.name for owner in fit.parameterization.owners])
     rng = np.random.default_rng(_SEED)
     draws = rng.multivariate_normal(fit.x, free_covariance(fit), size=_DRAWS, method="eigh")
-    curves = [_points(one, np.clip(x, low, high), own)[1] for x in draws]
+    curves = [_points(one, values[own])[1] for values in _values_near(fit, draws)]
     ends = np.quantile(curves, [0.025, 0.975], axis=0)
-    x, y = _points(one, fit.x, own)
+    x, y = _points(one, np.array(fit.parameterization.values(fit.x))[own])
     return Law(
         place=family.place,
         variable=family.says,
@@ -173,8 +173,19 @@ def _law(one: FreeFit) -> Law:
     )
 
 
-def _points(one: FreeFit, x: Array, own: Sequence[bool]) -> tuple[Array, Array]:
-    values = np.array(one.fit.parameterization.values(x))[np.array(own)]
+def _values_near(fit: Fit, draws: Array) -> Array:
+    """Parameter values of draws of the vector, to first order, within their bounds, (draws, n).
+
+    The data tell of a level in its own unit, also where its logarithm is open.
+    """
+    parameters = fit.parameterization.parameters
+    here = np.array(fit.parameterization.values(fit.x))
+    slopes = np.array([p.slope(float(x)) for p, x in zip(parameters, fit.x, strict=True)])
+    near = here + slopes * (draws - fit.x)
+    return np.clip(near, [p.low for p in parameters], [p.high for p in parameters])
+
+
+def _points(one: FreeFit, values: Array) -> tuple[Array, Array]:
     across, up = one.family.curve(*(float(v) for v in values))
     return np.asarray(across, float), np.asarray(up, float)
 

@@ -11,7 +11,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction
-from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle, rate_of
 from models import units
 
 Array = NDArray[np.float64]
@@ -73,6 +73,19 @@ class LogRanges:
         log = self.problem.log
         shaft_mm = max(float(np.max(trial.free_mm + trial.inserted_mm)) for trial in log.trials)
         return shaft_mm / log.rig.rigidity_n_mm2 / units.DEG
+
+    @property
+    def fastest_slip_rad_s(self) -> float:
+        """Fastest turn of the nominal shaft within the tissue, which is at its entry.
+
+        The angle there is that of the base less torque * free length / rigidity.
+        """
+        log, fastest = self.problem.log, 0.0
+        for trial, own in zip(log.trials, self.nominal, strict=True):
+            base = np.radians(np.interp(trial.time_s, trial.schedule.time_s, trial.schedule.drive))
+            entry = base - own.base_torque_n_mm * trial.free_mm / log.rig.rigidity_n_mm2
+            fastest = max(fastest, float(np.max(np.abs(rate_of(entry, trial.time_s)))))
+        return fastest
 
 
 def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:

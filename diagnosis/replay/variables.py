@@ -94,15 +94,16 @@ def of_needle(variable: Variable, time_s: Array, tip_deg: Array, torque_n_mm: Ar
         case Variable.TIP_ANGLE:
             return tip_deg
         case Variable.TIP_RATE:
-            return _rate(np.radians(tip_deg), time_s)
+            return rate_of(np.radians(tip_deg), time_s)
         case Variable.TIP_DIRECTION:
-            return _last_direction(np.degrees(_rate(np.radians(tip_deg), time_s)), time_s)
+            return _last_direction(np.degrees(rate_of(np.radians(tip_deg), time_s)), time_s)
         case Variable.TORQUE:
             return torque_n_mm
-    return _rate(torque_n_mm, time_s)
+    return rate_of(torque_n_mm, time_s)
 
 
-def _rate(values: Array, time_s: Array) -> Array:
+def rate_of(values: Array, time_s: Array) -> Array:
+    """Rate of change, per s, over a short time, (N,)."""
     return _smooth(np.gradient(values, time_s), time_s, _RATE_S)
 
 
@@ -112,7 +113,7 @@ def _smooth(values: Array, time_s: Array, over_s: float) -> Array:
 
 
 def _base_rate_deg_s(inputs: Schedule) -> Array:
-    return _rate(inputs.drive, inputs.time_s)
+    return rate_of(inputs.drive, inputs.time_s)
 
 
 def _direction(inputs: Schedule, _: float) -> Array:

@@ -26,6 +26,8 @@ DAMPING_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH)
 FRICTION_OVER = (*DAMPING_OVER, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03
+SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft
+LEAST_RATE_RAD_S = 0.05
 LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 _PLACES = {Place.INTERFACE: 1.0}
@@ -122,8 +124,8 @@ def _apply_friction(
 
 
 def _rate(ranges: LogRanges) -> Family:
-    fastest = max(abs(end) for end in ranges.ends.get(Variable.RATE, (0.0, 1.0)))
-    rates = (0.003 * fastest, 1.5 * fastest)
+    fastest = max(ranges.fastest_slip_rad_s, LEAST_RATE_RAD_S)
+    rates = (SLOWEST * fastest, FASTEST * fastest)
     curve = smooth_curve(0.0, 1.0, RATE_POINTS)
     beta = ranges.damping_n_mm_s_per_mm
 

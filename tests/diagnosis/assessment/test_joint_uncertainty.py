@@ -28,6 +28,14 @@ def test_every_point_of_the_outline_is_as_far_from_the_fit():
     assert inside.mean() == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 20000))
 
 
+@pytest.mark.filterwarnings("error")
+def test_the_outline_of_what_the_data_leave_open_ends_at_the_bounds():
+    found = joint(np.diag([9e4, 1e-4, 1e-4]), ("stiction",), x=[np.log(1e-3), np.log(1e-3), 0.0])
+    level = found.parameters[0]
+    outline = found.ellipse(0, 1)[0]
+    assert (outline.min(), outline.max()) == pytest.approx((level.low, level.high))
+
+
 def test_the_correlation_is_that_of_the_covariance_and_none_of_what_is_certain():
     assert joint([[4.0, 1.5], [1.5, 1.0]]).correlation(0, 1) == pytest.approx(0.75)
     assert joint([[0.0, 0.0], [0.0, 1.0]]).correlation(0, 1) == 0.0

@@ -179,6 +179,17 @@ def test_a_band_stays_within_the_bounds_of_its_parameters():
     assert (law.low[0], law.high[0]) == (0.0, 0.2)
 
 
+def test_a_level_of_nearly_nothing_has_a_band_in_its_own_unit():
+    """Its logarithm is open by 25, and yet 0.001 would have changed the readings by 40 sigma."""
+    level = replace(LEVEL, low=1e-6, high=0.05, logarithmic=True, start=(1e-3,))
+    family = family_of(parameters=[level], curve=lambda level: ((0.0, 1.0), (level, level)))
+    x = [np.log(1e-6)]
+    fit = linear_fit(family, [np.array([[1.0 / 25.0]])], [np.array([x[0] / 25.0])], x=x)
+    law = law_of(FreeFit(family=family, fit=fit, gap_after=1.0, final=True))
+    assert law.low[0] == pytest.approx(1e-6)
+    assert law.high[0] == pytest.approx(1e-6 * (1.0 + 1.96 * 25.0), rel=0.15)
+
+
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("seed", range(10))
 def test_a_law_of_which_the_data_tell_much_and_nothing_has_a_band(seed):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import turns
+from diagnosis_fixtures import RIG, turns
 from free_forms import DAMPING, covered, one_trial
 
 from diagnosis.freeform.ranges import LEAST_PAST_S, LONGEST_PAST_S, ranges_of, values_of
@@ -49,3 +49,14 @@ def test_what_the_needle_does_is_that_of_the_nominal_rig():
     assert ranges.ends[Variable.TORQUE] == pytest.approx((-0.3, 0.9), abs=0.01)
     assert ranges.library is problem.library
     assert ranges.damping_n_mm_s_per_mm == DAMPING
+
+
+def test_the_shaft_slips_fastest_where_it_enters():
+    """The free length is twisted by torque * length / rigidity; half as much torque, half the twist."""
+    seen = 0.5 * ANGLE, np.radians(0.5 * ANGLE) * RIG.rigidity_n_mm2 / 100.0
+    problem, nominal = one_trial(ANGLE, tip=ANGLE, torque=seen[1], seen=seen)
+    free_mm = float(problem.log.trials[0].free_mm[0])
+    base = covered(ANGLE, tip=ANGLE).fastest_slip_rad_s
+    assert base == pytest.approx(np.radians(np.abs(np.diff(ANGLE)).max()) / 0.01, rel=0.05)
+    twisted = 1.0 - 0.5 * free_mm / 100.0
+    assert ranges_of(problem, nominal).fastest_slip_rad_s == pytest.approx(twisted * base, rel=1e-3)
