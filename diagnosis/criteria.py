@@ -399,6 +399,9 @@ the gap. By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 
 NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more beside what is at the
 floor, and no finer mesh is spent on it."""
+PROMISE_BROKEN = 1.3
+"""Times the cost that screening promises: a fit that leaves more begins once more, with nothing taken
+over by stiffness and damping, since the linear model that it began from is far from true."""
 SLOPES_OF_ITS_OWN = 1.15
 """Gap up to which a fit to the log ends with slopes from runs as fine as it is, since it may explain the
 log; slopes from half as fine ones lead there, and are good enough above. A choice that saves time."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.detection_limits import detection_limits
-from diagnosis.assessment.forward_step import Further, further_effects, gap_with_one_more
+from diagnosis.assessment.forward_step import Further, further_effects, gap_with_one_more, has_room
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.intervals import Interval, covariance, intervals
 from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
@@ -222,7 +222,12 @@ def _above_noise(best: Candidate) -> float:
 def _further(
     coarse: FitProblem, verdict: Verdict, effects: Sequence[str], workers: Workers
 ) -> Further | None:
-    """Each further effect beside the best; None if that was stopped, or cannot be simulated."""
+    """Each further effect beside the best; None if that was stopped, or cannot be simulated.
+
+    Nor is it asked for if nothing explains the log, and one more could not change that by much.
+    """
+    if verdict.kind is VerdictKind.UNKNOWN and not has_room(verdict.best.fit):
+        return None
     found, stop = further_effects(coarse, verdict.best.fit, effects, workers), workers.stop
     if stop.due:
         stop.leave_out(ONE_MORE)

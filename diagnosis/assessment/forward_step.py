@@ -33,6 +33,11 @@ def on_decimated(coarse: FitProblem, best: Fit) -> Fit:
     return fit_effects(coarse, best.names, start, most_iterations=_ITERATIONS)
 
 
+def has_room(best: Fit) -> bool:
+    """Whether one more effect could take a good share off the cost, a part of which is noise."""
+    return len(best.names) < MOST_OF_NEAREST and STEP_LEAVES * best.cost > best.samples
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Further:
     """The best fit on the decimated log, and each further effect beside it.

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from diagnosis.effects import FITTED
 from diagnosis.fitting.bounded_least_squares import promised_reduction
-from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination
+from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, far_for
 from diagnosis.fitting.objective import Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.fitting.problem import FitProblem
@@ -125,7 +125,8 @@ def fit_effects(
     differences = max((e.differences for e in parameterization.all), key=len)
     for difference in differences[-1:] if from_a_fit or slopes is not None else differences:
         objective = Objective(problem, parameterization, difference, slopes)
-        stopping = Stopping(objective, problem.tolerance_sigma, enough, ends_far=problem.callback_alone)
+        far = far_for(leading=problem.callback_alone)
+        stopping = Stopping(objective, problem.tolerance_sigma, enough, far=far)
         x, status = _minimised(objective, x, stopping, most_iterations)
         if status.termination is Termination.BEHIND:
             break

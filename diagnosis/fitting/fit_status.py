@@ -7,8 +7,8 @@ At every Jacobian J the linear model predicts that the cost S = |r|^2 of N resid
 converged   sqrt(P / p) <= tolerance * sqrt(S / (N - p)), the relative offset of Bates and Watts (1981):
             parameters are within so many of their own standard deviations of the minimum. Within
             five times the tolerance one more step is taken, without another Jacobian.
-far         at two Jacobians in turn, S > 3 N and P < (S - N) / 20, in fits that only tell which to do
-            again: such steps do not lead down to the noise.
+far         at two Jacobians in turn, S > F N and P < (S - N) / 20: such steps do not lead down to the
+            noise. F is 3 in fits that only tell which to do again, and the limit of the floor in others.
 behind      S - 10 P is above the cost that a fit has to reach to be of use; from the third Jacobian on
             S - 5 P: of 365 later Jacobians 95 in 100 were followed by a gain of at most that, half of
             them by one of P, and the others were in slow valleys, far above the noise.
@@ -28,7 +28,7 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
-from diagnosis.criteria import NEAR_FLOOR
+from diagnosis.criteria import GAP_LIMIT, NEAR_FLOOR
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.objective import Objective
 
@@ -130,9 +130,9 @@ class Ended(Exception):
         self.x, self.termination = x, termination
 
 
-def _is_far(cost: float, promised: float, samples: int) -> bool:
-    """Whether a residual is far above the noise, and the next step takes off hardly anything."""
-    return cost > NEAR_FLOOR * samples and promised < _SLOW * (cost - samples)
+def far_for(*, leading: bool) -> float:
+    """Cost per sample above which slow fits end: those that only tell which to do again, or others."""
+    return NEAR_FLOOR if leading else GAP_LIMIT**2
 
 
 class Stopping:
@@ -144,17 +144,17 @@ class Stopping:
         tolerance: float,
         enough: float = np.inf,
         *,
-        ends_far: bool = False,
+        far: float = np.inf,
     ) -> None:
         """Wrap an objective.
 
         Args:
           tolerance: relative offset at which the fit has converged.
           enough: cost below which the fit is of use.
-          ends_far: whether it ends where it is far above the noise, and slow.
+          far: cost per sample above which it ends where steps are promised to take off hardly anything.
         """
         self.objective, self.tolerance, self.enough = objective, tolerance, enough
-        self.ends_far = ends_far
+        self.far = far
         self._there = self._tried = np.zeros(0)
         self._tries = self._jacobians = 0
         self._last = self._slow = False
@@ -178,7 +178,7 @@ class Stopping:
         futile = _FUTILE if self._jacobians == 2 else _FUTILE_LATER
         if self._jacobians > 1 and cost - futile * promised > self.enough:
             raise self._ended(self._there, Termination.BEHIND)
-        slow = self.ends_far and _is_far(cost, promised, at_x.size)
+        slow = cost > self.far * at_x.size and promised < _SLOW * (cost - at_x.size)
         if slow and self._slow:
             raise self._ended(self._there, Termination.FAR)
         self._slow = slow

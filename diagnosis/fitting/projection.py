@@ -1,6 +1,7 @@
 """Projection of the change by an effect, orthogonal to what the parameters of a fit can compensate."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +10,21 @@ from diagnosis.fitting.bounded_least_squares import bounded_least_squares
 from diagnosis.fitting.fit import Fit
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Reachable:
+    """Where the linear model leads.
+
+    Attributes:
+      cost: that is left there.
+      step: of the vector of the fit, (n,); 0 for what was left out.
+      multiple: of the difference that was added.
+    """
+
+    cost: float
+    step: Array
+    multiple: float
 
 
 class Projection:
@@ -36,8 +52,8 @@ class Projection:
         beside = there - self._basis @ (self._basis.T @ there)
         return float(beside @ beside)
 
-    def reachable_cost(self, by_trial: Sequence[Array] | None = None) -> float:
-        """Lowest cost within the bounds, if any positive multiple of a difference is added to the fit.
+    def reachable(self, by_trial: Sequence[Array] | None = None) -> Reachable:
+        """What the fit comes to within its bounds, if any positive multiple of a difference is added.
 
         Args:
           by_trial: residuals with the difference, one array per trial; None: no difference.
@@ -53,7 +69,10 @@ class Projection:
             system, -seen, np.append(self._low, 0.0), np.append(self._high, np.inf)
         )
         unseen = float(self._residual @ self._residual - seen @ seen)
-        return unseen + float(np.sum((seen + system @ step) ** 2))
+        moves = np.zeros(self._kept.size)
+        moves[self._kept] = step[:-1]
+        cost = unseen + float(np.sum((seen + system @ step) ** 2))
+        return Reachable(cost=cost, step=moves, multiple=float(step[-1]))
 
     def _from_fit(self, by_trial: Sequence[Array]) -> Array:
         there = np.concatenate([*by_trial, np.where(self._kept, self._prior, 0.0)])

@@ -106,7 +106,8 @@ def free_form_fits(
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
     if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
         best = sorted(fitted, key=lambda f: f.score)[:ACCOMPANIED]
-        pairs = [(coarse, f, (name,)) for f in best for name in companions[:COMPANIONS]]
+        enough = WORTH_A_FINAL**2 * min(f.fit.cost for f in fitted)
+        pairs = [(coarse, f, (name,), enough) for f in best for name in companions[:COMPANIONS]]
         fitted += _each(BESIDE, _to_its_end, pairs, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
     far = least > FAR_GAP
@@ -146,15 +147,22 @@ def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
     return replace(first, fit=fit, gap_after=fit.gap)
 
 
-def _to_its_end(coarse: FitProblem, first: FreeFit, beside: tuple[str, ...]) -> FreeFit:
-    """Fitted twice: the second time with the strength of the prior that the first one speaks for."""
+def _to_its_end(
+    coarse: FitProblem, first: FreeFit, beside: tuple[str, ...], enough: float = np.inf
+) -> FreeFit:
+    """Fitted twice: the second time with the strength of the prior that the first one speaks for.
+
+    Args:
+      enough: cost below which it is of use.
+    """
     family, problem = first.family, with_family(coarse, first.family)
     start, names = first.fit.x, (family.name, *beside)
     if beside:
         start = screen(problem, first.fit, beside[0])[0].start
-    fit = fit_effects(problem, names, start, most_iterations=ITERATIONS)
+    fit = fit_effects(problem, names, start, enough, most_iterations=ITERATIONS)
     family = with_estimated_prior(family, fit)
-    fit = fit_effects(with_family(coarse, family), names, fit.x, most_iterations=ITERATIONS // 2)
+    own = with_family(coarse, family)
+    fit = fit_effects(own, names, fit.x, enough, most_iterations=ITERATIONS // 2)
     return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
 
 
@@ -193,7 +201,9 @@ def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[
     A law far from straight comes nowhere with its first step, and its slopes tell that it will.
     """
     ranked = sorted(fits, key=lambda f: f.promise)
-    reach = IN_REACH * min((f.promised_gap for f in fits), default=np.inf)
+    closed = any(f.fit.gap <= CLOSED_GAP for f in fits)
+    reach = WORTH_A_FINAL_BESIDE if closed else IN_REACH
+    reach *= min((f.promised_gap for f in fits), default=np.inf)
     best = [f for f in ranked[:most] if f.promised_gap <= reach]
     return best, [f for f in ranked if f not in best]
 

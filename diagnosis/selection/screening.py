@@ -2,8 +2,8 @@
 
 On top of a fit with residual r and Jacobian J, an effect at a start changes the residual by d. What
 is left of r once d in any positive amount is taken off, and J in any that keeps parameters within
-bounds, tells which effects are worth a fit. The starts that leave least are where to begin: as
-many as the effect has parameters, since fits of several may end in a local minimum.
+bounds, tells which effects are worth a fit. Fits begin where this linear model leads, from the starts
+that leave least: as many as the effect has parameters, since fits of several may end in a local minimum.
 """
 
 from dataclasses import dataclass
@@ -19,6 +19,7 @@ from diagnosis.fitting.projection import Projection
 
 Array = NDArray[np.float64]
 
+_LEAST, _MOST = 0.01, 3.0  # times a start, that a fit begins with
 _WEAK = 0.2  # share of a start from which a fit begins where no more is left than noise
 
 
@@ -56,13 +57,30 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
     columns = [parameterization.joined(base.parts | {name: s}) for s in own]
     runs = problem.residuals([parameterization.rig(x) for x in columns], callback_alone=True)
     projection = Projection(base, name)
-    without = projection.reachable_cost()
-    # What the nuisance took over from a missing effect is no good start with it.
-    known = {n: base.parts[n] for n in base.names}
+    without = projection.reachable().cost
     screened = []
     for i, start in enumerate(own):
-        cost = projection.reachable_cost([run[i] for run in runs])
-        begin = parameterization.joined(known | {name: start})
-        screened.append(Screened(names=(*base.names, name), start=begin, cost=cost, gain=without - cost))
+        there = projection.reachable([run[i] for run in runs])
+        parts = base.parameterization.parts(base.x + there.step)
+        parts[name] = effect.weakened(start, float(np.clip(there.multiple, _LEAST, _MOST)))
+        begin = np.clip(parameterization.joined(parts), *parameterization.bounds())
+        gain = without - there.cost
+        screened.append(Screened(names=(*base.names, name), start=begin, cost=there.cost, gain=gain))
     best = sorted(screened, key=lambda s: s.cost)
     return best[: len(effect.parameters)]
+
+
+def neutral_start(problem: FitProblem, one: Screened) -> Array:
+    """The start of the last effect that leaves least where the nuisance has taken over nothing.
+
+    Raises:
+      SimulationFailed: the effect cannot be simulated at its starts.
+    """
+    *known, name = one.names
+    parameterization = problem.parameterization(one.names)
+    parts = parameterization.parts(one.start)
+    kept = {n: parts[n] for n in known}
+    each = [parameterization.joined(kept | {name: s}) for s in starts(problem.library[name])]
+    runs = problem.residuals([parameterization.rig(x) for x in each], callback_alone=True)
+    costs = [sum(float(run[i] @ run[i]) for run in runs) for i in range(len(each))]
+    return each[int(np.argmin(costs))]

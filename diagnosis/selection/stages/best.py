@@ -1,9 +1,14 @@
 """The best explanation taken apart: its fit to the end, without each of its effects, its scatter."""
 
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
+import numpy as np
+
 from diagnosis.criteria import CONTENDING, FINALISTS
+from diagnosis.fitting.bounded_least_squares import promised_reduction
+from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.state import SearchState
@@ -42,11 +47,11 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
     """What leading sets name of stiffness and damping, without the prior of scatter that pulls it.
 
-    That is the best, and those at the noise floor that this prior alone keeps behind it. Where even
-    twice what the prior costs would leave the best far above the noise, there is nothing to ask.
+    That is the best, and those at the noise floor that this prior alone keeps behind it. Where the best
+    would stay above the noise without the prior, there is nothing to ask.
     """
     best = state.best
-    if best.floor.gap**2 - 2 * best.fit.prior / best.fit.samples > best.floor.gap_limit**2:
+    if _gap_without_prior(best.fit, best.scatter_named) > best.floor.gap_limit:
         return state
     reach = best.score - best.fit.prior + CONTENDING
     near = [c for c in state.candidates if c.floor.reached and c.score - c.fit.prior <= reach]
@@ -59,3 +64,14 @@ def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
             start = state.problem.parameterization(names).joined(one.fit.parts)
             calls.setdefault(frozenset(names), (state.problem, names, start))
     return state.adding(fit_all("scatter of the best", [*calls.values()], workers))
+
+
+def _gap_without_prior(fit: Fit, names: Sequence[str]) -> float:
+    """The gap that a fit would leave without the prior on these effects, by its linear model."""
+    own = np.isin(fit.parameterization.owners, names)
+    weights = np.where(own, 0.0, fit.parameterization.weights)
+    slopes = np.vstack([*fit.jacobian, np.diag(weights)])
+    residual = np.concatenate([*fit.by_trial, weights * fit.x])
+    low, high = fit.parameterization.bounds()
+    reduction = promised_reduction(slopes, residual, low - fit.x, high - fit.x)
+    return float(np.sqrt(max(residual @ residual - reduction, 0.0) / fit.samples))

@@ -22,7 +22,10 @@ def richer_effects(state: SearchState, workers: Workers) -> SearchState:
     Fitted from far off they may have ended in a local minimum, above what they contain.
     """
     leading = sorted((*state.singles, *state.pairs), key=lambda c: c.score)[:FINALISTS]
-    if not any(_richer(c, state) for c in leading) or state.rechecked()[1]:
+    if not any(_richer(c, state) for c in leading):
+        return state
+    state, explained = state.rechecked()
+    if explained:
         return state
     ahead, state = _ahead(leading, state, workers)
     worth, behind = worth_the_log(STAGE, ahead, leading[:1])

@@ -70,7 +70,9 @@ def _only(pairs: Mapping[tuple[str, ...], Fit]) -> Fit:
 
 
 def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
-    return _fits(near_the_best(state.pairs, state.singles, TRIPLE_BASES))
+    """The leading pairs that leave clearly less than single effects."""
+    pairs, _ = worth_the_log("", state.pairs, state.singles)
+    return _fits(near_the_best(pairs, state.singles, TRIPLE_BASES))
 
 
 def _explaining(state: SearchState) -> Mapping[tuple[str, ...], Fit]:

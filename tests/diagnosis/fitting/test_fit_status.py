@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mujoco import minimize
 
-from diagnosis.criteria import NEAR_FLOOR
+from diagnosis.criteria import GAP_LIMIT, NEAR_FLOOR
 from diagnosis.fitting.fit import _minimised
 from diagnosis.fitting.fit_status import (
     _FUTILE_LATER,
@@ -16,6 +16,7 @@ from diagnosis.fitting.fit_status import (
     FitStatus,
     Stopping,
     Termination,
+    far_for,
     in_words,
 )
 
@@ -207,12 +208,12 @@ class Bumpy(Line):
         self.best = np.linalg.lstsq(-self.slopes, self.read, rcond=None)[0]
 
 
-def ends_at(objective, promised, *, ends_far):
+def ends_at(objective, promised, far):
     """After how many Jacobians a fit ends that is promised such a share of what is beyond noise."""
     left = objective(objective.best)
-    far = np.sqrt(promised * (left @ left - 200) / 200)
-    x = objective.best + np.array([far, 0.0])
-    stopping = Stopping(objective, 1e-3, ends_far=ends_far)
+    off = np.sqrt(promised * (left @ left - 200) / 200)
+    x = objective.best + np.array([off, 0.0])
+    stopping = Stopping(objective, 1e-3, far=far)
     for taken in range(3):
         try:
             stopping.jacobian(x, objective(x))
@@ -222,23 +223,33 @@ def ends_at(objective, promised, *, ends_far):
 
 
 @pytest.mark.parametrize(
-    ("times", "promised", "ends_far", "after"),
+    ("times", "promised", "after"),
     [
-        (1.05 * NEAR_FLOOR, 0.9 * _SLOW, True, (Termination.FAR, 1)),
-        (1.05 * NEAR_FLOOR, 1.1 * _SLOW, True, None),  # such a step is worth taking
-        (0.9 * NEAR_FLOOR, 0.9 * _SLOW, True, None),  # near the noise every bit tells
-        (1.05 * NEAR_FLOOR, 0.9 * _SLOW, False, None),
+        (1.05, 0.9 * _SLOW, (Termination.FAR, 1)),
+        (1.05, 1.1 * _SLOW, None),  # such a step is worth taking
+        (0.97, 0.9 * _SLOW, None),  # near the noise every bit tells
     ],
 )
-def test_far_above_the_noise_two_small_promises_in_turn_end_a_fit(times, promised, ends_far, after):
-    assert ends_at(Bumpy(times), promised, ends_far=ends_far) == after
+@pytest.mark.parametrize("leading", [True, False])
+def test_far_above_the_noise_two_small_promises_in_turn_end_a_fit(leading, times, promised, after):
+    far = far_for(leading=leading)
+    assert ends_at(Bumpy(far * times), promised, far) == after
+
+
+def test_a_fit_that_only_tells_which_to_do_again_ends_farther_above_the_noise():
+    assert far_for(leading=True) == NEAR_FLOOR
+    assert far_for(leading=False) == GAP_LIMIT**2  # what is at the floor goes on to its end
+
+
+def test_without_a_limit_a_fit_goes_on_wherever_it_is():
+    assert ends_at(Bumpy(9.0 * NEAR_FLOOR), 0.9 * _SLOW, np.inf) is None
 
 
 def test_one_small_promise_ends_no_fit():
     bumpy = Bumpy(2 * NEAR_FLOOR)
     left = bumpy(bumpy.best)
     excess = left @ left - 200
-    stopping = Stopping(bumpy, 1e-3, ends_far=True)
+    stopping = Stopping(bumpy, 1e-3, far=NEAR_FLOOR)
     for promised in (0.9 * _SLOW, 1.1 * _SLOW, 0.9 * _SLOW):
         x = bumpy.best + np.array([np.sqrt(promised * excess / 200), 0.0])
         stopping.jacobian(x, bumpy(x))

@@ -18,7 +18,7 @@ def test_what_lies_beyond_a_bound_is_not_promised(fit):
     slopes, residual = np.vstack(fit.jacobian), np.concatenate(fit.by_trial)
     without_bounds = lsq_linear(slopes, -residual).cost * 2
     assert without_bounds < 0.6 * fit.cost
-    assert Projection(fit, "tip_drag").reachable_cost() == pytest.approx(fit.cost, rel=1e-3)
+    assert Projection(fit, "tip_drag").reachable().cost == pytest.approx(fit.cost, rel=1e-3)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -31,7 +31,12 @@ def test_reachable_cost_is_that_of_the_least_squares_of_everything_at_once(fit, 
     room = [np.append(low - 1e-9, 0.0), np.append(high + 1e-9, np.inf)]
     least = 2 * lsq_linear(system, -residual, bounds=room, method="trf", tol=1e-12).cost
     moved = np.split(residual + d, len(fit.by_trial))
-    assert Projection(fit, "tip_drag").reachable_cost(moved) == pytest.approx(least, rel=1e-3)
+    found = Projection(fit, "tip_drag").reachable(moved)
+    assert found.cost == pytest.approx(least, rel=1e-3)
+    # It tells where that is: as far along the slopes, and so much of the difference.
+    left = residual + slopes @ found.step + found.multiple * d
+    assert left @ left == pytest.approx(least, rel=1e-3)
+    assert (found.multiple > 0.0) == (sign > 0)
 
 
 def test_what_is_beyond_a_fit_is_what_least_squares_leave(fit):

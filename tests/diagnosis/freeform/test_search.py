@@ -96,10 +96,12 @@ def fitted(monkeypatch):
     seen = []
 
     def run(first, ended, final=None, companions=()):
+        run.enough = []
         final = ended if final is None else final
 
-        def made(gaps, family, beside=(), **known):
+        def made(gaps, family, beside=(), *enough, **known):
             seen.append((family.name, beside, known.get("final", False)))
+            run.enough += enough
             gap = gaps[f"{family.name} + {beside[0]}" if beside else family.name]
             if gap is None:
                 raise SimulationFailed("lost")
@@ -111,7 +113,7 @@ def fitted(monkeypatch):
             "replay": lambda *_, **__: nominal,
             "fit_effects": lambda *_, **__: None,
             "_first_fit": lambda _, __, family: made(first, family),
-            "_to_its_end": lambda _, one, beside: made(ended, one.family, beside),
+            "_to_its_end": lambda _, one, beside, *enough: made(ended, one.family, beside, *enough),
             "_some_more": lambda _, one: one,
             "_on_the_log": lambda _, one, far: made(final, one.family, one.beside, final=True),
         }
@@ -124,7 +126,7 @@ def fitted(monkeypatch):
 
 def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itself(fitted):
     run, seen = fitted
-    gaps = {f"law {i}": 1.05 + 0.05 * i for i in range(12)}
+    gaps = {f"law {i}": 1.2 + 0.05 * i for i in range(12)}
     found = run(gaps, gaps)
     finals = [f.family.name for f in found if f.final]
     assert finals == [f"law {i}" for i in range(search.FINALISTS)]
@@ -134,14 +136,25 @@ def test_the_best_families_go_to_their_end_and_the_best_of_these_to_the_log_itse
     assert len(seen) == 12 + search.CONTENDERS + search.FINALISTS
 
 
-@pytest.mark.parametrize("least", [1.0, 2 * CLOSED_GAP])
-def test_only_laws_that_promise_no_more_than_a_few_times_the_least_gap_go_on(least, fitted):
+@pytest.mark.parametrize(
+    ("least", "reach"),
+    [(1.0, search.WORTH_A_FINAL_BESIDE), (2 * CLOSED_GAP, search.IN_REACH)],
+    ids=["the gap is closed", "it is not"],
+)
+def test_only_laws_that_promise_no_more_than_a_few_times_the_least_gap_go_on(least, reach, fitted):
     run, seen = fitted
-    gaps = {"a": least, "b": 0.95 * search.IN_REACH * least, "c": 1.05 * search.IN_REACH * least}
+    gaps = {"a": least, "b": 0.95 * reach * least, "c": 1.05 * reach * least}
     found = run(gaps, gaps)
     assert [name for name, _, _ in seen[len(gaps) : len(gaps) + 2]] == ["a", "b"]
     assert "c" not in [name for name, _, _ in seen[len(gaps) :]]
     assert sorted(f.family.name for f in found) == sorted(gaps)  # each is told, however far it came
+
+
+def test_beside_an_effect_a_law_has_to_come_near_the_best_alone(fitted):
+    run, _ = fitted
+    gaps = {"a": 2.0, "b": 2.5, "a + stiction": 2.1, "b + stiction": 2.6}
+    run({"a": 2.0, "b": 2.5}, gaps, companions=("stiction",))
+    assert run.enough == [pytest.approx(100 * (search.WORTH_A_FINAL * 2.0) ** 2)] * 2
 
 
 def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more(fitted, monkeypatch):

@@ -11,6 +11,7 @@ from diagnosis.criteria import (
     FINALISTS,
     MOST_FINALISTS,
     NEAR_FLOOR,
+    PROMISE_BROKEN,
     SIMPLE_LEAD,
     SLOPES_OF_ITS_OWN,
 )
@@ -145,20 +146,29 @@ def test_the_first_start_of_each_set_is_fitted_before_the_second_of_any(made):
 
 
 @pytest.mark.parametrize(("promise", "fitted"), [(1.01, False), (0.99, True)])
-def test_another_start_of_a_set_at_the_floor_has_to_promise_less(promise, fitted, made, monkeypatch):
+@pytest.mark.parametrize("left", [1.0, 2.0], ids=["at the floor", "above it"])
+def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made, monkeypatch):
     monkeypatch.setattr(fitting, "FITS_AT_ONCE", 1)
-    each = [start_of(("stiction",), 0.5 * SAMPLES, SAMPLES)]
-    each += [start_of(("stiction",), promise * SAMPLES, SAMPLES)]
-    _, record = fit_screened("single effects", PROBLEM, each, 9, Workers())
+    first = start_of(("stiction",), 0.9 * left * SAMPLES, left * SAMPLES)
+    again = start_of(("stiction",), promise * left * SAMPLES, left * SAMPLES)
+    _, record = fit_screened("single effects", PROBLEM, [first, again], 9, Workers())
     assert len(made) == 1 + fitted
     assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
 
 
-def test_another_start_of_a_set_above_the_floor_is_fitted_whatever_it_promises(made, monkeypatch):
-    monkeypatch.setattr(fitting, "FITS_AT_ONCE", 1)
-    each = [start_of(("stiction",), promise * SAMPLES, 2.0 * SAMPLES) for promise in (2.0, 2.5)]
-    fit_screened("single effects", PROBLEM, each, 9, Workers())
-    assert len(made) == 2
+def test_what_leaves_far_more_than_promised_is_fitted_once_more_from_a_neutral_start(made, monkeypatch):
+    """Of the two starts of a set, once; and where the promise is kept, not at all."""
+    monkeypatch.setattr(
+        fitting, "neutral_start", lambda _, one: np.array([0.5 * PROMISE_BROKEN * one.cost])
+    )
+    broken = start_of(("stiction",), 2000.0, 1.01 * PROMISE_BROKEN * 2000.0)
+    twice = start_of(("stiction",), 2100.0, 1.01 * PROMISE_BROKEN * 2100.0)
+    kept = start_of(("tip_drag",), 2000.0, 0.99 * PROMISE_BROKEN * 2000.0)
+    found, _ = fit_screened("single effects", PROBLEM, [broken, twice, kept], 9, Workers())
+    assert made == [("stiction",), ("tip_drag",), ("stiction",), ("stiction",)]
+    assert {c.names: c.fit.cost for c in found} == pytest.approx(
+        {("stiction",): 0.5 * PROMISE_BROKEN * 2000.0, ("tip_drag",): 0.99 * PROMISE_BROKEN * 2000.0}
+    )
 
 
 def test_a_fit_that_fails_is_recorded_and_the_others_go_on(made):

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import coarse_of, log_of, problem_of
 
+from diagnosis.criteria import PROMISE_BROKEN
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection.screening import screen
+from diagnosis.selection.screening import neutral_start, screen
 
 
 @pytest.fixture(scope="module")
@@ -43,11 +44,38 @@ def test_as_many_starts_as_parameters_come_back_best_first(dry):
     assert {s.names for s in found} == {("stiction",)}
 
 
-def test_what_the_nuisance_took_over_is_no_start(dry):
+def test_a_fit_begins_where_the_linear_model_leads(dry):
+    """Dry friction takes back from the nuisance what that had taken over."""
     coarse, base = dry
-    assert abs(base.parts["damping_error"][0]) > 0.01
-    start = screen(coarse, base, "coulomb_friction")[0].start
+    taken_over = base.parts["damping_error"][0]
+    assert abs(taken_over) > 0.01
+    best = screen(coarse, base, "coulomb_friction")[0]
+    parameterization = coarse.parameterization(best.names)
+    begun = parameterization.parts(best.start)
+    assert abs(begun["damping_error"][0]) < 0.2 * abs(taken_over)
+    left = coarse.residuals([parameterization.rig(best.start)])
+    assert sum(float(r[0] @ r[0]) for r in left) < 0.1 * base.cost
+
+
+def test_an_effect_begins_no_stronger_than_three_times_a_start():
+    """Dry friction that holds the tip: no start of it comes near, and the linear model asks for more."""
+    coarse = coarse_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.02)))
+    begun = screen(coarse, fit_effects(coarse, ()), "coulomb_friction")[0].start[0]
+    level = coarse.library["coulomb_friction"].parameters[0]
+    assert min(abs(np.exp(begun) / start - 3.0) for start in level.start) < 1e-6
+
+
+def test_from_a_neutral_start_an_effect_is_found_that_the_nuisance_hides():
+    """Drag at the tip that damping has taken over by 60 %: from there, the fit comes nowhere."""
+    coarse = coarse_of(log_of(RigParameters(tip_drag_n_mm_s_per_rad=1.0)))
+    base = fit_effects(coarse, ())
+    assert base.parts["damping_error"][0] > 0.4
+    best = screen(coarse, base, "tip_drag")[0]
+    start = neutral_start(coarse, best)
     np.testing.assert_array_equal(start[1:], 0.0)
+    led, neutral = (fit_effects(coarse, best.names, x) for x in (best.start, start))
+    assert led.cost > PROMISE_BROKEN * best.cost
+    assert np.exp(neutral.x[0]) == pytest.approx(1.0, rel=0.05)
 
 
 def test_what_scatter_has_found_costs_only_its_prior_to_name():
@@ -70,6 +98,4 @@ def test_where_nothing_but_noise_is_left_fits_begin_weak():
     coarse = coarse_of(log_of(RigParameters(layer_ratio=1.05)))
     base = fit_effects(coarse, ())
     best = screen(coarse, base, "layered_tissue")[0]
-    effect = coarse.library["layered_tissue"]
-    strong = [p.distance_from_neutral(p.start[0]) for p in effect.parameters[:1]]
-    assert abs(best.start[0]) == pytest.approx(0.2 * strong[0], rel=0.02)
+    assert np.exp(abs(best.start[0])) == pytest.approx(1.05, abs=0.05)

@@ -1,15 +1,17 @@
 """The best explanation taken apart."""
 
-from collections import namedtuple
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import concluded, log_of, scored, start_of_search
+from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
 
 from diagnosis.criteria import CONTENDING
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection import checked
 from diagnosis.selection.search import search
@@ -82,31 +84,46 @@ def test_a_constant_that_the_best_names_is_fitted_without_its_prior():
     assert np.exp(best.best.fit.parts["stiffness_error"][0]) == pytest.approx(1.2, rel=0.01)
 
 
-Off = namedtuple("Off", ["names", "fit", "score", "floor", "scatter_named"])
+OFF = 0.2
+LINEAR = np.random.default_rng(1).normal(size=(1000, 1))
 
 
-def off(names, prior, cost=0.0, *, reached=False, gap=1.0):
-    """A candidate, fitted to 1000 readings, whose stiffness is off by 20 %."""
-    fit = SimpleNamespace(prior=prior, parts={"stiffness_error": np.array([0.2])}, samples=1000)
-    floor = SimpleNamespace(reached=reached, gap=gap, gap_limit=1.02)
-    return Off(names, fit, cost + prior, floor, ("stiffness_error",))
+def off(names, cost=0.0, *, reached=False, gap=1.0, gain=0.0):
+    """A candidate, fitted to 1000 readings, whose stiffness is off by 20 % against its prior.
+
+    Args:
+      gain: that the readings would have of more of it, were there no prior.
+    """
+    one = scored(names, cost)
+    nuisance = (LIBRARY["stiffness_error"],)
+    parameterization = parameterization_of(names, nuisance)
+    x = parameterization.joined({"stiffness_error": np.array([OFF])})
+    beside = np.zeros((1000, x.size - 1))
+    unit = LINEAR / np.linalg.norm(LINEAR)
+    across = np.random.default_rng(2).normal(size=1000)
+    across -= unit[:, 0] * (unit[:, 0] @ across)
+    left = np.sqrt(gain) * unit[:, 0] + across / np.linalg.norm(across) * np.sqrt(1000 * gap**2 - gain)
+    fit = fit_of(
+        names, by_trial=[left], jacobian=[np.hstack([beside, 1e3 * unit])], x=x, nuisance=nuisance
+    )
+    floor = NoiseFloor(gap=gap, slow=1.0 if reached else 2.0, gap_limit=1.02)
+    return replace(one, fit=fit, floor=floor, score=cost + fit.prior)
 
 
 def found_by_then(best, *others):
     return SimpleNamespace(
         best=best,
         candidates=(best, *others),
-        problem=SimpleNamespace(
-            parameterization=lambda names: SimpleNamespace(joined=lambda parts: np.zeros(2))
-        ),
+        problem=SimpleNamespace(parameterization=lambda names: parameterization_of(names)),
         adding=lambda made: made,
     )
 
 
 def test_sets_that_the_prior_of_scatter_alone_keeps_behind_are_freed_of_it_too(asked):
-    best, near = off(("tip_drag",), 30.0), off(("tip_angle_scale",), 300.0, 5.0, reached=True)
-    far = off(("torque_bias",), 30.0, 10.0 + CONTENDING, reached=True)
-    above = off(("stiction",), 300.0, 5.0)
+    best, near = off(("tip_drag",)), off(("tip_angle_scale",), 5.0, reached=True)
+    far = off(("torque_bias",), 10.0 + CONTENDING, reached=True)
+    above = off(("stiction",), 5.0)
+    assert best.scatter_named == ("stiffness_error",)
     module.scatter_of_the_best(found_by_then(best, near, far, above), Workers())
     assert asked == [("tip_drag", "stiffness_error"), ("tip_angle_scale", "stiffness_error")]
 
@@ -115,8 +132,8 @@ def test_sets_that_the_prior_of_scatter_alone_keeps_behind_are_freed_of_it_too(a
 def test_scatter_is_freed_only_where_its_prior_may_be_what_keeps_the_best_above_the_noise(
     share, fitted, asked
 ):
-    """Twice what the prior costs, 30, has to make up for what the residual is beyond its limit."""
-    gap = np.sqrt(1.02**2 + 2 * 30.0 / 1000 / share)
-    best = off(("tip_drag",), 30.0, gap=gap)
+    """What the readings would gain of more of it has to make up for what is beyond the limit."""
+    gain = 100.0 * share
+    best = off(("tip_drag",), gap=np.sqrt(1.02**2 + 100.0 / 1000), gain=gain)
     module.scatter_of_the_best(found_by_then(best), Workers())
     assert asked == [("tip_drag", "stiffness_error")][:fitted]
