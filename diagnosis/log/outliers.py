@@ -11,6 +11,10 @@ samples far from it. A sample is an outlier if all of these conditions hold:
 
 Outliers that were found are removed, and the search is repeated.
 
+The first two and the last two samples have too little on one side. They are left out if neither a line
+nor a parabola through the samples beside them comes near: should the motion have begun or ended there,
+two samples less tell nothing less.
+
 Source: robust local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829; Hampel's identifier.
 """
 
@@ -35,11 +39,11 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
+AT_AN_END = 2  # samples that have too little on one side
 _HALVES = (4, 7)  # neighbours on each side
 _SIDE_ORDER = {4: 1, 7: 2}  # of the curve through one side of so many
 _ORDER = 3  # of the curve
 _PASSES = 4
-_LEAST_BESIDE = 2  # samples before and after
 _STENCILS = ((1, 2), (2, 4), (3, 6))  # neighbours on each side of a cubic
 _LEFT_OUT_SIGMA = 3.5  # what least squares leaves out of a window
 _SCREENED_SIGMA = 2.0  # what is fitted at all: far below any threshold
@@ -106,8 +110,31 @@ def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
         for part in np.array_split(suspects, suspects.size // _CHUNK + 1):
             off, said = _judged(time_s, values, scale, part, half, limit)
             rows[part[off]], expected[part[off]] = True, said[off]
+    for end in (slice(None), slice(None, None, -1)):
+        _add_end(time_s[end], values[end], scale[end], limit, rows[end], expected[end])
     found = np.flatnonzero(rows)
     return found, expected[found]
+
+
+def _add_end(
+    time_s: Array, values: Array, scale: Array, limit: float, rows: Mask, expected: Array
+) -> None:
+    """Add to rows and expected values, in place, what is off at the beginning of a column."""
+    first = slice(0, AT_AN_END)
+    away, said = np.full(AT_AN_END, np.inf), np.zeros(AT_AN_END)
+    for count, order in _SIDE_ORDER.items():
+        beside = slice(AT_AN_END, AT_AN_END + count)
+        x = (time_s[: beside.stop] - time_s[beside.start]) / (
+            time_s[beside.stop - 1] - time_s[beside.start]
+        )
+        powers = np.vander(x, order + 1)
+        inverse = np.linalg.pinv(powers[beside])
+        curve = powers[first] @ inverse @ values[beside]
+        gain = np.sqrt(1.0 + np.sum((powers[first] @ inverse) ** 2, axis=1))
+        off = np.abs(values[first] - curve) / (gain * scale[first])
+        said, away = np.where(off < away, curve, said), np.minimum(off, away)
+    rows[first] |= away > limit
+    expected[first] = np.where(away > limit, said, expected[first])
 
 
 def _scatter_about(time_s: Array, values: Array, sigma: float) -> Array:
@@ -164,7 +191,7 @@ def _judged(
         at_end = (side.sum(axis=1) < half) & (outside <= 2)
         outlying &= far | at_end
     # A step of the readings looks the same where it has hardly a sample before or after it.
-    outlying &= (rows >= _LEAST_BESIDE) & (rows < values.size - _LEAST_BESIDE)
+    outlying &= (rows >= AT_AN_END) & (rows < values.size - AT_AN_END)
     return outlying, values[rows] - off
 
 

@@ -26,7 +26,7 @@ from diagnosis.criteria import (
     SATURATED_NEAR_SIGMA,
     SATURATED_SHARE,
 )
-from diagnosis.log.outliers import Outliers, find_outliers
+from diagnosis.log.outliers import AT_AN_END, Outliers, find_outliers
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 
@@ -75,9 +75,15 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
 
 
 def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
-    """Outliers by column; a pulse of the base to which other signals respond is motion, no outlier."""
+    """Outliers by column; a pulse of the base to which other signals respond is motion, no outlier.
+
+    Nor is what the base does at either end of a trial: a motion may begin or end there.
+    """
     time, having = trial["time_s"], [name for name in noise if trial.has(name)]
     found = {n: find_outliers(time, trial[n], _outlier_scale(trial[n], noise[n])) for n in having}
+    row = np.arange(time.size)
+    ends = (row < AT_AN_END) | (row >= time.size - AT_AN_END)
+    found[BASE] = found[BASE].without(ends, trial[BASE])
     base = found[BASE].rows
     answers = np.logical_or.reduce(
         [off.rows for name, off in found.items() if name != BASE] or [base & False]

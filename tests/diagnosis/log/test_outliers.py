@@ -58,6 +58,18 @@ def test_large_outliers_are_found_beside_corners_too():
     assert (find_outliers(TIME, values, SIGMA).rows & rows).sum() >= 0.8 * rows.sum()
 
 
+@pytest.mark.parametrize("name", MOTIONS)
+@pytest.mark.parametrize("rows", [slice(-1, None), slice(-2, None), slice(0, 1), slice(0, 2)])
+def test_outliers_at_an_end_are_found_by_what_is_beside_them(name, rows):
+    """60 sigma: a parabola beyond its last point is known to 2.4 sigma, and a scatter that is told by
+    the samples of one side to a factor of two or three, where 5 of these are needed."""
+    values = read(MOTIONS[name])
+    values[rows] += 60 * SIGMA
+    found = find_outliers(TIME, values, SIGMA)
+    assert found.rows[rows].all()
+    assert np.abs(found.expected - MOTIONS[name])[rows].max() < 8 * SIGMA
+
+
 def test_what_lasts_is_an_event_and_none():
     values = read(MOTIONS["held"])
     values[500:510] += 1.0

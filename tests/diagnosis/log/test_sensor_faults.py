@@ -57,6 +57,14 @@ def test_an_outlier_of_the_base_is_replaced_by_what_its_neighbours_say(log):
     assert base[150] == pytest.approx(90 * 0.5, abs=3 * 0.02)
 
 
+def test_at_an_end_of_a_trial_an_outlier_of_a_sensor_is_set_aside_and_the_base_is_kept(log):
+    change_trial(log, at("tip_angle_deg", r1198=150.0, r1199=150.0))
+    change_trial(log, at("base_angle_deg", r1199=360.0))
+    trial = read_rig_log(log).trials[0]
+    np.testing.assert_array_equal(np.isnan(trial["tip_angle_deg"][-4:]), [False, False, True, True])
+    assert trial["base_angle_deg"][-1] == 360.0
+
+
 def test_saturated_samples_are_set_aside(log):
     """No reading is left within a scatter of the limit, where half of them would be cut off."""
     change_trial(log, lambda t: t.assign(tip_angle_deg=t["tip_angle_deg"].clip(upper=60)))
