@@ -27,6 +27,7 @@ from diagnosis.log.trial import Trial
 from diagnosis.nominal_replay import nominal_residuals, replay_nominal
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepare import prepare
+from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.replay.replay import predict
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import check
@@ -115,6 +116,12 @@ def coarse_of(log):
     """A log as a decimated problem."""
     nominal = replay_nominal(log)
     return decimated(nominal.problem, nominal.predictions)
+
+
+FITTED_SAMPLES = 1000
+"""Residuals of each fit of the fixture `made`."""
+NO_LOG = FitProblem(log=PreparedLog(rig=None, trials=()), noise=None, nuisance=())
+"""A problem for fits that nobody makes."""
 
 
 def fit_of(names, *, by_trial=None, jacobian=None, x=None, nuisance=(), cost=None, status=ENDED):

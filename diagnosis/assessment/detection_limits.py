@@ -18,7 +18,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
-from diagnosis.selection.complexity import most_penalty
+from diagnosis.selection.scoring.complexity import most_penalty
 from diagnosis.workers import Failure, Task, Workers
 
 _ROUNDS = 4  # sizes grow with the strength, but for dry friction below what breaks loose

@@ -19,12 +19,12 @@ class Reachable:
     Attributes:
       cost: that is left there.
       step: of the vector of the fit, (n,); 0 for what was left out.
-      multiple: of the difference that was added.
+      scale: of the difference that was added.
     """
 
     cost: float
     step: Array
-    multiple: float
+    scale: float
 
 
 class Projection:
@@ -72,7 +72,7 @@ class Projection:
         moves = np.zeros(self._kept.size)
         moves[self._kept] = step[:-1]
         cost = unseen + float(np.sum((seen + system @ step) ** 2))
-        return Reachable(cost=cost, step=moves, multiple=float(step[-1]))
+        return Reachable(cost=cost, step=moves, scale=float(step[-1]))
 
     def _from_fit(self, by_trial: Sequence[Array]) -> Array:
         there = np.concatenate([*by_trial, np.where(self._kept, self._prior, 0.0)])

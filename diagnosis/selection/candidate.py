@@ -23,8 +23,8 @@ from diagnosis.fitting.held_out.cross_validation import held_out_residuals, shif
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.selection.complexity import complexity_penalty
-from diagnosis.selection.scatter import gain_of_exact_constants, open_scatter, scatter_of
+from diagnosis.selection.scoring.complexity import complexity_penalty
+from diagnosis.selection.scoring.scatter import gain_of_exact_constants, open_scatter, scatter_of
 from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]

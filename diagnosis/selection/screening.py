@@ -62,7 +62,7 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
     for i, start in enumerate(own):
         there = projection.reachable([run[i] for run in runs])
         parts = base.parameterization.parts(base.x + there.step)
-        parts[name] = effect.weakened(start, float(np.clip(there.multiple, _LEAST, _MOST)))
+        parts[name] = effect.weakened(start, float(np.clip(there.scale, _LEAST, _MOST)))
         begin = np.clip(parameterization.joined(parts), *parameterization.bounds())
         gain = without - there.cost
         screened.append(Screened(names=(*base.names, name), start=begin, cost=there.cost, gain=gain))

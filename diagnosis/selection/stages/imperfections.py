@@ -4,7 +4,8 @@ from itertools import product
 
 from diagnosis.criteria import IMPERFECT_BASES, MOST_PAIRS, WORTH_FITTING
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.fitting import fit_finalists
+from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.stages.stage import near_the_best, not_worth, screen_all, worth_the_log
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers

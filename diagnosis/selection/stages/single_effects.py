@@ -6,8 +6,9 @@ from dataclasses import replace
 from diagnosis.criteria import PAIR_BASES, WORTH_FITTING
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.fitting import fit_finalists
 from diagnosis.selection.record import failed
+from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import not_worth, screen_all
 from diagnosis.selection.state import SearchState

@@ -16,9 +16,10 @@ from diagnosis.criteria import (
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import fit_finalists, fit_screened
+from diagnosis.selection.fitting import fit_finalists
 from diagnosis.selection.record import dropped
 from diagnosis.selection.richer_forms import overlap
+from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
     near_the_best,

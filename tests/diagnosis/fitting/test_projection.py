@@ -34,9 +34,9 @@ def test_reachable_cost_is_that_of_the_least_squares_of_everything_at_once(fit, 
     found = Projection(fit, "tip_drag").reachable(moved)
     assert found.cost == pytest.approx(least, rel=1e-3)
     # It tells where that is: as far along the slopes, and so much of the difference.
-    left = residual + slopes @ found.step + found.multiple * d
+    left = residual + slopes @ found.step + found.scale * d
     assert left @ left == pytest.approx(least, rel=1e-3)
-    assert (found.multiple > 0.0) == (sign > 0)
+    assert (found.scale > 0.0) == (sign > 0)
 
 
 def test_what_is_beyond_a_fit_is_what_least_squares_leave(fit):

@@ -16,7 +16,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate as module
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.complexity import complexity_penalty
+from diagnosis.selection.scoring.complexity import complexity_penalty
 from sim.needles.run import SimulationFailed
 
 SCALES = tuple(LIBRARY[name] for name in SCATTER)

@@ -4,8 +4,8 @@ import numpy as np
 from diagnosis_fixtures import log_of, start_of_search
 
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection.fitting import fit_screened
 from diagnosis.selection.record import Decision
+from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.stages import single_effects as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.single_effects import single_effects

@@ -8,7 +8,7 @@ from diagnosis_fixtures import fit_of
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import FITTED, LIBRARY
-from diagnosis.selection.complexity import choice_penalty, complexity_penalty, most_penalty
+from diagnosis.selection.scoring.complexity import choice_penalty, complexity_penalty, most_penalty
 
 COUNT = len(FITTED)
 SAMPLES = 3000

@@ -8,8 +8,8 @@ from scipy.stats import norm
 from diagnosis.criteria import EXACT, SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.complexity import complexity_penalty
-from diagnosis.selection.scatter import gain_of_exact_constants, open_scatter, scatter_of
+from diagnosis.selection.scoring.complexity import complexity_penalty
+from diagnosis.selection.scoring.scatter import gain_of_exact_constants, open_scatter, scatter_of
 
 BOTH = tuple(LIBRARY[name] for name in SCATTER)
 SIGMAS = np.array(list(SCATTER.values()))

@@ -1,0 +1,144 @@
+"""Which sets that screening promises something of are fitted, and why others are not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import FITTED_SAMPLES, NO_LOG
+
+from diagnosis.criteria import (
+    CONTENDING,
+    NEAR_FLOOR,
+    PROMISE_BROKEN,
+)
+from diagnosis.selection import screened_fits
+from diagnosis.selection.record import Decision
+from diagnosis.selection.screened_fits import fit_screened
+from diagnosis.selection.screening import Screened
+from diagnosis.workers import Workers
+
+FOUR = ("tip_drag", "torque_bias", "tip_angle_bias", "coulomb_friction")
+
+
+def screened(name, promise, fitted=None):
+    """An effect that promises a cost, and what its fit comes to."""
+    start = np.array([promise if fitted is None else fitted])
+    return Screened(names=(name,), start=start, cost=promise, gain=10.0)
+
+
+def decisions(record):
+    return {(e.effects, e.decision): e for e in record}
+
+
+def test_the_most_promising_are_fitted_first_and_come_back_best_first(made):
+    each = [screened("tip_drag", 3000.0, 2000.0), screened("torque_bias", 2500.0, 2900.0)]
+    found, record = fit_screened("single", NO_LOG, each, 9, Workers())
+    assert made == [("torque_bias",), ("tip_drag",)]
+    assert [c.names for c in found] == [("tip_drag",), ("torque_bias",)]
+    assert {e.decision for e in record} == {Decision.MADE}
+
+
+def test_no_more_are_fitted_than_asked_for(made):
+    each = [screened("tip_drag", 3000.0), screened("torque_bias", 2500.0)]
+    fit_screened("single", NO_LOG, each, 1, Workers())
+    assert made == [("torque_bias",)]
+
+
+BATCH = [
+    screened(n, 900.0 + i, 1000.0)
+    for i, n in enumerate(("stiction", "tip_drag", "torque_bias", "tip_angle_bias"))
+]
+
+
+def test_once_something_is_at_the_floor_only_what_comes_near_or_is_contained_is_fitted(made):
+    far = NEAR_FLOOR * FITTED_SAMPLES + 100
+    later = [
+        screened("entry_friction", far),
+        screened("coulomb_friction", far),
+        screened("tip_angle_scale", 0.9 * far),
+    ]
+    _, record = fit_screened("single", NO_LOG, [*BATCH, *later], 9, Workers())
+    assert ("entry_friction",) not in made
+    assert {("coulomb_friction",), ("tip_angle_scale",)} <= set(made)  # stiction contains the one
+    out = decisions(record)[("entry_friction",), Decision.DROPPED]
+    assert "far above" in out.reason
+    assert out.score is None
+
+
+def test_a_fit_has_to_come_near_the_best_once_that_is_at_the_floor(made):
+    """Of what comes later: the cost of the best, and what may be contended."""
+    at_floor = [screened(name, 1.0 + i, 0.9 * FITTED_SAMPLES) for i, name in enumerate(FOUR)]
+    later = [screened("entry_friction", 9.0, 2 * FITTED_SAMPLES)]
+    fit_screened("single", NO_LOG, [*at_floor, *later], 9, Workers(), used=6)
+    assert made.allowed[:4] == [np.inf] * 4
+    # Both have one parameter and are singles, so that their penalties are the same.
+    assert made.allowed[4] == pytest.approx(0.9 * FITTED_SAMPLES + CONTENDING)
+
+
+def test_as_many_as_are_of_use_are_fitted_to_their_end(made):
+    above = [screened(name, 1.0 + i, (4.0 + i) * FITTED_SAMPLES) for i, name in enumerate(FOUR)]
+    later = [screened("entry_friction", 9.0, 9 * FITTED_SAMPLES)]
+    for used, allowed in (
+        (6, np.inf),
+        (2, max(4.0 * FITTED_SAMPLES + CONTENDING, 5.0 * FITTED_SAMPLES)),
+    ):
+        made.allowed.clear()
+        fit_screened("single", NO_LOG, [*above, *later], 9, Workers(), used=used)
+        assert made.allowed[4] == pytest.approx(allowed)
+
+
+def test_the_best_start_of_a_set_is_kept(made):
+    each = [screened("tip_drag", 2000.0, 2500.0), screened("tip_drag", 2100.0, 2200.0)]
+    (found,), record = fit_screened("single", NO_LOG, each, 9, Workers())
+    assert found.fit.cost == 2200.0
+    (out,) = [e for e in record if e.decision is Decision.DROPPED]
+    assert "another start" in out.reason
+
+
+def start_of(names, promise, fitted):
+    return replace(screened("tip_drag", promise, fitted), names=names)
+
+
+def test_the_first_start_of_each_set_is_fitted_before_the_second_of_any(made):
+    two, reversed_ = ("tip_drag", "stiction"), ("stiction", "tip_drag")
+    each = [
+        start_of(two, 3000.0, 3000.0),
+        start_of(reversed_, 3100.0, 2900.0),
+        start_of(("torque_bias",), 3200.0, 3200.0),
+    ]
+    found, _ = fit_screened("pairs", NO_LOG, each, 9, Workers())
+    assert made == [two, ("torque_bias",), reversed_]
+    assert [c.names for c in found] == [reversed_, ("torque_bias",)]
+
+
+@pytest.mark.parametrize(("promise", "fitted"), [(1.01, False), (0.99, True)])
+@pytest.mark.parametrize("left", [1.0, 2.0], ids=["at the floor", "above it"])
+def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made, monkeypatch):
+    monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+    first = start_of(("stiction",), 0.9 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
+    again = start_of(("stiction",), promise * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
+    _, record = fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
+    assert len(made) == 1 + fitted
+    assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
+
+
+def test_what_leaves_far_more_than_promised_is_fitted_once_more_from_a_neutral_start(made, monkeypatch):
+    """Of the two starts of a set, once; and where the promise is kept, not at all."""
+    monkeypatch.setattr(
+        screened_fits, "neutral_start", lambda _, one: np.array([0.5 * PROMISE_BROKEN * one.cost])
+    )
+    broken = start_of(("stiction",), 2000.0, 1.01 * PROMISE_BROKEN * 2000.0)
+    twice = start_of(("stiction",), 2100.0, 1.01 * PROMISE_BROKEN * 2100.0)
+    kept = start_of(("tip_drag",), 2000.0, 0.99 * PROMISE_BROKEN * 2000.0)
+    found, _ = fit_screened("single effects", NO_LOG, [broken, twice, kept], 9, Workers())
+    assert made == [("stiction",), ("tip_drag",), ("stiction",), ("stiction",)]
+    assert {c.names: c.fit.cost for c in found} == pytest.approx(
+        {("stiction",): 0.5 * PROMISE_BROKEN * 2000.0, ("tip_drag",): 0.99 * PROMISE_BROKEN * 2000.0}
+    )
+
+
+def test_a_fit_that_fails_is_recorded_and_the_others_go_on(made):
+    each = [screened("tip_drag", 2000.0, np.nan), screened("torque_bias", 2100.0)]
+    (found,), record = fit_screened("single", NO_LOG, each, 9, Workers())
+    assert found.names == ("torque_bias",)
+    assert decisions(record)[("tip_drag",), Decision.FAILED].reason == "lost its numbers"
