@@ -11,7 +11,7 @@ from diagnosis.freeform.in_words import next_step
 from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
-from diagnosis.replay.drift import with_drift
+from diagnosis.replay.drift import drift_range_sigma, with_drift
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.residuals.residual_breakdown import residual_breakdown
 from diagnosis.residuals.residual_shape import residual_shape
@@ -46,6 +46,9 @@ def explained_by(
         gap=gap_reduction(
             nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
         ),
+        imperfections={},  # those of the nearest explanation are not in the fit of the law
+        reading_jumps=rig.jumps,
+        torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
         explained=explained,
         breakdown_after=residual_breakdown(left),
         shape_after=residual_shape(left),

@@ -43,7 +43,7 @@ def told():
         linear_fit(family, [np.zeros((left.size, size))], [np.zeros(left.size)], x=x), by_trial=(left,)
     )
     best = FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
-    before = nothing_told(next_experiment="look closer")
+    before = nothing_told(next_experiment="look closer", imperfections={"torque_clock": {}})
     return log, nominal, before, explained_by(missing_with(best=best), log, problem, nominal, before)
 
 
@@ -70,5 +70,14 @@ def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
         assert found.breakdown_after.signal[sensor] == pytest.approx(1.0, abs=3.5 / np.sqrt(800))
     assert found.shape_after is not None
     changed = {"gap", "explained", "breakdown_after", "shape_after", "next_experiment"}
+    changed |= {"imperfections", "reading_jumps", "torque_drift_sigma"}
     kept = {name for name in vars(before) if getattr(found, name) is getattr(before, name)}
     assert kept == set(vars(before)) - changed
+
+
+def test_imperfections_of_sensors_are_those_that_the_law_allows_for(told):
+    """Not those of the nearest explanation, whose clock made up for what is missing."""
+    *_, before, found = told
+    assert before.imperfections
+    assert found.imperfections == {}
+    assert (found.reading_jumps, found.torque_drift_sigma) == ((), 0.0)
