@@ -1,7 +1,7 @@
 """A family of free-form laws: its place, the variable that it depends on, its coordinates in a fit."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from numpy.typing import ArrayLike
 
@@ -24,6 +24,8 @@ class Family:
       says: variable of the vocabulary that the law depends on.
       title: the quantity that the law gives, in plain words.
       curve: x and y of the law for parameter values, in `x_unit` and `unit`.
+      as_effect: values of its parameters with which it is an effect of the library, given those of the
+        effect, by its name.
     """
 
     effect: Effect
@@ -33,6 +35,7 @@ class Family:
     curve: Callable[..., Points]
     x_unit: str
     unit: str
+    as_effect: Mapping[str, Callable[..., tuple[float, ...]]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:

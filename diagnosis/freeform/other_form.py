@@ -8,8 +8,8 @@ clearly less, on the log itself. If it leaves less there too, the effect explain
 the law alone leaves about as little as the effect together with others: these only compensated for its
 wrong form. (Stiffness and damping do not count as such others, because every fit has them.)
 
-A law that has the parameters of the effect, and a curve besides, starts where the effect is. Then a
-single step shows whether the curve promises anything.
+A law that has the parameters of the effect, and a curve besides, or a curve that may be that of the
+effect, starts where the effect is. Then a single step shows whether it promises anything.
 """
 
 from collections.abc import Mapping
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import SCATTER, SECOND_LEAVES
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
+from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.fit_status import Termination
@@ -39,6 +40,7 @@ Array = NDArray[np.float64]
 STAGE = "other forms of a law"
 PROMISING = 0.998  # of the cost, after one step
 _NEARLY_STRAIGHT = (0.5, 0.1)  # priors of a curve's straight part and its rest
+_WEAK = 0.05  # times the first start of a level
 
 
 def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | None:
@@ -123,27 +125,39 @@ class _Comparison:
         # From far off a fit may end in a local minimum; another one begins with a nearly straight curve.
         straight = with_family(self.coarse, self.family.with_prior(*_NEARLY_STRAIGHT))
         own = with_family(self.coarse, self.family)
-        same = _same_parameters(self.known, self.coarse, self.replaced, self.family)
-        if not (same and len(names) == len(self.known.names)):
-            form = _from(self.known, names, own, same, enough=enough)
-            if form.cost <= enough:
-                return form
-            form = _from(self.known, names, straight, same, enough=enough)
-            behind = form.status.termination is Termination.BEHIND
-            return None if behind else _from(form, names, own, enough=enough)
-        form = _from(self.known, names, straight, same, iterations=1)
-        return None if form.cost > PROMISING * self.known.cost else _from(form, names, own)
+        begun = {self.family.name: _begun(self.known, self.coarse, self.replaced, self.family)}
+        if len(names) == len(self.known.names) and self._starts_as_the_effect():
+            form = _from(self.known, names, straight, begun, iterations=1)
+            return None if form.cost > PROMISING * self.known.cost else _from(form, names, own)
+        form = _from(self.known, names, own, begun, enough=enough)
+        if form.cost <= enough:
+            return form
+        form = _from(self.known, names, straight, begun, enough=enough)
+        behind = form.status.termination is Termination.BEHIND
+        return None if behind else _from(form, names, own, enough=enough)
+
+    def _starts_as_the_effect(self) -> bool:
+        """Whether the law has the parameters of the effect, or a curve that may be its curve."""
+        own = {parameter.name for parameter in self.coarse.library[self.replaced].parameters}
+        places = {parameter.name for parameter in self.family.effect.parameters}
+        return self.replaced in self.family.as_effect or own <= places
 
 
-def _same_parameters(known: Fit, problem: FitProblem, name: str, family: Family) -> dict[str, Array]:
-    """The family's part of a vector that is the effect as fitted; empty: it has other parameters."""
-    own = [parameter.name for parameter in problem.library[name].parameters]
-    places = {parameter.name: i for i, parameter in enumerate(family.effect.parameters)}
-    if not set(own) <= set(places):
-        return {}
-    x = np.zeros(len(places))
-    x[[places[each] for each in own]] = known.parts[name]
-    return {family.name: x}
+def _begun(known: Fit, problem: FitProblem, name: str, family: Family) -> Array:
+    """The family's part of a vector, which is the effect as fitted, as far as it can be."""
+    own, parameters = problem.library[name].parameters, family.effect.parameters
+    if name in family.as_effect:
+        fitted = [p.from_fit(float(x)) for p, x in zip(own, known.parts[name], strict=True)]
+        values = family.as_effect[name](*fitted)
+        return np.array([p.to_fit(v) for p, v in zip(parameters, values, strict=True)])
+    same = dict(zip([p.name for p in own], known.parts[name], strict=True))
+    return np.array([same.get(p.name, _neutral(p)) for p in parameters])
+
+
+def _neutral(parameter: Parameter) -> float:
+    """Where a level is hardly felt, and a curve is straight."""
+    first = parameter.start[0]
+    return parameter.to_fit(_WEAK * first if parameter.logarithmic else first)
 
 
 def _from(

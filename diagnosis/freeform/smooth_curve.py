@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
@@ -47,6 +47,11 @@ class SmoothCurve:
     def values(self, coordinates: Sequence[float]) -> tuple[float, ...]:
         """Values at the places, (K,)."""
         return tuple(float(v) for v in self.basis @ np.asarray(coordinates, float))
+
+    def coordinates(self, values: ArrayLike) -> tuple[float, ...]:
+        """Coordinates of the curve that comes nearest to values at the places, (K,)."""
+        found, *_ = np.linalg.lstsq(self.basis, np.asarray(values, float))
+        return tuple(float(c) for c in found)
 
     def factors(self, coordinates: Sequence[float]) -> tuple[float, ...]:
         """Exponentials of the values at the places, (K,): factors that are always positive."""

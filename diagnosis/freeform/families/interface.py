@@ -144,7 +144,16 @@ def _rate(ranges: LogRanges) -> Family:
         curve=partial(_friction, curve, rates, beta),
         x_unit="rad/s",
         unit="N mm / mm",
+        as_effect={"shear_thinning": partial(_power_law, curve, rates, _level(ranges).low)},
     )
+
+
+def _power_law(
+    curve: SmoothCurve, rates: tuple[float, float], level: float, exponent: float, plateau: float
+) -> tuple[float, ...]:
+    """The least dry friction, and the coordinates of a power law that is viscous below its plateau."""
+    at = np.geomspace(*rates, RATE_POINTS)
+    return level, *curve.coordinates(0.5 * (exponent - 1.0) * np.log(at**2 + plateau**2))
 
 
 def _friction(

@@ -89,3 +89,9 @@ def test_of_one_sign_nothing_is_bent():
     one, smooth = bent_curve(1.0, 5.0), smooth_curve(1.0, 5.0)
     np.testing.assert_array_equal(one.basis, smooth.basis)
     np.testing.assert_array_equal(one.places, smooth.places)
+
+
+def test_coordinates_are_those_of_the_curve_that_comes_nearest_to_values():
+    curve = smooth_curve(0.0, 2.0, 7)
+    given = np.random.default_rng(5).normal(size=curve.size)
+    np.testing.assert_allclose(curve.coordinates(curve.values(given)), given, atol=1e-9)
