@@ -20,7 +20,8 @@ from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.sensors import driven, reads_ahead, sensed
-from sim.needles.run import Run
+from models.errors import InvalidValue
+from sim.needles.run import Run, SimulationFailed
 from sim.simulation import simulate
 
 Array = NDArray[np.float64]
@@ -117,11 +118,16 @@ def _run(
         follows = rig.free is not None and rig.free.follows_torque
         torque = np.interp(logged.time_s, trial.time_s, trial.smooth_torque_n_mm) if follows else None
         inputs.append(driven(rig, logged, start_s, torque))
-    setups = [
-        rig.setup(nominal, own, elements=elements, step_s=step_s)
-        for rig, own in zip(rigs, inputs, strict=True)
-    ]
-    return simulate(setups, inputs, keep_shape=keep_shape, callback_alone=callback_alone)
+    try:
+        setups = [
+            rig.setup(nominal, own, elements=elements, step_s=step_s)
+            for rig, own in zip(rigs, inputs, strict=True)
+        ]
+        return simulate(setups, inputs, keep_shape=keep_shape, callback_alone=callback_alone)
+    except InvalidValue as refused:
+        if all(rig == NOMINAL for rig in rigs):
+            raise  # it is a constant of the log
+        raise SimulationFailed(f"a needle with these parameters cannot be built: {refused}") from refused
 
 
 def _sensed(rig: RigParameters, run: Run, trial: PreparedTrial) -> Prediction:

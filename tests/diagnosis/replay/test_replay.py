@@ -11,8 +11,12 @@ from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepare import prepare
 from diagnosis.replay import replay as module
+from diagnosis.replay.along_depth import AlongDepth
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import Prediction, predict, replay, residuals, shape_of
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from models.errors import InvalidValue
+from sim.needles.run import SimulationFailed
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "rig-log"
 
@@ -107,3 +111,21 @@ def test_some_rows_of_a_prediction_are_those_of_both_sensors():
     rows = prediction.rows(np.array([True, False, True, False]))
     np.testing.assert_array_equal(rows.tip_angle_deg, [0, 2])
     np.testing.assert_array_equal(rows["base_torque_n_mm"], [0, -2])
+
+
+def test_a_needle_that_parameters_make_impossible_is_a_simulation_that_failed():
+    """A layer a hair thick asks for an element with less inertia than MuJoCo takes."""
+    layered = RigParameters(free=FreeLaw(along_depth=AlongDepth(damping=(1.0, 2.0), thickness_mm=1e-4)))
+    with pytest.raises(SimulationFailed, match="cannot be built: elements: .* inertia"):
+        predict(RIG, prepared(trial(turns())), [NOMINAL, layered])
+
+
+def test_a_constant_of_the_log_that_makes_it_impossible_is_refused_by_its_name(monkeypatch):
+    def refused(*_, **__):
+        raise InvalidValue("elements", 9, "a thicker needle")
+
+    monkeypatch.setattr(module, "simulate", refused)
+    with pytest.raises(InvalidValue, match="elements"):
+        predict(RIG, prepared(trial(turns())), [NOMINAL])
+    with pytest.raises(SimulationFailed, match="cannot be built"):
+        predict(RIG, prepared(trial(turns())), [NOMINAL, RigParameters(damping_scale=2.0)])
