@@ -102,6 +102,7 @@ def fit_effects(
     most_iterations: int = _MOST_ITERATIONS,
     slopes: Array | None = None,
     from_a_fit: bool = False,
+    to_the_end: bool = False,
 ) -> Fit:
     """Fit a set of effects.
 
@@ -111,6 +112,7 @@ def fit_effects(
       most_iterations: largest number of Gauss-Newton iterations.
       slopes: Jacobian of residuals and prior, (N, n), from a similar fit; None: it is computed.
       from_a_fit: whether it starts where another fit ended: finite differences are small at once.
+      to_the_end: whether it goes on where it is slow far above the noise.
 
     Raises:
       SimulationFailed: the rig cannot be simulated at the start, or near a later iterate.
@@ -125,12 +127,23 @@ def fit_effects(
     differences = max((e.differences for e in parameterization.all), key=len)
     for difference in differences[-1:] if from_a_fit or slopes is not None else differences:
         objective = Objective(problem, parameterization, difference, slopes)
-        far = far_for(leading=problem.callback_alone)
+        far = np.inf if to_the_end else far_for(leading=problem.callback_alone)
         stopping = Stopping(objective, problem.tolerance_sigma, enough, far=far)
         x, status = _minimised(objective, x, stopping, most_iterations)
         if status.termination is Termination.BEHIND:
             break
     return _fit(objective, names, x, replace(status, at_bound=_at_bound(objective, x)))
+
+
+def completed(problem: FitProblem, fit: Fit) -> Fit:
+    """A fit that was given up, taken on to its end; any other as it is.
+
+    Raises:
+      SimulationFailed: as `fit_effects`.
+    """
+    if not fit.status.ended_early:
+        return fit
+    return fit_effects(problem, fit.names, fit.x, from_a_fit=True, to_the_end=True)
 
 
 def nominal_fit(by_trial: Sequence[Array]) -> Fit:

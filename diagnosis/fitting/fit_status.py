@@ -111,6 +111,11 @@ class FitStatus:
             Termination.NOTHING_TO_FIT,
         )
 
+    @property
+    def ended_early(self) -> bool:
+        """Whether it was given up, with values that are not those of the minimum."""
+        return self.termination in (Termination.FAR, Termination.BEHIND)
+
     @classmethod
     def of_message(cls, said: str, at_bound: tuple[str, ...] = ()) -> "FitStatus":
         """The status from the optimiser's last message."""
@@ -178,15 +183,15 @@ class Stopping:
         futile = _FUTILE if self._jacobians == 2 else _FUTILE_LATER
         if self._jacobians > 1 and cost - futile * promised > self.enough:
             raise self._ended(self._there, Termination.BEHIND)
-        slow = cost > self.far * at_x.size and promised < _SLOW * (cost - at_x.size)
-        if slow and self._slow:
-            raise self._ended(self._there, Termination.FAR)
-        self._slow = slow
         freedom = slopes.shape[1]
         noise = cost / max(at_x.size - freedom, 1)
         offset = np.sqrt(max(promised, 0.0) / (freedom * noise)) if noise > 0 else 0.0
         if offset <= self.tolerance:
             raise self._ended(self._there, Termination.OFFSET)
+        slow = cost > self.far * at_x.size and promised < _SLOW * (cost - at_x.size)
+        if slow and self._slow:
+            raise self._ended(self._there, Termination.FAR)
+        self._slow = slow
         self._last = bool(offset <= _ONE_MORE * self.tolerance)
         return self._without_idle(slopes)
 

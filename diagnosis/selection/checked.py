@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.fit import Fit, completed
 from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import Noise
@@ -58,6 +58,14 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
 
 def _checked(one: Candidate, problem: FitProblem) -> Candidate:
     try:
-        return one.allowing_base_noise(problem).cross_validated(problem)
+        return _completed(one.allowing_base_noise(problem), problem).cross_validated(problem)
     except SimulationFailed:
         return one.cross_validated(problem)  # with another motion it cannot be simulated
+
+
+def _completed(one: Candidate, problem: FitProblem) -> Candidate:
+    """The same at its minimum, where a fit that was given up explains the log after all."""
+    if not (one.floor.reached and one.fit.status.ended_early):
+        return one
+    again = candidate(completed(problem, one.fit)).allowing_base_noise(problem)
+    return again if again.score < one.score else one

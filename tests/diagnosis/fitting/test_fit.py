@@ -8,8 +8,9 @@ from diagnosis_fixtures import RIG, TIP, TORQUE, log_of, problem_of
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.fit import fit_effects, nominal_fit
-from diagnosis.fitting.fit_status import Termination
+from diagnosis.fitting import fit as module
+from diagnosis.fitting.fit import completed, fit_effects, nominal_fit
+from diagnosis.fitting.fit_status import FitStatus, Stopping, Termination
 from diagnosis.fitting.parameterization import parameterization_of, starts
 from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -80,6 +81,25 @@ def test_a_fit_that_cannot_come_below_what_is_enough_is_given_up(dry):
     useful = fit_effects(dry, ("coulomb_friction",), start_of(dry, "coulomb_friction"), enough)
     assert useful.status.converged
     assert useful.cost < enough
+
+
+def test_a_fit_that_was_given_up_is_taken_on_to_its_end(dry, monkeypatch):
+    """And ends there, however slow and far above the noise it is."""
+    names, start = ("coulomb_friction",), start_of(dry, "coulomb_friction")
+    begun = fit_effects(dry, names, start, most_iterations=1)
+    assert completed(dry, begun) is begun  # that was not given up
+    far = FitStatus(termination=Termination.FAR, message="far")
+    again = completed(dry, replace(begun, status=far))
+    whole = fit_effects(dry, names, start)
+    sigma = np.sqrt(np.diag(np.linalg.inv(whole.slopes.T @ whole.slopes)))
+    assert again.status.converged
+    assert np.all(np.abs(again.x - whole.x) < 0.1 * sigma)
+    allowed = []
+    monkeypatch.setattr(
+        module, "Stopping", lambda *args, far: allowed.append(far) or Stopping(*args, far=far)
+    )
+    completed(dry, replace(begun, status=far))
+    assert allowed == [np.inf]
 
 
 def test_a_parameter_that_stops_at_a_bound_is_named():

@@ -245,6 +245,24 @@ def test_without_a_limit_a_fit_goes_on_wherever_it_is():
     assert ends_at(Bumpy(9.0 * NEAR_FLOOR), 0.9 * _SLOW, np.inf) is None
 
 
+def test_a_fit_that_has_converged_is_not_said_to_be_slow():
+    bumpy = Bumpy(2 * NEAR_FLOOR)
+    left = bumpy(bumpy.best)
+    stopping = Stopping(bumpy, 0.1, far=NEAR_FLOOR)
+    x = bumpy.best + np.array([np.sqrt(0.9 * _SLOW * (left @ left - 200) / 200), 0.0])
+    stopping.jacobian(x, bumpy(x))
+    with pytest.raises(Ended) as ended:
+        stopping.jacobian(bumpy.best, left)
+    assert ended.value.termination is Termination.OFFSET
+
+
+@pytest.mark.parametrize("end", Termination)
+def test_what_was_given_up_has_not_the_values_of_the_minimum(end):
+    status = FitStatus(termination=end, message="")
+    assert status.ended_early is (end in (Termination.FAR, Termination.BEHIND))
+    assert not (status.ended_early and status.converged)
+
+
 def test_one_small_promise_ends_no_fit():
     bumpy = Bumpy(2 * NEAR_FLOOR)
     left = bumpy(bumpy.best)

@@ -8,8 +8,10 @@ from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
 
 from diagnosis.criteria import NOISE_TRUST
 from diagnosis.fitting.fit import nominal_fit
+from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection import candidate as module
+from diagnosis.selection import checked as checked_module
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.checked import check
 
@@ -73,3 +75,31 @@ def test_what_was_checked_is_not_simulated_once_more_unless_the_noise_is_another
     assert known.of(best.fit, louder.noise) is None
     check(louder, [best], known)
     assert len(simulated) == 1
+
+
+@pytest.mark.parametrize(
+    ("gap", "end", "goes_on"),
+    [
+        (1.0, Termination.FAR, True),
+        (1.0, Termination.STALLED, False),
+        (1.5, Termination.FAR, False),
+    ],
+)
+def test_what_explains_the_log_after_all_has_the_values_of_the_minimum(
+    problem, monkeypatch, gap, end, goes_on
+):
+    """A fit may have been given up above the floor, before the noise of the base was allowed for."""
+    fit = nominal(problem).fit
+    given_up = replace(
+        fit,
+        by_trial=tuple(gap * r for r in fit.by_trial),
+        cost=gap**2 * fit.cost,
+        status=FitStatus(termination=end, message=""),
+    )
+    whole = replace(fit, cost=fit.cost - 50.0)
+    asked = []
+    monkeypatch.setattr(checked_module, "completed", lambda _, one: asked.append(one) or whole)
+    (checked,) = check(problem, [candidate(given_up)]).candidates
+    assert bool(asked) is goes_on
+    assert (checked.fit is whole) is goes_on
+    assert checked.explains is (gap == 1.0)
