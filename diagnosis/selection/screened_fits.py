@@ -16,6 +16,9 @@ from diagnosis.selection.scoring.complexity import choice_penalty
 from diagnosis.selection.screening import Screened, neutral_start
 from diagnosis.workers import Task, Workers
 
+_TOO_FAR = "expected to stay far above what is at the noise floor"
+_NO_BETTER = "another start of the same effects left no more than this one promises"
+
 
 def fit_screened(
     stage: str,
@@ -37,7 +40,8 @@ def fit_screened(
       used: how many sets are of use, where none comes to the noise floor.
     """
     waiting = _first_starts_first(sorted(screened, key=lambda s: s.cost)[:most])
-    found, record, skipped = list[Candidate](), list[RecordEntry](), list[Screened]()
+    found, record = list[Candidate](), list[RecordEntry]()
+    far, no_better = list[Screened](), list[Screened]()
     again = set[frozenset[str]]()
     while waiting:
         batch, waiting = waiting[:FITS_AT_ONCE], waiting[FITS_AT_ONCE:]
@@ -51,10 +55,11 @@ def fit_screened(
         at_floor = [c for c in found if c.floor.small]
         floor = min((c.fit.cost for c in at_floor), default=np.inf)
         inner = {i for c in at_floor for n in c.names for i in FITTED[n].contains}
-        worth = [s for s in waiting if _still(s, floor, inner) and not _found(s, found)]
-        skipped += [s for s in waiting if s not in worth]
-        waiting = worth
-    record += not_fitted(stage, _sets(skipped), "expected to stay far above what is at the noise floor")
+        far += [s for s in waiting if not _still(s, floor, inner)]
+        no_better += [s for s in waiting if s not in far and _found(s, found)]
+        waiting = [s for s in waiting if s not in far and s not in no_better]
+    record += not_fitted(stage, _sets(far), _TOO_FAR)
+    record += not_fitted(stage, _sets(no_better), _NO_BETTER)
     best = _best_of_each_set(found)
     out = [c for c in found if c not in best]
     return best, (*record, *dropped(stage, out, "another start of the same effects fits better"))
