@@ -420,8 +420,9 @@ MOST_QUIETENED = 4.0
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 FAULT_CONTENDERS = 12
-"""Leading explanations of the decimated log that are fitted with drift, half of them single effects:
-without drift these leave more than any pair of which one effect does what a drift does."""
+"""Leading explanations of the decimated log that are fitted with a drift, or with jumps of a reading;
+half of them single effects: without it these leave more than any pair of which one effect does what it
+does."""
 JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
 allowed for; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.

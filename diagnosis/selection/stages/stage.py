@@ -92,11 +92,16 @@ def worth_the_log(
     stage: str, fitted: Sequence[Candidate], before: Sequence[Candidate]
 ) -> tuple[list[Candidate], tuple[RecordEntry, ...]]:
     """Of sets on the decimated log, those that leave clearly less beyond noise than the best before."""
-    least = min((c.fit.cost for c in before), default=math.inf)
-    samples = before[0].fit.samples if before else 0
-    worth = [c for c in fitted if least - c.fit.cost >= WORTH_THE_LOG * (least - samples)]
+    worth = leaving_clearly_less(fitted, before)
     out = [c for c in fitted if c not in worth]
     return worth, dropped(stage, out, "it leaves hardly less beyond noise than fewer or simpler effects")
+
+
+def leaving_clearly_less(fitted: Sequence[Candidate], before: Sequence[Candidate]) -> list[Candidate]:
+    """Sets on the decimated log that take off some of what the best before leaves beyond noise."""
+    least = min((c.fit.cost for c in before), default=math.inf)
+    samples = before[0].fit.samples if before else 0
+    return [c for c in fitted if least - c.fit.cost >= WORTH_THE_LOG * (least - samples)]
 
 
 def leading_sets(found: Sequence[Candidate]) -> list[Candidate]:

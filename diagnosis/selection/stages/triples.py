@@ -22,6 +22,7 @@ from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
+    leaving_clearly_less,
     near_the_best,
     not_worth,
     promising_on_the_log,
@@ -72,7 +73,7 @@ def _only(pairs: Mapping[tuple[str, ...], Fit]) -> Fit:
 
 def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
     """The leading pairs that leave clearly less than single effects."""
-    pairs, _ = worth_the_log("", state.pairs, state.singles)
+    pairs = leaving_clearly_less(state.pairs, state.singles)
     return _fits(near_the_best(pairs, state.singles, TRIPLE_BASES))
 
 
