@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import CONFIDENCE
 from diagnosis.effects import LIBRARY
-from diagnosis.effects.effect import Parameter
+from diagnosis.effects.effect import Parameter, slopes_at
 from diagnosis.fitting.fit import Fit
 
 Array = NDArray[np.float64]
@@ -59,7 +59,7 @@ class JointUncertainty:
     @property
     def covariance_of_values(self) -> Array:
         """Covariance in the units of the parameters, (n, n): that of the fit times slopes."""
-        slopes = np.array([p.slope(float(v)) for p, v in zip(self.parameters, self.x, strict=True)])
+        slopes = slopes_at(self.parameters, self.x)
         return np.asarray(slopes[:, None] * self.covariance * slopes)
 
     def correlation(self, i: int, j: int) -> float:

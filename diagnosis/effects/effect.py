@@ -1,7 +1,7 @@
 """An effect: a name of the vocabulary, its parameters, and the change that it makes to a rig."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
@@ -113,6 +113,11 @@ class Parameter:
             case 1.0:
                 return abs(math.log(value))
         return abs(value)
+
+
+def slopes_at(parameters: Sequence[Parameter], x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Derivatives of values with respect to their coordinates x, (n,)."""
+    return np.array([p.slope(float(own)) for p, own in zip(parameters, x, strict=True)])
 
 
 @dataclass(frozen=True, kw_only=True)

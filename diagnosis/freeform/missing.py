@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
-from diagnosis.effects.effect import Place
+from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.prior import free_covariance, well_determined
 from diagnosis.freeform.search import FreeFit
@@ -180,8 +180,7 @@ def _values_near(fit: Fit, draws: Array) -> Array:
     """
     parameters = fit.parameterization.parameters
     here = np.array(fit.parameterization.values(fit.x))
-    slopes = np.array([p.slope(float(x)) for p, x in zip(parameters, fit.x, strict=True)])
-    near = here + slopes * (draws - fit.x)
+    near = here + slopes_at(parameters, fit.x) * (draws - fit.x)
     return np.clip(near, [p.low for p in parameters], [p.high for p in parameters])
 
 

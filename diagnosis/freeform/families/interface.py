@@ -14,7 +14,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
-from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
@@ -27,7 +27,6 @@ FRICTION_OVER = (*DAMPING_OVER, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03
 SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft
-LEAST_RATE_RAD_S = 0.05
 LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 _PLACES = {Place.INTERFACE: 1.0}
@@ -124,7 +123,7 @@ def _apply_friction(
 
 
 def _rate(ranges: LogRanges) -> Family:
-    fastest = max(ranges.fastest_slip_rad_s, LEAST_RATE_RAD_S)
+    fastest = max(ranges.fastest_slip_rad_s, LEAST_RANGE[Variable.RATE])
     rates = (SLOWEST * fastest, FASTEST * fastest)
     curve = smooth_curve(0.0, 1.0, RATE_POINTS)
     beta = ranges.damping_n_mm_s_per_mm

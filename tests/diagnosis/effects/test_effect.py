@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from diagnosis.effects import LIBRARY
-from diagnosis.effects.effect import Parameter
+from diagnosis.effects.effect import Parameter, slopes_at
 
 
 @pytest.mark.parametrize("name", LIBRARY)
@@ -45,3 +45,14 @@ def test_a_parameter_over_decades_moves_in_its_logarithm_and_others_in_their_uni
     narrow = Parameter(name="angle", unit="deg", low=-90, high=90, start=(5.0,), scale=10.0)
     assert wide.to_fit(0.1) == pytest.approx(math.log(0.1))
     assert narrow.to_fit(5.0) == 0.5
+
+
+def test_slopes_are_those_of_central_differences():
+    parameters = [p for effect in LIBRARY.values() for p in effect.parameters]
+    x = np.array([p.to_fit(p.start[0]) for p in parameters])
+    ahead, behind = (
+        np.array([p.from_fit(own + s) for p, own in zip(parameters, x, strict=True)])
+        for s in (1e-4, -1e-4)
+    )
+    # The cube of the difference over six, of an exponential.
+    np.testing.assert_allclose(slopes_at(parameters, x), (ahead - behind) / 2e-4, rtol=1e-7)
