@@ -40,3 +40,8 @@ def test_every_criterion_decides_something(in_use, name):
 
 def test_no_criterion_is_given_twice():
     assert len(names()) == len(set(names()))
+
+
+def test_every_criterion_has_one_value():
+    """A second one of the same name would take the place of the first, wherever that is used."""
+    assert len(names()) == len(set(names()))

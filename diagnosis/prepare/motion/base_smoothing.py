@@ -7,7 +7,8 @@ averaged over as long a window as the motion allows: polynomials are fitted in w
 growing length, until a window's value leaves the confidence intervals of the shorter
 ones (intersection of confidence intervals; Goldenshluger and Nemirovski, 1997).
 Windows around, before and after a sample are weighted by the inverse of their remaining noise.
-While the base rests, seconds are averaged; in a fast turn, hardly anything.
+While the base rests, seconds are averaged; in a fast turn, hardly anything. What is left of the noise
+makes no reversals of its own (diagnosis.prepare.motion.false_reversals).
 """
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.signal import savgol_coeffs
 
 from diagnosis.criteria import SMOOTHING_SIGMA
+from diagnosis.prepare.motion.false_reversals import without_false_reversals
 
 Array = NDArray[np.float64]
 
@@ -34,7 +36,8 @@ def smooth_base(time_s: Array, reading_deg: Array, sigma_deg: float) -> Array:
     chains = [_longest(raw, sigma_deg, *side) for side in _SIDES]
     weight = np.array([1 / spread**2 for _, spread in chains])
     value = np.array([value for value, _ in chains])
-    return np.asarray(np.interp(time_s, even, (weight * value).sum(axis=0) / weight.sum(axis=0)))
+    smooth = (weight * value).sum(axis=0) / weight.sum(axis=0)
+    return np.asarray(np.interp(time_s, even, without_false_reversals(smooth, sigma_deg)))
 
 
 def _longest(raw: Array, sigma: float, order: int, place: float) -> tuple[Array, Array]:

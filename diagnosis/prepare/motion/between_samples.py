@@ -3,7 +3,8 @@
 Straight lines between 20 samples per second are steps of the rate, which appear in the viscous torque.
 Akima's interpolation follows a smooth motion without overshooting at corners of exact samples. If two
 straight parts meet between two samples, the corner is where their lines cross; if they meet at a sample,
-the motion runs straight to it and on, so that noise of the slopes makes no overshoot.
+the motion runs straight to it and on, so that noise of the slopes makes no overshoot. And it stays
+between two samples unless it turns near them: a dry element would remember the reversal.
 
 Source: H. Akima, J. ACM 17 (1970) 589.
 """
@@ -32,6 +33,7 @@ def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
     bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
     _straighten(time_s, base_deg, bent, inside, angles)
     _turn_corners(time_s, base_deg, rate, bent, inside, angles)
+    _hold_between(base_deg, rate, angles)
     return np.append(inside.ravel(), time_s[-1]), np.append(angles.ravel(), base_deg[-1])
 
 
@@ -63,3 +65,11 @@ def _turn_corners(
         right = base_deg[i + 1] + rate[i + 1] * (inside[i] - time_s[i + 1])
         at = wait[i - first[0]]
         angles[i] = np.where(inside[i] - time_s[i] < at, left, right)
+
+
+def _hold_between(base_deg: Array, rate: Array, angles: Array) -> None:
+    """Keep the angles, (N - 1, parts), between their two samples where rates before and after agree."""
+    turns = np.pad(rate[:-2] * rate[2:] < 0, 1)
+    low = np.where(turns, -np.inf, np.minimum(base_deg[:-1], base_deg[1:]))
+    high = np.where(turns, np.inf, np.maximum(base_deg[:-1], base_deg[1:]))
+    np.clip(angles, low[:, None], high[:, None], out=angles)

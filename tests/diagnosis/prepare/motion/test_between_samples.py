@@ -52,3 +52,16 @@ def test_samples_that_are_not_rare_are_left_alone(step):
     time, angle = between_samples(at, at**2)
     assert time is at
     np.testing.assert_array_equal(angle, at**2)
+
+
+def test_it_stays_between_two_samples_unless_it_turns_there():
+    """A base that comes to rest, and one that turns back between two samples."""
+    at = np.arange(0, 2, STEP_S)
+    noise = np.random.default_rng(4).normal(0, 0.005, at.size)
+    read = np.maximum.accumulate(np.minimum(68.0 * at**1.1, 68.0) + noise)
+    time, angle = between_samples(at, read)
+    assert np.all(np.diff(angle) >= -1e-12)
+    back = 10 - 200 * (at - 1.025) ** 2
+    _, turned = between_samples(at, back)
+    assert turned.max() > back.max() + 0.05  # the top is 0.125 deg above its samples
+    assert time.size > at.size
