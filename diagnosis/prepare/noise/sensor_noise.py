@@ -157,7 +157,7 @@ def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
 def base_noise_deg(rig: NominalRig, trials: Sequence[Trial]) -> float:
     """Noise of the base's encoder: the claim, unless the scatter of the quietest trial differs."""
     claimed = rig.sensors.base_angle_noise_deg
-    found = min(white_noise([trial[BASE]], order=_ORDER) for trial in trials)
+    found = min(white_noise([trial[BASE]], order=_ORDER, times_s=[trial["time_s"]]) for trial in trials)
     near = claimed > 0 and (not np.isfinite(found) or _agrees(found, claimed))
     return claimed if near else float(np.nan_to_num(found))
 

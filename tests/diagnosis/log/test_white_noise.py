@@ -94,3 +94,29 @@ def test_gaps_are_left_out():
     noise = np.random.default_rng(5).normal(size=3000)
     read = np.where(np.arange(3000) % 3 == 0, np.nan, noise)
     assert white_noise([read], order=1) == white_noise([noise[np.isfinite(read)]], order=1)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_white_noise_is_measured_over_uneven_times(order):
+    """Beside a motion that differences over even times would take for noise."""
+    rng = np.random.default_rng(order)
+    at = np.cumsum(0.01 + rng.uniform(-0.004, 0.004, 12_000))
+    moving = 0.02 * 0.3 * at if order == 1 else 600.0 * at  # first differences leave a slope
+    read = moving + rng.normal(0, 0.3, at.size)
+    found = white_noise([read], order=order, times_s=[at])
+    # Weights vary from window to window, which leaves the same chance.
+    assert found == pytest.approx(0.3, rel=4 * spread(order, 12_000))
+    if order > 1:
+        assert white_noise([read], order=order) > 0.5
+
+
+def test_over_even_times_differences_are_those_of_binomials():
+    read = np.random.default_rng(9).normal(0, 0.3, 500)
+    for order in ORDERS:
+        known = white_noise([read], order=order, times_s=[0.01 * np.arange(500)])
+        assert known == pytest.approx(white_noise([read], order=order), rel=1e-9)
+
+
+def test_times_belong_to_their_readings():
+    with pytest.raises(ValueError, match="zip"):
+        white_noise([np.zeros(30)], order=2, times_s=[np.arange(30.0)] * 2)
