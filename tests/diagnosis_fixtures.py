@@ -81,10 +81,10 @@ def prepared(one):
     return prepare(log_with(one))[0].trials[0]
 
 
-def log_of(rig, *, seed=0, speed=0.0, seconds=12.0, deep_mm=90.0):
-    """A log of one trial, of our own needle."""
+def log_of(rig, *, seed=0, speed=0.0, seconds=12.0, deep_mm=90.0, angle=None):
+    """A log of one trial, of our own needle; its base turns fast, and rests, but for another angle."""
     rng = np.random.default_rng(seed)
-    clean = trial(turns(seconds), speed=speed, deep_mm=deep_mm)
+    clean = trial(turns(seconds) if angle is None else angle, speed=speed, deep_mm=deep_mm)
     found = predict(RIG, prepared(clean), [rig])[0]
     size = len(clean.table)
     table = clean.table.assign(

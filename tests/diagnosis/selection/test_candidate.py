@@ -181,8 +181,12 @@ def test_what_is_slow_beside_coloured_noise_explains_nothing(same):
 
 
 def above_the_floor(rig, name, value):
-    """A candidate of that effect, 10 % above the floor, on a log whose base was read with 0.02 deg."""
-    quiet = problem_of(log_of(rig, speed=-1.0))
+    """A candidate of that effect, 10 % above the floor, on a log whose base was read with 0.02 deg.
+
+    It swings to and fro: while it rests, the noise of its encoder is averaged out.
+    """
+    swing = 10 * np.sin(2 * np.pi * 0.4 * np.arange(0, 12, 0.01))
+    quiet = problem_of(log_of(rig, speed=-1.0, angle=swing))
     noise = replace(quiet.noise, sigma={**quiet.noise.sigma, "base_angle_deg": 0.02})
     problem = replace(quiet, noise=noise)
     by_trial = [own[0] for own in problem.residuals([rig])]
