@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.criteria import FINALISTS, JUMP_LEAST_SAMPLES, JUMP_SHARE, MOST_JUMPS, SIMPLE_LEAD
+from diagnosis.criteria import JUMP_LEAST_SAMPLES, JUMP_SHARE, MOST_JUMPS, SIMPLE_LEAD
 from diagnosis.fitting.nuisance import reading_jump
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
@@ -26,7 +26,7 @@ from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.stages.stage import fitted_again, leading_sets
+from diagnosis.selection.stages.stage import fitted_again, leading_on_the_log, leading_sets
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -90,7 +90,7 @@ def _largest_jump(state: SearchState) -> ReadingJump | None:
     places = list(_places(state.problem))
     rows = [place.rows for place in places]
     least, found = np.inf, None
-    for one in sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]:
+    for one in leading_on_the_log(state):
         step = largest_step(one.fit.residual, one.fit.slopes, rows, JUMP_LEAST_SAMPLES)
         if step and _is_enough(step, one) and one.fit.cost - step.gain < least:
             least, found = one.fit.cost - step.gain, step
@@ -141,4 +141,4 @@ def _refitted(
         pairs=state.pairs,
         record=(*jumping.record, noted(STAGE, Decision.MADE, effect.title)),
     )
-    return fitted_again(STAGE, start, calls, workers)
+    return fitted_again(STAGE, start, leading_on_the_log(state), calls, workers)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from diagnosis.criteria import FAULT_CONTENDERS, NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
+from diagnosis.criteria import FAULT_CONTENDERS, FINALISTS, NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
@@ -111,12 +111,26 @@ def leading_sets(found: Sequence[Candidate]) -> list[Candidate]:
     return sorted(distinct.values(), key=lambda c: c.score)[: FAULT_CONTENDERS // 2]
 
 
+def leading_on_the_log(state: SearchState) -> list[Candidate]:
+    """The leading explanations on the log itself, best first."""
+    return sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
+
+
 def fitted_again(
-    stage: str, start: SearchState, calls: Sequence[tuple[Any, ...]], workers: Workers
+    stage: str,
+    start: SearchState,
+    before: Sequence[Candidate],
+    calls: Sequence[tuple[Any, ...]],
+    workers: Workers,
 ) -> SearchState:
     """The state of a log of which more is allowed for, with the contenders of the one before.
 
+    What leads on the log itself before is fitted to it again: the decimated log is too coarse to tell a
+    delay from a low pass, and drift takes off what little tells them apart.
+
     Args:
+      start: nothing is fitted to it yet.
+      before: sets that lead on the log itself, with less allowed for.
       calls: of `fit_in_turn`, on the decimated log.
     """
     coarse, record = fit_all(stage, calls, workers)
@@ -124,7 +138,8 @@ def fitted_again(
     begun = begun.adding(fit_all(stage, [(start.problem, ())], workers))
     if not coarse:
         return begun
-    return begun.adding(fit_finalists(stage, start.problem, simplest_first(coarse), workers))
+    leading = {frozenset(c.names) for c in before}
+    return begun.adding(fit_finalists(stage, start.problem, simplest_first(coarse), workers, leading))
 
 
 def simplest_first(found: Sequence[Candidate]) -> list[Candidate]:

@@ -16,7 +16,6 @@ from diagnosis.criteria import (
     DRIFT_RANGE_SIGMA,
     DRIFT_SHARE,
     DRIFT_SIZE_SIGMA,
-    FINALISTS,
     MOST_QUIETENED,
     NEAR_FLOOR,
 )
@@ -27,7 +26,7 @@ from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, RecordEntry, noted
-from diagnosis.selection.stages.stage import fitted_again, leading_sets
+from diagnosis.selection.stages.stage import fitted_again, leading_on_the_log, leading_sets
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -41,8 +40,7 @@ def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchSt
     state, explained = state.rechecked()
     if explained:
         return state
-    leading = sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
-    if not any(_promises(state.problem, c) for c in leading):
+    if not any(_promises(state.problem, c) for c in leading_on_the_log(state)):
         return state
     start = _drifting(state)
     again, explained = _refitted(state, start, workers).rechecked()
@@ -87,7 +85,7 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     least = min(costs, default=math.inf)
     near = [c for c, cost in zip(contenders, costs, strict=True) if cost <= NEAR_FLOOR * least]
     calls = [(start.coarse, c.names, c.fit.x, least + CONTENDING) for c in near]
-    return fitted_again(STAGE, start, calls, workers)
+    return fitted_again(STAGE, start, leading_on_the_log(state), calls, workers)
 
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:
