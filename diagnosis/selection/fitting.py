@@ -92,13 +92,13 @@ def fit_finalists(
     return found, (*record, *lost)
 
 
-def fit_each_alone(
-    stage: str, problem: FitProblem, whole: Candidate, names: Iterable[str], workers: Workers
+def fit_beside(
+    stage: str, problem: FitProblem, one: Candidate, sets: Iterable[tuple[str, ...]], workers: Workers
 ) -> Made:
-    """Each of what a candidate names alone, from where that is; given up where it stays far behind."""
-    starts = [(n, problem.parameterization((n,)).joined(whole.fit.parts)) for n in names]
-    enough = whole.score + CONTENDING
-    return fit_all(stage, [(problem, (n,), start, enough) for n, start in starts], workers)
+    """Other sets of effects from where a candidate is; given up where they stay far behind it."""
+    starts = [(names, problem.parameterization(names).joined(one.fit.parts)) for names in sets]
+    enough = one.score + CONTENDING
+    return fit_all(stage, [(problem, names, start, enough) for names, start in starts], workers)
 
 
 def _in_short(

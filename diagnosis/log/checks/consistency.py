@@ -110,9 +110,16 @@ def _refuse_swapped_angles(path: Path, turning: BinnedTrial) -> None:
 
 
 def _refuse_opposite_angles(path: Path, turning: BinnedTrial) -> None:
+    """Refuse a tip that turns against the base, unless the torque follows the twist as it is read.
+
+    In a trial that begins twisted the tip may turn back while the base goes on.
+    """
+    base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
     if not _both_turn(turning):
         return
-    same, opposite = misfit(turning.base_angle_deg, turning.tip_angle_deg, turning.bin_s)
+    if torque.size and _correlation(torque, base - tip) > _correlation(torque, base + tip):
+        return
+    same, opposite = misfit(base, tip, turning.bin_s)
     if opposite < UNEXPLAINED_OPPOSITE and same > UNEXPLAINED_SAME:
         raise UnusableLog(
             f"{path}: tip_angle_deg turns the opposite way of base_angle_deg; expected the same "

@@ -10,7 +10,7 @@ from diagnosis.criteria import CONTENDING, FINALISTS
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
-from diagnosis.selection.fitting import fit_all
+from diagnosis.selection.fitting import fit_all, fit_beside
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -36,12 +36,7 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
         return state
     known = {frozenset(c.names) for c in state.candidates}
     fewer = [s for s in combinations(best.names, len(best.names) - 1) if frozenset(s) not in known]
-    calls = [
-        (state.problem, names, state.problem.parameterization(names).joined(best.fit.parts), enough)
-        for enough in [best.score + CONTENDING]
-        for names in fewer
-    ]
-    return state.adding(fit_all("best without each effect", calls, workers))
+    return state.adding(fit_beside("best without each effect", state.problem, best, fewer, workers))
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:

@@ -2,7 +2,7 @@
 
 from diagnosis.criteria import SCATTER
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.fitting import fit_all, fit_each_alone
+from diagnosis.selection.fitting import fit_all, fit_beside
 from diagnosis.selection.record import kept
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -17,8 +17,11 @@ def nominal_rig(state: SearchState, workers: Workers) -> SearchState:
 
 
 def stiffness_or_damping_alone(state: SearchState, workers: Workers) -> SearchState:
-    """Where only the ratio of both shows, each alone."""
-    for one in [c for c in state.candidates if c.unidentifiable]:
-        made = fit_each_alone("stiffness or damping alone", state.problem, one, SCATTER, workers)
-        state = state.adding(made)
-    return state
+    """Where only the ratio of both shows, each alone, beside the imperfections of the explanation."""
+    known = {frozenset(c.names) for c in state.candidates}
+    best = state.best
+    if not best.unidentifiable:
+        return state
+    sets = [(*best.names, name) for name in SCATTER]
+    new = [names for names in sets if frozenset(names) not in known]
+    return state.adding(fit_beside("stiffness or damping alone", state.problem, best, new, workers))

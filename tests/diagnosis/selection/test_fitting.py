@@ -18,7 +18,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection import fitting
-from diagnosis.selection.fitting import fit_all, fit_each_alone, fit_finalists
+from diagnosis.selection.fitting import fit_all, fit_beside, fit_finalists
 from diagnosis.selection.record import Decision
 from diagnosis.workers import Workers
 
@@ -70,7 +70,7 @@ def test_no_contender_is_no_finalist(made):
 
 def test_each_effect_of_a_candidate_is_fitted_alone_from_where_it_is(made):
     pair = scored(["tip_drag", "torque_bias"], 1.0)
-    found, record = fit_each_alone("alone", NO_LOG, pair, pair.names, Workers())
+    found, record = fit_beside("alone", NO_LOG, pair, [(n,) for n in pair.names], Workers())
     assert [c.names for c in found] == [("tip_drag",), ("torque_bias",)]
     assert [c.fit.cost for c in found] == [float(pair.fit.parts[n][0]) for n in pair.names]
     assert {e.stage for e in record} == {"alone"}

@@ -106,6 +106,20 @@ def test_what_a_rig_may_well_do_raises_no_alarm(log, what):
     assert read_rig_log(log).warnings == ()
 
 
+def test_a_tip_that_unwinds_may_turn_against_the_base(log):
+    """It begins 120 deg ahead: the torque, which follows the twist, says that no sign is wrong."""
+    base = 40.0 * np.linspace(0.0, 1.0, len(TURNS))
+    tip = 120.0 - base
+    torque = 0.01 * (base - tip)
+    unwinding = TURNS.assign(base_angle_deg=base, tip_angle_deg=tip, base_torque_n_mm=torque)
+    rig = read_rig_log(log).rig
+    claims = (rig.sensors.by_column(), rig.rigidity_n_mm2)
+    refuse_contradictions(log, Trial(name="turns.csv", table=unwinding), *claims)
+    unconfirmed = unwinding.drop(columns="base_torque_n_mm")
+    with pytest.raises(UnusableLog, match="opposite way"):
+        refuse_contradictions(log, Trial(name="turns.csv", table=unconfirmed), *claims)
+
+
 def test_a_tip_that_is_driven_may_turn_against_the_base(log):
     (rig, trial) = (read_rig_log(log).rig, read_rig_log(log).trials[0])
     backwards = trial.table.assign(tip_angle_deg=-trial.table["tip_angle_deg"])

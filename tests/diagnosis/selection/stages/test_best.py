@@ -13,7 +13,7 @@ from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection import checked
+from diagnosis.selection import checked, fitting
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import best as module
 from diagnosis.workers import Workers
@@ -28,7 +28,8 @@ def asked(monkeypatch):
         found.extend(call[1] for call in calls)
         return [], ()
 
-    monkeypatch.setattr(module, "fit_all", fit_all)
+    for owner in (module, fitting):
+        monkeypatch.setattr(owner, "fit_all", fit_all)
     return found
 
 

@@ -43,16 +43,26 @@ def test_the_verdict_is_on_the_exact_nominal_rig_where_that_is_as_good(still_sta
 
 
 def test_stiffness_or_damping_alone_is_fitted_where_their_ratio_shows(monkeypatch, still_start):
+    """Beside the imperfections of sensors that it has, and no set twice."""
     asked = []
 
-    def fit_each_alone(stage, problem, one, names, workers):
-        asked.append(tuple(names))
+    def fit_beside(stage, problem, one, sets, workers):
+        asked.extend(sets)
         return [], ()
 
-    monkeypatch.setattr(module, "fit_each_alone", fit_each_alone)
-    clear = scored(["tip_drag"], 1.0)
-    module.stiffness_or_damping_alone(replace(still_start, candidates=(clear,)), Workers())
-    assert asked == []
-    ratio = type("Ratio", (), {"unidentifiable": True})()
-    module.stiffness_or_damping_alone(replace(still_start, candidates=(ratio,)), Workers())
-    assert asked == [("stiffness_error", "damping_error")]
+    def ratio(*names):
+        ends = {"names": names, "score": 1.0, "unidentifiable": True}
+        return type("Ratio", (), ends)()
+
+    def alone(*candidates):
+        asked.clear()
+        module.stiffness_or_damping_alone(replace(still_start, candidates=candidates), Workers())
+        return asked
+
+    monkeypatch.setattr(module, "fit_beside", fit_beside)
+    clear = scored(["tip_drag"], 0.5)
+    assert alone(clear, ratio()) == []
+    assert alone(ratio()) == [("stiffness_error",), ("damping_error",)]
+    assert alone(ratio("tip_clock")) == [("tip_clock", n) for n in ("stiffness_error", "damping_error")]
+    known = scored(["damping_error", "tip_clock"], 2.0)
+    assert alone(ratio("tip_clock"), known) == [("tip_clock", "stiffness_error")]
