@@ -37,7 +37,7 @@ from diagnosis.log.trial import SENSORS, Trial
 Array = NDArray[np.float64]
 
 _BASE, _TIP = "base_angle_deg", "tip_angle_deg"
-_HELD = ("inserted_mm", "free_mm", "speed_mm_s", "tip_torque_n_mm")
+_HELD, _LOAD = ("inserted_mm", "free_mm", "speed_mm_s"), "tip_torque_n_mm"
 _LEAST_SIDE = 4  # samples that a curve goes through on each side
 _CUBIC = 3
 _SLOW_SAMPLES, _LEAST_HELD = 10, 50  # that a rate is taken over; from which held samples tell a quantile
@@ -50,11 +50,13 @@ class Filling:
     Attributes:
       time_s, base_deg: motion of the base, (M,).
       uncertain_deg: uncertainty of this motion.
+      tip_torque_n_mm: known torque at the tip, (M,); None: none.
       turned: whether the base may have turned there and back.
     """
 
     time_s: Array
     base_deg: Array
+    tip_torque_n_mm: Array | None
     uncertain_deg: float
     turned: bool
 
@@ -88,6 +90,9 @@ def _rows(trial: Trial, fillings: Sequence[Filling]) -> pd.DataFrame:
     for name in _HELD:
         if name in trial.table:
             rows[name] = np.interp(time_s, trial["time_s"], np.nan_to_num(trial[name]))
+    loads = [filling.tip_torque_n_mm for filling in fillings if filling.tip_torque_n_mm is not None]
+    if loads:
+        rows[_LOAD] = np.concatenate(loads)
     return pd.DataFrame(rows)
 
 
@@ -109,6 +114,7 @@ def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Fil
     return Filling(
         time_s=inside,
         base_deg=path,
+        tip_torque_n_mm=_load(trial, both, inside),
         uncertain_deg=0.0 if certain else float(np.abs(smooth - corner).max()),
         turned=bool(end - start > GAP_LONG_S or not fits.any() or not one_way),
     )
@@ -122,6 +128,16 @@ def _through(time_s: Array, base_deg: Array, at_s: Array, order: int) -> tuple[A
     freedom = max(time_s.size - order - 1, 1)
     missed = float(np.sqrt(np.sum((base_deg - powers @ factors) ** 2) / freedom))
     return np.vander((at_s - middle) / scale, order + 1) @ factors, missed
+
+
+def _load(trial: Trial, around: slice, at_s: Array) -> Array | None:
+    """The torque at the tip in a gap, (M,), which goes on as smoothly as the base; None: none is known.
+
+    Lines would cut the top off a torque that turns in the gap.
+    """
+    if _LOAD not in trial.table:
+        return None
+    return _through(trial["time_s"][around], np.nan_to_num(trial[_LOAD][around]), at_s, _CUBIC)[0]
 
 
 def _corner(

@@ -32,6 +32,18 @@ def test_a_gap_is_crossed_as_the_base_went_on_moving():
     assert np.abs(straight - truth).max() > 3
 
 
+def test_a_known_torque_at_the_tip_goes_on_as_smoothly_as_the_base():
+    """A line would cut off its top, of which a trial with dry friction under load was told."""
+    time = np.arange(0, 6, 0.01)
+    gapped = with_gap(60 * np.sin(2 * np.pi * 0.5 * time), 2.3, 2.55)
+    load = 2.0 * np.sin(2 * np.pi * 0.5 * gapped["time_s"])
+    filled = fill_gaps(Trial(name=gapped.name, table=gapped.table.assign(tip_torque_n_mm=load)), BASE)
+    truth = 2.0 * np.sin(2 * np.pi * 0.5 * filled["time_s"])
+    # As the base: 2 (2 pi 0.5)^4 0.245^4 / 24 = 0.03 N mm at the most; a line leaves 0.15.
+    np.testing.assert_allclose(filled["tip_torque_n_mm"], truth, atol=0.03)
+    assert "tip_torque_n_mm" not in fill_gaps(gapped, BASE).table
+
+
 def test_readings_after_a_gap_in_a_fast_turn_are_not_used_for_a_second():
     filled = fill_gaps(with_gap(turns(), 1.4, 1.7), BASE)  # across the end of a turn of 150 deg/s
     time, tip = filled["time_s"], filled["tip_angle_deg"]
