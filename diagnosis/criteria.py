@@ -232,7 +232,8 @@ GAP_FORGOTTEN_LENGTHS = 5.0
 GAP_SIDE_SAMPLES = 12
 """Where a curve through the readings on both sides (12 each at most) is uncertain by more, the readings
 after the gap are not used for a second, or five lengths of a short gap: by then the needle has mostly
-relaxed. Set on blind logs of seeds 1 and 2."""
+relaxed; and longer after a long one, until the slowest mode of the needle has taken what is uncertain
+below that. Set on blind logs of seeds 1 and 2."""
 GAP_LOST_DEG = 1.0
 GAP_ERASED_TWISTS = 2.0
 """Beyond a degree of uncertainty dry friction keeps a gap in mind, until the base has turned one way by

@@ -10,6 +10,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.prepare.motion.gap_filling import fill_gaps
 from diagnosis.prepare.motion.inertia import inertia_torque
+from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.noise.rounding import rounded_noise, steps_of, without_repeats
 from diagnosis.prepare.noise.sensor_noise import BASE, base_noise_deg
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
@@ -20,7 +21,7 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
     steps = steps_of(log.rig, log.trials)
     rounded = rounded_noise(log.rig, steps)
     sigma_deg = rounded.get(BASE) or base_noise_deg(log.rig, log.trials)
-    filled = [fill_gaps(trial, sigma_deg) for trial in log.trials]
+    filled = [fill_gaps(trial, sigma_deg, _memory_s(log.rig, trial)) for trial in log.trials]
     sigma_deg = rounded.get(BASE) or base_noise_deg(log.rig, filled)
     trials = []
     for trial, rows in zip(log.trials, filled, strict=True):
@@ -29,6 +30,13 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
         trials.append(_with_inertia(replace(smooth, readings=counted), log.rig))
     ready = PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded, means_of=log.means_of)
     return ready, sigma_deg
+
+
+def _memory_s(rig: NominalRig, trial: Trial) -> float:
+    """Slowest time constant of the nominal needle in a trial, s."""
+    deepest = int(np.argmax(trial["inserted_mm"]))
+    inserted_mm, free_mm = (float(trial[name][deepest]) for name in ("inserted_mm", "free_mm"))
+    return time_constant_s(rig, inserted_mm, free_mm, mode=1)
 
 
 def _with_inertia(trial: PreparedTrial, rig: NominalRig) -> PreparedTrial:

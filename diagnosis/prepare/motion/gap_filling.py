@@ -6,10 +6,11 @@ corner: the cubic is used unless only the lines fit both sides. The filled rows 
 
 In a short gap nothing else is possible. In a longer one, or if neither fits, the difference of the two
 is the uncertainty. If it is large, sensor readings after the gap are not used until the needle
-no longer depends on it: within a second for viscous drag; for dry friction, once the base has turned one
-way so far that the whole shaft slides.
+no longer depends on it: for viscous drag, once its slowest mode has decayed to what is certain; for dry
+friction, once the base has turned one way so far that the whole shaft slides.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -66,11 +67,12 @@ class Filling:
         return float(self.time_s[-1] - self.time_s[0])
 
 
-def fill_gaps(trial: Trial, sigma_deg: float) -> Trial:
+def fill_gaps(trial: Trial, sigma_deg: float, memory_s: float = 0.0) -> Trial:
     """The trial with rows in its gaps: estimated readings of the encoder, none of the sensors.
 
     Args:
       sigma_deg: noise of the base's encoder.
+      memory_s: slowest time constant of the needle.
     """
     steps = np.diff(trial["time_s"])
     usual = float(np.median(steps))
@@ -79,7 +81,7 @@ def fill_gaps(trial: Trial, sigma_deg: float) -> Trial:
         return trial
     fillings = [_filling(trial, int(before), usual, sigma_deg) for before in gaps]
     table = pd.concat([trial.table, _rows(trial, fillings)]).sort_values("time_s", ignore_index=True)
-    lost = _lost(trial, fillings, np.asarray(table["time_s"]))
+    lost = _lost(trial, fillings, np.asarray(table["time_s"]), memory_s)
     table.loc[lost, [sensor for sensor in SENSORS if sensor in table]] = np.nan
     return replace(trial, table=table)
 
@@ -156,15 +158,18 @@ def _corner(
     return np.where(ahead == ahead[0], one, other), max(off_one, off_other)
 
 
-def _lost(trial: Trial, fillings: Sequence[Filling], time_s: Array) -> NDArray[np.bool_]:
+def _lost(
+    trial: Trial, fillings: Sequence[Filling], time_s: Array, memory_s: float
+) -> NDArray[np.bool_]:
     """Mask of rows that still depend on an uncertain motion, (N,)."""
     rows = np.zeros(time_s.size, bool)
     for filling in fillings:
         if filling.uncertain_deg > GAP_CERTAIN_DEG:
             last = filling.time_s[-1]
             short = filling.length_s <= GAP_SHORT_S
-            forgotten = GAP_FORGOTTEN_LENGTHS * filling.length_s if short else GAP_FORGOTTEN_S
-            until = last + min(forgotten, GAP_FORGOTTEN_S)
+            decayed_s = memory_s * math.log(filling.uncertain_deg / GAP_CERTAIN_DEG)
+            long_s = max(GAP_FORGOTTEN_S, decayed_s)
+            until = last + (min(GAP_FORGOTTEN_LENGTHS * filling.length_s, long_s) if short else long_s)
             if filling.uncertain_deg > GAP_LOST_DEG and filling.turned and not short:
                 until = max(until, _erased_s(trial, last))
             rows |= (time_s > last) & (time_s <= until)

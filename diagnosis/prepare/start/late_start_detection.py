@@ -30,11 +30,10 @@ from diagnosis.criteria import (
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.prepare.start.late_start import LateStart
-from models.modes import InsertedNeedle
-from models.needle import Needle
 
 Array = NDArray[np.float64]
 
@@ -194,10 +193,5 @@ def start_rate_deg_s(trial: PreparedTrial) -> float:
 
 def _forgotten_s(rig: NominalRig, trial: PreparedTrial) -> float:
     """Time after which all but the slowest mode of the nominal needle have decayed, s."""
-    held = InsertedNeedle(
-        needle=Needle(**dict(rig.needle)),
-        damping_n_mm_s_per_mm=rig.tissue.damping_n_mm_s_per_mm,
-        inserted_mm=max(float(trial.inserted_mm[0]), 1.0),
-        free_mm=float(trial.free_mm[0]),
-    )
-    return START_DECAYS / abs(float(held.poles_rad_s(2)[1]))
+    inserted_mm, free_mm = float(trial.inserted_mm[0]), float(trial.free_mm[0])
+    return START_DECAYS * time_constant_s(rig, inserted_mm, free_mm, mode=2)
