@@ -134,6 +134,7 @@ def _sparse(at_s: Array, middles_s: Array, half_s: Array) -> NDArray[np.bool_]:
     """Mask of windows with fewer than half of the usual number of samples."""
     reach = half_s + 1e-9
     count = np.searchsorted(at_s, middles_s + reach, "right") - np.searchsorted(at_s, middles_s - reach)
-    few = (count < 0.5 * np.median(count)) & (half_s > 1e-9)
+    usual = float(np.median(count[count > 0])) if count.any() else 1.0
+    few = (count < 0.5 * usual) & (half_s > 1e-9)
     outside = (middles_s + reach < at_s[0]) | (middles_s - reach > at_s[-1])
     return np.asarray(few | outside)

@@ -51,6 +51,17 @@ def test_readings_after_a_gap_in_a_fast_turn_are_not_used_for_a_second():
     assert np.isfinite(tip[(time <= 1.4) | (time > 2.75)]).all()
 
 
+def test_a_needle_that_remembers_for_longer_is_waited_for():
+    """Until its slowest mode, of 0.6 s, has taken what is uncertain down to what is certain."""
+    lost = fill_gaps(with_gap(turns(), 1.4, 1.7), BASE, 0.6)["tip_angle_deg"]
+    filled = fill_gaps(with_gap(turns(), 1.4, 1.7), BASE)
+    uncertain_deg = 0.2 * np.exp((filled["time_s"][np.isnan(lost)].max() - 1.69) / 0.6)
+    # Lines through both sides meet where a turn of 150 deg/s ends; a cubic across 0.3 s is off by
+    # a few degrees there.
+    assert 1.5 < uncertain_deg < 15.0
+    assert np.isnan(lost).sum() > np.isnan(filled["tip_angle_deg"]).sum()
+
+
 def test_readings_after_a_gap_while_the_base_holds_are_used():
     filled = fill_gaps(with_gap(turns(), 3.0, 3.3), BASE)
     time, tip = filled["time_s"], filled["tip_angle_deg"]
