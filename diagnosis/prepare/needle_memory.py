@@ -13,6 +13,6 @@ def time_constant_s(rig: NominalRig, inserted_mm: float, free_mm: float, *, mode
         needle=Needle(**dict(rig.needle)),
         damping_n_mm_s_per_mm=rig.tissue.damping_n_mm_s_per_mm,
         inserted_mm=max(inserted_mm, _LEAST_INSERTED_MM),
-        free_mm=free_mm,
+        free_mm=max(free_mm, 0.0),  # the stage's reading scatters about 0
     )
     return 1.0 / abs(float(held.poles_rad_s(mode)[mode - 1]))
