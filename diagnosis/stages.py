@@ -59,6 +59,7 @@ STAGES = {
     "three effects": _coarse("fitting sets of three effects", 0.5, 0, 12),
     "finalists, three effects": _whole("fitting the best sets of three to the whole log", 1.0, 0, 4),
     "best to its end": _whole("completing the fit of the best", 4.0, 0, 1),
+    "imperfections in place": _whole("fitting imperfections in place of a delay", 1.0, 0, 2),
     "best without each effect": _whole("fitting the best without each of its effects", 1.0, 0, 3),
     "scatter of the best": _whole("fitting stiffness and damping of the best freely", 10.0, 0, 1),
     "mesh refinement": _whole("fitting with a finer mesh", 5.0, 0, 0),

@@ -14,6 +14,7 @@ dropped.
 
 from diagnosis.selection.stages.best import (
     best_to_its_end,
+    best_with_imperfections_in_place,
     best_without_each_effect,
     scatter_of_the_best,
 )
@@ -46,6 +47,7 @@ STAGES: tuple[Stage, ...] = (
     three_effects,
     richer_effects_in_place_of_three,
     best_to_its_end,
+    best_with_imperfections_in_place,
     best_without_each_effect,
     scatter_of_the_best,
     finer_mesh,

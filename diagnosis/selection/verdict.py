@@ -63,7 +63,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first.
 
     One whose parameters are at a bound, or as good as none, explains nothing; but where it leads what
-    does, that is open.
+    does, that is open. And so it is where a part of it is likelier, but above the floor by a hair.
     """
     at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
@@ -77,7 +77,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
-    refused = [c for c in candidates if c.refused_for_values and c.score < reached and _alike(best, c)]
+    leading = [c for c in candidates if c.score < reached and _alike(best, c)]
+    refused = [c for c in leading if c.refused_for_values or _is_part(c, best)]
     rivals = sorted((*refused, *alike), key=lambda c: _less_likely(best, c, reached))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
     if rivals and not (best.named and all(_less_likely(best, c, reached) for c in rivals)):
@@ -180,6 +181,11 @@ def _alike(best: Candidate, other: Candidate) -> bool:
     if _nested(best, other):
         return best.fit.size < other.fit.size  # the other way round, NESTED_LEAD is enough
     return not _covers(other, best)
+
+
+def _is_part(one: Candidate, best: Candidate) -> bool:
+    """Whether it is the best without some of its effects, and not at the noise floor."""
+    return {*one.names} < {*best.names} and not one.floor.reached
 
 
 def _less_likely(best: Candidate, other: Candidate, reached: float) -> bool:

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 from diagnosis.criteria import CONTENDING, FINALISTS
+from diagnosis.effects import IMPERFECTIONS, LIBRARY
+from diagnosis.effects.effect import Place
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
@@ -37,6 +39,27 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
     known = {frozenset(c.names) for c in state.candidates}
     fewer = [s for s in combinations(best.names, len(best.names) - 1) if frozenset(s) not in known]
     return state.adding(fit_beside("best without each effect", state.problem, best, fewer, workers))
+
+
+def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> SearchState:
+    """The best with an imperfection of the same sensor in place of its delay.
+
+    The decimated log is too coarse to tell a delay from a low pass, which may never have come this far.
+    """
+    best = state.best
+    state, _ = state.rechecked()
+    if not state.at_the_floor(best):
+        return state
+    known = {frozenset(c.names) for c in state.candidates}
+    swapped = [
+        (*(name for name in best.names if name != late), imperfection.name)
+        for late in best.names
+        if late in LIBRARY and any(p.unit == "s" for p in LIBRARY[late].parameters)
+        for imperfection in IMPERFECTIONS.values()
+        if LIBRARY[late].place is Place.SENSOR and LIBRARY[late].needs == imperfection.needs
+    ]
+    new = [names for names in swapped if len({*names}) == len(names) and frozenset(names) not in known]
+    return state.adding(fit_beside("imperfections in place", state.problem, best, new, workers))
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:

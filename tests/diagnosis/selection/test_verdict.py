@@ -115,6 +115,19 @@ def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
     assert verdict_on([held(["base_compliance"], 1.0)]).kind is VerdictKind.UNKNOWN
 
 
+@pytest.mark.parametrize(("lead", "kind"), [(7, VerdictKind.UNDECIDED), (-1, VerdictKind.EXPLAINED)])
+def test_what_only_brings_a_likelier_part_below_the_floor_is_not_certain(lead, kind):
+    """Shear thinning was above the limit by 0.001, and a bias of a tenth of the noise beside it below."""
+    above = NoiseFloor(gap=1.031, slow=1.0)
+    part = scored(["shear_thinning"], 100.0 - lead, floor=above)
+    both = scored(["shear_thinning", "torque_bias"], 100.0)
+    found = verdict_on(sorted((part, both), key=lambda c: c.score))
+    assert (found.kind, set(found.effects)) == (kind, {"shear_thinning", "torque_bias"})
+    assert (("shear_thinning",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
+    other = scored(["stiction"], 100.0 - lead, floor=above)  # no part of it: it explains nothing
+    assert verdict_on(sorted((other, both), key=lambda c: c.score)).kind is VerdictKind.EXPLAINED
+
+
 def test_what_is_above_the_noise_floor_explains_nothing():
     above = NoiseFloor(gap=2.0, slow=5.0)
     found = verdict_on([scored(["tip_drag"], 1.0, floor=above), scored([], 100.0, floor=above)])

@@ -46,6 +46,22 @@ def test_of_three_effects_each_is_left_out_in_turn_but_for_what_was_fitted(asked
     assert asked == [("tip_drag", "stiction"), ("torque_bias", "stiction")]
 
 
+def test_a_delay_may_be_an_imperfection_of_its_sensor(asked, still_start):
+    """Of the same sensor, and no set twice."""
+    late = scored(["tip_drag", "torque_sensor_delay"], 1.0)
+    known = scored(["torque_clock", "tip_drag"], 2.0)
+    module.best_with_imperfections_in_place(replace(still_start, candidates=(late, known)), Workers())
+    assert asked == [("tip_drag", "torque_low_pass")]
+    asked.clear()
+    tip = scored(["tip_sensor_delay"], 1.0)
+    module.best_with_imperfections_in_place(replace(still_start, candidates=(tip,)), Workers())
+    assert asked == [("tip_clock",)]
+    asked.clear()
+    other = scored(["tissue_viscoelasticity"], 1.0)  # its time constant is no delay of a sensor
+    module.best_with_imperfections_in_place(replace(still_start, candidates=(other,)), Workers())
+    assert asked == []
+
+
 @pytest.mark.parametrize(("slow", "fitted"), [(0.99, 2), (1.01, 0)])
 def test_above_the_noise_none_is_left_out(slow, fitted, asked, still_start, monkeypatch):
     """Where the best leaves more than noise, so does it without one of its effects."""
