@@ -117,7 +117,7 @@ def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
 
 @pytest.mark.parametrize(("lead", "kind"), [(7, VerdictKind.UNDECIDED), (-1, VerdictKind.EXPLAINED)])
 def test_what_only_brings_a_likelier_part_below_the_floor_is_not_certain(lead, kind):
-    """Shear thinning was above the limit by 0.001, and a bias of a tenth of the noise beside it below."""
+    """Shear thinning was above the limit by 0.001; a bias of a tenth of the noise brought it below."""
     above = NoiseFloor(gap=1.031, slow=1.0)
     part = scored(["shear_thinning"], 100.0 - lead, floor=above)
     both = scored(["shear_thinning", "torque_bias"], 100.0)
