@@ -1,6 +1,6 @@
 """Fitting many sets of effects, with a record of what was made, dropped or failed."""
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -64,23 +64,17 @@ def candidates_of(stage: str, results: Sequence[Fit | Failure]) -> Made:
 
 
 def fit_finalists(
-    stage: str,
-    problem: FitProblem,
-    contenders: Sequence[Candidate],
-    workers: Workers,
-    leading: Container[frozenset[str]] = (),
+    stage: str, problem: FitProblem, contenders: Sequence[Candidate], workers: Workers
 ) -> Made:
     """The best contenders, fitted on the log itself; given up where they stay far above the noise.
 
     Args:
       contenders: on the decimated log, best first.
-      leading: sets that lead on the log itself: they are fitted also where they are behind.
     """
     near = _within(CONTENDING, contenders)
     most = min(max(FINALISTS, len(_within(SIMPLE_LEAD, contenders))), MOST_FINALISTS)
-    finalists = [c for c in contenders if c in near[:most] or frozenset(c.names) in leading]
-    beyond = [c for c in near if c not in finalists]
-    far = [c for c in contenders if c not in near and c not in finalists]
+    finalists, beyond = near[:most], near[most:]
+    far = [c for c in contenders if c not in near]
     enough = NEAR_FLOOR * problem.samples
     found, record = fit_all(stage, [(problem, c.names, c.fit.x, enough) for c in finalists], workers)
     if finalists and not found and workers.stop.due:

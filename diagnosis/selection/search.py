@@ -53,6 +53,7 @@ STAGES: tuple[Stage, ...] = (
     finer_mesh,
     jumps_of_readings,
     drift_of_the_torque_sensor,
+    best_with_imperfections_in_place,
 )
 
 

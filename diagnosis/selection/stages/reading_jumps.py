@@ -141,4 +141,4 @@ def _refitted(
         pairs=state.pairs,
         record=(*jumping.record, noted(STAGE, Decision.MADE, effect.title)),
     )
-    return fitted_again(STAGE, start, leading_on_the_log(state), calls, workers)
+    return fitted_again(STAGE, start, calls, workers)

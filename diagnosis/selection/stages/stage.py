@@ -117,20 +117,11 @@ def leading_on_the_log(state: SearchState) -> list[Candidate]:
 
 
 def fitted_again(
-    stage: str,
-    start: SearchState,
-    before: Sequence[Candidate],
-    calls: Sequence[tuple[Any, ...]],
-    workers: Workers,
+    stage: str, start: SearchState, calls: Sequence[tuple[Any, ...]], workers: Workers
 ) -> SearchState:
     """The state of a log of which more is allowed for, with the contenders of the one before.
 
-    What leads on the log itself before is fitted to it again: the decimated log is too coarse to tell a
-    delay from a low pass, and drift takes off what little tells them apart.
-
     Args:
-      start: nothing is fitted to it yet.
-      before: sets that lead on the log itself, with less allowed for.
       calls: of `fit_in_turn`, on the decimated log.
     """
     coarse, record = fit_all(stage, calls, workers)
@@ -138,8 +129,7 @@ def fitted_again(
     begun = begun.adding(fit_all(stage, [(start.problem, ())], workers))
     if not coarse:
         return begun
-    leading = {frozenset(c.names) for c in before}
-    return begun.adding(fit_finalists(stage, start.problem, simplest_first(coarse), workers, leading))
+    return begun.adding(fit_finalists(stage, start.problem, simplest_first(coarse), workers))
 
 
 def simplest_first(found: Sequence[Candidate]) -> list[Candidate]:

@@ -85,7 +85,7 @@ def _refitted(state: SearchState, start: SearchState, workers: Workers) -> Searc
     least = min(costs, default=math.inf)
     near = [c for c, cost in zip(contenders, costs, strict=True) if cost <= NEAR_FLOOR * least]
     calls = [(start.coarse, c.names, c.fit.x, least + CONTENDING) for c in near]
-    return fitted_again(STAGE, start, leading_on_the_log(state), calls, workers)
+    return fitted_again(STAGE, start, calls, workers)
 
 
 def _range_sigma(problem: FitProblem, fit: Fit) -> float:

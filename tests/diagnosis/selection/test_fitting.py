@@ -39,16 +39,6 @@ def test_finalists_are_the_best_within_reach(made):
     assert "by more than 60" in out["entry_friction",]
 
 
-def test_what_leads_on_the_log_itself_is_a_finalist_wherever_it_is_on_the_decimated_one(made):
-    names = ("tip_drag", "stiction", "torque_bias", "tip_angle_bias", "tip_angle_scale")
-    near = [scored([n], 100.0 + 1.1 * SIMPLE_LEAD * i) for i, n in enumerate(names)]
-    far = [scored([n], 101.0 + CONTENDING) for n in ("entry_friction", "drive_friction")]
-    leading = {frozenset({"drive_friction"}), frozenset({"tip_angle_scale"})}
-    _, record = fit_finalists("finalists", NO_LOG, [*near, *far], Workers(), leading)
-    assert set(made) == {c.names for c in near} | {("drive_friction",)}
-    assert [e.effects for e in record if e.decision is Decision.DROPPED] == [("entry_friction",)]
-
-
 def test_where_many_fit_about_as_well_more_are_finalists(made):
     alike = [scored([name], 100.0 + 0.1 * i) for i, name in enumerate(list(LIBRARY)[:12])]
     fit_finalists("finalists", NO_LOG, alike[:6], Workers())

@@ -45,6 +45,7 @@ def test_the_stages_are_these_in_this_order():
         "finer_mesh",
         "jumps_of_readings",
         "drift_of_the_torque_sensor",
+        "best_with_imperfections_in_place",
     ]
 
 

@@ -51,15 +51,15 @@ def test_readings_after_a_gap_in_a_fast_turn_are_not_used_for_a_second():
     assert np.isfinite(tip[(time <= 1.4) | (time > 2.75)]).all()
 
 
-def test_a_needle_that_remembers_for_longer_is_waited_for():
-    """Until its slowest mode, of 0.6 s, has taken what is uncertain down to what is certain."""
-    lost = fill_gaps(with_gap(turns(), 1.4, 1.7), BASE, 0.6)["tip_angle_deg"]
-    filled = fill_gaps(with_gap(turns(), 1.4, 1.7), BASE)
-    uncertain_deg = 0.2 * np.exp((filled["time_s"][np.isnan(lost)].max() - 1.69) / 0.6)
-    # Lines through both sides meet where a turn of 150 deg/s ends; a cubic across 0.3 s is off by
-    # a few degrees there.
-    assert 1.5 < uncertain_deg < 15.0
-    assert np.isnan(lost).sum() > np.isnan(filled["tip_angle_deg"]).sum()
+def test_a_needle_that_remembers_twice_as_long_is_waited_for_twice_as_long():
+    """Its slowest mode decays exponentially: the wait is proportional to its time constant."""
+
+    def waited_s(memory_s):
+        filled = fill_gaps(with_gap(turns(), 1.4, 1.7), BASE, memory_s)
+        return filled["time_s"][np.isnan(filled["tip_angle_deg"])].max() - 1.69
+
+    assert waited_s(0.6) > 1.1  # more than the second that any needle is given
+    assert abs(waited_s(1.2) - 2 * waited_s(0.6)) < 0.03  # samples are 0.01 s apart
 
 
 def test_readings_after_a_gap_while_the_base_holds_are_used():
