@@ -58,21 +58,22 @@ def sensed(
     inputs: Schedule,
     tip_deg: Array,
     torque_n_mm: Array,
-    start_s: float = 0.0,
+    start_s: float | None = None,
 ) -> tuple[Array, Array]:
     """Readings of tip and torque, (N,) each.
 
     Args:
       inputs: inputs of the needle.
       torque_n_mm: torque on the needle at the chuck.
-      start_s: start of the trial.
+      start_s: start of the trial, when all clocks agree; None: that of the inputs, which have no past.
     """
     time_s, torque = inputs.time_s, torque_n_mm
+    start_s = float(time_s[0]) if start_s is None else start_s
     if rig.drive_friction_n_mm != 0.0:
         torque = torque + bearing_torque_n_mm(inputs.drive, rig.drive_friction_n_mm)
-    tip = _late(time_s, tip_deg, rig.tip_clock_ratio, rig.tip_delay_s)
+    tip = _late(time_s, tip_deg, start_s, rig.tip_clock_ratio, rig.tip_delay_s)
     torque = _low_passed(time_s, torque, rig.torque_low_pass_s)
-    torque = _late(time_s, torque, rig.torque_clock_ratio, rig.torque_delay_s)
+    torque = _late(time_s, torque, start_s, rig.torque_clock_ratio, rig.torque_delay_s)
     tip = rig.tip_bias_deg + rig.tip_scale * tip
     torque = rig.torque_bias_n_mm + rig.torque_scale * torque
     if rig.free is None:
@@ -85,25 +86,25 @@ def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Arra
     """By sensor: samples at which its clock is past the end of the run, where nothing is known, (N,).
 
     Args:
-      run_s: times of the run.
-      at_s: times of the samples.
+      run_s: times of the run, which may begin before the trial.
+      at_s: times of the samples of the trial.
     """
     clocks = {
         "tip_angle_deg": (rig.tip_clock_ratio, rig.tip_delay_s),
         "base_torque_n_mm": (rig.torque_clock_ratio, rig.torque_delay_s),
     }
     return {
-        sensor: _shown_s(at_s, run_s[0], ratio, delay_s) > run_s[-1]
+        sensor: _shown_s(at_s, at_s[0], ratio, delay_s) > run_s[-1]
         for sensor, (ratio, delay_s) in clocks.items()
         if ratio > 1.0
     }
 
 
-def _late(time_s: Array, values: Array, clock_ratio: float, delay_s: float) -> Array:
+def _late(time_s: Array, values: Array, start_s: float, clock_ratio: float, delay_s: float) -> Array:
     """Values a delay ago, by a clock that drifts; before the first sample, that sample."""
     if clock_ratio == 1.0 and delay_s == 0.0:
         return values
-    return np.asarray(np.interp(_shown_s(time_s, time_s[0], clock_ratio, delay_s), time_s, values))
+    return np.asarray(np.interp(_shown_s(time_s, start_s, clock_ratio, delay_s), time_s, values))
 
 
 def _shown_s(time_s: Array, start_s: float, clock_ratio: float, delay_s: float) -> Array:

@@ -67,6 +67,14 @@ def test_a_clock_that_runs_off_shows_what_its_time_says():
     np.testing.assert_allclose(torque, np.maximum(0.8 * TIME - 0.5, 0.0), atol=1e-12)
 
 
+def test_clocks_agree_where_the_recording_begins_and_not_where_the_rig_began_to_move():
+    """A past of 2 s: at 1 s of the trial, a clock that is fast by 10 % shows the value at 1.1 s."""
+    rig = RigParameters(tip_clock_ratio=1.1, torque_clock_ratio=0.9)
+    tip, torque = sensed(rig, inputs(TIME), TIME, TIME, start_s=2.0)
+    at = np.argmin(np.abs(TIME - 3.0))
+    assert (tip[at], torque[at]) == pytest.approx((3.1, 2.9))
+
+
 def test_a_low_pass_answers_a_ramp_as_its_equation_says():
     """tau y' = x - y with x = t from rest: y = t - tau (1 - exp(-t / tau)), at any step."""
     for tau in (0.002, 0.1):
