@@ -99,6 +99,11 @@ OUTLIER_MOST_RUN = 5
 noise, of which they may leave twice the variance by chance; the share of it by which it is off each side
 alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
 in a row: what lasts longer is an event."""
+OUTLIER_LEFT_SIGMA, OUTLIER_LEFT_QUIET_SIGMA, OUTLIER_LEFT_NEIGHBOURS = 5.0, 3.5, 2
+OUTLIER_MOST_LEFT, OUTLIER_LEFT_SHARE = 0.01, 0.3
+"""Outliers beside an explanation: how far they are off, while so many neighbours on each side are not
+(derived: by chance once in two million readings, and once in 500 neighbours); the share of a sensor's
+readings that they come to at most; and what they have to be of what is left beyond noise."""
 PULSES_SHARE = 0.5
 """Share of the outliers of the base that others answer to, from which they are motion; by chance
 those of two sensors meet in some hundredths of them."""
@@ -310,6 +315,9 @@ right explanation leaves passes for less. What effects leave of the nominal rig 
 The spectrum is taken from at least so many windows of so many seconds, from the frequency on above which
 effects leave little; colours within so much chi-square of the best are open. Physical: what is
 correlated for longer is drift and not noise."""
+COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP = 10.0, 1.3
+"""Chi-square that is enough where only that explains the log (derived: once in 150 sensors by chance),
+and what white noise may leave of such a colour: that of half of the variance leaves 1.4."""
 COLOURED_BLOCK_S = 2.0
 """Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
 correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
@@ -318,11 +326,15 @@ LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
-DRIFT_SIZE_SIGMA = 2.0
-DRIFT_FASTEST_S = 1.5
-DRIFT_MOST_SHAPES = 40
-"""Physical: what the torque sensor of a lab drifts by within a trial, in sigma of its noise; period of
-the fastest shape of drift, and shapes at most: of a random walk so many leave less than 0.1 sigma."""
+DRIFT_SIZES_SIGMA = (0.25, 0.5, 1.0, 2.0)
+DRIFT_FASTEST_S = 0.75
+DRIFT_MOST_SHAPES = 80
+"""Physical: what the torque sensor of a lab drifts by within a trial, in sigma of its noise: the
+likeliest of these is allowed for; period of the fastest shape of drift, and shapes at most: of a random
+walk so many leave less than 0.1 sigma."""
+DRIFT_START_SIGMA = 3.0
+"""Standard deviations by which every trial has to begin off zero for a drift to be as good as an offset:
+derived, by chance once in 400 logs of a sensor that was zeroed before the first trial."""
 # Where the residual is (residuals/)
 
 TURNING_DEG_S = 1.0

@@ -62,7 +62,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
     left = _residuals(prepared, predictions)
-    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded)
+    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded, prepared.means_of)
     begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
     library = library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)

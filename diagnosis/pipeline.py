@@ -20,6 +20,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing
+from diagnosis.log.left_out import without
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
 from diagnosis.progress import ProgressClock, Watcher, silent
@@ -84,6 +85,7 @@ def diagnose(
     heard(REPLAYING, 1, 1)
     with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
+        log = without(log, found.left_out)
         told = told_apart(found, pool)
         cut = bool(stop.left_out)
         heard(CHECKING, 0, 1)

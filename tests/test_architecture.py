@@ -53,7 +53,7 @@ UNITS = (
 PER = ("_per_",)
 DIMENSIONLESS = (
     *("scale", "share", "ratio", "fraction", "exponent", "coefficient", "probability", "factor"),
-    *("likeness", "period", "asymmetry"),
+    *("likeness", "period", "asymmetry", "chi_square"),
     *(
         "score",
         "cost",

@@ -49,13 +49,15 @@ def _change(problem: FitProblem, verdict: Verdict, parameters: Parameters) -> st
     """What to change if the log is explained, and the run that would make this more certain."""
     remedy = remedies(verdict.effects, parameters, problem.log.rig)
     if verdict.confusable:
-        first, *others = (_together(names) for names in verdict.confusable)
-        return (
-            f"{check_that_tells(verdict.confusable)}: that distinguishes {first} from "
-            f"{', or from '.join(others)}; if it is the former, {remedy}"
-        )
+        return f"{_check(verdict.confusable)}; if it is the former, {remedy}"
     again = "then record and diagnose again"
     return "; ".join(filter(None, (remedy, again, _narrowed(problem, verdict))))
+
+
+def _check(confusable: Sequence[tuple[str, ...]]) -> str:
+    """The check of the rig that tells sets of effects apart."""
+    first, *others = (_together(names) for names in confusable)
+    return f"{check_that_tells(confusable)}: that distinguishes {first} from {', or from '.join(others)}"
 
 
 def _together(names: Sequence[str]) -> str:
@@ -81,6 +83,8 @@ def _narrowed(problem: FitProblem, verdict: Verdict) -> str:
 
 
 def _tell_apart(problem: FitProblem, verdict: Verdict) -> str:
+    if not verdict.rivals:
+        return _check(verdict.confusable)
     one, other = verdict.best, verdict.rivals[0]
     found = best_experiment(problem, one.fit, other.fit, experiments(problem.log))
     names = [" with ".join(c.named) or "the nominal rig" for c in (one, other)]

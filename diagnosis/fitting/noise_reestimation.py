@@ -31,8 +31,10 @@ Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals
 
 def with_colour(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors, with the colour that the residual of a fit shows."""
-    plain = replace(problem.noise, sigma=dict.fromkeys(problem.noise.sigma, 1.0), colour={})
-    return problem.noise.with_colour(_by_sensor(problem, in_units_of(problem, best.by_trial, plain)))
+    plain = problem.noise.uncoloured
+    in_sigma = _by_sensor(problem, in_units_of(problem, best.by_trial, plain))
+    left = {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
+    return problem.noise.with_colour(left)
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
@@ -67,7 +69,7 @@ def in_units_of(problem: FitProblem, by_trial: Sequence[Array], noise: Noise) ->
     """Residuals of the problem, or their slopes, in units of another noise, whitened as it asks."""
     before = problem.noise
     found = []
-    for parts in _read(problem, by_trial):
+    for parts in by_trial_and_sensor(problem, by_trial):
         each = [_other_units(part, before, noise) for part in parts]
         found.append(np.concatenate(each) if each else np.zeros(0))
     return tuple(found)
@@ -75,9 +77,10 @@ def in_units_of(problem: FitProblem, by_trial: Sequence[Array], noise: Noise) ->
 
 def _other_units(part: Read, before: Noise, noise: Noise) -> Array:
     sensor, time_s, values = part
-    if before.colour.get(sensor) != noise.colour.get(sensor):
-        values = noise.whitened(sensor, time_s, before.restored(sensor, time_s, values))
-    return values / (noise[sensor] / before[sensor])
+    smaller = before[sensor] / noise[sensor]
+    if before.alike(noise, sensor):
+        return values * smaller
+    return noise.whitened(sensor, time_s, smaller * before.restored(sensor, time_s, values))
 
 
 def _change(parts: Sequence[Array]) -> float:
@@ -86,7 +89,7 @@ def _change(parts: Sequence[Array]) -> float:
     return float(np.clip(found if np.isfinite(found) else 1.0, 1 - NOISE_TRUST, 1 + NOISE_TRUST))
 
 
-def _read(problem: FitProblem, by_trial: Sequence[Array]) -> list[list[Read]]:
+def by_trial_and_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> list[list[Read]]:
     """Rows of residuals or slopes by trial and sensor, with the times of their samples."""
     found = []
     for trial, rows in zip(problem.log.trials, by_trial, strict=True):
@@ -100,7 +103,7 @@ def _read(problem: FitProblem, by_trial: Sequence[Array]) -> list[list[Read]]:
 def _by_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, list[tuple[Array, Array]]]:
     """Times and residuals of every trial, by sensor."""
     found: dict[str, list[tuple[Array, Array]]] = {}
-    for parts in _read(problem, by_trial):
+    for parts in by_trial_and_sensor(problem, by_trial):
         for sensor, time_s, values in parts:
             found.setdefault(sensor, []).append((time_s, values))
     return found

@@ -104,7 +104,3 @@ class FitProblem:
     def _moving(self, motion_deg: Callable[[PreparedTrial], Array]) -> "FitProblem":
         trials = tuple(replace(trial, base_motion_deg=motion_deg(trial)) for trial in self.log.trials)
         return replace(self, log=replace(self.log, trials=trials))
-
-    def drifting(self, size_n_mm: float) -> "FitProblem":
-        """The same problem with a torque sensor that may drift by so much within a trial, N mm."""
-        return replace(self, log=self.log.drifting(size_n_mm / self.noise["base_torque_n_mm"]))

@@ -5,7 +5,7 @@ base (`base_motion_deg` here): a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +16,6 @@ from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.motion.between_samples import between_samples
 from diagnosis.prepare.motion.inertia import InertiaTorque, inertia_warning, smooth_motion
-from diagnosis.prepare.noise.drift import drift_whitening
 from diagnosis.prepare.start.late_start import LateStart, late_start_warning
 from sim.schedule import Schedule
 
@@ -36,7 +35,6 @@ class PreparedTrial:
       readings: by sensor, in the unit of its name; NaN where there is none.
       logged: mask of rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
-      torque_drift_sigma: size of the drift that its torque sensor may have, in sigma of its noise.
       late_start: None: it begins untwisted and at rest.
     """
 
@@ -50,7 +48,6 @@ class PreparedTrial:
     readings: Mapping[str, Array]
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
-    torque_drift_sigma: float = 0.0
     late_start: LateStart | None = None
 
     def has(self, sensor: str) -> bool:
@@ -92,17 +89,6 @@ class PreparedTrial:
         """Median time between samples."""
         return float(np.median(np.diff(self.time_s)))
 
-    def without_drift(self, sensor: str, left: Array) -> Array:
-        """Residual of a sensor's finite readings, in sigma, without the part that may be drift, (M,)."""
-        if not self.torque_drift_sigma or sensor != "base_torque_n_mm":
-            return left
-        return np.asarray(left - self._drift @ (self._drift.T @ left))
-
-    @cached_property
-    def _drift(self) -> Array:
-        kept = np.isfinite(self.readings["base_torque_n_mm"])
-        return drift_whitening(self.time_s, kept, self.torque_drift_sigma)
-
     @cached_property
     def _measured(self) -> frozenset[str]:
         return frozenset(name for name, values in self.readings.items() if np.isfinite(values).any())
@@ -121,11 +107,6 @@ class PreparedLog:
     trials: tuple[PreparedTrial, ...]
     rounded: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
-
-    def drifting(self, size_sigma: float) -> "PreparedLog":
-        """The log with a torque sensor that may drift by so much within a trial, in sigma."""
-        trials = tuple(replace(trial, torque_drift_sigma=size_sigma) for trial in self.trials)
-        return replace(self, trials=trials)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -6,22 +6,19 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.prepare.noise.drift import likeliest_drift
-from diagnosis.prepare.noise.sensor_noise import Noise
+from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction
 
 Array = NDArray[np.float64]
 
-TORQUE = "base_torque_n_mm"
-
 
 def torque_drift_sigma(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
     """Drift at every sample, in sigma of the torque, (N,); 0 if none is allowed for."""
-    if not trial.torque_drift_sigma or not trial.has(TORQUE):
+    drift = noise.drift(TORQUE)
+    if drift is None or not trial.has(TORQUE):
         return np.zeros(trial.time_s.size)
-    left = (trial.readings[TORQUE] - prediction[TORQUE]) / noise[TORQUE]
-    return likeliest_drift(trial.time_s, left, trial.torque_drift_sigma)
+    return drift.likeliest(trial.time_s, (trial.readings[TORQUE] - prediction[TORQUE]) / noise[TORQUE])
 
 
 def with_drift(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Prediction]:
@@ -36,6 +33,16 @@ def with_drift(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]
 def drift_range_sigma(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
     """Largest range of the drift within a trial, in sigma of the torque."""
     return max((float(np.ptp(drift)) for drift in _by_trial(log, noise, predictions)), default=0.0)
+
+
+def least_start(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
+    """By how much the drift begins off zero in every trial at least, in standard deviations."""
+    drift = noise.drift(TORQUE)
+    each = zip(log.trials, predictions, strict=True)
+    read = [(t, (t.readings[TORQUE] - p[TORQUE]) / noise[TORQUE]) for t, p in each if t.has(TORQUE)]
+    if drift is None or not read:
+        return 0.0
+    return min(abs(drift.start(trial.time_s, left)) for trial, left in read)
 
 
 def _by_trial(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Array]:

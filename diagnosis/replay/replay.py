@@ -96,8 +96,7 @@ def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Arr
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
             read = np.isfinite(left)
-            beside = trial.without_drift(sensor, left[read])
-            parts.append(noise.whitened(sensor, trial.time_s[read], beside))
+            parts.append(noise.whitened(sensor, trial.time_s[read], left[read]))
     return np.concatenate(parts) if parts else np.zeros(0)
 
 

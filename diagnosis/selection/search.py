@@ -18,16 +18,17 @@ from diagnosis.selection.stages.best import (
     best_without_each_effect,
     scatter_of_the_best,
 )
-from diagnosis.selection.stages.coloured_noise import coloured_noise
-from diagnosis.selection.stages.imperfections import one_more_imperfection
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
-from diagnosis.selection.stages.reading_jumps import jumps_of_readings
 from diagnosis.selection.stages.richer_effects import richer_effects, richer_effects_in_place_of_three
+from diagnosis.selection.stages.sensors.coloured_noise import coloured_noise, weakly_coloured_noise
+from diagnosis.selection.stages.sensors.imperfections import one_more_imperfection
+from diagnosis.selection.stages.sensors.outliers_left import outliers_beside_the_best
+from diagnosis.selection.stages.sensors.reading_jumps import jumps_of_readings
+from diagnosis.selection.stages.sensors.torque_drift import drift_of_the_torque_sensor, drift_or_offset
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
-from diagnosis.selection.stages.torque_drift import drift_of_the_torque_sensor
 from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -51,8 +52,11 @@ STAGES: tuple[Stage, ...] = (
     best_without_each_effect,
     scatter_of_the_best,
     finer_mesh,
+    outliers_beside_the_best,
+    weakly_coloured_noise,
     jumps_of_readings,
     drift_of_the_torque_sensor,
+    drift_or_offset,
     best_with_imperfections_in_place,
 )
 

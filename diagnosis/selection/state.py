@@ -6,6 +6,7 @@ from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.left_out import LeftOut
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import Checked, check
@@ -26,6 +27,8 @@ class SearchState:
       singles: single effects, fitted on the decimated log, best first.
       pairs, triples: the same of two and three effects.
       checked: candidates as they were last checked.
+      open_effects: that may be there, hidden by what is allowed for.
+      left_out: readings that are outliers beside the explanation.
       record: of every stage so far.
     """
 
@@ -38,6 +41,8 @@ class SearchState:
     pairs: tuple[Candidate, ...] = ()
     triples: tuple[Candidate, ...] = ()
     checked: Checked | None = None
+    open_effects: tuple[str, ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
     record: tuple[RecordEntry, ...] = ()
 
     @property

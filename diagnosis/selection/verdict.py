@@ -113,6 +113,25 @@ def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
     return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
 
 
+def with_open_effects(verdict: Verdict, effects: Sequence[str]) -> Verdict:
+    """The verdict where effects may be there, or not: what is allowed for does the same as they.
+
+    Args:
+      effects: none of the verdict's own.
+    """
+    if verdict.kind is VerdictKind.UNKNOWN or not effects:
+        return verdict
+    told = verdict.confusable or (verdict.effects,)
+    beside = tuple((*names, *effects) for names in told)
+    shares = dict(verdict.ranking)
+    for names, both in zip(told, beside, strict=True):
+        alone, wider = tuple(sorted(names)) or (NOTHING,), tuple(sorted(both))
+        shares[alone] = 0.5 * shares.get(alone, 0.0)
+        shares[wider] = shares.get(wider, 0.0) + shares[alone]
+    ranking = tuple(sorted(shares.items(), key=lambda item: -item[1]))
+    return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=(*told, *beside), ranking=ranking)
+
+
 def refuted(verdict: Verdict, form: str) -> Verdict:
     """The verdict where a law that no library holds leaves clearly less than the explanation.
 

@@ -3,7 +3,13 @@
 import pytest
 
 from diagnosis.selection.search import STAGES as SEARCHED
-from diagnosis.selection.stages import mesh_refinement, reading_jumps, torque_drift
+from diagnosis.selection.stages import mesh_refinement
+from diagnosis.selection.stages.sensors import (
+    coloured_noise,
+    outliers_left,
+    reading_jumps,
+    torque_drift,
+)
 from diagnosis.stages import STAGES, in_words, usual
 
 
@@ -12,14 +18,15 @@ def test_a_stage_that_is_not_known_is_told_as_it_is_and_takes_no_time():
     assert usual("another stage").task_s == 0.0
 
 
-@pytest.mark.parametrize("module", [mesh_refinement, reading_jumps, torque_drift])
+@pytest.mark.parametrize("module", [mesh_refinement, outliers_left, reading_jumps, torque_drift])
 def test_names_are_those_of_the_search(module):
     assert module.STAGE in STAGES
 
 
 def test_what_a_stop_leaves_out_of_the_search_has_the_name_that_the_stage_records():
     names = {stage.__name__.replace("_", " ") for stage in SEARCHED}
-    assert {reading_jumps.STAGE, torque_drift.STAGE} <= names
+    own = {outliers_left.STAGE, reading_jumps.STAGE, torque_drift.STAGE, torque_drift.OR_OFFSET}
+    assert own | {coloured_noise.STAGE, coloured_noise.WEAK} <= names
 
 
 def test_words_are_no_names_and_nothing_takes_less_where_nothing_explains_the_log():

@@ -6,14 +6,21 @@ autocovariance
 
     c exp(-|t| / tau)
 
-At even steps it is an AR(1) process, and the sum of both an ARMA(1, 1). Whitened noise is the
+At even steps it is an AR(1) process, and the sum of both an ARMA(1, 1). Means of n readings, each at
+steps h, of an Ornstein-Uhlenbeck process of variance 1 have the autocovariances
+
+    at lag 0      (n + 2 sum over k of (n - k) p^k) / n^2,   p = exp(-h / tau)
+    at others     g exp(-|t| / tau),   g = ((1 - p^n) / (1 - p))^2 p^(1 - n) / n^2
+
+g exceeds the variance, so that c may exceed 1 and w is then negative. Whitened noise is the
 noise minus its prediction from the past, / standard deviation of the rest: the innovations of the
 Kalman filter whose state is the coloured part,
 
     e = y - a,   S = P + w,   K = P / S
     a <- phi (a + K e),   P <- phi^2 P w / S + c (1 - phi^2),   phi = exp(-step / tau)
 
-This is exact for samples at any times, also with missing ones. It is linear in y: differences of
+This is exact for samples at any times, also with missing ones (if w is negative, unless some
+are much closer than the step of the means). It is linear in y: differences of
 residuals and slopes are whitened like residuals, and the sum of squares of whitened residuals is
 -2 log(likelihood), up to a constant.
 """
@@ -26,13 +33,15 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+_LEAST_VARIANCE = 1e-3  # of a sample that those before it predict, where times are too close for means
+
 
 @dataclass(frozen=True, kw_only=True)
 class NoiseColour:
     """Correlation in time of one sensor's noise, whatever its size.
 
     Attributes:
-      share: share of the variance that is coloured, above 0 and up to 1.
+      share: share of the variance that is coloured, above 0; above 1 for means of coloured readings.
       correlation_time_s: time in which the autocovariance of the coloured part falls to 37 %.
     """
 
@@ -74,6 +83,21 @@ class NoiseColour:
         return np.exp(-np.diff(time_s, prepend=-np.inf) / self.correlation_time_s)
 
 
+def covariances_of_means(lags_s: Array, time_s: float, step_s: float, count: int) -> tuple[Array, float]:
+    """Autocovariances of means of readings of an Ornstein-Uhlenbeck process of variance 1, (L,), and g.
+
+    Args:
+      lags_s: 0 and multiples of the means' step, s, (L,).
+      time_s: correlation time, s.
+      step_s: step of the means, s.
+      count: readings in each mean.
+    """
+    own, at_once = np.arange(count), -step_s / count / time_s
+    variance = float(np.exp(at_once * np.abs(own[:, None] - own)).mean())
+    later = float(np.exp(at_once * (own - own[:, None])).mean())
+    return np.where(lags_s == 0, variance, later * np.exp(-lags_s / time_s)), later
+
+
 @njit(cache=True)
 def _innovations(kept: Array, values: Array, share: float) -> tuple[Array, float]:
     told = np.empty_like(values)
@@ -82,7 +106,7 @@ def _innovations(kept: Array, values: Array, share: float) -> tuple[Array, float
     for i in range(kept.size):
         state *= kept[i]
         spread = kept[i] ** 2 * spread + share * (1 - kept[i] ** 2)
-        variance = spread + 1 - share
+        variance = max(spread + 1 - share, _LEAST_VARIANCE)
         log_variance += np.log(variance)
         for j in range(values.shape[1]):
             missed = values[i, j] - state[j]
@@ -100,7 +124,7 @@ def _readings(kept: Array, told: Array, share: float) -> Array:
     for i in range(kept.size):
         state *= kept[i]
         spread = kept[i] ** 2 * spread + share * (1 - kept[i] ** 2)
-        variance = spread + 1 - share
+        variance = max(spread + 1 - share, _LEAST_VARIANCE)
         for j in range(told.shape[1]):
             missed = told[i, j] * np.sqrt(variance)
             values[i, j] = state[j] + missed

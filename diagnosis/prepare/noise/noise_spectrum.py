@@ -30,7 +30,7 @@ from diagnosis.criteria import (
     COLOUR_WINDOW_S,
     COLOUR_WINDOWS,
 )
-from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_colour import NoiseColour, covariances_of_means
 
 Array = NDArray[np.float64]
 
@@ -60,31 +60,37 @@ class _Spectrum:
 
 
 def noise_colour(
-    parts: Sequence[tuple[Array, Array]], least_share: float = COLOUR_LEAST_SHARE
+    parts: Sequence[tuple[Array, Array]],
+    least_share: float = COLOUR_LEAST_SHARE,
+    means_of: int = 1,
+    least_chi_square: float = COLOUR_CHI_SQUARE,
 ) -> tuple[float, NoiseColour] | None:
     """Standard deviation and colour of the noise in residuals; None: it may be white.
 
     Args:
       parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
       least_share: smallest share of the variance that counts as coloured.
+      means_of: number of readings that a sample is the mean of.
+      least_chi_square: by which white noise has to fit the spectrum worse.
     """
     spectrum = _spectrum(parts)
     if spectrum is None:
         return None
-    lags_s = spectrum.step_s * np.arange(spectrum.lag_weights.shape[1])
+    lags_s = np.asarray(spectrum.step_s * np.arange(spectrum.lag_weights.shape[1]), float)
     white = spectrum.expected((lags_s == 0).astype(float))
     alone, _ = _fitted(spectrum, white[:, None])
     found = []
     for time_s in np.geomspace(0.4 * spectrum.step_s, COLOUR_LONGEST_S, _TIMES):
-        coloured = spectrum.expected(np.exp(-lags_s / time_s))
-        cost, sizes = _fitted(spectrum, np.column_stack([white, coloured]))
+        covariances, later = covariances_of_means(lags_s, time_s, spectrum.step_s, means_of)
+        cost, sizes = _fitted(spectrum, np.column_stack([white, spectrum.expected(covariances)]))
         if sizes[1] > 0:
-            share = float(sizes[1] / sizes.sum())
+            variance = float(sizes[0] + sizes[1] * covariances[0])
+            share = float(sizes[1] * later / variance)
             colour = NoiseColour(share=share, correlation_time_s=float(time_s))
-            found.append((cost, float(np.sqrt(sizes.sum())), colour))
+            found.append((cost, float(np.sqrt(variance)), colour))
     best = min((cost for cost, _, _ in found), default=alone)
     open_ = [(sigma, colour) for cost, sigma, colour in found if cost <= best + COLOUR_OPEN]
-    if alone - best < COLOUR_CHI_SQUARE:
+    if alone - best < least_chi_square:
         return None
     sigma, colour = min(open_, key=lambda one: _unlikeliness(parts, one[1]))
     return (sigma, colour) if colour.share >= least_share else None

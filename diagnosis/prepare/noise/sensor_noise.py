@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     COLOUR_AT_ONCE_SHARE,
+    COLOUR_CHI_SQUARE,
     COLOUR_LEAST_SHARE,
     LEAST_DIFFERENCES,
     LEAST_GAP,
@@ -20,13 +21,14 @@ from diagnosis.criteria import (
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
+from diagnosis.prepare.noise.drift import Drift
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
 
-BASE = "base_angle_deg"
+BASE, TORQUE = "base_angle_deg", "base_torque_n_mm"
 _ORDER = 4  # of differences, which a residual of a wrong model asks for
 _UNKNOWN = 1.0  # where nothing is claimed and too little was read
 
@@ -41,6 +43,10 @@ class Noise:
       colour: colour of the noise, for sensors whose noise is not white.
       white: standard deviation by sensor, if all noise is taken as white.
       least: least noise of readings in coarse steps.
+      means_of: number of readings that a sample is the mean of.
+      colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
+      torque_drift_n_mm: size of the drift that the torque sensor may have within a trial; 0: none.
+      torque_zeroed: whether that drift begins at zero in every trial.
     """
 
     sigma: Mapping[str, float]
@@ -48,19 +54,32 @@ class Noise:
     colour: Mapping[str, NoiseColour] = field(default_factory=dict)
     white: Mapping[str, float] = field(default_factory=dict)
     least: Mapping[str, float] = field(default_factory=dict)
+    means_of: int = 1
+    colour_chi_square: float = COLOUR_CHI_SQUARE
+    torque_drift_n_mm: float = 0.0
+    torque_zeroed: bool = False
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
 
     def whitened(self, sensor: str, time_s: Array, values: Array) -> Array:
-        """Whitened residuals of a sensor / sigma, (N,) or (N, n)."""
-        colour = self.colour.get(sensor)
-        return colour.whitened(time_s, values) if colour else values
+        """Whitened residuals of a sensor / sigma, (N,) or (N, n), without what may be drift."""
+        colour, drift = self.colour.get(sensor), self.drift(sensor)
+        white = colour.whitened(time_s, values) if colour else values
+        return drift.whitened(time_s, white) if drift else white
 
     def restored(self, sensor: str, time_s: Array, whitened: Array) -> Array:
         """Residuals / sigma from whitened ones."""
-        colour = self.colour.get(sensor)
-        return colour.restored(time_s, whitened) if colour else whitened
+        colour, drift = self.colour.get(sensor), self.drift(sensor)
+        white = drift.restored(time_s, whitened) if drift else whitened
+        return colour.restored(time_s, white) if colour else white
+
+    def drift(self, sensor: str) -> Drift | None:
+        """The drift that a sensor may have; None: none."""
+        if sensor != TORQUE or not self.torque_drift_n_mm:
+            return None
+        size_sigma = self.torque_drift_n_mm / self.sigma[sensor]
+        return Drift(size_sigma=size_sigma, zeroed=self.torque_zeroed, colour=self.colour.get(sensor))
 
     def with_colour(
         self, left: Mapping[str, Sequence[TimedArray]], least_share: float = COLOUR_LEAST_SHARE
@@ -68,7 +87,7 @@ class Noise:
         """The noise with the colour of residuals, in the units of the sensors, by sensor and trial."""
         sigma, colour = dict(self.sigma), {}
         for sensor, parts in left.items():
-            found = noise_colour(parts, least_share)
+            found = noise_colour(parts, least_share, self.means_of, self.colour_chi_square)
             if found:
                 sigma[sensor], colour[sensor] = found
             elif sensor in self.colour:  # it was taken for coloured, and is not
@@ -77,18 +96,25 @@ class Noise:
 
     def same(self, other: "Noise") -> bool:
         """Whether residuals in units of both are the same."""
-        return self.sigma == other.sigma and self.colour == other.colour
+        drifts = self.drift(TORQUE) == other.drift(TORQUE)
+        return self.sigma == other.sigma and self.colour == other.colour and drifts
+
+    def alike(self, other: "Noise", sensor: str) -> bool:
+        """Whether the noise of a sensor differs in its size alone."""
+        return self.colour.get(sensor) == other.colour.get(sensor) and (
+            self.drift(sensor) == other.drift(sensor)
+        )
 
     @property
     def uncoloured(self) -> "Noise":
-        """Noise of the same size, taken as white: for figures."""
+        """Noise of the same size, taken as white beside drift: for figures."""
         return replace(self, colour={})
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Warnings, and the sensors whose noise is not white."""
         each = (
-            f"{sensor}: {100 * colour.share:.0f} % of the noise's variance is correlated over "
+            f"{sensor}: {100 * min(colour.share, 1.0):.0f} % of the noise's variance is correlated over "
             f"{1000 * colour.correlation_time_s:.0f} ms; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
@@ -101,6 +127,7 @@ def estimate_noise(
     base_sigma_deg: float,
     told: Collection[str] = (),
     least: Mapping[str, float] | None = None,
+    means_of: int = 1,
 ) -> Noise:
     """Noise of a log.
 
@@ -109,6 +136,7 @@ def estimate_noise(
       base_sigma_deg: noise of the base's encoder.
       told: columns whose claim has already had a warning.
       least: noise of columns in coarse steps, which differences of constant readings do not show.
+      means_of: number of readings that a sample is the mean of.
     """
     least = least or {}
     claims = rig.sensors.by_column()
@@ -123,7 +151,9 @@ def estimate_noise(
             found = claims[sensor] or _UNKNOWN
         found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
-    noise = Noise(sigma=sigma, white=sigma).with_colour(residuals, COLOUR_AT_ONCE_SHARE)
+    noise = Noise(sigma=sigma, white=sigma, means_of=means_of).with_colour(
+        residuals, COLOUR_AT_ONCE_SHARE
+    )
     for sensor in SENSORS:
         warnings[sensor] = _scatters_otherwise(sensor, noise[sensor], claims[sensor]) or _below_noise(
             sensor, left[sensor], noise[sensor]

@@ -23,7 +23,7 @@ from diagnosis.selection.equivalence.equivalent_sets import Equivalent, covers, 
 from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
 from diagnosis.selection.fitting import candidates_of, fit_all
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on
+from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on, with_open_effects
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
@@ -66,6 +66,11 @@ class ToldApart:
 
 def told_apart(found: SearchState, workers: Workers) -> ToldApart:
     """The verdict on what a search found, with what cannot be told from it."""
+    told = _told_apart(found, workers)
+    return replace(told, verdict=with_open_effects(told.verdict, found.open_effects))
+
+
+def _told_apart(found: SearchState, workers: Workers) -> ToldApart:
     first = _judged(found)
     if not first.verdict.effects:
         return first

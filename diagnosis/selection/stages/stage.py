@@ -116,6 +116,16 @@ def leading_on_the_log(state: SearchState) -> list[Candidate]:
     return sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
 
 
+def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, workers: Workers) -> Made:
+    """The leading explanations on the log itself, fitted to another problem from where they are."""
+    leading = {frozenset(c.names): c for c in reversed(leading_on_the_log(state))}
+    calls = [
+        (problem, c.names, problem.parameterization(c.names).joined(c.fit.parts))
+        for c in leading.values()
+    ]
+    return fit_all(stage, calls, workers)
+
+
 def fitted_again(
     stage: str, start: SearchState, calls: Sequence[tuple[Any, ...]], workers: Workers
 ) -> SearchState:

@@ -14,7 +14,7 @@ from diagnosis.assessment.next_experiment import Narrowing, Proposal
 from diagnosis.effects import LIBRARY
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
-from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.selection.verdict import VerdictKind, verdict_on, with_open_effects
 
 LEFT = ResidualBreakdown(
     signal={"tip_angle_deg": 3.0, "base_torque_n_mm": 1.0},
@@ -129,3 +129,10 @@ def test_what_has_a_rival_that_looks_the_same_is_to_be_calibrated(monkeypatch):
 def test_where_nothing_is_left_to_do_nothing_is_said():
     nothing = replace(SETTLED, kind=VerdictKind.NONE, effects=())
     assert advise(PROBLEM, nothing, NOMINAL, LEFT, {}) == ""
+
+
+def test_what_may_hide_an_effect_asks_for_the_check_that_shows_it():
+    found = with_open_effects(verdict_on([scored(["tip_drag"], 100.0)]), ["torque_bias"])
+    said = advise(PROBLEM, found, NOMINAL, LEFT, {})
+    assert "read the torque sensor without a needle" in said
+    assert said.endswith("and an offset of the torque sensor at once")

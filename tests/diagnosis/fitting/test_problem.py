@@ -58,7 +58,8 @@ def test_a_torque_that_may_drift_does_not_count_a_line_of_its_size():
         return float(np.sum(some.residuals([NOMINAL])[0][0] ** 2))
 
     as_it_is = cost(drifted) - cost(problem)
-    allowed = cost(drifted.drifting(2.0 * sigma)) - cost(problem.drifting(2.0 * sigma))
+    noise = replace(problem.noise, torque_drift_n_mm=2.0 * sigma)
+    allowed = cost(replace(drifted, noise=noise)) - cost(replace(problem, noise=noise))
     assert as_it_is > 100.0
     assert abs(allowed) < 0.1 * as_it_is
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, problem_of
 
-from diagnosis.replay.drift import drift_range_sigma, torque_drift_sigma, with_drift
+from diagnosis.prepare.noise.sensor_noise import TORQUE
+from diagnosis.replay.drift import drift_range_sigma, least_start, torque_drift_sigma, with_drift
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL
 
@@ -33,12 +34,22 @@ def test_without_leave_there_is_no_drift(drifting):
 def test_a_line_is_found_and_belongs_to_what_the_sensor_reads(drifting):
     """Of some hundred samples in each of its shapes, noise leaves 0.1 to 0.3 sigma."""
     problem, line, predictions = drifting
-    log = problem.log.drifting(2.0)
+    log, noise = problem.log, replace(problem.noise, torque_drift_n_mm=2.0 * problem.noise[TORQUE])
     (trial,) = log.trials
-    found = torque_drift_sigma(trial, predictions[0], problem.noise)
+    found = torque_drift_sigma(trial, predictions[0], noise)
     assert np.sqrt(np.mean((found - line) ** 2)) < 0.4
-    assert drift_range_sigma(log, problem.noise, predictions) == pytest.approx(3.0, abs=1.0)
-    (shown,) = with_drift(log, problem.noise, predictions)
+    assert drift_range_sigma(log, noise, predictions) == pytest.approx(3.0, abs=1.0)
+    (shown,) = with_drift(log, noise, predictions)
     moved = shown.base_torque_n_mm - predictions[0].base_torque_n_mm
     np.testing.assert_allclose(moved, problem.noise["base_torque_n_mm"] * found)
     np.testing.assert_array_equal(shown.tip_angle_deg, predictions[0].tip_angle_deg)
+
+
+def test_a_drift_from_zero_starts_there_and_one_beside_an_offset_does_not(drifting):
+    problem, _, predictions = drifting
+    noise = replace(problem.noise, torque_drift_n_mm=problem.noise[TORQUE])
+    (one,) = problem.log.trials
+    raised = {**one.readings, TORQUE: one.readings[TORQUE] + 3.0 * noise[TORQUE]}
+    offset = replace(problem.log, trials=(replace(one, readings=raised),))
+    assert least_start(problem.log, noise, predictions) < 3.0 < least_start(offset, noise, predictions)
+    assert least_start(offset, problem.noise, predictions) == 0.0  # no drift is allowed for

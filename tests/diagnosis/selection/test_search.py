@@ -43,8 +43,11 @@ def test_the_stages_are_these_in_this_order():
         "best_without_each_effect",
         "scatter_of_the_best",
         "finer_mesh",
+        "outliers_beside_the_best",
+        "weakly_coloured_noise",
         "jumps_of_readings",
         "drift_of_the_torque_sensor",
+        "drift_or_offset",
         "best_with_imperfections_in_place",
     ]
 

@@ -10,7 +10,14 @@ from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.verdict import VerdictKind, places, provisional, refuted, verdict_on
+from diagnosis.selection.verdict import (
+    VerdictKind,
+    places,
+    provisional,
+    refuted,
+    verdict_on,
+    with_open_effects,
+)
 
 
 def verdict(*each):
@@ -286,3 +293,25 @@ def test_an_explanation_that_is_refuted_is_unknown_and_stays_the_best():
     assert changed.best is found.best
     assert dict(changed.ranking)["unknown",] == 1.0
     assert changed.other_form == "damping that changes along the shaft"
+
+
+def test_an_effect_that_may_be_hidden_leaves_the_verdict_open_with_half_of_the_probability_each():
+    explained = verdict((["tip_drag"], 100.0))
+    found = with_open_effects(explained, ["torque_bias"])
+    assert found.kind is VerdictKind.UNDECIDED
+    assert found.confusable == (("tip_drag",), ("tip_drag", "torque_bias"))
+    ranking = dict(found.ranking)
+    assert ranking["tip_drag",] == ranking["tip_drag", "torque_bias"] == pytest.approx(0.5)
+    assert sum(ranking.values()) == pytest.approx(1.0)
+    assert with_open_effects(explained, []) is explained
+
+
+def test_beside_the_nominal_rig_the_hidden_effect_would_be_the_only_one():
+    found = with_open_effects(verdict(([], 100.0)), ["torque_bias"])
+    assert found.confusable == ((), ("torque_bias",))
+    assert dict(found.ranking)["torque_bias",] == pytest.approx(0.5)
+
+
+def test_nothing_is_hidden_where_nothing_explains_the_log():
+    above = verdict_on([scored(["tip_drag"], 90.0, floor=NoiseFloor(gap=2.0, slow=5.0))])
+    assert with_open_effects(above, ["torque_bias"]) is above

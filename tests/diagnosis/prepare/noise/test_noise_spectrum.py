@@ -81,3 +81,23 @@ def test_a_small_share_is_no_colour_where_more_is_asked_for():
     parts = trials(6, share=0.35, correlation_time_s=0.1)
     assert noise_colour(parts)[1].share == pytest.approx(0.35, abs=0.1)
     assert noise_colour(parts, least_share=0.5) is None
+
+
+def test_means_of_coloured_readings_are_told_by_what_means_do_to_them():
+    """Of two readings each, of a process that lasts 1.6 steps: a share above 1, and its own time."""
+    parts = [
+        (values_s[::2], values.reshape(-1, 2).mean(axis=1))
+        for values_s, values in trials(7, count=6, share=1.0, correlation_time_s=0.016)
+    ]
+    _, colour = noise_colour(parts, means_of=2)
+    assert colour.share > 1.0
+    assert colour.correlation_time_s == pytest.approx(0.016, rel=0.35)
+    left = np.concatenate([colour.whitened(time_s, values) for time_s, values in parts])
+    both = np.mean(left[1:] * left[:-1]) / np.mean(left**2)
+    assert abs(both) < 4 / np.sqrt(left.size)
+
+
+def test_a_colour_that_shows_less_is_found_if_less_is_asked_for():
+    parts = trials(8, count=3, seconds=12.0, share=0.25, correlation_time_s=0.02)
+    assert noise_colour(parts, least_chi_square=10.0) is not None
+    assert noise_colour(parts, least_chi_square=100.0) is None

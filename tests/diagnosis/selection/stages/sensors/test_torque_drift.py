@@ -4,21 +4,22 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from diagnosis_fixtures import log_of, scored, start_of_search
+from diagnosis_fixtures import log_of, log_with, scored, start_of_search
 
-from diagnosis.criteria import (
-    CONTENDING,
-    DRIFT_RANGE_SIGMA,
-    DRIFT_SIZE_SIGMA,
-    MOST_QUIETENED,
-    NEAR_FLOOR,
-)
+from diagnosis.criteria import CONTENDING, DRIFT_RANGE_SIGMA, MOST_QUIETENED, NEAR_FLOOR
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
-from diagnosis.selection.stages import stage, torque_drift
+from diagnosis.selection.scoring.drift_evidence import noise_of_a_reading_n_mm, widest_drift
+from diagnosis.selection.stages import stage
 from diagnosis.selection.stages.nominal_rig import nominal_rig
-from diagnosis.selection.stages.torque_drift import STAGE, drift_of_the_torque_sensor
+from diagnosis.selection.stages.sensors import torque_drift
+from diagnosis.selection.stages.sensors.torque_drift import (
+    STAGE,
+    drift_of_the_torque_sensor,
+    drift_or_offset,
+)
+from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.workers import Workers
 
 
@@ -47,12 +48,12 @@ def test_a_drift_that_a_sensor_may_have_explains_a_log():
     before, after = searched(drifted(3.5))
     assert not before.best.floor.reached
     assert after.best.floor.reached
-    assert after.problem.log.trials[0].torque_drift_sigma > 0
+    assert after.problem.noise.torque_drift_n_mm > 0
     assert Decision.KEPT in [e.decision for e in after.record if e.stage == STAGE]
 
 
 def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeypatch):
-    monkeypatch.setattr(torque_drift, "_promises", lambda problem, one: True)
+    monkeypatch.setattr(torque_drift, "_promises", lambda *_: True)
     dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0)
     state = nominal_rig(start_of_search(dry, effects=()), Workers())
     after = drift_of_the_torque_sensor(state, Workers())
@@ -69,12 +70,14 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
 
     left = {"torque_bias": 100.0, "tip_drag": 150.0, "stiction": 1.01 * NEAR_FLOOR * 100.0}
     monkeypatch.setattr(stage, "fit_all", fit_all)
-    monkeypatch.setattr(torque_drift, "_cost_with_drift", lambda _, one: left[one.names[0]])
+    cost = lambda one, *_: SimpleNamespace(fit=SimpleNamespace(cost=left[one.names[0]]))  # noqa: E731
+    monkeypatch.setattr(torque_drift, "in_noise", cost)
     state = start_of_search(drifted(3.5), effects=())
     pairs = (scored(["tip_drag", "torque_bias"], 2.0), scored(["torque_bias", "tip_drag"], 1.0))
     singles = [scored([name], score) for name, score in (("stiction", 0.0), ("tip_drag", 9.0))]
+    monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, pairs=pairs, singles=tuple(singles))
-    torque_drift._refitted(state, torque_drift._drifting(state), Workers())
+    torque_drift._searched_again(state, widest_drift(state.problem), Workers())
     enough = 100.0 + CONTENDING
     assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
 
@@ -92,7 +95,7 @@ def test_a_drift_is_as_large_beside_the_noise_of_a_reading_that_means_have_quiet
     """12 sigma of means of nine readings are 4 sigma of one."""
     log = replace(drifted(2.0 * DRIFT_RANGE_SIGMA), means_of=means_of)
     _, after = searched(log)
-    assert bool(after.problem.log.trials[0].torque_drift_sigma) is explained
+    assert bool(after.problem.noise.torque_drift_n_mm) is explained
     assert after.best.floor.reached is explained
 
 
@@ -103,17 +106,56 @@ def test_a_filter_takes_off_noise_but_not_off_a_drift(claimed, told):
     sensors = SimpleNamespace(base_torque_noise_n_mm=claimed)
     log = SimpleNamespace(rig=SimpleNamespace(sensors=sensors), means_of=4)
     problem = SimpleNamespace(log=log, noise={"base_torque_n_mm": 1.0})
-    assert torque_drift._size_n_mm(problem) == pytest.approx(2 * told * DRIFT_SIZE_SIGMA)
+    assert noise_of_a_reading_n_mm(problem) == pytest.approx(2 * told)
+
+
+def moved(*each):
+    """Nominal rigs, the torque of each off by an offset and a line between two sizes, in sigma."""
+    trials = []
+    for offset, first, last in each:
+        (one,) = log_of(NOMINAL, seconds=10.0, seed=len(trials)).trials
+        table = one.table.copy()
+        share = table["time_s"] / table["time_s"].iloc[-1]
+        table["base_torque_n_mm"] += 0.01 * (offset + first + (last - first) * share)
+        trials.append(Trial(name=f"trial_{len(trials) + 1:02d}.csv", table=table))
+    return log_with(*trials)
+
+
+def compared(log):
+    """What the search of a log with the offset of the torque sensor comes to, drift or not."""
+    state = start_of_search(log, effects=("torque_bias",))
+    for step in (nominal_rig, single_effects, drift_of_the_torque_sensor, drift_or_offset):
+        state = step(state, Workers())
+    return state
 
 
 def test_a_constant_offset_is_an_effect_of_the_library_and_no_drift():
-    log = log_of(NOMINAL, seconds=14.0)
-    (one,) = log.trials
-    raised = one.table.assign(base_torque_n_mm=one.table["base_torque_n_mm"] + 1.5 * 0.015)
-    log = replace(log, trials=(Trial(name=one.name, table=raised),))
-    for effects, named in ((("torque_bias",), ("torque_bias",)), ((), ())):
-        state = nominal_rig(start_of_search(log, effects=effects), Workers())
-        assert not state.best.floor.reached
-        after = drift_of_the_torque_sensor(state, Workers())
-        assert after.best.names == named
-        assert (after.problem is state.problem) is bool(named)
+    after = compared(moved((1.5, 0, 0), (1.5, 0, 0)))
+    assert after.best.names == ("torque_bias",)
+    assert after.problem.noise.torque_drift_n_mm == 0.0
+    assert after.open_effects == ()
+
+
+def test_a_drift_that_is_zeroed_before_each_trial_is_no_offset():
+    after = compared(moved((0, 0, 1.5), (0, 0, 1.6)))
+    assert after.best.names == ()
+    assert after.problem.noise.torque_drift_n_mm > 0.0
+    assert after.open_effects == ()
+
+
+def test_an_offset_beside_a_drift_that_is_zeroed_is_told_from_it():
+    after = compared(moved((2.5, 0, 1.5), (2.5, 0, -1.4), (2.5, 0, 1.6)))
+    assert after.best.names == ("torque_bias",)
+    assert after.problem.noise.torque_zeroed
+
+
+def test_a_drift_that_goes_on_from_zero_is_no_offset():
+    after = compared(moved((0, 0, 2), (0, 2, 4)))
+    assert after.best.names == ()
+    assert after.open_effects == ()
+
+
+def test_a_drift_that_begins_off_zero_in_every_trial_may_hide_an_offset():
+    after = compared(moved((3, 0, 2), (3, 2, 4)))
+    assert after.best.names == ()
+    assert after.open_effects == ("torque_bias",)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from diagnosis_fixtures import scored, sets_screened
 
 from diagnosis.criteria import NEAR_FLOOR
-from diagnosis.selection.stages import imperfections as module
+from diagnosis.selection.stages.sensors import imperfections as module
 
 ROUGH = scored(["tip_drag", "tip_clock"], 5.0)
 EFFECTIVE = ("tip_drag", "tip_clock", "torque_clock", "torque_low_pass", "torque_bias")

@@ -13,9 +13,9 @@ from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import BASE, NOMINAL, ReadingJump, RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
-from diagnosis.selection.stages import reading_jumps as module
 from diagnosis.selection.stages.nominal_rig import nominal_rig
-from diagnosis.selection.stages.reading_jumps import STAGE, jumps_of_readings
+from diagnosis.selection.stages.sensors import reading_jumps as module
+from diagnosis.selection.stages.sensors.reading_jumps import STAGE, jumps_of_readings
 from diagnosis.workers import Workers
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"

@@ -1,0 +1,1 @@
+"""Stages about what sensors do beside effects: coloured noise, imperfections, outliers, jumps, drift."""

@@ -1,0 +1,51 @@
+"""The colour of the noise, once an effect is known.
+
+Where that is another, effects are fitted once more, from where they are. Where nothing explains a log,
+and the best leaves little, a colour that shows less is allowed for if it does.
+"""
+
+from dataclasses import replace
+
+from diagnosis.criteria import COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP
+from diagnosis.fitting.noise_reestimation import with_colour
+from diagnosis.selection.record import Decision, dropped, noted
+from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
+from diagnosis.selection.stages.single_effects import single_effects
+from diagnosis.selection.stages.stage import leading_fitted_again, run_stages, stopped_in
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+STAGE, WEAK = "coloured noise", "weakly coloured noise"
+
+
+def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
+    """The noise as the best effect leaves it; where other sensors' is coloured, all once more."""
+    noise = with_colour(state.problem, state.best.fit)
+    if noise.same(state.problem.noise):
+        return state
+    again = state.renoised(noise)
+    if noise.colour.keys() == state.problem.noise.colour.keys():
+        return again
+    out = dropped(STAGE, state.candidates, "the noise has another colour")
+    again = replace(again, candidates=()).noting(*out)
+    again = run_stages((nominal_rig, stiffness_or_damping_alone, single_effects), again, workers)
+    if workers.stop.due and not any(c.names for c in again.candidates):
+        return state.noting(*stopped_in(again.record[len(state.record) :]))  # no effect was fitted
+    return again
+
+
+def weakly_coloured_noise(state: SearchState, workers: Workers) -> SearchState:
+    """The state with noise of a colour that shows less, where only that explains the log."""
+    state, explained = state.rechecked()
+    if explained or state.best.fit.gap > COLOUR_WEAK_GAP:
+        return state
+    asked = replace(state.problem.noise, colour_chi_square=COLOUR_WEAK_CHI_SQUARE)
+    noise = with_colour(replace(state.problem, noise=asked), state.best.fit)
+    if noise.same(state.problem.noise):
+        return state
+    begun = state.renoised(noise)
+    made = leading_fitted_again(WEAK, state, begun.problem, workers)
+    again, explained = replace(begun, candidates=()).adding(made).rechecked()
+    if explained:
+        return again.noting(noted(WEAK, Decision.KEPT, "with it the log is explained"))
+    return state.noting(noted(WEAK, Decision.DROPPED, "no explanation reaches the noise with it"))

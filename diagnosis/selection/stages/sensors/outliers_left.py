@@ -1,0 +1,147 @@
+"""Where nothing explains a log: readings far off the best explanation, whose neighbours are not.
+
+Outliers are looked for before any model is known, beside the samples on both sides. At a low rate, or
+where several are next to each other, that tells too little; beside an explanation they stand alone. They
+are left out if they are few, if that takes off a good part of what is left beyond noise, and if the log
+is explained then. What an unmodelled effect leaves lasts, or comes at every reversal.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import (
+    OUTLIER_LEFT_NEIGHBOURS,
+    OUTLIER_LEFT_QUIET_SIGMA,
+    OUTLIER_LEFT_SHARE,
+    OUTLIER_LEFT_SIGMA,
+    OUTLIER_MOST_LEFT,
+    OUTLIER_MOST_RUN,
+)
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.left_out import LeftOut
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.stages.stage import leading_fitted_again
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+STAGE = "outliers beside the best"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Readings:
+    """Readings of a sensor in a trial beside an explanation.
+
+    Attributes:
+      time_s: (N,).
+      left: residuals / sigma, not whitened, (N,).
+      off: mask of outliers, (N,).
+    """
+
+    trial: str
+    sensor: str
+    time_s: Array
+    left: Array
+    off: Mask
+
+
+def outliers_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """The state without readings that are far off the best, where only that explains the log."""
+    state, explained = state.rechecked()
+    found = [] if explained else _found(state.problem, state.best.fit)
+    if not _promise(state, found):
+        return state
+    begun = _without(state, found)
+    made = leading_fitted_again(STAGE, state, begun.problem, workers)
+    again, explained = begun.adding(made).rechecked()
+    if not explained:
+        return state.noting(
+            noted(STAGE, Decision.DROPPED, "without them the log is not explained either")
+        )
+    return again.noting(noted(STAGE, Decision.KEPT, "without them the log is explained"))
+
+
+def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
+    """The readings beside a fit, in the order of its residuals."""
+    plain = in_units_of(problem, fit.by_trial, problem.noise.uncoloured)
+    each = zip(problem.log.trials, by_trial_and_sensor(problem, plain), strict=True)
+    return [
+        _Readings(trial=trial.name, sensor=sensor, time_s=time_s, left=left, off=outlying(left))
+        for trial, parts in each
+        for sensor, time_s, left in parts
+    ]
+
+
+def outlying(left: Array) -> Mask:
+    """Mask of residuals that are far off in short runs, with quiet neighbours on both sides, (N,).
+
+    Args:
+      left: residuals / sigma, (N,).
+    """
+    far = np.abs(left) > OUTLIER_LEFT_SIGMA
+    rows = np.zeros(left.size, bool)
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], far.astype(np.int8), [0])))).reshape(-1, 2)
+    for start, end in edges[edges[:, 1] - edges[:, 0] <= OUTLIER_MOST_RUN]:
+        beside = (
+            left[max(start - OUTLIER_LEFT_NEIGHBOURS, 0) : start],
+            left[end : end + OUTLIER_LEFT_NEIGHBOURS],
+        )
+        enough = all(side.size == OUTLIER_LEFT_NEIGHBOURS for side in beside)
+        if enough and np.abs(np.concatenate(beside)).max() < OUTLIER_LEFT_QUIET_SIGMA:
+            rows[start:end] = True
+    return rows
+
+
+def _promise(state: SearchState, found: Sequence[_Readings]) -> bool:
+    """Whether outliers are few, and a good part of what is left beyond noise."""
+    fit = state.best.fit
+    few = all(one.off.sum() <= max(OUTLIER_MOST_LEFT * one.off.size, 1.0) for one in found)
+    squares = sum(float(np.sum(one.left[one.off] ** 2)) for one in found)
+    return few and squares > OUTLIER_LEFT_SHARE * max(fit.cost - fit.prior - fit.samples, 0.0)
+
+
+def _without(state: SearchState, found: Sequence[_Readings]) -> SearchState:
+    """The state of a log without outliers, to which nothing has been fitted but the nominal rig."""
+    left_out = [
+        LeftOut(trial=one.trial, sensor=one.sensor, times_s=one.time_s[one.off], samples=one.off.size)
+        for one in found
+        if one.off.any()
+    ]
+    trials = state.problem.log.trials
+    problem = replace(
+        state.problem, log=replace(state.problem.log, trials=tuple(_less(t, left_out) for t in trials))
+    )
+    kept = [~np.concatenate([one.off for one in found if one.trial == trial.name]) for trial in trials]
+    nominal = _of_rows(state.nominal, kept)
+    return replace(
+        state,
+        problem=problem,
+        nominal=nominal,
+        candidates=(candidate(nominal),),
+        checked=None,
+        left_out=(*state.left_out, *left_out),
+    )
+
+
+def _less(trial: PreparedTrial, left_out: Sequence[LeftOut]) -> PreparedTrial:
+    """The trial without readings that are left out."""
+    own = {one.sensor: one for one in left_out if one.trial == trial.name}
+    less = {sensor: one.without(trial.time_s, trial.readings[sensor]) for sensor, one in own.items()}
+    return replace(trial, readings={**trial.readings, **less})
+
+
+def _of_rows(fit: Fit, kept: Sequence[Mask]) -> Fit:
+    """The fit with some rows of its residuals only, by trial."""
+    left = tuple(own[rows] for own, rows in zip(fit.by_trial, kept, strict=True))
+    slopes = tuple(own[rows] for own, rows in zip(fit.jacobian, kept, strict=True))
+    cost = sum(float(own @ own) for own in left) + fit.prior
+    return replace(fit, by_trial=left, jacobian=slopes, cost=cost)

@@ -1,0 +1,74 @@
+"""All begins again where an effect shows noise of another colour."""
+
+from dataclasses import replace
+
+import numpy as np
+from diagnosis_fixtures import TIP, log_of, start_of_search
+from scipy.signal import lfilter
+
+from diagnosis.criteria import COLOUR_CHI_SQUARE
+from diagnosis.fitting.noise_reestimation import rescaled
+from diagnosis.log.trial import Trial
+from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.stages.sensors import coloured_noise as module
+from diagnosis.workers import Workers
+
+
+def test_a_search_begins_again_where_the_best_effect_leaves_another_colour(dry_start, monkeypatch):
+    """Noise that was taken for coloured beside dry friction, and is white once that is known."""
+    sigma = dry_start.problem.noise.sigma
+    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    noise = replace(dry_start.problem.noise, colour=colour)
+    start = replace(
+        dry_start,
+        effects=("coulomb_friction",),
+        nominal=rescaled(dry_start.nominal, dry_start.problem, noise),
+        problem=replace(dry_start.problem, noise=noise),
+        coarse=replace(dry_start.coarse, noise=replace(dry_start.coarse.noise, colour=colour)),
+    )
+    monkeypatch.setattr(module, "with_colour", lambda problem, _: replace(problem.noise, colour={}))
+    begun = module.single_effects(module.nominal_rig(start, Workers()), Workers())
+    again = module.coloured_noise(begun, Workers())
+    assert again.problem.noise.colour == again.coarse.noise.colour == {}
+    assert again.problem.noise.sigma == sigma
+    np.testing.assert_allclose(again.nominal.by_trial[0], dry_start.nominal.by_trial[0], atol=1e-9)
+    dropped = [e for e in again.record if e.stage == "coloured noise"]
+    assert [e.effects for e in dropped] == [c.names for c in begun.candidates]
+    # Where the colours are the same, nothing is done.
+    assert module.coloured_noise(again, Workers()) is again
+
+
+def weakly_coloured(share):
+    """A nominal rig whose tip has noise that is correlated in part, over 50 ms."""
+    log = log_of(NOMINAL, seconds=30.0)
+    (one,) = log.trials
+    rng, size = np.random.default_rng(1), len(one.table)
+    kept = np.exp(-0.01 / 0.05)
+    slow = lfilter([np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=size))
+    more = TIP * np.sqrt(share / (1 - share)) * slow
+    table = one.table.assign(tip_angle_deg=one.table["tip_angle_deg"] + more)
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def test_a_colour_that_shows_less_is_allowed_for_where_only_that_explains_the_log(monkeypatch):
+    """As if the first look had asked for more than any noise shows."""
+    log = weakly_coloured(0.25)
+    state = module.nominal_rig(start_of_search(log, effects=()), Workers())
+    plain = replace(state.problem.noise, colour={}, colour_chi_square=np.inf)
+    plain = replace(plain, sigma={**plain.sigma, "tip_angle_deg": TIP})
+    state = state.renoised(plain)
+    assert not state.rechecked()[1]
+    after = module.weakly_coloured_noise(state, Workers())
+    assert after.rechecked()[1]
+    assert set(after.problem.noise.colour) == {"tip_angle_deg"}
+    assert after.problem.noise.colour_chi_square < COLOUR_CHI_SQUARE
+    assert module.weakly_coloured_noise(after, Workers()).problem is after.problem  # it is explained
+
+
+def test_what_an_effect_leaves_is_no_noise():
+    dry = log_of(RigParameters(kinetic_n_mm_per_mm=3e-5), speed=-1.0, seconds=30.0)
+    state = module.nominal_rig(start_of_search(dry, effects=()), Workers())
+    after = module.weakly_coloured_noise(state, Workers())
+    assert not state.best.floor.reached
+    assert after.problem.noise.colour == state.problem.noise.colour

@@ -1,0 +1,91 @@
+"""Readings far off the best explanation are left out, where only that explains a log."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import log_of, start_of_search
+
+from diagnosis.log.trial import Trial
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.record import Decision
+from diagnosis.selection.stages.nominal_rig import nominal_rig
+from diagnosis.selection.stages.sensors.outliers_left import (
+    STAGE,
+    outliers_beside_the_best,
+    outlying,
+)
+from diagnosis.workers import Workers
+
+TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
+
+
+def off(log, rows, sigmas, column=TORQUE, sigma=0.01):
+    (one,) = log.trials
+    table = one.table.copy()
+    table.loc[rows, column] += sigma * np.asarray(sigmas, float)
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def searched(log):
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    return state, outliers_beside_the_best(state, Workers())
+
+
+def decisions(state):
+    return [e.decision for e in state.record if e.stage == STAGE and e.score is None]
+
+
+def test_outliers_beside_the_best_are_left_out_and_told():
+    """Four in a row, of two pairs, and one alone."""
+    log = off(log_of(NOMINAL, seconds=12.0), [700, 701, 702, 703, 1100], [17, 16, 11, 10, -30])
+    before, after = searched(log)
+    assert not before.best.floor.reached
+    assert after.best.floor.reached
+    assert decisions(after) == [Decision.KEPT]
+    (told,) = after.left_out
+    np.testing.assert_allclose(told.times_s, [7.0, 7.01, 7.02, 7.03, 11.0])
+    assert (told.sensor, told.samples) == (TORQUE, 1200)
+    (trial,) = after.problem.log.trials
+    assert np.isnan(trial.readings[TORQUE]).sum() == 5
+    assert after.best.fit.by_trial[0].size == before.best.fit.by_trial[0].size - 5
+
+
+def test_a_log_that_is_explained_is_left_alone():
+    before, after = searched(log_of(NOMINAL, seconds=12.0))
+    assert after.problem is before.problem
+    assert after.left_out == ()
+    assert decisions(after) == []
+
+
+def test_what_an_effect_leaves_is_no_outlier():
+    before, after = searched(log_of(RigParameters(kinetic_n_mm_per_mm=0.001), seconds=12.0))
+    assert not before.best.floor.reached
+    assert after.left_out == ()
+
+
+def test_outliers_that_do_not_explain_the_log_stay_in_it():
+    """A step of the reading besides, of 0.3 sigma."""
+    log = off(log_of(NOMINAL, seconds=12.0), [1100], [-60])
+    log = off(log, slice(400, None), 0.8)
+    before, after = searched(log)
+    assert after.problem is before.problem
+    assert after.left_out == ()
+    assert decisions(after) == [Decision.DROPPED]
+
+
+@pytest.mark.parametrize(
+    ("far", "found"),
+    [
+        ({50: 8.0}, {50}),
+        ({50: 8.0, 51: -7.0}, {50, 51}),
+        ({50: 8.0, 52: 4.0}, set()),  # a neighbour is off as well
+        (dict.fromkeys(range(50, 57), 8.0), set()),  # it lasts
+        ({0: 8.0, 99: 8.0}, set()),  # nothing on one side
+        ({50: 4.9}, set()),
+    ],
+)
+def test_only_short_runs_with_quiet_neighbours_are_outliers(far, found):
+    left = np.random.default_rng(0).uniform(-1.5, 1.5, 100)
+    left[list(far)] = list(far.values())
+    assert set(np.flatnonzero(outlying(left)).tolist()) == found
