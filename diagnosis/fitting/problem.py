@@ -81,9 +81,13 @@ class FitProblem:
     def read_again(self, rng: np.random.Generator) -> "FitProblem":
         """The problem with a motion of the base that was read by its encoder and smoothed once more."""
         sigma_deg = self.noise["base_angle_deg"]
+        step_deg = float(np.sqrt(12.0)) * self.log.rounded.get("base_angle_deg", 0.0)
 
         def motion_deg(trial: PreparedTrial) -> Array:
-            read = trial.base_motion_deg + rng.normal(0.0, sigma_deg, trial.time_s.size)
+            if step_deg:
+                read = _rounded(trial.base_motion_deg, step_deg, rng.uniform())
+            else:
+                read = trial.base_motion_deg + rng.normal(0.0, sigma_deg, trial.time_s.size)
             return smooth_base(trial.time_s, read, sigma_deg)
 
         return self._moving(motion_deg)
@@ -104,3 +108,8 @@ class FitProblem:
     def _moving(self, motion_deg: Callable[[PreparedTrial], Array]) -> "FitProblem":
         trials = tuple(replace(trial, base_motion_deg=motion_deg(trial)) for trial in self.log.trials)
         return replace(self, log=replace(self.log, trials=trials))
+
+
+def _rounded(values: Array, step: float, phase: float) -> Array:
+    """Values in steps, of which one is at `phase` steps."""
+    return step * (np.round(values / step - phase) + phase)

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import label
 
 from diagnosis.criteria import (
     BELIEVED_SCATTER,
@@ -81,9 +82,7 @@ def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
     """
     time, having = trial["time_s"], [name for name in noise if trial.has(name)]
     found = {n: find_outliers(time, trial[n], _outlier_scale(trial[n], noise[n])) for n in having}
-    row = np.arange(time.size)
-    ends = (row < AT_AN_END) | (row >= time.size - AT_AN_END)
-    found[BASE] = found[BASE].without(ends, trial[BASE])
+    found[BASE] = found[BASE].without(_from_an_end(found[BASE].rows), trial[BASE])
     base = found[BASE].rows
     answers = np.logical_or.reduce(
         [off.rows for name, off in found.items() if name != BASE] or [base & False]
@@ -93,6 +92,14 @@ def _outliers(trial: Trial, noise: Mapping[str, float]) -> dict[str, Outliers]:
         return found
     near = _beside(pulses)
     return {name: off.without(near, trial[name]) for name, off in found.items()}
+
+
+def _from_an_end(rows: Mask) -> Mask:
+    """The first and last samples, and those outliers that reach as far as these."""
+    row = np.arange(rows.size)
+    ends = (row < AT_AN_END) | (row >= rows.size - AT_AN_END)
+    reached, _ = label(rows | ends)
+    return np.asarray(np.isin(reached, reached[ends]))
 
 
 def _beside(rows: Mask) -> Mask:

@@ -102,7 +102,8 @@ class Candidate:
         Beside a stiff or sticking element near the base it comes back as torque, and slowly so; and so
         does what smoothing rounds off the motion. Of some readings of the encoder the worst counts.
         """
-        if self.floor.reached or self.floor.gap > BASE_NOISE_GAP or not self.names:
+        shifts = self.shift > self.shift_limit
+        if (self.floor.reached and not shifts) or self.floor.gap > BASE_NOISE_GAP or not self.names:
             return self
         floor, shift_limit, worst = self.floor, self.shift_limit, NoiseFloor(gap=0.0, slow=0.0)
         for own in self._base_noise_changes(problem):

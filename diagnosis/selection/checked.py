@@ -58,7 +58,8 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
 
 def _checked(one: Candidate, problem: FitProblem) -> Candidate:
     try:
-        return _completed(one.allowing_base_noise(problem), problem).cross_validated(problem)
+        found = _completed(one.allowing_base_noise(problem), problem).cross_validated(problem)
+        return found.allowing_base_noise(problem)
     except SimulationFailed:
         return one.cross_validated(problem)  # with another motion it cannot be simulated
 

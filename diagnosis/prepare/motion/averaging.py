@@ -4,10 +4,14 @@ The motion of a needle takes a hundredth of a second and longer, and a replay ta
 Means over windows of a hundredth of a second keep the information: the mean of n samples with white
 noise has the standard deviation sigma / sqrt(n). The mean response in a window belongs to the mean
 of its inputs, so base angle, lengths and torques are all averaged. The first and the last sample are
-kept, so that the motion of the base begins and ends where it did; their sensor readings are left out.
+kept, so that the motion of the base begins and ends where it did; their sensor readings are left out,
+and those of the last window, which may be a part of one: its motion is noisier.
+Of readings in coarse steps, whose error is that of rounding and lasts, a mean is no better than the
+median, which is on a step.
 """
 
 import math
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +22,7 @@ from diagnosis.criteria import AVERAGED_ABOVE_HZ, AVERAGED_LEAST_SHARE, AVERAGIN
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.prepare.noise.rounding import steps_of
 
 Array = NDArray[np.float64]
 
@@ -32,10 +37,11 @@ def averaged(log: RigLog) -> RigLog:
         f"{1 / step_s:.0f} samples a second: means of {count} samples are diagnosed; predictions in the "
         "report are at the samples of the log"
     )
+    coarse = steps_of(log.rig, log.trials)
     return replace(
         log,
         rig=_quieter(log.rig, count),
-        trials=tuple(_means(trial, count * step_s, count) for trial in log.trials),
+        trials=tuple(_means(trial, count * step_s, count, coarse) for trial in log.trials),
         warnings=(*log.warnings, said),
         means_of=count,
     )
@@ -48,18 +54,23 @@ def _quieter(rig: NominalRig, count: int) -> NominalRig:
     return rig.model_copy(update={"sensors": sensors})
 
 
-def _means(trial: Trial, window_s: float, count: int) -> Trial:
-    """Means over windows that have at least half of their samples."""
+def _means(trial: Trial, window_s: float, count: int, coarse: Collection[str]) -> Trial:
+    """Means over windows that have at least half of their samples; medians of coarse columns."""
     time = trial["time_s"]
     window = np.floor((time - time[0]) / window_s + 0.5 / count).astype(int)
     columns = {str(name): _without_holes(time, trial[str(name)]) for name in trial.table}
     grouped = pd.DataFrame(columns).groupby(window)
     means = grouped.mean()
+    for name in coarse:
+        lower, higher = (grouped[name].quantile(interpolation=side) for side in ("lower", "higher"))
+        means[name] = lower.where(means.index % 2 == 0, higher)  # of an even number of readings
     read = trial.table.notna().groupby(window).sum()
     enough = read >= AVERAGED_LEAST_SHARE * count
     table = means.where(enough)[enough["time_s"]]
+    sensors = [sensor for sensor in SENSORS if sensor in table]
     ends = trial.table.iloc[[0, -1]].copy()
-    ends[[sensor for sensor in SENSORS if sensor in ends]] = np.nan
+    ends[sensors] = np.nan
+    table.loc[table.index == window[-1], sensors] = np.nan
     inside = (table["time_s"] > time[0]) & (table["time_s"] < time[-1])
     table = pd.concat([ends.iloc[:1], table[inside], ends.iloc[1:]], ignore_index=True)
     return replace(trial, table=table, rows=trial.file_rows)

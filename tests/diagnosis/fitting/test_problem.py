@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from diagnosis_fixtures import joined, log_of, problem_of
 
 from diagnosis.fitting.problem import FitProblem
@@ -43,6 +44,23 @@ def test_a_motion_that_is_read_again_is_off_by_what_smoothing_leaves_of_the_nois
     assert isinstance(again, FitProblem)
     off = again.log.trials[0].base_motion_deg - problem.log.trials[0].base_motion_deg
     assert 0.0 < np.sqrt(np.mean(off**2)) < sigma
+
+
+def test_a_coarse_encoder_reads_a_rest_off_by_one_rounding_error():
+    """Up to half a step, the same for all of the rest, and uniform: step / sqrt(12)."""
+    step, rng = 0.5, np.random.default_rng(0)
+    quiet = problem_of(log_of(NOMINAL, seconds=4.0))
+    log = replace(quiet.log, rounded={"base_angle_deg": step / np.sqrt(12)})
+    noise = replace(quiet.noise, sigma={**quiet.noise.sigma, "base_angle_deg": step / np.sqrt(12)})
+    problem = replace(quiet, log=log, noise=noise)
+    rests = problem.log.trials[0].time_s < 0.5
+    offs = []
+    for _ in range(40):
+        again = problem.read_again(rng).log.trials[0].base_motion_deg[rests]
+        assert np.ptp(again) < 1e-9
+        offs.append(again[0] - problem.log.trials[0].base_motion_deg[0])
+    assert np.abs(offs).max() <= 0.5 * step
+    assert np.std(offs) == pytest.approx(step / np.sqrt(12), rel=0.25)
 
 
 def test_a_torque_that_may_drift_does_not_count_a_line_of_its_size():

@@ -218,6 +218,19 @@ def test_trials_that_the_noise_of_the_encoder_sets_apart_may_shift_by_more():
     assert stuck.allowing_base_noise(problem).shift_limit == SHIFT_LIMIT  # one trial cannot shift
 
 
+def test_a_shift_of_held_out_trials_alone_asks_for_what_the_noise_of_the_encoder_allows():
+    stuck, problem = above_the_floor(
+        RigParameters(drive_friction_n_mm=0.5), "drive_friction", np.log(0.5)
+    )
+    slopes = tuple(np.ones((r.size, stuck.fit.x.size)) for r in stuck.fit.by_trial)
+    two = replace(stuck.fit, by_trial=stuck.fit.by_trial * 2, jacobian=slopes * 2)
+    pair = replace(problem, log=replace(problem.log, trials=problem.log.trials * 2))
+    reached = replace(stuck, fit=two, floor=NoiseFloor(gap=1.0, slow=1.0))
+    assert reached.allowing_base_noise(pair) is reached
+    shifted = replace(reached, shift=SHIFT_LIMIT + 1.0)
+    assert shifted.allowing_base_noise(pair).shift_limit > SHIFT_LIMIT + 1.0
+
+
 def test_a_soft_needle_excuses_nothing():
     rig = RigParameters(tip_drag_n_mm_s_per_rad=0.05)
     one, problem = above_the_floor(rig, "tip_drag", np.log(0.05))

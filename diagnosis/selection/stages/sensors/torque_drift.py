@@ -41,10 +41,10 @@ def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchSt
     if explained:
         return state
     leading = leading_on_the_log(state)
-    noise = widest_drift(state.problem)
-    if not any(_promises(state, noise, c) for c in leading):
+    widest = widest_drift(state.problem)
+    if not any(_promises(state, widest, c) for c in leading):
         return state
-    again, explained = _searched_again(state, noise, workers).rechecked()
+    again, explained = _searched_again(state, widest, workers).rechecked()
     if not explained:
         return state.noting(_dropped(STAGE, "no explanation reaches the noise with it"))
     most = _range_sigma(again)
@@ -128,10 +128,11 @@ def _searched_again(state: SearchState, noise: Noise, workers: Workers) -> Searc
     reason = "it would remove most of the remaining residual"
     drifting = state.renoised(noise).noting(noted(STAGE, Decision.KEPT, reason))
     start = replace(drifting, candidates=(), singles=(), pairs=(), triples=())
-    contenders = [*leading_sets(state.singles), *leading_sets(state.pairs)]
-    costs = [in_noise(c, state.coarse, start.coarse.noise).fit.cost for c in contenders]
-    least = min(costs, default=float("inf"))
-    near = [c for c, cost in zip(contenders, costs, strict=True) if cost <= NEAR_FLOOR * least]
+    noise = start.coarse.noise
+    sets = ([in_noise(c, state.coarse, noise) for c in own] for own in (state.singles, state.pairs))
+    contenders = [c for own in sets for c in leading_sets(own)]
+    least = min((c.fit.cost for c in contenders), default=float("inf"))
+    near = [c for c in contenders if c.fit.cost <= NEAR_FLOOR * least]
     calls = [(start.coarse, c.names, c.fit.x, least + CONTENDING) for c in near]
     return fitted_again(STAGE, start, calls, workers)
 

@@ -22,7 +22,7 @@ def test_ten_samples_become_one_with_a_third_of_the_noise():
     log = averaged(fast())
     (one,) = log.trials
     assert np.median(np.diff(one["time_s"])) == pytest.approx(0.01)
-    noise = (one["tip_angle_deg"] - 3.0 * one["time_s"])[1:-1]
+    noise = (one["tip_angle_deg"] - 3.0 * one["time_s"])[1:-2]
     # 1200 means: their scatter is known to 2 %.
     assert np.std(noise) == pytest.approx(TIP / np.sqrt(10), rel=0.07)
     assert log.rig.sensors.tip_angle_noise_deg == pytest.approx(TIP / np.sqrt(10))
@@ -35,6 +35,7 @@ def test_the_motion_begins_and_ends_where_it_did():
         assert one["time_s"][row] == read["time_s"][row]
         assert one["base_angle_deg"][row] == read["base_angle_deg"][row]
         assert np.isnan(one["tip_angle_deg"][row])
+    assert np.isnan(one["tip_angle_deg"][-2])  # of a window that may be a part of one
     there = np.interp(one["time_s"], read["time_s"], read["base_angle_deg"])
     # A corner of 150 deg/s is cut by an eighth of what turns in a window.
     assert np.abs(one["base_angle_deg"] - there).max() <= 150 * 0.01 / 8 + BASE
@@ -44,6 +45,19 @@ def test_the_rows_of_the_file_are_kept():
     rows = averaged(fast()).trials[0].file_rows
     np.testing.assert_array_equal(rows.stamps_s, fast().trials[0]["time_s"])
     np.testing.assert_array_equal(rows.taken_s, rows.stamps_s)
+
+
+def test_readings_in_coarse_steps_stay_on_their_steps():
+    """Means of them would lie between, and look like readings in steps of a tenth."""
+    log, step = fast(), 0.25
+    (one,) = log.trials
+    coarse = one.table.assign(base_angle_deg=step * np.round(one["base_angle_deg"] / step))
+    (found,) = averaged(log_with(Trial(name=one.name, table=coarse))).trials
+    steps = found["base_angle_deg"] / step
+    np.testing.assert_allclose(steps, np.round(steps), atol=1e-9)
+    off = found["base_angle_deg"] - averaged(log).trials[0]["base_angle_deg"]
+    assert np.abs(off).max() < 1.5 * 150 * 0.01 + step
+    assert np.abs(np.mean(off)) < 0.5 * step
 
 
 def test_missing_readings_do_not_move_a_mean():

@@ -70,8 +70,11 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
 
     left = {"torque_bias": 100.0, "tip_drag": 150.0, "stiction": 1.01 * NEAR_FLOOR * 100.0}
     monkeypatch.setattr(stage, "fit_all", fit_all)
-    cost = lambda one, *_: SimpleNamespace(fit=SimpleNamespace(cost=left[one.names[0]]))  # noqa: E731
-    monkeypatch.setattr(torque_drift, "in_noise", cost)
+
+    def in_noise(one, *_):
+        return replace(one, fit=replace(one.fit, cost=left[one.names[0]]))
+
+    monkeypatch.setattr(torque_drift, "in_noise", in_noise)
     state = start_of_search(drifted(3.5), effects=())
     pairs = (scored(["tip_drag", "torque_bias"], 2.0), scored(["torque_bias", "tip_drag"], 1.0))
     singles = [scored([name], score) for name, score in (("stiction", 0.0), ("tip_drag", 9.0))]
