@@ -438,10 +438,10 @@ MOST_QUIETENED = 4.0
 """Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
-FAULT_CONTENDERS = 12
+FAULT_CONTENDERS, FAULT_PAIRS = 12, 4
 """Leading explanations of the decimated log that are fitted with a drift, or with jumps of a reading;
 half of them single effects: without it these leave more than any pair of which one effect does what it
-does."""
+does; and how many pairs with the leading one that have not led without it."""
 JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
 allowed for; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.

@@ -4,12 +4,20 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from diagnosis.criteria import FAULT_CONTENDERS, FINALISTS, NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
+from diagnosis.criteria import (
+    FAULT_CONTENDERS,
+    FAULT_PAIRS,
+    FINALISTS,
+    NEAR_FLOOR,
+    SECOND_LEAVES,
+    WORTH_THE_LOG,
+)
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.fitting import Made, fit_all, fit_finalists
 from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, not_fitted
+from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Failure, Task, Workers
@@ -127,14 +135,22 @@ def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, wo
 
 
 def fitted_again(
-    stage: str, start: SearchState, calls: Sequence[tuple[Any, ...]], workers: Workers
+    stage: str,
+    start: SearchState,
+    calls: Sequence[tuple[Any, ...]],
+    workers: Workers,
+    pairs: Sequence[Screened] = (),
 ) -> SearchState:
     """The state of a log of which more is allowed for, with the contenders of the one before.
 
     Args:
       calls: of `fit_in_turn`, on the decimated log.
+      pairs: screened there, of which the most promising are fitted as well.
     """
     coarse, record = fit_all(stage, calls, workers)
+    new, more = fit_screened(stage, start.coarse, pairs, FAULT_PAIRS, workers)
+    known = {frozenset(c.names) for c in coarse}
+    coarse, record = [*coarse, *(c for c in new if frozenset(c.names) not in known)], (*record, *more)
     begun = start.adding(([candidate(start.nominal)], record))
     begun = begun.adding(fit_all(stage, [(start.problem, ())], workers))
     if not coarse:

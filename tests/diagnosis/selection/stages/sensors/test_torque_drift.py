@@ -85,6 +85,23 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
     assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
 
 
+def test_pairs_with_the_leading_effect_that_a_drift_may_have_hidden_are_screened(monkeypatch):
+    asked = []
+
+    def screen_all(_, calls, __):
+        asked.extend((base.names, name) for _, base, name in calls)
+        return [], ()
+
+    monkeypatch.setattr(torque_drift, "screen_all", screen_all)
+    monkeypatch.setattr(torque_drift, "in_noise", lambda one, *_: one)
+    monkeypatch.setattr(torque_drift, "fitted_again", lambda *_: _)
+    state = start_of_search(drifted(3.5), effects=("tip_drag", "stiction", "torque_bias"))
+    monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
+    state = replace(state, singles=(scored(["stiction"], 5.0), scored(["tip_drag"], 1.0)))
+    torque_drift._searched_again(state, widest_drift(state.problem), Workers())
+    assert asked == [(("tip_drag",), "stiction"), (("tip_drag",), "torque_bias")]
+
+
 def test_a_drift_of_no_working_sensor_explains_nothing():
     before, after = searched(drifted(4 * DRIFT_RANGE_SIGMA))
     assert after.problem is before.problem
