@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from diagnosis.criteria import NESTED_LEAD, NOMINAL_LEAD, SIMPLE_LEAD
+from diagnosis.criteria import NESTED_LEAD, NOMINAL_LEAD, PART_LEAD, SHIFT_LIMIT, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
@@ -63,7 +63,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first.
 
     One whose parameters are at a bound, or as good as none, explains nothing; but where it leads what
-    does, that is open. And so it is where a part of it is likelier, but above the floor by a hair.
+    does, that is open. And so it is where a part of it is likelier, but above the floor by a hair, or is
+    hardly less likely and only shifts from trial to trial.
     """
     at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
@@ -79,6 +80,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
     leading = [c for c in candidates if c.score < reached and _alike(best, c)]
     refused = [c for c in leading if c.refused_for_values or _is_part(c, best)]
+    refused += [c for c in candidates if c not in alike and _shifts_without(c, best, reached)]
     rivals = sorted((*refused, *alike), key=lambda c: _less_likely(best, c, reached))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
     if rivals and not (best.named and all(_less_likely(best, c, reached) for c in rivals)):
@@ -205,6 +207,16 @@ def _alike(best: Candidate, other: Candidate) -> bool:
 def _is_part(one: Candidate, best: Candidate) -> bool:
     """Whether it is the best without some of its effects, and not at the noise floor."""
     return {*one.names} < {*best.names} and not one.floor.reached
+
+
+def _shifts_without(one: Candidate, best: Candidate, reached: float) -> bool:
+    """Whether it is a part of the best, at the floor, that hardly leads but by what trials tell apart.
+
+    Args:
+      reached: score of the best.
+    """
+    part = {*one.names} < {*best.names} and one.floor.reached and _says(one) != ()
+    return part and one.shift > SHIFT_LIMIT and one.score - reached <= PART_LEAD
 
 
 def _less_likely(best: Candidate, other: Candidate, reached: float) -> bool:

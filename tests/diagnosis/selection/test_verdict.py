@@ -315,3 +315,19 @@ def test_beside_the_nominal_rig_the_hidden_effect_would_be_the_only_one():
 def test_nothing_is_hidden_where_nothing_explains_the_log():
     above = verdict_on([scored(["tip_drag"], 90.0, floor=NoiseFloor(gap=2.0, slow=5.0))])
     assert with_open_effects(above, ["torque_bias"]) is above
+
+
+@pytest.mark.parametrize(
+    ("shift", "lead", "kind"),
+    [
+        (20.0, 21.0, VerdictKind.UNDECIDED),
+        (20.0, 40.0, VerdictKind.EXPLAINED),
+        (1.0, 21.0, VerdictKind.EXPLAINED),
+    ],
+)
+def test_a_part_that_only_shifts_from_trial_to_trial_has_to_be_led_by_more(shift, lead, kind):
+    both = scored(["tip_angle_bias", "layered_tissue"], 100.0)
+    alone = scored(["tip_angle_bias"], 100.0 + lead, shift=shift)
+    found = verdict_on([both, alone])
+    assert found.kind is kind
+    assert (("tip_angle_bias",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
