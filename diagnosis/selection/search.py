@@ -5,8 +5,8 @@ log; the best of these are then fitted on the log itself. If none of them brings
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is.
-What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, readings
-may jump, and the torque may drift.
+What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, outliers
+may be left, noise may be weakly coloured, the torque may drift, and readings may jump.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -54,9 +54,9 @@ STAGES: tuple[Stage, ...] = (
     finer_mesh,
     outliers_beside_the_best,
     weakly_coloured_noise,
-    jumps_of_readings,
     drift_of_the_torque_sensor,
     drift_or_offset,
+    jumps_of_readings,
     best_with_imperfections_in_place,
 )
 

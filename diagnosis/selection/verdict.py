@@ -79,7 +79,9 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
     leading = [c for c in candidates if c.score < reached and _alike(best, c)]
-    refused = [c for c in leading if c.refused_for_values or _is_part(c, best)]
+    refused = [
+        c for c in leading if c.refused_for_values or _is_part(c, best) or _is_richer_but_shifts(c, best)
+    ]
     refused += [c for c in candidates if c not in alike and _shifts_without(c, best, reached)]
     rivals = sorted((*refused, *alike), key=lambda c: _less_likely(best, c, reached))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
@@ -207,6 +209,12 @@ def _alike(best: Candidate, other: Candidate) -> bool:
 def _is_part(one: Candidate, best: Candidate) -> bool:
     """Whether it is the best without some of its effects, and not at the noise floor."""
     return {*one.names} < {*best.names} and not one.floor.reached
+
+
+def _is_richer_but_shifts(one: Candidate, best: Candidate) -> bool:
+    """Whether it is a richer form of the best that would explain the log, but for shifting trials."""
+    richer = _nested(best, one) and best.fit.size < one.fit.size
+    return richer and one.floor.reached and one.shift > one.shift_limit
 
 
 def _shifts_without(one: Candidate, best: Candidate, reached: float) -> bool:

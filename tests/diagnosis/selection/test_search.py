@@ -45,9 +45,9 @@ def test_the_stages_are_these_in_this_order():
         "finer_mesh",
         "outliers_beside_the_best",
         "weakly_coloured_noise",
-        "jumps_of_readings",
         "drift_of_the_torque_sensor",
         "drift_or_offset",
+        "jumps_of_readings",
         "best_with_imperfections_in_place",
     ]
 

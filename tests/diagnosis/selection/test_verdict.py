@@ -331,3 +331,12 @@ def test_a_part_that_only_shifts_from_trial_to_trial_has_to_be_led_by_more(shift
     found = verdict_on([both, alone])
     assert found.kind is kind
     assert (("tip_angle_bias",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
+
+
+def test_a_likelier_richer_form_that_only_shifts_is_open():
+    """Rough stick and slip differs from trial to trial; what it contains is then no certain answer."""
+    simple = scored(["coulomb_friction"], 151.0)
+    richer = scored(["stiction"], 100.0, shift=33.0)
+    assert verdict_on([richer, simple]).kind is VerdictKind.UNDECIDED
+    unrelated = scored(["tip_drag"], 100.0, shift=33.0)
+    assert verdict_on([unrelated, simple]).kind is VerdictKind.EXPLAINED
