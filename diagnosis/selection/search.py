@@ -22,7 +22,11 @@ from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_ne
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
 from diagnosis.selection.stages.richer_effects import richer_effects, richer_effects_in_place_of_three
-from diagnosis.selection.stages.sensors.coloured_noise import coloured_noise, weakly_coloured_noise
+from diagnosis.selection.stages.sensors.coloured_noise import (
+    coloured_noise,
+    noise_of_the_best,
+    weakly_coloured_noise,
+)
 from diagnosis.selection.stages.sensors.imperfections import one_more_imperfection
 from diagnosis.selection.stages.sensors.outliers_left import outliers_beside_the_best
 from diagnosis.selection.stages.sensors.reading_jumps import jumps_of_readings
@@ -48,6 +52,7 @@ STAGES: tuple[Stage, ...] = (
     three_effects,
     richer_effects_in_place_of_three,
     best_to_its_end,
+    noise_of_the_best,
     best_with_imperfections_in_place,
     best_without_each_effect,
     scatter_of_the_best,

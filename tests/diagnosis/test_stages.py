@@ -26,7 +26,7 @@ def test_names_are_those_of_the_search(module):
 def test_what_a_stop_leaves_out_of_the_search_has_the_name_that_the_stage_records():
     names = {stage.__name__.replace("_", " ") for stage in SEARCHED}
     own = {outliers_left.STAGE, reading_jumps.STAGE, torque_drift.STAGE, torque_drift.OR_OFFSET}
-    assert own | {coloured_noise.STAGE, coloured_noise.WEAK} <= names
+    assert own | {coloured_noise.STAGE, coloured_noise.OF_THE_BEST, coloured_noise.WEAK} <= names
 
 
 def test_words_are_no_names_and_nothing_takes_less_where_nothing_explains_the_log():

@@ -39,6 +39,7 @@ def test_the_stages_are_these_in_this_order():
         "three_effects",
         "richer_effects_in_place_of_three",
         "best_to_its_end",
+        "noise_of_the_best",
         "best_with_imperfections_in_place",
         "best_without_each_effect",
         "scatter_of_the_best",

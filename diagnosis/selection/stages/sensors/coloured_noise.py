@@ -1,7 +1,8 @@
 """The colour of the noise, once an effect is known.
 
-Where that is another, effects are fitted once more, from where they are. Where nothing explains a log,
-and the best leaves little, a colour that shows less is allowed for if it does.
+Where that is another, effects are fitted once more, from where they are; and again at the end, in the
+noise that the best of them leaves. Where nothing explains a log, and the best leaves little, a colour
+that shows less is allowed for if it does.
 """
 
 from dataclasses import replace
@@ -15,7 +16,7 @@ from diagnosis.selection.stages.stage import leading_fitted_again, run_stages, s
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
-STAGE, WEAK = "coloured noise", "weakly coloured noise"
+STAGE, OF_THE_BEST, WEAK = "coloured noise", "noise of the best", "weakly coloured noise"
 
 
 def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
@@ -32,6 +33,22 @@ def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
     if workers.stop.due and not any(c.names for c in again.candidates):
         return state.noting(*stopped_in(again.record[len(state.record) :]))  # no effect was fitted
     return again
+
+
+def noise_of_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """The leading explanations, fitted anew where the best leaves noise of another colour.
+
+    What nothing had explained so far may have passed for noise: parameters that were fitted beside that
+    are less certain than the noise that is left would make them.
+    """
+    noise = with_colour(state.problem, state.best.fit)
+    if noise.colour == state.problem.noise.colour:
+        return state
+    begun = state.renoised(noise)
+    made = leading_fitted_again(OF_THE_BEST, begun, begun.problem, workers)
+    anew = {frozenset(c.names) for c in made[0]}
+    others = tuple(c for c in begun.candidates if frozenset(c.names) not in anew)
+    return replace(begun, candidates=others).adding(made)
 
 
 def weakly_coloured_noise(state: SearchState, workers: Workers) -> SearchState:

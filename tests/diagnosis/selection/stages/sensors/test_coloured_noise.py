@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from diagnosis_fixtures import TIP, log_of, start_of_search
 from scipy.signal import lfilter
 
@@ -39,6 +40,9 @@ def test_a_search_begins_again_where_the_best_effect_leaves_another_colour(dry_s
     assert module.coloured_noise(again, Workers()) is again
 
 
+TORQUE_NAME = "base_torque_n_mm"
+
+
 def weakly_coloured(share):
     """A nominal rig whose tip has noise that is correlated in part, over 50 ms."""
     log = log_of(NOMINAL, seconds=30.0)
@@ -72,3 +76,20 @@ def test_what_an_effect_leaves_is_no_noise():
     after = module.weakly_coloured_noise(state, Workers())
     assert not state.best.floor.reached
     assert after.problem.noise.colour == state.problem.noise.colour
+
+
+def test_the_best_is_fitted_in_the_noise_that_it_leaves(dry_start):
+    """Noise that was taken for coloured takes slow residuals for noise: other values are best in it."""
+    noise = dry_start.problem.noise
+    colour = {TORQUE_NAME: NoiseColour(share=0.9, correlation_time_s=0.3)}
+    wrong = dry_start.renoised(replace(noise, colour=colour))
+    start = replace(wrong, candidates=(), effects=("coulomb_friction",))
+    begun = module.single_effects(module.nominal_rig(start, Workers()), Workers())
+    again = module.noise_of_the_best(begun, Workers())
+    assert begun.best.names == again.best.names == ("coulomb_friction",)
+    assert again.problem.noise.colour == {}
+    plain = replace(dry_start, effects=("coulomb_friction",))
+    known = module.single_effects(module.nominal_rig(plain, Workers()), Workers())
+    here, there = (own.best.fit.parameterization.values(own.best.fit.x)[0] for own in (again, known))
+    assert here == pytest.approx(there, rel=1e-3)
+    assert module.noise_of_the_best(again, Workers()) is again
