@@ -291,6 +291,9 @@ START_TORQUE_FACTOR = 2.0
 """A late start: a parabola through the first readings of the tip begins off the base by so many standard
 deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
 within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
+START_MOVING_DEG_S, START_OFF_ZERO_DEG = 5.0, 1.0
+"""Rate and angle of the base at the first sample from which a trial began under way. Choices: an encoder
+is zeroed to some tenths of a degree, and a base at rest scatters by less than 1 deg/s."""
 START_DECAYS = 10.0
 START_MOST_UNUSED = 0.25
 """Time constants of the nominal needle's second mode after which a shape of twist that two numbers do

@@ -9,6 +9,8 @@ looks the same, but is equal in all trials. A twist differs from trial to trial,
 
 if it has one sign along the shaft. The torque alone shows a late start only if the base rests
 or the tip is not measured: with friction it may jump if the base moves from the first sample on.
+And nobody begins a turn somewhere in the middle: where the base turns at the first sample, and not at
+its zero, the recording began late, however untwisted the needle may be just then.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,6 +24,8 @@ from diagnosis.criteria import (
     START_LEAST_SIGMA,
     START_LOOK_S,
     START_MOST_UNUSED,
+    START_MOVING_DEG_S,
+    START_OFF_ZERO_DEG,
     START_OUTLIER_SIGMA,
     START_SIGMA,
     START_TORQUE_FACTOR,
@@ -70,7 +74,7 @@ def with_late_starts(
     }
     trials = [
         _late(log.rig, trial, tip, torque, shared, noise)
-        if twisted or _differs(trial, tip, torque, shared)
+        if twisted or _differs(trial, tip, torque, shared) or _begins_under_way(trial)
         else trial
         for (trial, tip, torque), twisted in zip(each, loaded, strict=True)
     ]
@@ -101,6 +105,12 @@ def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mappin
     a_little = abs(tip.off_sigma - shared[_TIP]) > tip.limit_sigma / 2
     rests = abs(start_rate_deg_s(trial)) < TURNING_DEG_S
     return tip.beyond(shared[_TIP]) or (off and twisted and a_little and rests)
+
+
+def _begins_under_way(trial: PreparedTrial) -> bool:
+    """Whether the base turns at the first sample, somewhere else than at its zero."""
+    off_zero = abs(float(trial.base_motion_deg[0])) > START_OFF_ZERO_DEG
+    return off_zero and abs(start_rate_deg_s(trial)) > START_MOVING_DEG_S
 
 
 def _carries_torque(

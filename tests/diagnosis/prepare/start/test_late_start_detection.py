@@ -125,3 +125,15 @@ def test_the_rate_of_the_base_is_that_of_its_first_tenth_of_a_second():
     sigma_deg_s = BASE / (0.0287 * np.sqrt(10))
     assert start_rate_deg_s(prepared(trial(read[100:]))) == pytest.approx(150.0, abs=4 * sigma_deg_s)
     assert start_rate_deg_s(prepared(trial(read))) == pytest.approx(0.0, abs=4 * sigma_deg_s)
+
+
+@pytest.mark.parametrize(
+    ("first_deg", "rate_deg_s", "under_way"),
+    [(-20.0, 50.0, True), (0.0, 50.0, False), (-20.0, 0.0, False)],
+)
+def test_a_turn_that_begins_off_zero_was_under_way_before_however_untwisted(
+    first_deg, rate_deg_s, under_way
+):
+    """One that begins at zero may begin there, and a base that rests off zero is not zeroed."""
+    base = first_deg + rate_deg_s * 0.01 * np.arange(1200)
+    assert late(*log_off_by([0.0, 0.0], [0.0, 0.0], base=base)) == ([0, 1] if under_way else [])
