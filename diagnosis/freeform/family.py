@@ -26,6 +26,7 @@ class Family:
       curve: x and y of the law for parameter values, in `x_unit` and `unit`.
       as_effect: values of its parameters with which it is an effect of the library, given those of the
         effect, by its name.
+      contains: effects of the library that it may have for a part.
     """
 
     effect: Effect
@@ -36,6 +37,7 @@ class Family:
     x_unit: str
     unit: str
     as_effect: Mapping[str, Callable[..., tuple[float, ...]]] = field(default_factory=dict)
+    contains: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:

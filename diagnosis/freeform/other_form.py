@@ -6,7 +6,8 @@ may look like tissue that is stiffer further in. So an effect may name free-form
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
 clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
 the law alone leaves about as little as the effect together with others: these only compensated for its
-wrong form. (Stiffness and damping do not count as such others, because every fit has them.)
+wrong form. (Stiffness and damping do not count as such others, because every fit has them; nor does dry
+friction against a curve over the rate, which has it for a part.)
 
 A law that has the parameters of the effect, and a curve besides, or a curve that may be that of the
 effect, starts where the effect is. Then a single step shows whether it promises anything.
@@ -80,7 +81,7 @@ def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, 
         problem=problem, coarse=coarse, best=best, known=known, family=family, replaced=name
     )
     alone = (*(n for n in others if n in SCATTER), family.name)
-    compensated = len(alone) <= len(others)
+    compensated = len(alone) <= len(others) and not set(others) & set(family.contains)
     return (compensated and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
         (*others, family.name), SECOND_LEAVES
     )

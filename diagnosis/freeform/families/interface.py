@@ -144,6 +144,7 @@ def _rate(ranges: LogRanges) -> Family:
         x_unit="rad/s",
         unit="N mm / mm",
         as_effect={"shear_thinning": partial(_power_law, curve, rates, _level(ranges).low)},
+        contains=("coulomb_friction", "stiction"),
     )
 
 

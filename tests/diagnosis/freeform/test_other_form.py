@@ -100,6 +100,12 @@ def test_a_power_law_stands_where_it_is_one():
     assert form_of(*fitted(RigParameters(rate_exponent=0.6), ("shear_thinning",))) is None
 
 
+def test_dry_friction_beside_a_power_law_stands_though_a_curve_over_the_rate_has_it_for_a_part():
+    """The curve alone leaves as little as both; so it says nothing against two."""
+    both = RigParameters(rate_exponent=0.6, kinetic_n_mm_per_mm=0.003)
+    assert form_of(*fitted(both, ("shear_thinning", "coulomb_friction"))) is None
+
+
 def test_a_curve_over_the_rate_begins_as_the_power_law_that_it_replaces():
     """Straight lines between seven rates leave a little; without the law it is some hundred times."""
     nominal, best = fitted(RigParameters(rate_exponent=0.6), ("shear_thinning",))
