@@ -461,8 +461,8 @@ within SIMPLE_LEAD of the best on the decimated log, of which a weak effect has 
 behind the best beyond which they are out of the question: six times the largest lead that any decision
 asks for, since the decimated log weighs costs to 5 % only."""
 PART_LEAD = 30.0
-"""Score by which an explanation has to lead a part of it that reaches the noise floor, but shifts from
-trial to trial: one more effect may take up what a replay or an encoder does not resolve. A choice."""
+"""Score by which an explanation has to lead a part of it at the noise floor, if that shifts over trials
+or samples are means: one more effect may take up what a replay does not resolve. A choice."""
 NOMINAL_LEAD = 10.0
 """Cost by which scatter of stiffness and damping has to improve on the exact nominal rig to be told."""
 

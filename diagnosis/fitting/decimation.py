@@ -6,7 +6,8 @@ The changes due to effects are slow compared with the samples. Samples are avera
     decimated = mean(measured - nominal, fine) + nominal, coarse
 
 so that the residual of the nominal rig on the decimated log is the mean of that on the
-log. Sums of squares / sigma^2 are preserved, at a tenth of the cost.
+log. Sums of squares / sigma^2 are preserved, at a tenth of the cost: a mean of few readings, of a sensor
+that was read less often than others or lost some, counts for less.
 """
 
 from collections.abc import Sequence
@@ -17,7 +18,6 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
@@ -27,6 +27,7 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
 
+_SAME_S = 1e-9
 _TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
@@ -42,8 +43,10 @@ def decimated(
       SimulationFailed: the nominal rig cannot be simulated with the coarse needle.
     """
     log = problem.log
-    each = zip(log.trials, nominal, strict=True)
-    trials = tuple(_decimated(log.rig, nominal_rig, trial, prediction) for trial, prediction in each)
+    bare = replace(log, trials=tuple(_without_readings(trial) for trial in log.trials))
+    coarse = [predict(log.rig, trial, [nominal_rig], COARSE)[0] for trial in bare.trials]
+    each = zip(log.trials, nominal, bare.trials, coarse, strict=True)
+    trials = tuple(_with_readings(*one, _share(log, bare)) for one in each)
     rare = PreparedLog(rig=log.rig, trials=trials)
     noise = decimated_noise(problem.noise, log, rare)
     return replace(
@@ -62,7 +65,7 @@ def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     The white part is reduced by averaging. The coloured part keeps its correlation time, with the
     variance for which the density is preserved.
     """
-    share = sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)
+    share = _share(log, rare)
     step_s = float(np.median([trial.sample_s for trial in rare.trials]))
     sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in noise.sigma.items()}
     colour = {}
@@ -75,23 +78,18 @@ def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     return replace(noise, sigma=sigma, colour=colour)
 
 
-def _decimated(
-    rig: NominalRig, nominal_rig: RigParameters, trial: PreparedTrial, nominal: Prediction
-) -> PreparedTrial:
-    bare, width_s = _without_readings(trial)
-    coarse = predict(rig, bare, [nominal_rig], COARSE)[0]
-    readings = {}
-    for sensor in SENSORS:
-        if trial.has(sensor):
-            residual = trial.readings[sensor] - nominal[sensor]
-            readings[sensor] = _means(trial.time_s, residual, bare.time_s, width_s) + coarse[sensor]
-    return replace(bare, readings=readings)
+def _share(log: PreparedLog, rare: PreparedLog) -> float:
+    """Windows of a decimated log per sample of the log."""
+    return sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)
 
 
-def _without_readings(trial: PreparedTrial) -> tuple[PreparedTrial, float]:
-    """The inputs of a trial at the middles of windows, and the width of these, s."""
-    time_s = trial.time_s
-    width_s = max(COARSE.step_s, trial.sample_s)
+def _window_s(trial: PreparedTrial) -> float:
+    return max(COARSE.step_s, trial.sample_s)
+
+
+def _without_readings(trial: PreparedTrial) -> PreparedTrial:
+    """The inputs of a trial at the middles of windows."""
+    time_s, width_s = trial.time_s, _window_s(trial)
     middles_s = time_s[0] + width_s * np.arange(int((time_s[-1] - time_s[0]) / width_s) + 1)
 
     def sampled(values: Array) -> Array:
@@ -99,7 +97,7 @@ def _without_readings(trial: PreparedTrial) -> tuple[PreparedTrial, float]:
 
     base = _means(time_s, trial.base_motion_deg, middles_s, width_s)
     torque = trial.tip_torque_n_mm
-    inputs = replace(
+    return replace(
         trial,
         time_s=middles_s,
         base_motion_deg=np.where(np.isnan(base), sampled(trial.base_motion_deg), base),
@@ -110,7 +108,21 @@ def _without_readings(trial: PreparedTrial) -> tuple[PreparedTrial, float]:
         readings={},
         logged=np.zeros(middles_s.size, bool),
     )
-    return inputs, width_s
+
+
+def _with_readings(
+    trial: PreparedTrial, nominal: Prediction, bare: PreparedTrial, coarse: Prediction, share: float
+) -> PreparedTrial:
+    """The inputs with the means of readings, and the weights that these have in a log of that share."""
+    width_s, readings, weights = _window_s(trial), {}, {}
+    for sensor in SENSORS:
+        if trial.has(sensor):
+            residual = trial.readings[sensor] - nominal[sensor]
+            readings[sensor] = _means(trial.time_s, residual, bare.time_s, width_s) + coarse[sensor]
+            half_s = _half_widths_s(trial.time_s, bare.time_s, width_s)
+            counts = _counts(trial.time_s[np.isfinite(residual)], bare.time_s, half_s)
+            weights[sensor] = np.sqrt(share * counts)
+    return replace(bare, readings=readings, weights=weights)
 
 
 def _means(time_s: Array, values: Array, middles_s: Array, width_s: float) -> Array:
@@ -119,22 +131,39 @@ def _means(time_s: Array, values: Array, middles_s: Array, width_s: float) -> Ar
     known, at = values[fine], time_s[fine]
     if known.size < 2:
         return np.full(middles_s.shape, np.nan)
-    half = np.minimum(0.5 * width_s, np.minimum(middles_s - time_s[0], time_s[-1] - middles_s))
-    area = np.asarray(cumulative_trapezoid(known, at, initial=0), float)
+    half = _half_widths_s(time_s, middles_s, width_s)
     # Where readings begin or end within a window, the mean is that of what was read.
     last, first = (np.clip(middles_s + side * half, at[0], at[-1]) for side in (1, -1))
     covered = last - first
-    means = np.interp(last, at, area) - np.interp(first, at, area)
-    narrow = covered < 1e-9
+    every = np.unique(np.concatenate([at, first, last]))
+    area = np.asarray(cumulative_trapezoid(np.interp(every, at, known), every, initial=0), float)
+    means = np.interp(last, every, area) - np.interp(first, every, area)
+    narrow = covered < _SAME_S
     means = np.where(narrow, np.interp(middles_s, at, known), means / np.where(narrow, 1.0, covered))
     return np.where(_sparse(at, middles_s, half), np.nan, means)
 
 
+def _half_widths_s(time_s: Array, middles_s: Array, width_s: float) -> Array:
+    """Half of the width of every window, which ends with the trial on both sides alike, (M,)."""
+    inside_s = np.minimum(middles_s - time_s[0], time_s[-1] - middles_s)
+    return np.asarray(np.minimum(0.5 * width_s, inside_s))
+
+
+def _counts(read_s: Array, middles_s: Array, half_s: Array) -> Array:
+    """Number of readings in every window, (M,); half of one at its border, which is in two of them."""
+    first, last = (middles_s + side * half_s for side in (-1, 1))
+    sides = [
+        np.searchsorted(read_s, last + near) - np.searchsorted(read_s, first + near)
+        for near in (-_SAME_S, _SAME_S)
+    ]
+    return np.where(half_s > _SAME_S, np.mean(sides, axis=0), 1.0)
+
+
 def _sparse(at_s: Array, middles_s: Array, half_s: Array) -> NDArray[np.bool_]:
     """Mask of windows with fewer than half of the usual number of samples."""
-    reach = half_s + 1e-9
+    reach = half_s + _SAME_S
     count = np.searchsorted(at_s, middles_s + reach, "right") - np.searchsorted(at_s, middles_s - reach)
     usual = float(np.median(count[count > 0])) if count.any() else 1.0
-    few = (count < 0.5 * usual) & (half_s > 1e-9)
+    few = (count < 0.5 * usual) & (half_s > _SAME_S)
     outside = (middles_s + reach < at_s[0]) | (middles_s - reach > at_s[-1])
     return np.asarray(few | outside)

@@ -36,6 +36,7 @@ class PreparedTrial:
       logged: mask of rows that are samples of the log; the others fill its gaps.
       inertia: the share of inertia in its base torque.
       late_start: None: it begins untwisted and at rest.
+      weights: by sensor, those of its residuals; 1 for other sensors.
     """
 
     name: str
@@ -49,6 +50,7 @@ class PreparedTrial:
     logged: Mask
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
     late_start: LateStart | None = None
+    weights: Mapping[str, Array] = field(default_factory=dict)
 
     def has(self, sensor: str) -> bool:
         """Whether the trial has readings of this sensor."""

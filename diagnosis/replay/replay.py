@@ -90,11 +90,12 @@ def shape_of(
 
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
-    """Measured minus predicted / sigma, whitened, all sensors of the trial one after another, (M,)."""
+    """Measured minus predicted / sigma, weighted and whitened, one sensor after another, (M,)."""
     parts = []
     for sensor in SENSORS:
         if trial.has(sensor):
             left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
+            left = left * trial.weights.get(sensor, 1.0)
             read = np.isfinite(left)
             parts.append(noise.whitened(sensor, trial.time_s[read], left[read]))
     return np.concatenate(parts) if parts else np.zeros(0)

@@ -44,6 +44,7 @@ class Candidate:
       held_out_failure: why they could not be simulated; empty: they could, or were not looked at.
       shift: held-out shift statistic; about 1 where all trials tell the same.
       shift_limit: largest that is of an explanation.
+      of_means: whether samples are means of readings, whose noise may be below what a replay resolves.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
       shape_open: whether typical forms of its law explain the log too: a bound is nothing against it.
     """
@@ -56,6 +57,7 @@ class Candidate:
     held_out_failure: str = ""
     shift: float = 0.0
     shift_limit: float = SHIFT_LIMIT
+    of_means: bool = False
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     shape_open: bool = False
 
@@ -139,6 +141,7 @@ class Candidate:
             held_out=left,
             held_out_floor=floor_of(left),
             shift=shift_statistic(self.fit),
+            of_means=problem.log.means_of > 1,
             coloured=slow_where_coloured(problem, self.fit.by_trial),
         )
 

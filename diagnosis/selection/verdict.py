@@ -64,7 +64,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
 
     One whose parameters are at a bound, or as good as none, explains nothing; but where it leads what
     does, that is open. And so it is where a part of it is likelier, but above the floor by a hair, or is
-    hardly less likely and only shifts from trial to trial.
+    hardly less likely and only shifts from trial to trial, or samples are means of many.
     """
     at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
@@ -82,7 +82,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     refused = [
         c for c in leading if c.refused_for_values or _is_part(c, best) or _is_richer_but_shifts(c, best)
     ]
-    refused += [c for c in candidates if c not in alike and _shifts_without(c, best, reached)]
+    refused += [c for c in candidates if c not in alike and _hardly_led(c, best, reached)]
     rivals = sorted((*refused, *alike), key=lambda c: _less_likely(best, c, reached))
     kind = VerdictKind.NONE if not best.named else VerdictKind.EXPLAINED
     if rivals and not (best.named and all(_less_likely(best, c, reached) for c in rivals)):
@@ -217,14 +217,15 @@ def _is_richer_but_shifts(one: Candidate, best: Candidate) -> bool:
     return richer and one.floor.reached and one.shift > one.shift_limit
 
 
-def _shifts_without(one: Candidate, best: Candidate, reached: float) -> bool:
-    """Whether it is a part of the best, at the floor, that hardly leads but by what trials tell apart.
+def _hardly_led(one: Candidate, best: Candidate, reached: float) -> bool:
+    """Whether it is a part of the best, at the floor, that is led by what a replay may not resolve.
 
     Args:
       reached: score of the best.
     """
     part = {*one.names} < {*best.names} and one.floor.reached and _says(one) != ()
-    return part and one.shift > SHIFT_LIMIT and one.score - reached <= PART_LEAD
+    doubtful = one.shift > SHIFT_LIMIT or one.of_means
+    return part and doubtful and one.score - reached <= PART_LEAD
 
 
 def _less_likely(best: Candidate, other: Candidate, reached: float) -> bool:

@@ -40,6 +40,24 @@ def test_a_decimated_log_weighs_an_explanation_as_the_log_does(rig):
     assert right[1] / samples < 1.1
 
 
+@pytest.mark.parametrize("every", [5, 50])
+def test_readings_of_a_rare_sensor_weigh_as_they_do_on_the_log(every):
+    """A window holds one reading of them at most, which is no mean of four: it would weigh fourfold."""
+    log = log_of(RIGS[0], speed=-1.0)
+    rare = np.arange(len(log.trials[0].table)) % every > 0
+    log.trials[0].table.loc[rare, "tip_angle_deg"] = np.nan
+    log.trials[0].table["base_torque_n_mm"] = np.nan
+    nominal = replay_nominal(log)
+    both = (nominal.problem, decimated(nominal.problem, nominal.predictions))
+    wrong, right = (
+        [sum(float(r[0] @ r[0]) for r in problem.residuals([one])) for problem in both]
+        for one in (NOMINAL, RIGS[0])
+    )
+    gain = [w - r for w, r in zip(wrong, right, strict=True)]
+    assert gain[1] == pytest.approx(gain[0], rel=0.05)
+    assert right[1] < 1.1 * right[0]  # less where a window between two readings has a part of both
+
+
 def test_what_the_coarse_nominal_rig_misses_is_the_mean_of_what_the_fine_one_does():
     nominal = replay_nominal(log_of(RigParameters(kinetic_n_mm_per_mm=0.001)))
     coarse = decimated(nominal.problem, nominal.predictions)

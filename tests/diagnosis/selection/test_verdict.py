@@ -318,16 +318,17 @@ def test_nothing_is_hidden_where_nothing_explains_the_log():
 
 
 @pytest.mark.parametrize(
-    ("shift", "lead", "kind"),
+    ("known", "lead", "kind"),
     [
-        (20.0, 21.0, VerdictKind.UNDECIDED),
-        (20.0, 40.0, VerdictKind.EXPLAINED),
-        (1.0, 21.0, VerdictKind.EXPLAINED),
+        ({"shift": 20.0}, 21.0, VerdictKind.UNDECIDED),
+        ({"shift": 20.0}, 40.0, VerdictKind.EXPLAINED),
+        ({"of_means": True}, 21.0, VerdictKind.UNDECIDED),
+        ({}, 21.0, VerdictKind.EXPLAINED),
     ],
 )
-def test_a_part_that_only_shifts_from_trial_to_trial_has_to_be_led_by_more(shift, lead, kind):
+def test_a_part_that_only_shifts_or_is_known_by_means_has_to_be_led_by_more(known, lead, kind):
     both = scored(["tip_angle_bias", "layered_tissue"], 100.0)
-    alone = scored(["tip_angle_bias"], 100.0 + lead, shift=shift)
+    alone = scored(["tip_angle_bias"], 100.0 + lead, **known)
     found = verdict_on([both, alone])
     assert found.kind is kind
     assert (("tip_angle_bias",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
