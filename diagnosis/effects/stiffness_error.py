@@ -16,7 +16,7 @@ EFFECT = Effect(
     place=Place.PARAMETERS,
     parameters=(
         Parameter(
-            name="scale", unit="-", low=0.3, high=3.0, start=(0.9, 1.15), logarithmic=True, neutral=1.0
+            name="scale", unit="-", low=0.1, high=10.0, start=(0.9, 1.15), logarithmic=True, neutral=1.0
         ),
     ),
     apply=_apply,

@@ -32,7 +32,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.bearing import stopped_at
+from diagnosis.replay.sensing.bearing import stopped_at
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
 from models.contact import ContactCurve
 from models.drive import Drive

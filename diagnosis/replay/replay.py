@@ -19,7 +19,7 @@ from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.replay.sensors import driven, reads_ahead, sensed
+from diagnosis.replay.sensing.sensors import driven, reads_ahead, sensed
 from models.errors import InvalidValue
 from sim.needles.run import Run, SimulationFailed
 from sim.simulation import simulate

@@ -111,6 +111,8 @@ class RigParameters:
     tip_clock_ratio: float = 1.0
     torque_clock_ratio: float = 1.0
     torque_low_pass_s: float = 0.0
+    torque_butterworth_s: float = 0.0
+    torque_average_s: float = 0.0
     torque_scale: float = 1.0
     torque_delay_s: float = 0.0
     drive_friction_n_mm: float = 0.0
@@ -186,6 +188,8 @@ class RigParameters:
             tip_clock_ratio=1.0,
             torque_clock_ratio=1.0,
             torque_low_pass_s=0.0,
+            torque_butterworth_s=0.0,
+            torque_average_s=0.0,
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,

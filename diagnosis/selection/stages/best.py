@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.criteria import CONTENDING, FINALISTS
+from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
-from diagnosis.effects.effect import Place
+from diagnosis.effects.effect import Parameter, Place
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
@@ -28,7 +28,9 @@ def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
 def best_without_each_effect(state: SearchState, workers: Workers) -> SearchState:
     """The best without each of its effects, which may only compensate for errors of the others.
 
-    Fewer leave no less, so that above the noise there is nothing to ask.
+    Fewer leave no less, so that above the noise there is nothing to ask. A set that was fitted begins
+    once more from the best where it left clearly more than the slopes of the best promise: it had ended
+    elsewhere, and the effect would be named for that.
     """
     best = state.best
     if len(best.names) < 2:
@@ -36,30 +38,66 @@ def best_without_each_effect(state: SearchState, workers: Workers) -> SearchStat
     state, _ = state.rechecked()
     if not state.at_the_floor(best):
         return state
-    known = {frozenset(c.names) for c in state.candidates}
-    fewer = [s for s in combinations(best.names, len(best.names) - 1) if frozenset(s) not in known]
+    known = {frozenset(c.names): c for c in sorted(state.candidates, key=lambda c: -c.score)}
+    fewer = [
+        names
+        for names in combinations(best.names, len(best.names) - 1)
+        if (was := known.get(frozenset(names))) is None
+        or was.fit.cost > _cost_without(best.fit, *({*best.names} - {*names})) + SIMPLE_LEAD
+    ]
     return state.adding(fit_beside("best without each effect", state.problem, best, fewer, workers))
+
+
+def _cost_without(fit: Fit, name: str) -> float:
+    """Cost that the slopes of a fit promise without one effect; infinite if they cannot tell."""
+    parameterization = fit.parameterization
+    absent = [_absent_at(p) for p in parameterization.parameters]
+    own = np.array([owner == name for owner in parameterization.owners])
+    at = np.where(own, absent, fit.x)
+    if not np.isfinite(at).all():
+        return np.inf
+    low, high = parameterization.bounds()
+    moves = [np.where(own, at, end) - fit.x for end in (low, high)]
+    return fit.cost - promised_reduction(fit.slopes, fit.residual, *moves)
+
+
+def _absent_at(parameter: Parameter) -> float:
+    """Coordinate of a fit at which an effect is absent; not finite if there is none."""
+    if parameter.neutral is None or (parameter.logarithmic and parameter.neutral <= 0.0):
+        return np.nan
+    return parameter.to_fit(parameter.neutral)
 
 
 def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> SearchState:
     """The best with an imperfection of the same sensor in place of its delay.
 
     The decimated log is too coarse to tell a delay from a low pass, which may never have come this far.
+    A delay beside one low pass may be another one.
     """
     best = state.best
     state, _ = state.rechecked()
     if not state.at_the_floor(best):
         return state
     known = {frozenset(c.names) for c in state.candidates}
-    swapped = [
-        (*(name for name in best.names if name != late), imperfection.name)
-        for late in best.names
-        if late in LIBRARY and any(p.unit == "s" for p in LIBRARY[late].parameters)
-        for imperfection in IMPERFECTIONS.values()
-        if LIBRARY[late].place is Place.SENSOR and LIBRARY[late].needs == imperfection.needs
-    ]
-    new = [names for names in swapped if len({*names}) == len(names) and frozenset(names) not in known]
+    swapped: dict[frozenset[str], tuple[str, ...]] = {}
+    for late in filter(_is_delay, best.names):
+        own = [i.name for i in IMPERFECTIONS.values() if i.needs == LIBRARY[late].needs]
+        others = tuple(name for name in best.names if name != late)
+        bare = tuple(name for name in others if name not in own)
+        for names in ((*kept, name) for kept in (others, bare) for name in own if name not in kept):
+            swapped.setdefault(frozenset(names), names)
+    new = [names for key, names in swapped.items() if key not in known]
     return state.adding(fit_beside("imperfections in place", state.problem, best, new, workers))
+
+
+def _is_delay(name: str) -> bool:
+    """Whether it is an effect by which a sensor is late."""
+    effect = LIBRARY.get(name)
+    return (
+        effect is not None
+        and effect.place is Place.SENSOR
+        and any(p.unit == "s" for p in effect.parameters)
+    )
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:

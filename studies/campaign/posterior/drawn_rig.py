@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.sensors import driven
+from diagnosis.replay.sensing.sensors import driven
 from sim.needles.run import Run
 from sim.protocol import Protocol
 from sim.schedule import Schedule

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.replay.sensors import sensed
+from diagnosis.replay.sensing.sensors import sensed
 from sim.needles.run import Run
 from studies.crosscheck.paper import INTEGRAL_S, SETTLED_DEG, integral_deg_s
 from studies.published.experiments.base_turn import TURN_DEG

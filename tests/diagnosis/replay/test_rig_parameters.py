@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
 from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, RigParameters
-from diagnosis.replay.sensors import driven, sensed
+from diagnosis.replay.sensing.sensors import driven, sensed
 from sim.schedule import Schedule
 
 
@@ -30,7 +30,8 @@ def test_the_nominal_rig_is_that_of_rig_yaml():
 SENSORS = {
     *("tip_bias_deg", "tip_scale", "tip_delay_s"),
     *("torque_bias_n_mm", "torque_scale", "torque_delay_s", "drive_friction_n_mm"),
-    *("tip_clock_ratio", "torque_clock_ratio", "torque_low_pass_s"),
+    *("tip_clock_ratio", "torque_clock_ratio", "torque_low_pass_s", "torque_butterworth_s"),
+    "torque_average_s",
 }
 INPUTS = {"base_scale", "inserted_offset_mm"}
 NEEDS = {  # what a field shows beside only

@@ -51,7 +51,9 @@ def test_a_delay_may_be_an_imperfection_of_its_sensor(asked, still_start):
     late = scored(["tip_drag", "torque_sensor_delay"], 1.0)
     known = scored(["torque_clock", "tip_drag"], 2.0)
     module.best_with_imperfections_in_place(replace(still_start, candidates=(late, known)), Workers())
-    assert asked == [("tip_drag", "torque_low_pass")]
+    assert asked == [
+        ("tip_drag", name) for name in ("torque_average", "torque_butterworth", "torque_low_pass")
+    ]
     asked.clear()
     tip = scored(["tip_sensor_delay"], 1.0)
     module.best_with_imperfections_in_place(replace(still_start, candidates=(tip,)), Workers())
@@ -60,6 +62,13 @@ def test_a_delay_may_be_an_imperfection_of_its_sensor(asked, still_start):
     other = scored(["tissue_viscoelasticity"], 1.0)  # its time constant is no delay of a sensor
     module.best_with_imperfections_in_place(replace(still_start, candidates=(other,)), Workers())
     assert asked == []
+
+
+def test_a_delay_beside_one_low_pass_may_be_another_low_pass(asked, still_start):
+    both = scored(["torque_low_pass", "torque_sensor_delay"], 1.0)
+    module.best_with_imperfections_in_place(replace(still_start, candidates=(both,)), Workers())
+    assert ("torque_low_pass", "torque_butterworth") in asked
+    assert {("torque_butterworth",), ("torque_average",), ("torque_low_pass",)} <= {*asked}
 
 
 @pytest.mark.parametrize(("slow", "fitted"), [(0.99, 2), (1.01, 0)])
@@ -71,6 +80,26 @@ def test_above_the_noise_none_is_left_out(slow, fitted, asked, still_start, monk
     monkeypatch.setattr(checked, "_checked", lambda one, _: one)
     module.best_without_each_effect(replace(still_start, candidates=(pair,)), Workers())
     assert len(asked) == fitted
+
+
+@pytest.mark.parametrize(("behind", "again"), [(30.0, True), (5.0, False)])
+def test_a_part_of_the_best_that_ended_elsewhere_begins_once_more_from_the_best(
+    behind, again, asked, still_start, monkeypatch
+):
+    """Slopes of 10 and an offset of 0.1 promise that readings miss the second effect by 1 in cost."""
+    pair = scored(["tip_drag", "tip_angle_scale"], 1.0)
+    own = pair.fit.parameterization
+    x = own.joined({"tip_angle_scale": np.array([0.1])})
+    slopes = np.zeros((1000, x.size))
+    slopes[0, x == 0.1] = 10.0
+    fit = replace(pair.fit, x=x, by_trial=(np.zeros(1000),), jacobian=(slopes,), cost=1000.0)
+    pair = replace(pair, fit=fit)
+    alone = scored(["tip_drag"], 40.0)
+    alone = replace(alone, fit=replace(alone.fit, cost=1001.0 + behind))
+    monkeypatch.setattr(module.SearchState, "rechecked", lambda self: (self, True))
+    monkeypatch.setattr(module.SearchState, "at_the_floor", lambda *_: True)
+    module.best_without_each_effect(replace(still_start, candidates=(pair, alone)), Workers())
+    assert (("tip_drag",) in asked) is again
 
 
 def test_a_fit_of_the_best_that_was_given_up_is_taken_to_its_end(monkeypatch, still_start):
