@@ -501,8 +501,8 @@ MOST_RUNS = 100
 """Repetitions of a proposed experiment beyond which it is not proposed."""
 SAME_DEPTH_MM = 1.0
 """Depths of trials that differ by less tell nothing of what varies with depth."""
-ALMOST_NOTHING_SIGMA = 0.01
-"""Reduction of the gap by another effect that the report calls almost nothing: a third of what GAP_LIMIT
+ALMOST_NOTHING_SIGMA = 0.015
+"""Reduction of the gap by another effect that the report calls almost nothing: half of what GAP_LIMIT
 leaves above the noise; of gaps above the noise, this share of them."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""

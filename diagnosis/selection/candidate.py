@@ -105,7 +105,7 @@ class Candidate:
         does what smoothing rounds off the motion. Of some readings of the encoder the worst counts.
         """
         shifts = self.shift > self.shift_limit
-        if (self.floor.reached and not shifts) or self.floor.gap > BASE_NOISE_GAP or not self.names:
+        if (self.floor.reached and not shifts) or self.floor.gap > BASE_NOISE_GAP:
             return self
         floor, shift_limit, worst = self.floor, self.shift_limit, NoiseFloor(gap=0.0, slow=0.0)
         for own in self._base_noise_changes(problem):

@@ -108,9 +108,11 @@ def _differs(trial: PreparedTrial, tip: _Offset, torque: _Offset, shared: Mappin
 
 
 def _begins_under_way(trial: PreparedTrial) -> bool:
-    """Whether the base turns at the first sample, somewhere else than at its zero."""
+    """Whether the base turns at the first sample already, somewhere else than at its zero."""
     off_zero = abs(float(trial.base_motion_deg[0])) > START_OFF_ZERO_DEG
-    return off_zero and abs(start_rate_deg_s(trial)) > START_MOVING_DEG_S
+    rate = start_rate_deg_s(trial)
+    from_rest = start_rate_deg_s(trial, degree=2) * np.sign(rate) < 0.5 * abs(rate)
+    return off_zero and abs(rate) > START_MOVING_DEG_S and not from_rest
 
 
 def _carries_torque(
@@ -194,11 +196,11 @@ def _late(
     return replace(trial, late_start=start, readings=readings)
 
 
-def start_rate_deg_s(trial: PreparedTrial) -> float:
-    """Rate of the base at the first sample."""
+def start_rate_deg_s(trial: PreparedTrial, degree: int = 1) -> float:
+    """Rate of the base at the first sample, by a line through a tenth of a second, or a parabola."""
     first = slice(0, max(_FEWEST // 2, int(np.searchsorted(trial.time_s - trial.time_s[0], 0.1))))
     time_s = trial.time_s[first] - trial.time_s[0]
-    return float(np.polyfit(time_s, trial.base_motion_deg[first], 1)[0])
+    return float(np.polyfit(time_s, trial.base_motion_deg[first], degree)[-2])
 
 
 def _forgotten_s(rig: NominalRig, trial: PreparedTrial) -> float:

@@ -22,6 +22,7 @@ from diagnosis.selection.checked import Checked, check
 from diagnosis.selection.equivalence.equivalent_sets import Equivalent, covers, equivalent_sets
 from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
 from diagnosis.selection.fitting import candidates_of, fit_all
+from diagnosis.selection.scoring.replay_errors import without_replay_errors
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on, with_open_effects
 from diagnosis.workers import Failure, Task, Workers
@@ -38,18 +39,15 @@ class ToldApart:
     Attributes:
       state: of the search, with the equivalent sets that were fitted.
       checked: its candidates.
+      candidates: what the verdict is on, best first.
       forms: richer laws that may be there without showing their shape.
     """
 
     state: SearchState
     checked: Checked
+    candidates: Sequence[Candidate]
     verdict: Verdict
     forms: Sequence[WeakForm] = ()
-
-    @property
-    def candidates(self) -> list[Candidate]:
-        """What the verdict is on, best first."""
-        return with_their_scores(self.checked.candidates, self.forms)
 
     @property
     def problem(self) -> FitProblem:
@@ -95,8 +93,10 @@ def _judged(
     found: SearchState, known: Checked | None = None, forms: Sequence[WeakForm] = ()
 ) -> ToldApart:
     checked = check(found.problem, found.candidates, known or found.checked)
-    verdict = verdict_on(with_their_scores(checked.candidates, forms))
-    return ToldApart(state=found, checked=checked, verdict=verdict, forms=forms)
+    scored = without_replay_errors(replace(found.problem, noise=checked.noise), checked.candidates)
+    scored = with_their_scores(scored, forms)
+    verdict = verdict_on(scored)
+    return ToldApart(state=found, checked=checked, candidates=scored, verdict=verdict, forms=forms)
 
 
 def _with_weak_forms(

@@ -9,6 +9,7 @@ from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
+    alike_on_the_decimated_log,
     not_worth,
     promising_on_the_log,
     screen_all,
@@ -22,9 +23,11 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
     """Pairs, where no effect alone explains the log, or where a second promises enough."""
     stage = "pairs"
     state, alone = state.rechecked()
-    bases = product(state.singles[: 1 if alone else PAIR_BASES], state.effects)
+    leading = alike_on_the_decimated_log(state.singles) if alone else state.singles[:PAIR_BASES]
     calls = [
-        (state.coarse, base.fit, effect) for base, effect in bases if not overlap(effect, base.names)
+        (state.coarse, base.fit, effect)
+        for base, effect in product(leading, state.effects)
+        if not overlap(effect, base.names)
     ]
     screened, record = screen_all(stage, calls, workers)
     state = state.noting(*record)

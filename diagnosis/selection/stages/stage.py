@@ -10,6 +10,7 @@ from diagnosis.criteria import (
     FINALISTS,
     NEAR_FLOOR,
     SECOND_LEAVES,
+    SIMPLE_LEAD,
     WORTH_THE_LOG,
 )
 from diagnosis.fitting.fit import Fit
@@ -82,6 +83,12 @@ def taking_off_enough(stage: str, made: Made, without: float, state: SearchState
     out = [c for c in found if c not in enough]
     reason = f"its last effect leaves more than {SECOND_LEAVES:g} of the cost without it"
     return enough, (*record, *dropped(stage, out, reason))
+
+
+def alike_on_the_decimated_log(found: Sequence[Candidate]) -> list[Candidate]:
+    """The first of the decimated log and those about as likely there, of which any may be a part."""
+    ranked = sorted(found, key=lambda c: c.score)
+    return [c for c in ranked if c.score - ranked[0].score <= SIMPLE_LEAD][:FINALISTS]
 
 
 def near_the_best(found: Sequence[Candidate], best: Sequence[Candidate], most: int) -> list[Candidate]:

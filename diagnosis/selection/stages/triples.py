@@ -22,6 +22,7 @@ from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.stage import (
+    alike_on_the_decimated_log,
     leaving_clearly_less,
     near_the_best,
     not_worth,
@@ -48,7 +49,7 @@ def three_effects(state: SearchState, workers: Workers) -> SearchState:
     screened, record = screen_all(stage, calls, workers)
     worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
     if worth and explained:
-        worth = promising_on_the_log(stage, worth, _only(pairs).cost, state, workers)
+        worth = promising_on_the_log(stage, worth, _least(pairs), state, workers)
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
     needless = [c for c in fitted if c.as_good_as_none]
     fitted = [c for c in fitted if c not in needless]
@@ -62,13 +63,13 @@ def three_effects(state: SearchState, workers: Workers) -> SearchState:
     state = replace(state, triples=tuple(fitted))
     made = fit_finalists(f"finalists, {stage}", state.problem, fitted, workers)
     if explained:
-        made = taking_off_enough(f"finalists, {stage}", made, _only(pairs).cost, state)
+        made = taking_off_enough(f"finalists, {stage}", made, _least(pairs), state)
     return state.adding(made)
 
 
-def _only(pairs: Mapping[tuple[str, ...], Fit]) -> Fit:
-    (pair,) = pairs.values()
-    return pair
+def _least(pairs: Mapping[tuple[str, ...], Fit]) -> float:
+    """Least cost of pairs on the decimated log."""
+    return min(pair.cost for pair in pairs.values())
 
 
 def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
@@ -78,9 +79,9 @@ def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
 
 
 def _explaining(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
-    """The best explanation if it is a pair, on the decimated log."""
-    best = {*state.best.names}
-    return _fits([pair for pair in state.pairs if {*pair.names} == best][:1])
+    """The best explanation if it is a pair, and those about as likely, on the decimated log."""
+    best = [pair for pair in state.pairs if {*pair.names} == {*state.best.names}][:1]
+    return _fits([*best, *alike_on_the_decimated_log(state.pairs)]) if best else {}
 
 
 def _fits(pairs: Sequence[Candidate]) -> Mapping[tuple[str, ...], Fit]:

@@ -137,3 +137,9 @@ def test_a_turn_that_begins_off_zero_was_under_way_before_however_untwisted(
     """One that begins at zero may begin there, and a base that rests off zero is not zeroed."""
     base = first_deg + rate_deg_s * 0.01 * np.arange(1200)
     assert late(*log_off_by([0.0, 0.0], [0.0, 0.0], base=base)) == ([0, 1] if under_way else [])
+
+
+def test_a_turn_that_starts_from_rest_off_zero_with_the_recording_was_not_under_way():
+    """theta = a t^2 / 2 from rest: a line through the first tenth of a second rises by 50 deg/s."""
+    base = -20.0 + 500.0 * (0.01 * np.arange(1200)) ** 2
+    assert late(*log_off_by([0.0, 0.0], [0.0, 0.0], base=base)) == []

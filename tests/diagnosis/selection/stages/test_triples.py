@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, fit_of, log_of, scored, sets_screened, start_of_search
 
-from diagnosis.criteria import NEAR_FLOOR, SECOND_LEAVES, TRIPLE_BASES, TRIPLE_SHARE, WORTH_FITTING
+from diagnosis.criteria import (
+    NEAR_FLOOR,
+    SECOND_LEAVES,
+    SIMPLE_LEAD,
+    TRIPLE_BASES,
+    TRIPLE_SHARE,
+    WORTH_FITTING,
+)
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.search import search
@@ -64,12 +71,20 @@ def test_a_third_effect_has_to_promise_its_share_of_what_the_pair_leaves(explain
 
 
 def test_beside_a_pair_that_explains_the_log_every_other_effect_is_tried(still_start, monkeypatch):
-    best, behind = scored(["torque_bias", "tip_drag"], 1.0), scored(["torque_bias", "stiction"], 0.5)
+    best = scored(["torque_bias", "tip_drag"], 1.0)
+    behind = scored(["torque_bias", "stiction"], 1.1 * SIMPLE_LEAD + 2.0)
     state = replace(still_start, candidates=(best,))
     pairs = (behind, scored(["tip_drag", "torque_bias"], 2.0))
     asked = asked_for(state, monkeypatch, explained=True, pairs=pairs)
     others = ("coulomb_friction", "entry_friction", "stiction")
     assert asked == [("tip_drag", "torque_bias", other) for other in others]
+
+
+def test_what_is_as_likely_as_the_pair_that_explains_the_log_may_be_a_part_too(still_start, monkeypatch):
+    state = replace(still_start, candidates=(scored(["tip_drag", "torque_bias"], 1.0),))
+    pairs = (scored(["entry_friction", "torque_bias"], 1.5), scored(["tip_drag", "torque_bias"], 2.0))
+    asked = asked_for(state, monkeypatch, explained=True, pairs=pairs)
+    assert {names[:2] for names in asked} == {pair.names for pair in pairs}
 
 
 @pytest.mark.parametrize("explained", [True, False])

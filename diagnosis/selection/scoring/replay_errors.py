@@ -1,0 +1,72 @@
+"""How much of the lead of an explanation over a part of it the errors of the replay may have made.
+
+One more effect may take up what a replay does wrong: noise of the base's encoder that is left in the
+motion that drives it, what smoothing rounds off this motion, and the error of mesh and step. Let d be
+the difference between the residuals of the two, in units of the noise. Its square is the lead in cost.
+Errors m of the residual change it along d by m' d / |d|, with the mean square s^2 over several readings
+of the encoder; noise has the variance 1 there. So the lead counts as
+
+    |d|^2 / (1 + s^2).
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import BASE_NOISE_READINGS
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.selection.candidate import Candidate
+from sim.needles.run import SimulationFailed
+
+Array = NDArray[np.float64]
+
+_SEED = 22
+
+
+def without_replay_errors(problem: FitProblem, candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates with scores that count no lead over a part of theirs that errors may have made.
+
+    Args:
+      candidates: checked, in units of the noise of the problem.
+    """
+    at_floor = [c for c in candidates if c.floor.reached]
+    return sorted((_scored(problem, one, at_floor) for one in candidates), key=lambda c: c.score)
+
+
+def _scored(problem: FitProblem, one: Candidate, at_floor: Sequence[Candidate]) -> Candidate:
+    parts = [c for c in at_floor if {*c.names} < {*one.names} and c.fit.cost > one.fit.cost]
+    if not parts or not one.floor.reached:
+        return one
+    try:
+        errors = list(_errors(problem, one))
+    except SimulationFailed:
+        return one
+    needless = max(_needless(one, part, errors) for part in parts)
+    return replace(one, score=one.score + needless)
+
+
+def _needless(one: Candidate, part: Candidate, errors: Sequence[Array]) -> float:
+    """How much of the lead in cost over a part errors may have made."""
+    apart = np.concatenate(part.fit.by_trial) - np.concatenate(one.fit.by_trial)
+    length = float(np.linalg.norm(apart))
+    if length == 0.0:
+        return 0.0
+    square = float(np.mean([(error @ apart / length) ** 2 for error in errors]))
+    return (part.fit.cost - one.fit.cost) * square / (1.0 + square)
+
+
+def _errors(problem: FitProblem, one: Candidate) -> Iterator[Array]:
+    """Changes of the residual of an explanation from reading to reading of the encoder, (N,) each."""
+    rig, rng = one.fit.parameterization.rig(one.fit.x), np.random.default_rng(_SEED)
+    finer = replace(problem, resolution=problem.resolution.refined)
+    here, there = (p.residuals([rig], callback_alone=True) for p in (problem, finer))
+    mesh = _change(there, here)
+    for _ in range(BASE_NOISE_READINGS):
+        again = problem.read_again(rng).residuals([rig], callback_alone=True)
+        yield mesh + _change(again, here)
+
+
+def _change(runs: Sequence[Sequence[Array]], here: Sequence[Sequence[Array]]) -> Array:
+    return np.concatenate([run[0] - left[0] for run, left in zip(runs, here, strict=True)])
