@@ -19,6 +19,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction, predict
@@ -28,6 +29,7 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 Array = NDArray[np.float64]
 
 _SAME_S = 1e-9
+_SLOW_FOR_A_SAMPLE = 0.2  # periods of an oscillation between samples
 _TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
@@ -62,19 +64,24 @@ def decimated(
 def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     """Noise of the decimated log, with the same spectral density at frequency 0 as that of the log.
 
-    The white part is reduced by averaging. The coloured part keeps its correlation time, with the
-    variance for which the density is preserved.
+    The white part is reduced by averaging. Coloured parts keep their correlation times, with the
+    variances for which the densities are preserved. Of an oscillation that is fast for the decimated log
+    no more is left than its density, as white noise.
     """
     share = _share(log, rare)
     step_s = float(np.median([trial.sample_s for trial in rare.trials]))
     sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in noise.sigma.items()}
     colour = {}
     for sensor, own in noise.colour.items():
-        alone = replace(own, share=1.0)
-        coloured = own.share * alone.density(step_s * share) / alone.density(step_s)
-        total = 1 - own.share + coloured
+        slow = [p for p in own.parts if p.frequency_hz * step_s <= _SLOW_FOR_A_SAMPLE]
+        fast = sum(p.share * p.density(step_s * share) for p in own.parts if p not in slow)
+        sizes = [p.share * p.density(step_s * share) / p.density(step_s) for p in slow]
+        total = 1 - own.share + fast + sum(sizes)
         sigma[sensor] *= float(np.sqrt(total))
-        colour[sensor] = replace(own, share=coloured / total)
+        each = zip(slow, sizes, strict=True)
+        parts = tuple(replace(part, share=size / total) for part, size in each)
+        if parts:
+            colour[sensor] = NoiseColour(parts=parts)
     return replace(noise, sigma=sigma, colour=colour)
 
 

@@ -7,14 +7,15 @@ scatters as chi-square with two degrees of freedom about the spectral density), 
 of the windows do not change it. Bands begin above the frequencies of slow residuals. The sum of white
 noise and an Ornstein-Uhlenbeck process is fitted to them (`noise_colour`), with a correlation time of
 at most `COLOUR_LONGEST_S`: its part below the bands is extrapolated and never taken from the data.
-So missing slow friction cannot be mistaken for noise.
+So missing slow friction cannot be mistaken for noise. Where the spectrum asks for it, further parts are
+added one by one: another such process, or an oscillation that is faster than what needles do.
 
 Missing samples count as zeros; the autocorrelation of the windows takes this into account in the
 spectrum that a model of the noise is expected to show.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -26,16 +27,22 @@ from diagnosis.criteria import (
     COLOUR_CHI_SQUARE,
     COLOUR_LEAST_SHARE,
     COLOUR_LONGEST_S,
+    COLOUR_MOST_PARTS,
     COLOUR_OPEN,
+    COLOUR_OSCILLATES_ABOVE_HZ,
     COLOUR_WINDOW_S,
     COLOUR_WINDOWS,
 )
-from diagnosis.prepare.noise.noise_colour import NoiseColour, covariances_of_means
+from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour, covariances_of_means
 
 Array = NDArray[np.float64]
 
 _BANDS = 12
 _TIMES = 32  # correlation times that are tried
+_FREQUENCIES, _QUALITIES = 24, (0.55, 0.8, 1.2, 1.8, 2.7, 4.0, 6.0)  # of oscillators that are tried
+_OSCILLATOR = 6.0  # chi-square of its two more parameters, as of any that a spectrum has to ask for
+_LEAST_PART = 0.05  # share of the variance that a further part has to have
+_OSCILLATES_BELOW = 0.4  # periods per sample
 _QUANTILE = 0.3
 _MEAN = -np.log(1 - _QUANTILE)  # of an exponential distribution, its mean over this quantile of it
 _SCATTER = np.sqrt(_QUANTILE / (1 - _QUANTILE)) / _MEAN  # of ln(quantile), times sqrt(samples)
@@ -59,6 +66,30 @@ class _Spectrum:
         return self.lag_weights @ covariances
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Shape:
+    """A part of the noise of any size, and what it adds to the levels of a spectrum, (B,).
+
+    Attributes:
+      part: with the share of one whose readings have the variance 1.
+      variance: of samples, which may be means of readings.
+    """
+
+    part: ColouredPart
+    variance: float
+    levels: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Sized:
+    """A model of the noise that was fitted to a spectrum, with its chi-square."""
+
+    cost: float
+    sigma: float
+    colour: NoiseColour
+    shapes: tuple[_Shape, ...]
+
+
 def noise_colour(
     parts: Sequence[tuple[Array, Array]],
     least_share: float = COLOUR_LEAST_SHARE,
@@ -78,22 +109,60 @@ def noise_colour(
         return None
     lags_s = np.asarray(spectrum.step_s * np.arange(spectrum.lag_weights.shape[1]), float)
     white = spectrum.expected((lags_s == 0).astype(float))
-    alone, _ = _fitted(spectrum, white[:, None])
+    cost, _ = _fitted(spectrum, white[:, None])
+    shapes = _shapes(spectrum, lags_s, means_of)
+    found: tuple[float, NoiseColour] | None = None
+    chosen: list[_Shape] = []
+    asked = least_chi_square
+    while len(chosen) < COLOUR_MOST_PARTS:
+        tried = [_sized(spectrum, white, (*chosen, shape)) for shape in shapes]
+        there = [own for own in tried if own and min(p.share for p in own.colour.parts) > _LEAST_PART]
+        best = min((own.cost for own in there), default=cost)
+        if cost - best < asked:
+            break
+        open_ = [own for own in there if own.cost <= best + COLOUR_OPEN]
+        kept = min(open_, key=lambda own: _unlikeliness(parts, own.colour))
+        found, chosen, cost = (kept.sigma, kept.colour), list(kept.shapes), kept.cost
+        asked = COLOUR_CHI_SQUARE
+    return found if found and found[1].share >= least_share else None
+
+
+def _shapes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
+    """Processes of all correlation times, and oscillations above the frequencies of effects."""
     found = []
     for time_s in np.geomspace(0.4 * spectrum.step_s, COLOUR_LONGEST_S, _TIMES):
         covariances, later = covariances_of_means(lags_s, time_s, spectrum.step_s, means_of)
-        cost, sizes = _fitted(spectrum, np.column_stack([white, spectrum.expected(covariances)]))
-        if sizes[1] > 0:
-            variance = float(sizes[0] + sizes[1] * covariances[0])
-            share = float(sizes[1] * later / variance)
-            colour = NoiseColour(share=share, correlation_time_s=float(time_s))
-            found.append((cost, float(np.sqrt(variance)), colour))
-    best = min((cost for cost, _, _ in found), default=alone)
-    open_ = [(sigma, colour) for cost, sigma, colour in found if cost <= best + COLOUR_OPEN]
-    if alone - best < least_chi_square:
+        part = ColouredPart(share=later, correlation_time_s=float(time_s))
+        found.append(_Shape(part=part, variance=covariances[0], levels=spectrum.expected(covariances)))
+    fastest_hz = _OSCILLATES_BELOW / spectrum.step_s
+    if fastest_hz <= COLOUR_OSCILLATES_ABOVE_HZ:
+        return found
+    for frequency in np.geomspace(COLOUR_OSCILLATES_ABOVE_HZ, fastest_hz, _FREQUENCIES):
+        for quality in _QUALITIES:
+            time_s = float(quality / (np.pi * frequency))
+            part = ColouredPart(share=1.0, correlation_time_s=time_s, frequency_hz=float(frequency))
+            levels = spectrum.expected(part.covariances(lags_s))
+            found.append(_Shape(part=part, variance=1.0, levels=levels))
+    return found
+
+
+def _sized(spectrum: _Spectrum, white: Array, shapes: Sequence[_Shape]) -> _Sized | None:
+    """White noise and parts of these shapes, fitted to a spectrum; None: the last one is not there."""
+    cost, sizes = _fitted(spectrum, np.column_stack([white, *(shape.levels for shape in shapes)]))
+    if sizes[-1] <= 0:
         return None
-    sigma, colour = min(open_, key=lambda one: _unlikeliness(parts, one[1]))
-    return (sigma, colour) if colour.share >= least_share else None
+    there = [(shape, size) for shape, size in zip(shapes, sizes[1:], strict=True) if size > 0]
+    variance = float(sizes[0] + sum(size * shape.variance for shape, size in there))
+    ranked = sorted(there, key=lambda own: -own[1] * own[0].variance)
+    parts = tuple(
+        replace(shape.part, share=float(size * shape.part.share / variance)) for shape, size in ranked
+    )
+    return _Sized(
+        cost=cost + _OSCILLATOR * sum(part.frequency_hz > 0.0 for part in parts),
+        sigma=float(np.sqrt(variance)),
+        colour=NoiseColour(parts=parts),
+        shapes=tuple(shape for shape, _ in there),
+    )
 
 
 def _unlikeliness(parts: Sequence[tuple[Array, Array]], colour: NoiseColour) -> float:

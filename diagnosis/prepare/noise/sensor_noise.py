@@ -114,11 +114,22 @@ class Noise:
     def notes(self) -> tuple[str, ...]:
         """Warnings, and the sensors whose noise is not white."""
         each = (
-            f"{sensor}: {100 * min(colour.share, 1.0):.0f} % of the noise's variance is correlated over "
-            f"{1000 * colour.correlation_time_s:.0f} ms; the diagnosis allows for it"
+            f"{sensor}: {100 * min(colour.share, 1.0):.0f} % of the noise's variance is correlated "
+            f"{_over(colour)}; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
         return (*self.warnings, *each)
+
+
+def _over(colour: NoiseColour) -> str:
+    """The time over which noise is correlated, in words, or the frequency at which it oscillates."""
+    each = (
+        f"at {part.frequency_hz:.2g} Hz"
+        if part.frequency_hz
+        else f"over {1000 * part.correlation_time_s:.0f} ms"
+        for part in colour.parts
+    )
+    return " and ".join(each)
 
 
 def estimate_noise(

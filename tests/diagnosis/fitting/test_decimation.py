@@ -99,7 +99,7 @@ def test_coloured_noise_keeps_its_density_at_low_frequencies(share, time_s):
     log = log_of(NOMINAL)
     rare = decimated(replay_nominal(log).problem, replay_nominal(log).predictions).log
     ready = replay_nominal(log).problem.log
-    colour = NoiseColour(share=share, correlation_time_s=time_s)
+    colour = NoiseColour.of(share=share, correlation_time_s=time_s)
     before = Noise(sigma={"tip_angle_deg": 0.3}, colour={"tip_angle_deg": colour})
     after = decimated_noise(before, ready, rare)
     power = [
@@ -107,13 +107,13 @@ def test_coloured_noise_keeps_its_density_at_low_frequencies(share, time_s):
         for noise, step_s in ((before, 0.01), (after, 0.04))
     ]
     assert power[1] == pytest.approx(power[0], rel=0.01)  # 301 windows for 1200 samples
-    assert after.colour["tip_angle_deg"].correlation_time_s == time_s
+    assert after.colour["tip_angle_deg"].parts[0].correlation_time_s == time_s
 
 
 def test_a_decimated_log_with_coloured_noise_weighs_an_explanation_as_the_log_does():
     rig = RigParameters(kinetic_n_mm_per_mm=0.0015)
     nominal = replay_nominal(log_of(rig, speed=-1.0))
-    colour = NoiseColour(share=0.7, correlation_time_s=0.1)
+    colour = NoiseColour.of(share=0.7, correlation_time_s=0.1)
     noise = replace(nominal.problem.noise, colour=dict.fromkeys(SENSORS, colour))
     problem = replace(nominal.problem, noise=noise)
     both = (problem, decimated(problem, nominal.predictions))

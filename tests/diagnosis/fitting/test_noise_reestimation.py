@@ -67,7 +67,7 @@ def test_a_fit_in_units_of_another_noise_is_what_a_fit_to_it_would_be(problem):
 
 def coloured(problem, share=0.8, time_s=0.05):
     """The problem with a colour of the tip angle."""
-    colour = {"tip_angle_deg": NoiseColour(share=share, correlation_time_s=time_s)}
+    colour = {"tip_angle_deg": NoiseColour.of(share=share, correlation_time_s=time_s)}
     noise = replace(problem.noise, colour=colour, white=problem.noise.sigma)
     return replace(problem, noise=noise)
 
@@ -80,7 +80,7 @@ def long():
 def correlated(problem, share, time_s, seed=5):
     """Residuals with white noise of the torque and coloured noise of the tip angle, whitened."""
     rng = np.random.default_rng(seed)
-    truth = NoiseColour(share=share, correlation_time_s=time_s)
+    truth = NoiseColour.of(share=share, correlation_time_s=time_s)
     raw = []
     for trial in problem.log.trials:
         tip = truth.restored(trial.time_s, rng.normal(size=trial.time_s.size))
@@ -95,7 +95,7 @@ def test_the_colour_is_found_again_in_what_the_best_leaves(long):
     found = noise.colour["tip_angle_deg"]
     # 48 s hold 240 independent values of the coloured part: three times 9 % of its power.
     assert found.share == pytest.approx(0.6, abs=0.12)
-    power = (noise["tip_angle_deg"] / TIP) ** 2 * found.share * found.correlation_time_s
+    power = (noise["tip_angle_deg"] / TIP) ** 2 * found.share * found.parts[0].correlation_time_s
     assert power == pytest.approx(0.6 * 0.1, rel=0.45)
     assert "base_torque_n_mm" not in noise.colour
     (line,) = noise.notes

@@ -41,7 +41,7 @@ def test_in_units_of_another_noise_residuals_shrink_and_the_needle_is_the_same(s
 
 
 def test_where_the_same_noise_is_coloured_otherwise_fits_are_kept_in_its_units(undisturbed):
-    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    colour = {"tip_angle_deg": NoiseColour.of(share=0.5, correlation_time_s=0.1)}
     noise = replace(undisturbed.problem.noise, colour=colour)
     again = undisturbed.renoised(noise)
     best = undisturbed.best

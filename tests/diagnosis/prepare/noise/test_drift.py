@@ -9,7 +9,7 @@ from diagnosis.prepare.noise.noise_colour import NoiseColour
 
 TIME = np.linspace(3.0, 33.0, 3001)
 DRIFT = Drift(size_sigma=2.0)
-COLOUR = NoiseColour(share=0.6, correlation_time_s=0.05)
+COLOUR = NoiseColour.of(share=0.6, correlation_time_s=0.05)
 
 
 def cost(values, drift=DRIFT):

@@ -31,7 +31,9 @@ def test_colour_is_found_alone_and_beside_white_noise(share, time_s):
     assert sigma == pytest.approx(1.0, abs=0.5 * error + 0.03)
     assert colour.share == pytest.approx(share, abs=0.1)
     # Power at low frequencies, 2 share time_s, is what effects are judged by.
-    assert sigma**2 * colour.share * colour.correlation_time_s == pytest.approx(share * time_s, rel=0.45)
+    assert sigma**2 * colour.share * colour.parts[0].correlation_time_s == pytest.approx(
+        share * time_s, rel=0.45
+    )
 
 
 def test_colour_is_found_where_samples_are_missing():
@@ -41,7 +43,7 @@ def test_colour_is_found_where_samples_are_missing():
         values[rng.random(values.size) < 0.25] = np.nan
     sigma, colour = noise_colour(parts)
     assert colour.share > 0.95
-    assert sigma**2 * colour.correlation_time_s == pytest.approx(0.1, rel=0.45)
+    assert sigma**2 * colour.parts[0].correlation_time_s == pytest.approx(0.1, rel=0.45)
 
 
 def test_white_noise_is_white_with_and_without_missing_samples():
@@ -66,8 +68,8 @@ def test_what_is_slow_does_not_change_the_colour_that_is_found():
     for time_s, values in parts:
         values[:] += 5 * np.sin(2 * np.pi * 0.1 * time_s)
     sigma, found = noise_colour(parts)
-    power = (sigma**2 * found.share * found.correlation_time_s) / (
-        alone**2 * colour.share * colour.correlation_time_s
+    power = (sigma**2 * found.share * found.parts[0].correlation_time_s) / (
+        alone**2 * colour.share * colour.parts[0].correlation_time_s
     )
     assert 0.5 < power < 2.0
 
@@ -91,7 +93,7 @@ def test_means_of_coloured_readings_are_told_by_what_means_do_to_them():
     ]
     _, colour = noise_colour(parts, means_of=2)
     assert colour.share > 1.0
-    assert colour.correlation_time_s == pytest.approx(0.016, rel=0.35)
+    assert colour.parts[0].correlation_time_s == pytest.approx(0.016, rel=0.35)
     left = np.concatenate([colour.whitened(time_s, values) for time_s, values in parts])
     both = np.mean(left[1:] * left[:-1]) / np.mean(left**2)
     assert abs(both) < 4 / np.sqrt(left.size)
@@ -101,3 +103,40 @@ def test_a_colour_that_shows_less_is_found_if_less_is_asked_for():
     parts = trials(8, count=3, seconds=12.0, share=0.25, correlation_time_s=0.02)
     assert noise_colour(parts, least_chi_square=10.0) is not None
     assert noise_colour(parts, least_chi_square=100.0) is None
+
+
+def swinging(rng, frequency_hz, periods, size=6000):
+    """AR(2) noise of variance 1: an oscillation that is forgotten after some periods."""
+    kept, turn = np.exp(-frequency_hz / periods / RATE_HZ), 2 * np.pi * frequency_hz / RATE_HZ
+    values = lfilter([1.0], [1.0, -2 * kept * np.cos(turn), kept**2], rng.normal(size=size + 1000))
+    return values[1000:] / values.std()
+
+
+@pytest.mark.parametrize(("frequency_hz", "periods"), [(6.0, 0.5), (16.0, 0.6), (20.0, 1.2)])
+def test_noise_that_swings_is_whitened(frequency_hz, periods):
+    """Its density at frequency 0, by which effects are judged, is that of its model."""
+    rng = np.random.default_rng(9)
+    parts = [(np.arange(6000) / RATE_HZ, swinging(rng, frequency_hz, periods)) for _ in range(2)]
+    sigma, colour = noise_colour(parts)
+    # 120 s, 119 windows: the quantile of a band of 8 frequencies is good to 1.7 / sqrt(0.8 * 119 * 8),
+    # that of the peak's few bands to 0.05; sigma is its root, and lines of the grid are 10 % apart.
+    assert sigma == pytest.approx(1.0, abs=0.1)
+    left = np.concatenate([colour.whitened(time_s, values / sigma) for time_s, values in parts])
+    assert np.sqrt(np.mean(left**2)) == pytest.approx(1.0, abs=0.06)
+    # Means of n white values times sqrt(n) have the same root mean square: here to 1 / sqrt(2 * 480).
+    means = 5.0 * left.reshape(-1, 25).mean(axis=1)
+    assert np.sqrt(np.mean(means**2)) == pytest.approx(1.0, abs=4 / np.sqrt(2 * means.size) + 0.1)
+
+
+def test_noise_of_several_correlation_times_is_whitened():
+    """1 / f noise, over two decades of time."""
+    rng = np.random.default_rng(10)
+    parts = []
+    for _ in range(4):
+        each = [noise(rng, share=1.0, correlation_time_s=time_s) for time_s in (0.005, 0.03, 0.2)]
+        parts.append((np.arange(each[0].size) / RATE_HZ, sum(each) / np.sqrt(3)))
+    sigma, colour = noise_colour(parts)
+    left = np.concatenate([colour.whitened(time_s, values / sigma) for time_s, values in parts])
+    means = 5.0 * left.reshape(-1, 25).mean(axis=1)
+    assert np.sqrt(np.mean(means**2)) == pytest.approx(1.0, abs=0.2)
+    assert np.sqrt(np.mean(left**2)) == pytest.approx(1.0, abs=0.03)

@@ -19,7 +19,7 @@ from diagnosis.workers import Workers
 def test_a_search_begins_again_where_the_best_effect_leaves_another_colour(dry_start, monkeypatch):
     """Noise that was taken for coloured beside dry friction, and is white once that is known."""
     sigma = dry_start.problem.noise.sigma
-    colour = {"tip_angle_deg": NoiseColour(share=0.5, correlation_time_s=0.1)}
+    colour = {"tip_angle_deg": NoiseColour.of(share=0.5, correlation_time_s=0.1)}
     noise = replace(dry_start.problem.noise, colour=colour)
     start = replace(
         dry_start,
@@ -81,7 +81,7 @@ def test_what_an_effect_leaves_is_no_noise():
 def test_the_best_is_fitted_in_the_noise_that_it_leaves(dry_start):
     """Noise that was taken for coloured takes slow residuals for noise: other values are best in it."""
     noise = dry_start.problem.noise
-    colour = {TORQUE_NAME: NoiseColour(share=0.9, correlation_time_s=0.3)}
+    colour = {TORQUE_NAME: NoiseColour.of(share=0.9, correlation_time_s=0.3)}
     wrong = dry_start.renoised(replace(noise, colour=colour))
     start = replace(wrong, candidates=(), effects=("coulomb_friction",))
     begun = module.single_effects(module.nominal_rig(start, Workers()), Workers())
