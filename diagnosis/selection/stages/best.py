@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
-from diagnosis.effects import IMPERFECTIONS, LIBRARY
-from diagnosis.effects.effect import Parameter, Place
+from diagnosis.effects import FITTED, IMPERFECTIONS
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
+from diagnosis.log.trial import SENSORS
 from diagnosis.selection.fitting import fit_all, fit_beside
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -69,10 +70,10 @@ def _absent_at(parameter: Parameter) -> float:
 
 
 def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> SearchState:
-    """The best with an imperfection of the same sensor in place of its delay.
+    """The best with another reason for which a sensor is late in place of the one that it has.
 
-    The decimated log is too coarse to tell a delay from a low pass, which may never have come this far.
-    A delay beside one low pass may be another one.
+    That is a delay, or an imperfection. The decimated log is too coarse to tell a delay from a low pass,
+    and what leads there may be the only one that came this far. Two of them may be a third one.
     """
     best = state.best
     state, _ = state.rechecked()
@@ -80,24 +81,24 @@ def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> Se
         return state
     known = {frozenset(c.names) for c in state.candidates}
     swapped: dict[frozenset[str], tuple[str, ...]] = {}
-    for late in filter(_is_delay, best.names):
-        own = [i.name for i in IMPERFECTIONS.values() if i.needs == LIBRARY[late].needs]
-        others = tuple(name for name in best.names if name != late)
-        bare = tuple(name for name in others if name not in own)
-        for names in ((*kept, name) for kept in (others, bare) for name in own if name not in kept):
-            swapped.setdefault(frozenset(names), names)
+    for column in SENSORS:
+        lags = [e.name for e in FITTED.values() if e.needs == column and _is_in_time(e)]
+        for late in (name for name in best.names if name in lags and _has_a_time(FITTED[name])):
+            others = tuple(name for name in best.names if name != late)
+            bare = tuple(name for name in others if name not in lags)
+            for names in ((*kept, lag) for kept in (others, bare) for lag in lags if lag not in kept):
+                swapped.setdefault(frozenset(names), names)
     new = [names for key, names in swapped.items() if key not in known]
     return state.adding(fit_beside("imperfections in place", state.problem, best, new, workers))
 
 
-def _is_delay(name: str) -> bool:
-    """Whether it is an effect by which a sensor is late."""
-    effect = LIBRARY.get(name)
-    return (
-        effect is not None
-        and effect.place is Place.SENSOR
-        and any(p.unit == "s" for p in effect.parameters)
-    )
+def _is_in_time(effect: Effect) -> bool:
+    """Whether it is a delay of a sensor, a low pass or a clock."""
+    return effect.place is Place.SENSOR and (effect.name in IMPERFECTIONS or _has_a_time(effect))
+
+
+def _has_a_time(effect: Effect) -> bool:
+    return any(parameter.unit == "s" for parameter in effect.parameters)
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:

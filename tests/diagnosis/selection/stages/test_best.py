@@ -18,6 +18,11 @@ from diagnosis.selection.search import search
 from diagnosis.selection.stages import best as module
 from diagnosis.workers import Workers
 
+TORQUE_LAGS = (
+    *("torque_average", "torque_butterworth", "torque_clock", "torque_low_pass"),
+    "torque_sensor_delay",
+)
+
 
 @pytest.fixture
 def asked(monkeypatch):
@@ -64,11 +69,12 @@ def test_a_delay_may_be_an_imperfection_of_its_sensor(asked, still_start):
     assert asked == []
 
 
-def test_a_delay_beside_one_low_pass_may_be_another_low_pass(asked, still_start):
-    both = scored(["torque_low_pass", "torque_sensor_delay"], 1.0)
+@pytest.mark.parametrize("lag", ["torque_sensor_delay", "torque_butterworth"])
+def test_a_lag_beside_one_low_pass_may_be_another_one(lag, asked, still_start):
+    both = scored(["torque_low_pass", lag], 1.0)
     module.best_with_imperfections_in_place(replace(still_start, candidates=(both,)), Workers())
-    assert ("torque_low_pass", "torque_butterworth") in asked
-    assert {("torque_butterworth",), ("torque_average",), ("torque_low_pass",)} <= {*asked}
+    assert {("torque_average",), ("torque_low_pass",), ("torque_sensor_delay",)} <= {*asked} | {(lag,)}
+    assert all({*names} <= {*TORQUE_LAGS} for names in asked)
 
 
 @pytest.mark.parametrize(("slow", "fitted"), [(0.99, 2), (1.01, 0)])
