@@ -100,10 +100,13 @@ noise, of which they may leave twice the variance by chance; the share of it by 
 alone (at a corner, 0 of one side); samples that a window may do without, itself among them; and outliers
 in a row: what lasts longer is an event."""
 OUTLIER_LEFT_SIGMA, OUTLIER_LEFT_QUIET_SIGMA, OUTLIER_LEFT_NEIGHBOURS = 5.0, 3.5, 2
+OUTLIER_LEFT_MOST_RUN = 10
 OUTLIER_MOST_LEFT, OUTLIER_LEFT_SHARE = 0.01, 0.3
 """Outliers beside an explanation: how far they are off, while so many neighbours on each side are not
-(derived: by chance once in two million readings, and once in 500 neighbours); the share of a sensor's
-readings that they come to at most; and what they have to be of what is left beyond noise."""
+(derived: by chance once in two million readings, and once in 500 neighbours); how many in a row, with
+fewer quiet readings between them (a tenth of a second of most logs: what lasts longer is an event); the
+share of a sensor's readings that they come to at most; and what they have to be of what is left beyond
+noise."""
 PULSES_SHARE = 0.5
 """Share of the outliers of the base that others answer to, from which they are motion; by chance
 those of two sensors meet in some hundredths of them."""

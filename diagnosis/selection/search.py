@@ -28,7 +28,10 @@ from diagnosis.selection.stages.sensors.coloured_noise import (
     weakly_coloured_noise,
 )
 from diagnosis.selection.stages.sensors.imperfections import one_more_imperfection
-from diagnosis.selection.stages.sensors.outliers_left import outliers_beside_the_best
+from diagnosis.selection.stages.sensors.outliers_left import (
+    outliers_and_more,
+    outliers_beside_the_best,
+)
 from diagnosis.selection.stages.sensors.reading_jumps import jumps_of_readings
 from diagnosis.selection.stages.sensors.torque_drift import drift_of_the_torque_sensor, drift_or_offset
 from diagnosis.selection.stages.single_effects import single_effects
@@ -62,6 +65,7 @@ STAGES: tuple[Stage, ...] = (
     drift_of_the_torque_sensor,
     drift_or_offset,
     jumps_of_readings,
+    outliers_and_more((weakly_coloured_noise, drift_of_the_torque_sensor, jumps_of_readings)),
     best_with_imperfections_in_place,
 )
 

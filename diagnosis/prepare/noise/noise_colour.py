@@ -23,8 +23,8 @@ and its rate / 2 pi f,
 
 where h adds up the first entries, and F lets each part decay and swing for a step. This is exact for
 samples at any times, also with missing ones (if w is negative, unless some are much closer than the step
-of the means). It is linear in y: differences of residuals and slopes are whitened like residuals. The sum
-of squares of whitened residuals is -2 log(likelihood), up to a constant.
+of the means). It is linear in y: differences of residuals and slopes are whitened like residuals. The
+sum of squares of whitened residuals is -2 log(likelihood), up to a constant.
 """
 
 import math

@@ -72,11 +72,11 @@ class _Shape:
 
     Attributes:
       part: with the share of one whose readings have the variance 1.
-      variance: of samples, which may be means of readings.
+      variance_ratio: of samples, which may be means of readings, to that of readings.
     """
 
     part: ColouredPart
-    variance: float
+    variance_ratio: float
     levels: Array
 
 
@@ -133,7 +133,9 @@ def _shapes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
     for time_s in np.geomspace(0.4 * spectrum.step_s, COLOUR_LONGEST_S, _TIMES):
         covariances, later = covariances_of_means(lags_s, time_s, spectrum.step_s, means_of)
         part = ColouredPart(share=later, correlation_time_s=float(time_s))
-        found.append(_Shape(part=part, variance=covariances[0], levels=spectrum.expected(covariances)))
+        found.append(
+            _Shape(part=part, variance_ratio=covariances[0], levels=spectrum.expected(covariances))
+        )
     fastest_hz = _OSCILLATES_BELOW / spectrum.step_s
     if fastest_hz <= COLOUR_OSCILLATES_ABOVE_HZ:
         return found
@@ -142,7 +144,7 @@ def _shapes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
             time_s = float(quality / (np.pi * frequency))
             part = ColouredPart(share=1.0, correlation_time_s=time_s, frequency_hz=float(frequency))
             levels = spectrum.expected(part.covariances(lags_s))
-            found.append(_Shape(part=part, variance=1.0, levels=levels))
+            found.append(_Shape(part=part, variance_ratio=1.0, levels=levels))
     return found
 
 
@@ -152,8 +154,8 @@ def _sized(spectrum: _Spectrum, white: Array, shapes: Sequence[_Shape]) -> _Size
     if sizes[-1] <= 0:
         return None
     there = [(shape, size) for shape, size in zip(shapes, sizes[1:], strict=True) if size > 0]
-    variance = float(sizes[0] + sum(size * shape.variance for shape, size in there))
-    ranked = sorted(there, key=lambda own: -own[1] * own[0].variance)
+    variance = float(sizes[0] + sum(size * shape.variance_ratio for shape, size in there))
+    ranked = sorted(there, key=lambda own: -own[1] * own[0].variance_ratio)
     parts = tuple(
         replace(shape.part, share=float(size * shape.part.share / variance)) for shape, size in ranked
     )

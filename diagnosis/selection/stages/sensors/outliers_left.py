@@ -3,7 +3,8 @@
 Outliers are looked for before any model is known, beside the samples on both sides. At a low rate, or
 where several are next to each other, that tells too little; beside an explanation they stand alone. They
 are left out if they are few, if that takes off a good part of what is left beyond noise, and if the log
-is explained then. What an unmodelled effect leaves lasts, or comes at every reversal.
+is explained then, or with one more imperfection of the recording. What an unmodelled effect leaves
+lasts, or comes at every reversal.
 """
 
 from collections.abc import Sequence
@@ -13,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import (
+    OUTLIER_LEFT_MOST_RUN,
     OUTLIER_LEFT_NEIGHBOURS,
     OUTLIER_LEFT_QUIET_SIGMA,
     OUTLIER_LEFT_SHARE,
     OUTLIER_LEFT_SIGMA,
     OUTLIER_MOST_LEFT,
-    OUTLIER_MOST_RUN,
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
@@ -27,7 +28,7 @@ from diagnosis.log.left_out import LeftOut
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.stages.stage import leading_fitted_again
+from diagnosis.selection.stages.stage import Stage, leading_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -57,17 +58,47 @@ class _Readings:
 def outliers_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
     """The state without readings that are far off the best, where only that explains the log."""
     state, explained = state.rechecked()
-    found = [] if explained else _found(state.problem, state.best.fit)
-    if not _promise(state, found):
+    without = None if explained else _without_outliers(state, workers)
+    if without is None:
         return state
-    begun = _without(state, found)
-    made = leading_fitted_again(STAGE, state, begun.problem, workers)
-    again, explained = begun.adding(made).rechecked()
+    again, explained = without.rechecked()
     if not explained:
         return state.noting(
             noted(STAGE, Decision.DROPPED, "without them the log is not explained either")
         )
     return again.noting(noted(STAGE, Decision.KEPT, "without them the log is explained"))
+
+
+def outliers_and_more(others: Sequence[Stage]) -> Stage:
+    """A stage: what else a recording may lack is asked once more without outliers.
+
+    Neither they nor a drift or a jump are all that is left where a recording has both.
+
+    Args:
+      others: stages that allow for it; the first that explains the log is kept.
+    """
+
+    def outliers_and_another_imperfection(state: SearchState, workers: Workers) -> SearchState:
+        state, explained = state.rechecked()
+        without = None if explained else _without_outliers(state, workers)
+        if without is None:
+            return state
+        for other in others:
+            again, explained = other(without, workers).rechecked()
+            if explained:
+                return again.noting(noted(STAGE, Decision.KEPT, "without them it explains the log"))
+        return state
+
+    return outliers_and_another_imperfection
+
+
+def _without_outliers(state: SearchState, workers: Workers) -> SearchState | None:
+    """The state without outliers, the leading explanations fitted anew; None: there are none."""
+    found = _found(state.problem, state.best.fit)
+    if not _promise(state, found):
+        return None
+    begun = _without(state, found)
+    return begun.adding(leading_fitted_again(STAGE, state, begun.problem, workers))
 
 
 def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
@@ -84,19 +115,20 @@ def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
 def outlying(left: Array) -> Mask:
     """Mask of residuals that are far off in short runs, with quiet neighbours on both sides, (N,).
 
+    In a burst of them, fewer quiet ones than there are neighbours do not part it, and those at its ends
+    may be off by less.
+
     Args:
       left: residuals / sigma, (N,).
     """
-    far = np.abs(left) > OUTLIER_LEFT_SIGMA
+    off = np.flatnonzero(np.abs(left) >= OUTLIER_LEFT_QUIET_SIGMA)
     rows = np.zeros(left.size, bool)
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], far.astype(np.int8), [0])))).reshape(-1, 2)
-    for start, end in edges[edges[:, 1] - edges[:, 0] <= OUTLIER_MOST_RUN]:
-        beside = (
-            left[max(start - OUTLIER_LEFT_NEIGHBOURS, 0) : start],
-            left[end : end + OUTLIER_LEFT_NEIGHBOURS],
-        )
-        enough = all(side.size == OUTLIER_LEFT_NEIGHBOURS for side in beside)
-        if enough and np.abs(np.concatenate(beside)).max() < OUTLIER_LEFT_QUIET_SIGMA:
+    runs = np.split(off, np.flatnonzero(np.diff(off) > OUTLIER_LEFT_NEIGHBOURS) + 1) if off.size else []
+    for start, end in ((int(run[0]), int(run[-1]) + 1) for run in runs):
+        far = np.abs(left[start:end]).max() > OUTLIER_LEFT_SIGMA
+        if not far or end - start > OUTLIER_LEFT_MOST_RUN:
+            continue
+        if start >= OUTLIER_LEFT_NEIGHBOURS and end <= left.size - OUTLIER_LEFT_NEIGHBOURS:
             rows[start:end] = True
     return rows
 

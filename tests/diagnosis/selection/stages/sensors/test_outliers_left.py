@@ -12,6 +12,7 @@ from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.outliers_left import (
     STAGE,
+    outliers_and_more,
     outliers_beside_the_best,
     outlying,
 )
@@ -79,8 +80,11 @@ def test_outliers_that_do_not_explain_the_log_stay_in_it():
     [
         ({50: 8.0}, {50}),
         ({50: 8.0, 51: -7.0}, {50, 51}),
-        ({50: 8.0, 52: 4.0}, set()),  # a neighbour is off as well
-        (dict.fromkeys(range(50, 57), 8.0), set()),  # it lasts
+        ({50: 8.0, 52: 4.0}, {50, 51, 52}),  # the end of a burst, off by less
+        ({50: 8.0, 53: 8.0}, {50, 53}),
+        ({50: 8.0, 62: 8.0} | dict.fromkeys(range(51, 62), 4.0), set()),
+        ({50: 8.0, 52: -9.0, 53: 30.0}, {50, 51, 52, 53}),  # one burst, whatever is between
+        (dict.fromkeys(range(50, 61), 8.0), set()),  # it lasts
         ({0: 8.0, 99: 8.0}, set()),  # nothing on one side
         ({50: 4.9}, set()),
     ],
@@ -89,3 +93,31 @@ def test_only_short_runs_with_quiet_neighbours_are_outliers(far, found):
     left = np.random.default_rng(0).uniform(-1.5, 1.5, 100)
     left[list(far)] = list(far.values())
     assert set(np.flatnonzero(outlying(left)).tolist()) == found
+
+
+def test_outliers_beside_another_imperfection_are_left_out_if_both_explain_the_log(monkeypatch):
+    """A step of the reading besides: what allows for it is asked once more, without the outliers."""
+    log = off(log_of(NOMINAL, seconds=12.0), [700, 1100], [-60, 40])
+    log = off(log, slice(400, None), 0.8)
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    asked = []
+
+    def useless(state, workers):
+        asked.append(state)
+        return state
+
+    def repairing(state, workers):
+        asked.append(state)
+        (trial,) = state.problem.log.trials
+        read = {**trial.readings, TORQUE: trial.readings[TORQUE] - 0.008 * (trial.time_s >= 4.0)}
+        log = replace(state.problem.log, trials=(replace(trial, readings=read),))
+        problem = replace(state.problem, log=log)
+        return nominal_rig(replace(state, problem=problem, candidates=(), checked=None), Workers())
+
+    kept = outliers_and_more((useless, repairing))(state, Workers())
+    assert [one.left_out[0].times_s.tolist() for one in asked] == [[7.0, 11.0], [7.0, 11.0]]
+    assert kept.best.floor.reached
+    assert decisions(kept) == [Decision.KEPT]
+    dropped = outliers_and_more((useless,))(state, Workers())
+    assert dropped.problem is state.problem
+    assert dropped.left_out == ()
