@@ -115,4 +115,8 @@ def _inside(answer: dict[str, Any], report: dict[str, Any], effect: str, name: s
     interval = report.get("parameters", {}).get(effect, {}).get(name)
     if interval is None or not set(answer["effects"]) <= set(report["effects"]):
         return None
-    return bool(interval["low"] <= answer["parameters"][effect][name] <= interval["high"])
+    true = answer["parameters"][effect][name]
+    period = next(p.period for p in LIBRARY[effect].parameters if p.name == name)
+    if period:  # an angle: the turn that is nearest to the reported one
+        true += period * round((interval["value"] - true) / period)
+    return bool(interval["low"] <= true <= interval["high"])

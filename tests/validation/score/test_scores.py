@@ -104,6 +104,14 @@ def test_an_interval_counts_where_the_true_effects_are_named(scored):
     assert list(table["inside"]) == [1, 0, 0]
 
 
+@pytest.mark.parametrize(("low", "high", "inside"), [(-180.4, -179.6, 1), (-179.8, -179.4, 0)])
+def test_an_angle_is_compared_with_the_nearest_turn(low, high, inside, scored):
+    true = explained("needle_curvature", needle_curvature={"phase": 179.9})
+    told = {"value": (low + high) / 2, "low": low, "high": high}
+    report = explained("needle_curvature", needle_curvature={"phase": told})
+    assert list(scored({"a": true}, {"a": report})["inside"]) == [inside]
+
+
 def test_the_first_rank_is_right_if_it_is_a_true_effect(scored):
     ranking = [{"effect": "tip_drag", "probability": 0.7}, {"effect": "stiction", "probability": 0.2}]
     reports = dict.fromkeys("ab", explained("tip_drag") | {"ranking": ranking})
