@@ -251,10 +251,8 @@ GAP_HELD_DEG_S, GAP_UNKNOWN_TWIST_DEG = 5.0, 15.0
 """Quantile of the twist of a held shaft that is the usual one: beyond are outliers and what a fast turn
 left. Physical: rate below which the base holds beside a needle's turns of tens of degrees a second, and
 the usual twist where the tip is not measured; a larger one discards more readings after a gap."""
-BETWEEN_SAMPLES_S = 0.015
 STRAIGHT_DEG = 0.1
-"""Samples this far apart leave the motion between them open; and what the step of the base may change
-by from sample to sample where it is straight."""
+"""What the step of the base may change by from sample to sample where it is straight."""
 COARSE_STEP_SIGMA = 2.0
 COARSE_LEAST_RUNS, COARSE_LEAST_KINDS = 20, 2
 """Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them.

@@ -64,6 +64,7 @@ STAGES: tuple[Stage, ...] = (
     weakly_coloured_noise,
     drift_of_the_torque_sensor,
     drift_or_offset,
+    finer_mesh,
     jumps_of_readings,
     outliers_and_more((weakly_coloured_noise, drift_of_the_torque_sensor, jumps_of_readings)),
     best_with_imperfections_in_place,

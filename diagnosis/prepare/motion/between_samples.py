@@ -13,53 +13,57 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
 
-from diagnosis.criteria import BETWEEN_SAMPLES_S, STRAIGHT_DEG
+from diagnosis.criteria import STRAIGHT_DEG
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _FINE_S = 0.01  # a step of the replay
+_RARE_S = 0.02  # samples for which STRAIGHT_DEG is; nearer ones bend by less
+_FEWEST_PARTS = 2  # steps of a replay that is twice as fine
 _LEAST_SAMPLES = 6
 
 
 def between_samples(time_s: Array, base_deg: Array) -> tuple[Array, Array]:
-    """Times and angles of the base, (N,) each; (M,) with interpolated ones if samples are rare."""
+    """Times and angles of the base, (M,) each, with interpolated ones between all N samples."""
     step_s = float(np.median(np.diff(time_s)))
-    if step_s <= BETWEEN_SAMPLES_S or time_s.size < _LEAST_SAMPLES:
+    if time_s.size < _LEAST_SAMPLES:
         return time_s, base_deg
-    parts = int(np.ceil(step_s / _FINE_S - 1e-6))
+    parts = max(int(np.ceil(step_s / _FINE_S - 1e-6)), _FEWEST_PARTS)
     inside = time_s[:-1, None] + np.diff(time_s)[:, None] * np.arange(parts) / parts
     angles = np.asarray(Akima1DInterpolator(time_s, base_deg)(inside))
     rate = np.diff(base_deg) / np.diff(time_s)
     bent = np.abs(np.diff(rate)) * np.minimum(np.diff(time_s)[:-1], np.diff(time_s)[1:])
-    _straighten(time_s, base_deg, bent, inside, angles)
-    _turn_corners(time_s, base_deg, rate, bent, inside, angles)
+    straight = bent < STRAIGHT_DEG * min(step_s / _RARE_S, 1.0)
+    _straighten(time_s, base_deg, straight, inside, angles)
+    _turn_corners(time_s, base_deg, rate, straight, inside, angles)
     _hold_between(base_deg, rate, angles)
     return np.append(inside.ravel(), time_s[-1]), np.append(angles.ravel(), base_deg[-1])
 
 
-def _straighten(time_s: Array, base_deg: Array, bent: Array, inside: Array, angles: Array) -> None:
+def _straighten(time_s: Array, base_deg: Array, straight: Mask, inside: Array, angles: Array) -> None:
     """Run straight to corners at a sample, and on, in the angles, (N - 1, parts).
 
     Args:
-      bent: by how much the motion bends at each inner sample, deg, (N - 2,).
+      straight: mask of inner samples at which the motion hardly bends, (N - 2,).
     """
-    straight = bent < STRAIGHT_DEG
     for i in 2 + np.flatnonzero(straight[:-2] & ~straight[1:-1] & straight[2:]):
         near = slice(i - 1, i + 1)
         angles[near] = np.interp(inside[near], time_s, base_deg)
 
 
 def _turn_corners(
-    time_s: Array, base_deg: Array, rate: Array, bent: Array, inside: Array, angles: Array
+    time_s: Array, base_deg: Array, rate: Array, straight: Mask, inside: Array, angles: Array
 ) -> None:
     """Insert corners into the angles, (N - 1, parts), where lines of three samples per side cross."""
     first = np.arange(2, time_s.size - 3)  # the sample before the corner
     before, after = rate[first - 1], rate[first + 1]
-    straight = (bent[first - 2] < STRAIGHT_DEG) & (bent[first + 1] < STRAIGHT_DEG)
+    bends = ~(straight[first - 1] & straight[first])
+    corner = bends & straight[first - 2] & straight[first + 1]
     turned = np.where(before == after, np.inf, before - after)
     late = base_deg[first + 1] - after * (time_s[first + 1] - time_s[first]) - base_deg[first]
     wait = late / turned
-    found = straight & (wait > 0) & (wait < time_s[first + 1] - time_s[first])
+    found = corner & (wait > 0) & (wait < time_s[first + 1] - time_s[first])
     for i in first[found]:
         left = base_deg[i] + rate[i - 1] * (inside[i] - time_s[i])
         right = base_deg[i + 1] + rate[i + 1] * (inside[i] - time_s[i + 1])

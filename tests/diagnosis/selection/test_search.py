@@ -48,6 +48,7 @@ def test_the_stages_are_these_in_this_order():
         "weakly_coloured_noise",
         "drift_of_the_torque_sensor",
         "drift_or_offset",
+        "finer_mesh",
         "jumps_of_readings",
         "outliers_and_another_imperfection",
         "best_with_imperfections_in_place",

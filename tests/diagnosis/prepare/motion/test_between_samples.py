@@ -47,8 +47,17 @@ def test_samples_are_met():
 
 
 @pytest.mark.parametrize("step", [0.01, 0.005])
-def test_samples_that_are_not_rare_are_left_alone(step):
+def test_a_replay_that_is_twice_as_fine_as_the_samples_follows_the_motion(step):
+    """At its middles, lines are off by 400 deg/s^2 step^2 / 8."""
     at = step * np.arange(100)
+    time, angle = between_samples(at, 200.0 * at**2)
+    np.testing.assert_allclose(time, 0.5 * step * np.arange(199), atol=1e-12)
+    off = np.abs(angle - 200.0 * time**2)
+    assert off[8:-8].max() < 0.02 * 400.0 * step**2 / 8
+
+
+def test_too_few_samples_are_left_alone():
+    at = 0.05 * np.arange(4)
     time, angle = between_samples(at, at**2)
     assert time is at
     np.testing.assert_array_equal(angle, at**2)

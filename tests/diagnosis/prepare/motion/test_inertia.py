@@ -107,8 +107,9 @@ def test_the_replay_of_a_heavy_shaft_is_its_inertia_at_any_rate_of_samples(step_
     assert error < 0.02  # (w h)^2 / 12 of the centred difference, and linear interpolation of it
 
 
-def test_straight_lines_between_samples_would_not_do():
-    """Negative control: without the spline, steps of half a sample see spikes."""
+def test_straight_lines_between_samples_would_not_do(monkeypatch):
+    """Negative control: without a smooth motion, steps of half a sample see spikes."""
+    monkeypatch.setattr("diagnosis.prepare.prepared_log.between_samples", lambda *lines: lines)
     log = heavy_log(np.arange(0.0, 4.0, 0.02))
     ready, _ = prepare(log)
     straight = replace(ready, trials=(replace(ready.trials[0], inertia=InertiaTorque()),))

@@ -129,7 +129,8 @@ def test_a_needle_that_never_reaches_the_tissue_cannot_be_simulated(sliding):
 
 
 def test_a_tip_that_is_still_outside_has_no_depth(sliding):
-    inserting = replace(sliding.schedule, inserted_mm=np.linspace(0, 90, sliding.time_s.size))
+    inserting = sliding.schedule
+    inserting = replace(inserting, inserted_mm=np.linspace(0, 90, inserting.time_s.size))
     inserted = driven(RigParameters(inserted_offset_mm=-10.0), inserting).inserted_mm
     assert inserted[0] == 0.0
     assert inserted[-1] == pytest.approx(80.0)
