@@ -63,10 +63,10 @@ STAGES: tuple[Stage, ...] = (
     outliers_beside_the_best,
     weakly_coloured_noise,
     drift_of_the_torque_sensor,
-    drift_or_offset,
-    finer_mesh,
     jumps_of_readings,
     outliers_and_more((weakly_coloured_noise, drift_of_the_torque_sensor, jumps_of_readings)),
+    drift_or_offset,
+    finer_mesh,
     best_with_imperfections_in_place,
 )
 

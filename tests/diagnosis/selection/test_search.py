@@ -47,10 +47,10 @@ def test_the_stages_are_these_in_this_order():
         "outliers_beside_the_best",
         "weakly_coloured_noise",
         "drift_of_the_torque_sensor",
-        "drift_or_offset",
-        "finer_mesh",
         "jumps_of_readings",
         "outliers_and_another_imperfection",
+        "drift_or_offset",
+        "finer_mesh",
         "best_with_imperfections_in_place",
     ]
 
