@@ -319,10 +319,11 @@ right explanation leaves passes for less. What effects leave of the nominal rig 
 The spectrum is taken from at least so many windows of so many seconds, from the frequency on above which
 effects leave little; colours within so much chi-square of the best are open. Physical: what is
 correlated for longer is drift and not noise."""
-COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ = 3, 4.0
-"""Correlated parts that noise may have, each for COLOUR_CHI_SQUARE, and the frequency from which on it
-may oscillate. Physical: a needle is turned by hand or drive at less than 4 Hz, and what a model lacks
-there must not pass for noise."""
+COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ, COLOUR_PARTS_GAP = 3, 4.0, 2.0
+"""Correlated parts that noise may have, each for COLOUR_CHI_SQUARE; the frequency from which on it may
+oscillate; and what the residual of a sensor may come to for more than one part. Physical: a needle is
+turned by hand or drive at less than 4 Hz, and what a model lacks there must not pass for noise. Nor must
+the swinging of a rig: of a friction damper with play, 3 sigma of it were noise of 5 Hz."""
 COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP = 10.0, 1.3
 """Chi-square that is enough where only that explains the log (derived: once in 150 sensors by chance),
 and what white noise may leave of such a colour: that of half of the variance leaves 1.4."""

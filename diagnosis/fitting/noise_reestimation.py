@@ -17,7 +17,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COLOURED_BLOCK_S, NOISE_TRUST, SLOW_BLOCK
+from diagnosis.criteria import (
+    COLOUR_MOST_PARTS,
+    COLOUR_PARTS_GAP,
+    COLOURED_BLOCK_S,
+    NOISE_TRUST,
+    SLOW_BLOCK,
+)
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.problem import FitProblem
@@ -30,11 +36,16 @@ Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals
 
 
 def with_colour(problem: FitProblem, best: Fit) -> Noise:
-    """Noise of the sensors, with the colour that the residual of a fit shows."""
+    """Noise of the sensors, with the colour that the residual of a fit shows.
+
+    Of several parts where it is little more than noise: what a model lacks of a rig that swings is none.
+    """
     plain = problem.noise.uncoloured
     in_sigma = _by_sensor(problem, in_units_of(problem, best.by_trial, plain))
     left = {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
-    return problem.noise.with_colour(left)
+    gaps = {s: floor_of([values for _, values in parts]).gap for s, parts in in_sigma.items()}
+    few = {s: COLOUR_MOST_PARTS if gap <= COLOUR_PARTS_GAP else 1 for s, gap in gaps.items()}
+    return problem.noise.with_colour(left, most_parts=few)
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:

@@ -7,8 +7,9 @@ scatters as chi-square with two degrees of freedom about the spectral density), 
 of the windows do not change it. Bands begin above the frequencies of slow residuals. The sum of white
 noise and an Ornstein-Uhlenbeck process is fitted to them (`noise_colour`), with a correlation time of
 at most `COLOUR_LONGEST_S`: its part below the bands is extrapolated and never taken from the data.
-So missing slow friction cannot be mistaken for noise. Where the spectrum asks for it, further parts are
-added one by one: another such process, or an oscillation that is faster than what needles do.
+So missing slow friction cannot be mistaken for noise. Beside an explanation that leaves little, further
+parts are added one by one where the spectrum asks for them: another such process, or an oscillator that
+is faster than what needles do.
 
 Missing samples count as zeros; the autocorrelation of the windows takes this into account in the
 spectrum that a model of the noise is expected to show.
@@ -95,6 +96,7 @@ def noise_colour(
     least_share: float = COLOUR_LEAST_SHARE,
     means_of: int = 1,
     least_chi_square: float = COLOUR_CHI_SQUARE,
+    most_parts: int = COLOUR_MOST_PARTS,
 ) -> tuple[float, NoiseColour] | None:
     """Standard deviation and colour of the noise in residuals; None: it may be white.
 
@@ -103,6 +105,7 @@ def noise_colour(
       least_share: smallest share of the variance that counts as coloured.
       means_of: number of readings that a sample is the mean of.
       least_chi_square: by which white noise has to fit the spectrum worse.
+      most_parts: correlated parts; the only one does not oscillate.
     """
     spectrum = _spectrum(parts)
     if spectrum is None:
@@ -110,11 +113,13 @@ def noise_colour(
     lags_s = np.asarray(spectrum.step_s * np.arange(spectrum.lag_weights.shape[1]), float)
     white = spectrum.expected((lags_s == 0).astype(float))
     cost, _ = _fitted(spectrum, white[:, None])
-    shapes = _shapes(spectrum, lags_s, means_of)
+    shapes = _processes(spectrum, lags_s, means_of)
+    if most_parts > 1:
+        shapes += _oscillators(spectrum, lags_s)
     found: tuple[float, NoiseColour] | None = None
     chosen: list[_Shape] = []
     asked = least_chi_square
-    while len(chosen) < COLOUR_MOST_PARTS:
+    while len(chosen) < most_parts:
         tried = [_sized(spectrum, white, (*chosen, shape)) for shape in shapes]
         there = [own for own in tried if own and min(p.share for p in own.colour.parts) > _LEAST_PART]
         best = min((own.cost for own in there), default=cost)
@@ -127,8 +132,8 @@ def noise_colour(
     return found if found and found[1].share >= least_share else None
 
 
-def _shapes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
-    """Processes of all correlation times, and oscillations above the frequencies of effects."""
+def _processes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
+    """Ornstein-Uhlenbeck processes of all correlation times."""
     found = []
     for time_s in np.geomspace(0.4 * spectrum.step_s, COLOUR_LONGEST_S, _TIMES):
         covariances, later = covariances_of_means(lags_s, time_s, spectrum.step_s, means_of)
@@ -136,7 +141,12 @@ def _shapes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
         found.append(
             _Shape(part=part, variance_ratio=covariances[0], levels=spectrum.expected(covariances))
         )
-    fastest_hz = _OSCILLATES_BELOW / spectrum.step_s
+    return found
+
+
+def _oscillators(spectrum: _Spectrum, lags_s: Array) -> list[_Shape]:
+    """Oscillators above the frequencies of effects."""
+    found, fastest_hz = list[_Shape](), _OSCILLATES_BELOW / spectrum.step_s
     if fastest_hz <= COLOUR_OSCILLATES_ABOVE_HZ:
         return found
     for frequency in np.geomspace(COLOUR_OSCILLATES_ABOVE_HZ, fastest_hz, _FREQUENCIES):

@@ -82,12 +82,21 @@ class Noise:
         return Drift(size_sigma=size_sigma, zeroed=self.torque_zeroed, colour=self.colour.get(sensor))
 
     def with_colour(
-        self, left: Mapping[str, Sequence[TimedArray]], least_share: float = COLOUR_LEAST_SHARE
+        self,
+        left: Mapping[str, Sequence[TimedArray]],
+        least_share: float = COLOUR_LEAST_SHARE,
+        most_parts: Mapping[str, int] | None = None,
     ) -> "Noise":
-        """The noise with the colour of residuals, in the units of the sensors, by sensor and trial."""
-        sigma, colour = dict(self.sigma), {}
+        """The noise with the colour of residuals, in the units of the sensors, by sensor and trial.
+
+        Args:
+          most_parts: correlated parts of it, by sensor; otherwise 1.
+        """
+        sigma, colour, most = dict(self.sigma), {}, most_parts or {}
         for sensor, parts in left.items():
-            found = noise_colour(parts, least_share, self.means_of, self.colour_chi_square)
+            found = noise_colour(
+                parts, least_share, self.means_of, self.colour_chi_square, most.get(sensor, 1)
+            )
             if found:
                 sigma[sensor], colour[sensor] = found
             elif sensor in self.colour:  # it was taken for coloured, and is not

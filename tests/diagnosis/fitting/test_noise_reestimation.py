@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, fit_of, joined, log_of, problem_of
+from scipy.signal import lfilter
 
 from diagnosis.criteria import NOISE_TRUST, SCATTER
 from diagnosis.effects import LIBRARY
@@ -135,3 +136,17 @@ def test_what_is_slow_is_seen_over_seconds_where_noise_is_coloured(long):
     left = [r + m for r, m in zip(fit.by_trial, moved, strict=True)]
     (floor,) = slow_where_coloured(problem, left).values()
     assert floor.slow > floor.slow_limit
+
+
+@pytest.mark.parametrize(("beside", "swings"), [(0.0, True), (3.0, False)])
+def test_noise_swings_where_little_else_is_left(beside, swings, problem):
+    """AR(2) noise of 12 Hz, alone and beside what a model lacks: three times as much, and slow."""
+    rng, step_s = np.random.default_rng(6), 0.01
+    kept, turn = np.exp(-step_s / 0.05), 2 * np.pi * 12.0 * step_s
+    one = lfilter([1.0], [1.0, -2 * kept * np.cos(turn), kept**2], rng.normal(size=SAMPLES + 500))[500:]
+    time_s = step_s * np.arange(SAMPLES)
+    torque = one / one.std() + beside * np.sqrt(2) * np.sin(2 * np.pi * 0.3 * time_s)
+    wide = replace(problem, log=replace(problem.log, trials=problem.log.trials * 3))
+    by_trial = [np.concatenate([torque, rng.normal(size=SAMPLES)])] * 3
+    colour = with_colour(wide, fit_of((), by_trial=by_trial)).colour["base_torque_n_mm"]
+    assert any(part.frequency_hz for part in colour.parts) is swings
