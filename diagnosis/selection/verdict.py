@@ -224,6 +224,7 @@ def _hardly_led(one: Candidate, best: Candidate, reached: float) -> bool:
       reached: score of the best.
     """
     part = {*one.names} < {*best.names} and one.floor.reached and _says(one) != ()
+    part = part and {*one.named} != {*best.named}  # else only an imperfection of a sensor is doubtful
     doubtful = one.shift > SHIFT_LIMIT or one.of_means
     return part and doubtful and one.score - reached <= PART_LEAD
 

@@ -341,3 +341,11 @@ def test_a_likelier_richer_form_that_only_shifts_is_open():
     assert verdict_on([richer, simple]).kind is VerdictKind.UNDECIDED
     unrelated = scored(["tip_drag"], 100.0, shift=33.0)
     assert verdict_on([unrelated, simple]).kind is VerdictKind.EXPLAINED
+
+
+def test_a_part_that_names_the_same_leaves_nothing_open():
+    """Without the clock, trials shift: drive friction is the answer with it or without it."""
+    both, alone = scored(["drive_friction", "torque_clock"], 100.0), scored(["drive_friction"], 95.0)
+    found = verdict_on([replace(alone, shift=20.0), both])
+    assert found.kind is VerdictKind.EXPLAINED
+    assert found.confusable == ()
