@@ -347,5 +347,4 @@ def test_a_part_that_names_the_same_leaves_nothing_open():
     """Without the clock, trials shift: drive friction is the answer with it or without it."""
     both, alone = scored(["drive_friction", "torque_clock"], 100.0), scored(["drive_friction"], 95.0)
     found = verdict_on([replace(alone, shift=20.0), both])
-    assert found.kind is VerdictKind.EXPLAINED
-    assert found.confusable == ()
+    assert (found.kind, found.confusable) == (VerdictKind.EXPLAINED, ())
