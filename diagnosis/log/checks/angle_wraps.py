@@ -3,7 +3,8 @@ cannot tell the two ends of an axis apart (period 180).
 
 At a wrap the reading jumps by a period against the direction in which it moves before and after;
 or it jumps to and fro while it holds at the end of the range. No needle moves like this: a slip
-continues in its own direction, and a turn from one hold to another has no motion at its ends.
+continues in its own direction, and a turn from one hold to another has no motion at its ends. A few
+readings that dropped to zero at half a turn jump back at once: they are outliers.
 """
 
 from pathlib import Path
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     GAP_STEPS,
+    OUTLIER_MOST_RUN,
     WRAP_FLICKERS,
     WRAP_MOTION_SIGMA,
     WRAP_PERIODS_DEG,
@@ -56,9 +58,16 @@ def wraps(time_s: Array, values_deg: Array, period_deg: float) -> NDArray[np.boo
     jump = np.diff(read)
     near = np.abs(np.abs(jump) - period_deg) < WRAP_REMAINDER * period_deg
     at = np.flatnonzero(near & (steps <= GAP_STEPS * np.median(steps)))
-    if at.size and (_moves_on(read, jump, at, period_deg) or _flickers(jump, at)):
+    if at.size and (_moves_on(read, jump, _lasting(jump, at), period_deg) or _flickers(jump, at)):
         rows[finite[at + 1]] = True
     return rows
+
+
+def _lasting(jump: Array, at: Rows) -> Rows:
+    """The jumps that are not undone at once, as those of readings that dropped to zero are."""
+    signs = np.sign(jump[at])
+    undone = (np.diff(at) <= OUTLIER_MOST_RUN) & (signs[1:] == -signs[:-1])
+    return at[~(np.append(undone, False) | np.append(False, undone))]
 
 
 def _moves_on(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:

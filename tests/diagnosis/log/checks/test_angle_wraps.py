@@ -51,11 +51,13 @@ def test_a_hold_at_the_end_of_the_range_flickers():
     assert wraps(0.01 * np.arange(400), (held + 180) % 360 - 180, 360.0).any()
 
 
+SLOWLY = np.linspace(150.0, 180.0, 800)
 NO_WRAPS = {
     "steps of half a turn": np.where(np.arange(800) // 100 % 2, 90.0, -90.0),
     "steps of a whole turn": np.where(np.arange(800) // 100 % 2, 360.0, 0.0),
     "slips of half a turn": np.arange(800) // 100 * 180.0 + 0.02 * (np.arange(800) % 100),
     "spikes": np.where(np.arange(800) % 97 == 50, 180.0, 0.0),
+    "drop-outs at half a turn": np.where(np.isin(np.arange(800) % 97, [50, 51]), 0.0, SLOWLY),
     "several turns": np.linspace(0, 3000, 800),
 }
 
