@@ -67,7 +67,7 @@ def _lasting(jump: Array, at: Rows) -> Rows:
     """The jumps that are not undone at once, as those of readings that dropped to zero are."""
     signs = np.sign(jump[at])
     undone = (np.diff(at) <= OUTLIER_MOST_RUN) & (signs[1:] == -signs[:-1])
-    return at[~(np.append(undone, False) | np.append(False, undone))]
+    return np.asarray(at[~(np.append(undone, False) | np.append(False, undone))], np.intp)
 
 
 def _moves_on(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:
