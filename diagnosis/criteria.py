@@ -55,9 +55,10 @@ LENGTH_JUMP_MM, LENGTH_HOLD_S = 5.0, 1.0
 WRAP_PERIODS_DEG = (360.0, 180.0)
 WRAP_REMAINDER = 1 / 6
 WRAP_MOTION_SIGMA = 6.0
-WRAP_FLICKERS = 3
+WRAP_FLICKERS, WRAP_HELD = 3, 1 / 36
 """A wrap of an angle: its periods; share of one by which motion may change the jump; standard deviations
-by which the motion on both sides is certain; returns in a row that are no lone spike."""
+by which the motion on both sides is certain; returns in a row that are no lone spike, and the share of a
+period by which noise may change these while the angle holds (10 deg of a turn: seven sigma of 1 deg)."""
 NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""

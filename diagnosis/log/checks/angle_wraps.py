@@ -16,6 +16,7 @@ from diagnosis.criteria import (
     GAP_STEPS,
     OUTLIER_MOST_RUN,
     WRAP_FLICKERS,
+    WRAP_HELD,
     WRAP_MOTION_SIGMA,
     WRAP_PERIODS_DEG,
     WRAP_REMAINDER,
@@ -58,16 +59,22 @@ def wraps(time_s: Array, values_deg: Array, period_deg: float) -> NDArray[np.boo
     jump = np.diff(read)
     near = np.abs(np.abs(jump) - period_deg) < WRAP_REMAINDER * period_deg
     at = np.flatnonzero(near & (steps <= GAP_STEPS * np.median(steps)))
-    if at.size and (_moves_on(read, jump, _lasting(jump, at), period_deg) or _flickers(jump, at)):
+    if at.size and (
+        _moves_on(read, jump, _lasting(read, jump, at), period_deg) or _flickers(jump, at, period_deg)
+    ):
         rows[finite[at + 1]] = True
     return rows
 
 
-def _lasting(jump: Array, at: Rows) -> Rows:
-    """The jumps that are not undone at once, as those of readings that dropped to zero are."""
-    signs = np.sign(jump[at])
-    undone = (np.diff(at) <= OUTLIER_MOST_RUN) & (signs[1:] == -signs[:-1])
-    return np.asarray(at[~(np.append(undone, False) | np.append(False, undone))], np.intp)
+def _lasting(read: Array, jump: Array, at: Rows) -> Rows:
+    """The jumps that are not undone within a few samples, as those of drop-outs are, nor undo one."""
+
+    def undone(one: int) -> bool:
+        after = np.abs(read[one + 2 : one + 2 + OUTLIER_MOST_RUN] - read[one])
+        before = np.abs(read[max(one - OUTLIER_MOST_RUN, 0) : one] - read[one + 1])
+        return bool(min(after.min(initial=np.inf), before.min(initial=np.inf)) < abs(jump[one]) / 2)
+
+    return np.array([one for one in at.tolist() if not undone(one)], np.intp)
 
 
 def _moves_on(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:
@@ -94,8 +101,13 @@ def _advance(values: Array) -> float:
     return float(values[half:].mean() - values[:half].mean())
 
 
-def _flickers(jump: Array, at: Rows) -> bool:
-    """Whether the angle repeatedly jumps to and fro between the ends of its range in a few samples."""
+def _flickers(jump: Array, at: Rows, period_deg: float) -> bool:
+    """Whether the angle repeatedly jumps to and fro between the ends of its range in a few samples.
+
+    It holds there, so that all jumps are those of a period, but for the noise of two readings.
+    """
+    off = np.abs(np.abs(jump) - period_deg)
+    at = at[off[at] < WRAP_HELD * period_deg]
     signs, beside = np.sign(jump[at]), np.diff(at) <= min(_WINDOWS)
     back = beside & (signs[1:] == -signs[:-1])
     in_a_row = np.convolve(back, np.ones(WRAP_FLICKERS), "valid") if back.size >= WRAP_FLICKERS else back

@@ -51,7 +51,7 @@ def test_a_hold_at_the_end_of_the_range_flickers():
     assert wraps(0.01 * np.arange(400), (held + 180) % 360 - 180, 360.0).any()
 
 
-SLOWLY = np.linspace(150.0, 180.0, 800)
+SLOWLY = np.linspace(140.0, 180.0, 800)
 NO_WRAPS = {
     "steps of half a turn": np.where(np.arange(800) // 100 % 2, 90.0, -90.0),
     "steps of a whole turn": np.where(np.arange(800) // 100 % 2, 360.0, 0.0),
