@@ -21,7 +21,11 @@ from diagnosis.selection.stages.best import (
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
-from diagnosis.selection.stages.richer_effects import richer_effects, richer_effects_in_place_of_three
+from diagnosis.selection.stages.richer_effects import (
+    richer_effects,
+    richer_effects_in_place_of_three,
+    richer_effects_in_the_best,
+)
 from diagnosis.selection.stages.sensors.coloured_noise import (
     coloured_noise,
     noise_of_the_best,
@@ -58,6 +62,7 @@ STAGES: tuple[Stage, ...] = (
     noise_of_the_best,
     best_with_imperfections_in_place,
     best_without_each_effect,
+    richer_effects_in_the_best,
     scatter_of_the_best,
     finer_mesh,
     outliers_beside_the_best,

@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.criteria import CONTENDING, FINALISTS
+import numpy as np
+
+from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import FITTED
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists
@@ -36,6 +38,27 @@ def richer_effects_in_place_of_three(state: SearchState, workers: Workers) -> Se
     """The same of three effects, also where they explain the log: no pair of theirs asked for more."""
     leading = sorted(state.triples, key=lambda c: c.score)[:1]
     return _on_the_log(*_ahead(leading, state, workers), workers)
+
+
+def richer_effects_in_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """The same in the best that explains the log, on the log itself.
+
+    A richer law leaves no more than the simpler one. Where its fit did, or hardly less, it may have
+    ended in the corner in which it is the simpler one.
+    """
+    best = state.best
+    state, _ = state.rechecked()
+    if not state.at_the_floor(best):
+        return state
+    known = {frozenset(c.names): c.fit.cost for c in sorted(state.candidates, key=lambda c: -c.fit.cost)}
+    calls = [
+        (state.problem, names, start, best.score + CONTENDING)
+        for simple, rich in _containing(best, state)
+        for names in [with_richer(best, simple, rich)]
+        if known.get(frozenset(names), -np.inf) > best.fit.cost - SIMPLE_LEAD
+        for start in forms_beyond(state.problem, best, simple, rich)[:_STARTS]
+    ]
+    return state.adding(fit_all(f"{STAGE} in the best", calls, workers))
 
 
 def _ahead(
@@ -77,8 +100,16 @@ def _richer(one: Candidate, state: SearchState) -> list[tuple[str, str]]:
     done |= {frozenset(entry.effects) for entry in state.record if entry.stage == STAGE}
     return [
         (inner, rich)
+        for inner, rich in _containing(one, state)
+        if frozenset(with_richer(one, inner, rich)) not in done
+    ]
+
+
+def _containing(one: Candidate, state: SearchState) -> list[tuple[str, str]]:
+    """Effects of a candidate, each with one that contains it and is not there itself."""
+    return [
+        (inner, rich)
         for inner in one.names
         for rich in state.effects
-        if inner in FITTED[rich].contains and frozenset(with_richer(one, inner, rich)) not in done
-        if rich not in one.names
+        if inner in FITTED[rich].contains and rich not in one.names
     ]

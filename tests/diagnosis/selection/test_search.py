@@ -42,6 +42,7 @@ def test_the_stages_are_these_in_this_order():
         "noise_of_the_best",
         "best_with_imperfections_in_place",
         "best_without_each_effect",
+        "richer_effects_in_the_best",
         "scatter_of_the_best",
         "finer_mesh",
         "outliers_beside_the_best",

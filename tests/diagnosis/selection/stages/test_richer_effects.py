@@ -78,3 +78,20 @@ def test_of_three_effects_a_richer_one_is_tried_also_where_they_explain_the_log(
     state = replace(taken_for_constant, triples=taken_for_constant.singles)
     found = module.richer_effects_in_place_of_three(state, Workers())
     assert [c.names for c in found.candidates] == [(), ("stiction",)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("behind", [0.0, 2.0 * SIMPLE_LEAD])
+def test_what_ended_as_the_simpler_law_is_fitted_once_more_in_the_best(
+    behind, taken_for_constant, monkeypatch
+):
+    """But for a fit that left clearly less than the best, and so did not end there."""
+    (simple,) = taken_for_constant.singles
+    rich = scored(["stiction"], simple.score + 1.0)
+    rich = replace(rich, fit=replace(rich.fit, cost=simple.fit.cost - behind))
+    state = replace(taken_for_constant, problem=taken_for_constant.coarse, candidates=(simple, rich))
+    monkeypatch.setattr(SearchState, "rechecked", lambda self: (self, True))
+    monkeypatch.setattr(SearchState, "at_the_floor", lambda *_: True)
+    found = module.richer_effects_in_the_best(state, Workers())
+    least = min(c.score for c in found.candidates if c.names == ("stiction",))
+    assert (least < simple.score - 10 * SIMPLE_LEAD) is (behind == 0.0)
