@@ -44,11 +44,11 @@ def richer_effects_in_the_best(state: SearchState, workers: Workers) -> SearchSt
     """The same in the best that explains the log, on the log itself.
 
     A richer law leaves no more than the simpler one. Where its fit did, or hardly less, it may have
-    ended in the corner in which it is the simpler one.
+    ended in the corner in which it is the simpler one. Alone it was fitted from many starts.
     """
     best = state.best
     state, _ = state.rechecked()
-    if not state.at_the_floor(best):
+    if len(best.names) < 2 or not state.at_the_floor(best):
         return state
     known = {frozenset(c.names): c.fit.cost for c in sorted(state.candidates, key=lambda c: -c.fit.cost)}
     calls = [
