@@ -293,9 +293,10 @@ START_TORQUE_FACTOR = 2.0
 """A late start: a parabola through the first readings of the tip begins off the base by so many standard
 deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
 within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
-START_MOVING_DEG_S, START_OFF_ZERO_DEG = 5.0, 1.0
-"""Rate and angle of the base at the first sample from which a trial began under way. Choices: an encoder
-is zeroed to some tenths of a degree, and a base at rest scatters by less than 1 deg/s."""
+START_MOVING_DEG_S, START_OFF_ZERO_DEG, START_FROM_REST = 5.0, 1.0, 0.5
+"""Rate and angle of the base at the first sample from which a trial began under way, and the share of
+its mean rate that a base has first if it starts from rest. Choices: an encoder is zeroed to some tenths
+of a degree, a base at rest scatters by less than 1 deg/s, a steady turn has 1, one that accelerates 0."""
 START_DECAYS = 10.0
 START_MOST_UNUSED = 0.25
 """Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
@@ -325,6 +326,9 @@ COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ, COLOUR_PARTS_GAP = 3, 4.0, 2.0
 oscillate; and what the residual of a sensor may come to for more than one part. Physical: a needle is
 turned by hand or drive at less than 4 Hz, and what a model lacks there must not pass for noise. Nor must
 the swinging of a rig: of a friction damper with play, 3 sigma of it were noise of 5 Hz."""
+COLOUR_LEAST_PART, COLOUR_OSCILLATOR = 0.05, 6.0
+"""Share of the variance that each part of the noise has to have at least, and by how much chi-square an
+oscillator has to be better than a process: three for each of its two more parameters, a choice."""
 COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP = 10.0, 1.3
 """Chi-square that is enough where only that explains the log (derived: once in 150 sensors by chance),
 and what white noise may leave of such a colour: that of half of the variance leaves 1.4."""

@@ -26,11 +26,13 @@ from scipy.optimize import nnls
 from diagnosis.criteria import (
     COLOUR_ABOVE_HZ,
     COLOUR_CHI_SQUARE,
+    COLOUR_LEAST_PART,
     COLOUR_LEAST_SHARE,
     COLOUR_LONGEST_S,
     COLOUR_MOST_PARTS,
     COLOUR_OPEN,
     COLOUR_OSCILLATES_ABOVE_HZ,
+    COLOUR_OSCILLATOR,
     COLOUR_WINDOW_S,
     COLOUR_WINDOWS,
 )
@@ -41,8 +43,6 @@ Array = NDArray[np.float64]
 _BANDS = 12
 _TIMES = 32  # correlation times that are tried
 _FREQUENCIES, _QUALITIES = 24, (0.55, 0.8, 1.2, 1.8, 2.7, 4.0, 6.0)  # of oscillators that are tried
-_OSCILLATOR = 6.0  # chi-square of its two more parameters, as of any that a spectrum has to ask for
-_LEAST_PART = 0.05  # share of the variance that a further part has to have
 _OSCILLATES_BELOW = 0.4  # periods per sample
 _QUANTILE = 0.3
 _MEAN = -np.log(1 - _QUANTILE)  # of an exponential distribution, its mean over this quantile of it
@@ -121,7 +121,9 @@ def noise_colour(
     asked = least_chi_square
     while len(chosen) < most_parts:
         tried = [_sized(spectrum, white, (*chosen, shape)) for shape in shapes]
-        there = [own for own in tried if own and min(p.share for p in own.colour.parts) > _LEAST_PART]
+        there = [
+            own for own in tried if own and min(p.share for p in own.colour.parts) > COLOUR_LEAST_PART
+        ]
         best = min((own.cost for own in there), default=cost)
         if cost - best < asked:
             break
@@ -170,7 +172,7 @@ def _sized(spectrum: _Spectrum, white: Array, shapes: Sequence[_Shape]) -> _Size
         replace(shape.part, share=float(size * shape.part.share / variance)) for shape, size in ranked
     )
     return _Sized(
-        cost=cost + _OSCILLATOR * sum(part.frequency_hz > 0.0 for part in parts),
+        cost=cost + COLOUR_OSCILLATOR * sum(part.frequency_hz > 0.0 for part in parts),
         sigma=float(np.sqrt(variance)),
         colour=NoiseColour(parts=parts),
         shapes=tuple(shape for shape, _ in there),

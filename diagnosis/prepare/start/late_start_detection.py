@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import (
     START_DECAYS,
+    START_FROM_REST,
     START_LEAST_SIGMA,
     START_LOOK_S,
     START_MOST_UNUSED,
@@ -111,7 +112,7 @@ def _begins_under_way(trial: PreparedTrial) -> bool:
     """Whether the base turns at the first sample already, somewhere else than at its zero."""
     off_zero = abs(float(trial.base_motion_deg[0])) > START_OFF_ZERO_DEG
     rate = start_rate_deg_s(trial)
-    from_rest = start_rate_deg_s(trial, degree=2) * np.sign(rate) < 0.5 * abs(rate)
+    from_rest = start_rate_deg_s(trial, degree=2) * np.sign(rate) < START_FROM_REST * abs(rate)
     return off_zero and abs(rate) > START_MOVING_DEG_S and not from_rest
 
 

@@ -9,7 +9,7 @@ from diagnosis_fixtures import RIG, log_of, prepared
 from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
-from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.resolution import COARSE
@@ -108,6 +108,25 @@ def test_coloured_noise_keeps_its_density_at_low_frequencies(share, time_s):
     ]
     assert power[1] == pytest.approx(power[0], rel=0.01)  # 301 windows for 1200 samples
     assert after.colour["tip_angle_deg"].parts[0].correlation_time_s == time_s
+
+
+@pytest.mark.parametrize(("frequency_hz", "kept"), [(4.0, True), (16.0, False)])
+def test_an_oscillation_keeps_its_density_and_is_white_where_it_is_fast(frequency_hz, kept):
+    log = log_of(NOMINAL)
+    ready = replay_nominal(log).problem.log
+    rare = decimated(replay_nominal(log).problem, replay_nominal(log).predictions).log
+    part = ColouredPart(share=0.7, correlation_time_s=0.05, frequency_hz=frequency_hz)
+    colour = {"tip_angle_deg": NoiseColour(parts=(part,))}
+    before = Noise(sigma={"tip_angle_deg": 0.3}, colour=colour)
+    after = decimated_noise(before, ready, rare)
+    assert ("tip_angle_deg" in after.colour) is kept
+    power = [
+        noise["tip_angle_deg"] ** 2
+        * (noise.colour["tip_angle_deg"].density(step_s) if noise.colour else 1.0)
+        * step_s
+        for noise, step_s in ((before, 0.01), (after, 0.04))
+    ]
+    assert power[1] == pytest.approx(power[0], rel=0.01)
 
 
 def test_a_decimated_log_with_coloured_noise_weighs_an_explanation_as_the_log_does():
