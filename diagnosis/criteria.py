@@ -296,7 +296,7 @@ within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were c
 START_MOVING_DEG_S, START_OFF_ZERO_DEG, START_FROM_REST = 5.0, 1.0, 0.5
 """Rate and angle of the base at the first sample from which a trial began under way, and the share of
 its mean rate that a base has first if it starts from rest. Choices: an encoder is zeroed to some tenths
-of a degree, a base at rest scatters by less than 1 deg/s, a steady turn has 1, one that accelerates 0."""
+of a degree, a base at rest scatters by less than 1 deg/s; a steady turn has 1, one from rest 0."""
 START_DECAYS = 10.0
 START_MOST_UNUSED = 0.25
 """Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
