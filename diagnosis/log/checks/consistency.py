@@ -63,13 +63,31 @@ def refuse_contradictions(
 
 
 def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) -> None:
-    """Refuse two columns if each scatters as rig.yaml claims for the other."""
+    """Refuse two columns if each scatters as rig.yaml claims for the other.
+
+    A torque and an angle may do so by chance: the other angle then tells which of them it follows.
+    """
     measured = [name for name in ("base_angle_deg", *SENSORS) if trial.has(name) and noise[name] > 0]
     for one, other in combinations(measured, 2):
         if 1 / DISTINCT_NOISES < noise[one] / noise[other] < DISTINCT_NOISES:
             continue
-        if _agrees(trial[one], noise[other]) and _agrees(trial[other], noise[one]):
+        swapped = _agrees(trial[one], noise[other]) and _agrees(trial[other], noise[one])
+        if swapped and not _angles_go_together(trial, {one, other}):
             _swapped(path, one, other, "each scatters as rig.yaml claims for the other")
+
+
+def _angles_go_together(trial: Trial, columns: set[str]) -> bool:
+    """Whether tip and base follow each other more closely than one follows the torque.
+
+    Always False if the columns are the two angles, or one of the angles was not measured.
+    """
+    if "base_torque_n_mm" not in columns or not trial.has("tip_angle_deg"):
+        return False
+    turning = binned(trial)
+    (angle,) = columns - {"base_torque_n_mm"}
+    base, tip, torque = turning.base_angle_deg, turning.tip_angle_deg, turning.base_torque_n_mm
+    other = base if angle == "tip_angle_deg" else tip
+    return abs(_correlation(base, tip)) > abs(_correlation(other, torque))
 
 
 def _refuse_swapped_lengths(path: Path, trial: Trial) -> None:

@@ -51,6 +51,18 @@ def test_swapped_angles_of_equal_noise_are_found_by_who_moves_first(log):
     assert "the tip moves first" in refusal(log)
 
 
+def test_columns_that_scatter_as_each_other_by_chance_are_not_swapped(log):
+    """The tip follows the base, not the torque: the claims are wrong, not the names."""
+
+    def exchange(rig):
+        claimed = rig["sensors"]
+        tip, torque = claimed["tip_angle_noise_deg"], claimed["base_torque_noise_n_mm"]
+        claimed.update(tip_angle_noise_deg=torque, base_torque_noise_n_mm=tip)
+
+    change_rig(log, exchange)
+    assert read_rig_log(log).trials
+
+
 def test_swapped_lengths_are_refused(log):
     change_trial(log, swapped("inserted_mm", "free_mm"), "slides.csv")
     said = refusal(log)
