@@ -60,7 +60,8 @@ def wraps(time_s: Array, values_deg: Array, period_deg: float) -> NDArray[np.boo
     near = np.abs(np.abs(jump) - period_deg) < WRAP_REMAINDER * period_deg
     at = np.flatnonzero(near & (steps <= GAP_STEPS * np.median(steps)))
     if at.size and (
-        _moves_on(read, jump, _lasting(read, jump, at), period_deg) or _flickers(jump, at, period_deg)
+        _moves_on(read, jump, _lasting(read, jump, at), period_deg)
+        or _flickers(read, jump, at, period_deg)
     ):
         rows[finite[at + 1]] = True
     return rows
@@ -101,14 +102,24 @@ def _advance(values: Array) -> float:
     return float(values[half:].mean() - values[:half].mean())
 
 
-def _flickers(jump: Array, at: Rows, period_deg: float) -> bool:
+def _flickers(read: Array, jump: Array, at: Rows, period_deg: float) -> bool:
     """Whether the angle repeatedly jumps to and fro between the ends of its range in a few samples.
 
-    It holds there, so that all jumps are those of a period, but for the noise of two readings.
+    It holds there, so that all jumps are those of a period, but for the noise of two readings. A
+    sensor that drops out gives one and the same reading from wherever it was: that is no wrap.
     """
+    if _drops_out(read[at], read[at + 1]):
+        return False
     off = np.abs(np.abs(jump) - period_deg)
     at = at[off[at] < WRAP_HELD * period_deg]
     signs, beside = np.sign(jump[at]), np.diff(at) <= min(_WINDOWS)
     back = beside & (signs[1:] == -signs[:-1])
     in_a_row = np.convolve(back, np.ones(WRAP_FLICKERS), "valid") if back.size >= WRAP_FLICKERS else back
     return bool((in_a_row >= WRAP_FLICKERS).any())
+
+
+def _drops_out(before: Array, after: Array) -> bool:
+    """Whether every jump starts or ends at one value exactly, and its other end varies."""
+    low = np.where(np.abs(before) < np.abs(after), before, after)
+    high = np.where(np.abs(before) < np.abs(after), after, before)
+    return bool(np.ptp(low) == 0 < np.ptp(high))

@@ -70,6 +70,14 @@ def test_steps_slips_spikes_and_turns_are_no_wraps(what, period):
         assert not wraps(0.01 * np.arange(800), NO_WRAPS[what] + noise, period).any()
 
 
+def test_a_sensor_that_drops_out_again_and_again_near_half_a_turn_is_no_wrap():
+    """It reads zero exactly, from wherever the angle was."""
+    for seed in range(20):
+        read = SLOWLY + np.random.default_rng(seed).normal(0, TIP, 800)
+        dropped = np.where(np.isin(np.arange(800) % 97, [48, 50, 52, 53]), 0.0, read)
+        assert not wraps(0.01 * np.arange(800), dropped, 180.0).any()
+
+
 def test_what_moved_across_a_pause_is_no_wrap(log):
     """From -90 to 270 deg within it."""
     change_trial(
