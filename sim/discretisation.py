@@ -35,6 +35,9 @@ class Mesh(StrEnum):
     """Nodes are places in the tissue, whose inserted length is constant: the shaft slides past
     them, and the elements of the free shaft stretch. Where the needle does not slide, the two
     coincide."""
+    FED = "fed"
+    """Nodes are places between the chuck, the tissue and the deepest point of the tip: the shaft comes
+    out of a chuck that stands still, and slides past them. Elements beyond the tip are rigid."""
 
 
 class SlipRate(StrEnum):
@@ -57,7 +60,7 @@ class Discretisation(Record):
     """
 
     elements: Annotated[int, Field(ge=2, le=1000)] = 16
-    """Along the inserted shaft (Eulerian mesh) or the whole needle (Lagrangian mesh)."""
+    """Along the inserted shaft (Eulerian mesh) or the whole needle (other meshes)."""
     free_elements: Annotated[int, Field(ge=1, le=1000)] | None = None
     """Along the free shaft (Eulerian mesh); None: 1, or 8 where a sheath rubs."""
     step_s: Annotated[float, Field(gt=0, le=0.1)] = 0.01
@@ -99,7 +102,7 @@ def node_positions_mm(
     Raises:
       InvalidValue: the mesh is Eulerian and the needle has not entered the tissue.
     """
-    if mesh is Mesh.LAGRANGIAN:
+    if mesh is not Mesh.EULERIAN:
         return _nodes_mm(0.0, 0, (0.0, free_mm + inserted_mm), discretisation.elements), 0
     if inserted_mm <= 0:
         raise InvalidValue(

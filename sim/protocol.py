@@ -26,7 +26,7 @@ from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.law_table import law_table
 from sim.protocol_cost import refuse_costly, samples_of
-from sim.schedule import LENGTH_TOLERANCE_MM, Schedule, mesh_for
+from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
 from sim.spec import Setup
 
 _STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
@@ -172,7 +172,7 @@ class Protocol(Record):
             tissue=self.tissue,
             drive=self.drive,
             discretisation=self.discretisation,
-            mesh=mesh_for(self._inserted_mm()),
+            mesh=self.schedule().mesh,
             free_mm=self.free_mm,
             inserted_mm=self.inserted_mm,
         )

@@ -22,10 +22,16 @@ COLUMNS = ("drive", "free_mm", "inserted_mm", "speed_mm_s", "tip_torque_n_mm", "
 LENGTH_TOLERANCE_MM = 1e-6
 
 
-def mesh_for(inserted_mm: Array) -> Mesh:
-    """Eulerian if the inserted length, (N,), is constant and above 0; else Lagrangian."""
-    constant = np.ptp(inserted_mm) <= LENGTH_TOLERANCE_MM
-    return Mesh.EULERIAN if constant and inserted_mm[0] > 0 else Mesh.LAGRANGIAN
+def mesh_for(free_mm: Array, inserted_mm: Array) -> Mesh:
+    """Eulerian if the inserted length is constant and above 0, fed if the free length is instead.
+
+    Args:
+      free_mm, inserted_mm: lengths over time, (N,).
+    """
+    deeper = np.ptp(inserted_mm)
+    if deeper <= LENGTH_TOLERANCE_MM and inserted_mm[0] > 0:
+        return Mesh.EULERIAN
+    return Mesh.FED if np.ptp(free_mm) < 0.5 * deeper else Mesh.LAGRANGIAN
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,7 +104,7 @@ class Schedule:
     @cached_property
     def mesh(self) -> Mesh:
         """The mesh for these inputs."""
-        return mesh_for(self.inserted_mm)
+        return mesh_for(self.free_mm, self.inserted_mm)
 
     def rows(self, kept: NDArray[np.bool_]) -> "Schedule":
         """The inputs at some of their times, at least two."""

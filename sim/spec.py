@@ -236,7 +236,7 @@ def _advection_coefficient(setup: Setup) -> float:
     share = setup.slip_share
     if share is None:
         share = 1.0 if setup.discretisation.slip is SlipRate.MATERIAL_DERIVATIVE else 0.0
-    return share if setup.mesh is Mesh.EULERIAN else share - 1.0
+    return share - 1.0 if setup.mesh is Mesh.LAGRANGIAN else share
 
 
 def header(setup: Setup, *, rows: int) -> Array:
@@ -252,6 +252,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_RADIUS] = setup.needle.radius_mm * units.MM
     head[memory_map.H_ADVECTION] = _advection_coefficient(setup)
     head[memory_map.H_STRETCHING] = setup.stretching
+    head[memory_map.H_FED] = setup.mesh is Mesh.FED
     head[memory_map.H_FREE_REF] = setup.free_mm * units.MM
     if setup.needle.stiffness_curve:
         head[memory_map.H_STIFFNESS_TORQUE] = setup.needle.stiffness_torque_n_mm * units.N_MM

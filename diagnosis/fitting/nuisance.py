@@ -121,7 +121,7 @@ def reading_jump(jump: ReadingJump, *, sigma: float) -> Effect:
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:
     """All nuisance effects of a log."""
     sliding = [trial for trial in log.trials if (abs(trial.speed_mm_s) > SLIDING_MM_S).any()]
-    growing = [trial.schedule.mesh is Mesh.LAGRANGIAN for trial in sliding]
+    growing = [trial.schedule.mesh is not Mesh.EULERIAN for trial in sliding]
     slips = [SLIP_CONSTANT_DEPTH] if not all(growing) else []
     slips += [SLIP_GROWING_DEPTH] if any(growing) else []
     return (*(LIBRARY[name] for name in SCATTER), *slips, *late_starts_of(log))

@@ -25,6 +25,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_RADIUS,  # m
     H_ADVECTION,  # c in: slip rate = omega + c v dtheta/dx
     H_STRETCHING,  # elements that share the free length (0: all are fixed to the needle)
+    H_FED,  # 1: the shaft comes out of a chuck that stands still, 0: the mesh moves with the chuck
     H_FREE_REF,  # free length at carriage position 0, m
     H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
     H_STIFFNESS_TORQUE,  # nominal torque at the last place of the curve of stiffness; 0: no curve
@@ -36,7 +37,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_YIELD,  # torque beyond which the shaft twists plastically, N m; 0: it is elastic
     H_YIELD_SLOPE,  # stiffness beyond it over the elastic one
     HEADER,
-) = range(21)
+) = range(22)
 STIFFNESS_POINTS = H_YIELD - H_STIFFNESS_0
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------

@@ -15,6 +15,7 @@ from sim.kernel.compiled import Array, inlined
 
 XI_LEFT = 0.5 * (1.0 - (2.0 / 3.0) ** 0.5)
 XI_RIGHT = 1.0 - XI_LEFT
+_AT_TIP = 1e-9
 
 
 @inlined
@@ -72,6 +73,8 @@ def cover(
     )
     top = _clip(top, 0.0, x[n])
     if row[memory_map.L_POINT] != 0.0:
+        if top >= free + inserted - _AT_TIP * (x[n] - x[0]):
+            top = x[n]  # the tip, even of a mesh that reaches beyond it
         _locate(x, top, point)
         return
     end = (

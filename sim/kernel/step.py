@@ -35,6 +35,9 @@ from sim.kernel.stage.workspace import Frame, Workspace, divide
 from sim.kernel.torques import set_other
 from sim.kernel.view import view
 
+_RIGID = 1e-3
+"""Twist of an element beyond the tip, over that of the same element of the shaft."""
+
 
 @inlined
 def _prepare(
@@ -63,6 +66,9 @@ def _prepare(
         springs[i] = spring[i]
         if i < stretching:  # torsion falls as the length of the element grows
             springs[i] *= head[memory_map.H_FREE_REF] / free
+        if head[memory_map.H_FED] != 0.0:  # beyond the tip there is no shaft that could twist
+            within = (free + inserted - x[i]) / (x[i + 1] - x[i])
+            springs[i] /= min(max(within, _RIGID), 1.0)
         if head[memory_map.H_STIFFNESS_TORQUE] > 0.0:
             springs[i] *= _stiffness_factor(head, abs(springs[i] * (theta[i + 1] - theta[i])))
     for i in range(n + 1):
@@ -286,6 +292,7 @@ def advance(
             law[r, memory_map.L_STIFFNESS] > 0.0
             and speed != 0.0
             and head[memory_map.H_STRETCHING] == 0.0
+            and head[memory_map.H_FED] == 0.0
         ):
             advect_tissue(h * speed, w.x, w.loads[r], w.end[r], w.places, w.twist)
     chain = head[memory_map.H_CHAIN] != 0.0
