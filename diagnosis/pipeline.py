@@ -12,8 +12,9 @@ from datetime import date
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.assessment.assess import assess
+from diagnosis.assessment.assess import Assessment, assess
 from diagnosis.assessment.identifiability import testable_effects
+from diagnosis.assessment.uncertainty.absent_effects import without_absent
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.problem import FitProblem
@@ -95,6 +96,7 @@ def diagnose(
         assessment = assess(
             log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
         )
+        last, assessment = _without_absent(last, assessment)
         heard(ASSESSING, 1, 1)
         missing, assessment = with_what_is_missing(
             log,
@@ -161,6 +163,13 @@ def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -
         return judged
     entry = dropped("verdict", [verdict.best], f"{form.effect.title} leaves clearly less")
     return replace(judged, verdict=refuted(verdict, form.effect.title), record=(*judged.record, *entry))
+
+
+def _without_absent(judged: Judged, assessment: Assessment) -> tuple[Judged, Assessment]:
+    """Both without effects that may as well be absent."""
+    verdict = without_absent(judged.verdict, assessment.parameters)
+    parameters = {name: own for name, own in assessment.parameters.items() if name in verdict.effects}
+    return replace(judged, verdict=verdict), replace(assessment, parameters=parameters)
 
 
 def _judged(told: ToldApart, *, cut: bool) -> Judged:

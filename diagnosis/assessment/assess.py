@@ -11,9 +11,9 @@ from diagnosis.assessment.advice import advise
 from diagnosis.assessment.detection_limits import detection_limits
 from diagnosis.assessment.forward_step import Further, further_effects, gap_with_one_more, has_room
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
-from diagnosis.assessment.intervals import Interval, covariance, intervals
-from diagnosis.assessment.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.nearest import ONE_MORE, Nearest, nearest_candidate, nearest_of
+from diagnosis.assessment.uncertainty.intervals import Interval, covariance, intervals
+from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
-from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import floor_of

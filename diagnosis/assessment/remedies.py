@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.log.nominal_rig import NominalRig

@@ -8,9 +8,9 @@ from typing import Any
 from pydantic_core import to_jsonable_python
 
 from diagnosis.assessment.identifiability import unidentifiable
-from diagnosis.assessment.intervals import Interval
-from diagnosis.assessment.joint_uncertainty import JointUncertainty
 from diagnosis.assessment.nearest import Nearest
+from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.likeness.likeness import likeness_of

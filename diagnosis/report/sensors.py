@@ -1,6 +1,6 @@
 """What a diagnosis says of the sensors: what they do beside noise, and what was done about it."""
 
-from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
 from diagnosis.replay.rig_parameters import ReadingJump

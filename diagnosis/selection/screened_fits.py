@@ -32,7 +32,8 @@ def fit_screened(
     """Fits of the most promising sets, the best of each set, best first.
 
     Once something brings the residual to the noise floor, only what promises to come near it
-    is still fitted, and what that contains. A fit that cannot come near enough to be of use is given up.
+    is still fitted, what that contains, and other starts of what came there at a bound of its range.
+    A fit that cannot come near enough to be of use is given up.
     Further starts of a set come after the first of each, and not at all where they promise to leave no
     less than that has. Where a fit leaves far more than was promised, it begins once more elsewhere.
 
@@ -55,7 +56,8 @@ def fit_screened(
         at_floor = [c for c in found if c.floor.small]
         floor = min((c.fit.cost for c in at_floor), default=np.inf)
         inner = {i for c in at_floor for n in c.names for i in FITTED[n].contains}
-        far += [s for s in waiting if not _still(s, floor, inner)]
+        at_bound = {frozenset(c.names) for c in at_floor if c.fit.status.at_bound}
+        far += [s for s in waiting if not (_still(s, floor, inner) or frozenset(s.names) in at_bound)]
         no_better += [s for s in waiting if s not in far and _found(s, found)]
         waiting = [s for s in waiting if s not in far and s not in no_better]
     record += not_fitted(stage, _sets(far), _TOO_FAR)
@@ -105,8 +107,9 @@ def _still(one: Screened, floor: float, inner: set[str]) -> bool:
 
 
 def _found(one: Screened, found: Sequence[Candidate]) -> bool:
-    """Whether its set was fitted, and leaves no more than this start promises."""
-    return any({*c.names} == {*one.names} and c.fit.cost <= one.cost for c in found)
+    """Whether its set was fitted, within its range, and leaves no more than this start promises."""
+    own = [c.fit for c in found if {*c.names} == {*one.names} and not c.fit.status.at_bound]
+    return any(fit.cost <= one.cost for fit in own)
 
 
 def _first_starts_first(ranked: Sequence[Screened]) -> list[Screened]:

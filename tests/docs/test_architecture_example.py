@@ -7,7 +7,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from diagnosis.assessment.intervals import covariance, intervals
+from diagnosis.assessment.uncertainty.intervals import covariance, intervals
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.nuisance import nuisance_of

@@ -6,7 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from diagnosis.assessment.gap_reduction import GapReduction
-from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.freeform.missing import Law

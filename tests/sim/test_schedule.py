@@ -62,9 +62,18 @@ def test_steps_reach_the_end_and_keep_the_inputs_straight():
 
 def test_constant_depth_stands_in_the_tissue_and_growing_depth_goes_with_the_needle():
     assert Schedule(**columns()).mesh is Mesh.EULERIAN
-    growing = Schedule(**columns(inserted_mm=np.array([0.0, 10.0, 20.0, 30.0])))
-    assert growing.mesh is Mesh.LAGRANGIAN
-    assert growing.longest_mm == 80.0
+    depth = np.array([0.0, 10.0, 20.0, 30.0])
+    assert Schedule(**columns(inserted_mm=depth, free_mm=50 - depth)).mesh is Mesh.LAGRANGIAN
+    fed = Schedule(**columns(inserted_mm=depth))
+    assert (fed.mesh, fed.longest_mm) == (Mesh.FED, 80.0)
+
+
+def test_a_needle_pulled_out_of_the_tissue_goes_with_the_chuck():
+    depth = np.array([20.0, 0.0, 0.0, 0.0])
+    assert (
+        Schedule(**columns(inserted_mm=depth, free_mm=np.array([50.0, 70, 90, 110]))).mesh
+        is Mesh.LAGRANGIAN
+    )
 
 
 def test_rows_keep_every_input():

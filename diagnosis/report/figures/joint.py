@@ -5,7 +5,7 @@ from itertools import combinations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from diagnosis.assessment.joint_uncertainty import JointUncertainty
+from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS
 

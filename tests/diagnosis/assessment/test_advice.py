@@ -9,8 +9,8 @@ from diagnosis_fixtures import RIG, prepared, scored, trial, turns
 from diagnosis.assessment import advice
 from diagnosis.assessment.advice import advise
 from diagnosis.assessment.experiments import Experiment
-from diagnosis.assessment.intervals import Interval
 from diagnosis.assessment.next_experiment import Narrowing, Proposal
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import LIBRARY
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown

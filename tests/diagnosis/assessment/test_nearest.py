@@ -9,8 +9,8 @@ from diagnosis_fixtures import scored
 
 from diagnosis.assessment import nearest as module
 from diagnosis.assessment.gap_reduction import GapReduction
-from diagnosis.assessment.intervals import Interval
 from diagnosis.assessment.nearest import nearest_of
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.selection.verdict import VerdictKind

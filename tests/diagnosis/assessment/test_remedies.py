@@ -3,8 +3,8 @@
 import pytest
 from diagnosis_fixtures import RIG
 
-from diagnosis.assessment.intervals import Interval
 from diagnosis.assessment.remedies import check_that_tells, in_words, remedies
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import LIBRARY
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from diagnosis.assessment.intervals import Interval
+from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.report.sensors import imperfections
 

@@ -11,7 +11,7 @@ from diagnosis.criteria import (
     NEAR_FLOOR,
     PROMISE_BROKEN,
 )
-from diagnosis.selection import screened_fits
+from diagnosis.selection import fitting, screened_fits
 from diagnosis.selection.record import Decision
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
@@ -120,6 +120,22 @@ def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made,
     _, record = fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
     assert len(made) == 1 + fitted
     assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
+
+
+@pytest.mark.parametrize("at_bound", [(), ("stiction.static",)])
+def test_other_starts_of_what_came_to_the_floor_at_a_bound_are_fitted(at_bound, made, monkeypatch):
+    inner = fitting.fit_effects
+
+    def fit_effects(*arguments, **keywords):
+        fit = inner(*arguments, **keywords)
+        return replace(fit, status=replace(fit.status, at_bound=at_bound))
+
+    monkeypatch.setattr(fitting, "fit_effects", fit_effects)
+    monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+    first = start_of(("stiction",), 0.9 * FITTED_SAMPLES, FITTED_SAMPLES)
+    again = start_of(("stiction",), 2 * NEAR_FLOOR * FITTED_SAMPLES, 0.9 * FITTED_SAMPLES)
+    fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
+    assert len(made) == 1 + bool(at_bound)
 
 
 def test_what_leaves_far_more_than_promised_is_fitted_once_more_from_a_neutral_start(made, monkeypatch):

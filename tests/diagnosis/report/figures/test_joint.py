@@ -3,7 +3,7 @@
 import numpy as np
 from diagnosis_fixtures import fit_of
 
-from diagnosis.assessment.joint_uncertainty import joint_uncertainty
+from diagnosis.assessment.uncertainty.joint_uncertainty import joint_uncertainty
 from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
 
 THREE = ("tip_drag", "torque_bias", "tip_angle_bias")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of
 
-from diagnosis.assessment.joint_uncertainty import joint_uncertainty
+from diagnosis.assessment.uncertainty.joint_uncertainty import joint_uncertainty
 from diagnosis.effects import LIBRARY
 
 TWO = ("tip_angle_bias", "tip_sensor_delay")

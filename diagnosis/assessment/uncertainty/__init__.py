@@ -1,0 +1,1 @@
+"""Covariances and intervals of parameters, and what they leave open."""

@@ -1,0 +1,56 @@
+"""Effects whose intervals reach the value of no effect."""
+
+import pytest
+from diagnosis_fixtures import scored
+
+from diagnosis.assessment.uncertainty.absent_effects import without_absent
+from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.selection.verdict import VerdictKind, verdict_on
+
+
+def between(low, high):
+    return Interval(value=0.5 * (low + high), low=low, high=high, unit="")
+
+
+FRICTION = {"level": between(0.001, 0.002)}
+BIAS = {"bias": between(1.0, 2.0)}
+ABSENT = {
+    "tip_sensor_delay": {"delay": between(0.0, 3e-4)},
+    "torque_bias": {"bias": between(-0.1, 0.2)},
+    "tip_angle_scale": {"scale": between(0.99, 1.01)},
+    "coulomb_friction": {"level": between(0.0, 1e-4)},
+    "base_compliance": {"stiffness": between(1e3, 1e12)},
+}
+
+
+def verdict(*names):
+    return verdict_on([scored(names, 100.0)])
+
+
+@pytest.mark.parametrize("name", ABSENT)
+def test_an_effect_that_may_as_well_be_absent_is_told_only_beside_the_others(name):
+    both = verdict("tip_angle_bias", name)
+    found = without_absent(both, {"tip_angle_bias": BIAS, name: ABSENT[name]})
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("tip_angle_bias",))
+    assert found.confusable == (("tip_angle_bias",), both.effects)
+    assert found.ranking[0] == (("tip_angle_bias",), 1.0)
+
+
+def test_nothing_is_there_where_all_effects_may_as_well_be_absent():
+    found = without_absent(verdict("torque_bias"), {"torque_bias": ABSENT["torque_bias"]})
+    assert (found.kind, found.effects) == (VerdictKind.NONE, ())
+
+
+@pytest.mark.parametrize(
+    ("name", "own"),
+    [
+        ("coulomb_friction", FRICTION),
+        ("torque_bias", {"bias": between(0.01, 0.2)}),
+        ("tip_angle_scale", {"scale": between(1.001, 1.01)}),
+        ("base_compliance", {"stiffness": between(100.0, 200.0)}),
+        ("stiction", {"kinetic": between(0.0, 1e-3), "static": between(1e-3, 2e-3)}),
+    ],
+)
+def test_an_effect_whose_strength_is_certain_stays(name, own):
+    one = verdict(name)
+    assert without_absent(one, {name: own}) is one
