@@ -124,13 +124,13 @@ def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made,
 
 @pytest.mark.parametrize("at_bound", [(), ("stiction.static",)])
 def test_other_starts_of_what_came_to_the_floor_at_a_bound_are_fitted(at_bound, made, monkeypatch):
-    inner = fitting.fit_effects
+    inner = fitting.fit_in_turn
 
-    def fit_effects(*arguments, **keywords):
+    def fit_in_turn(*arguments, **keywords):
         fit = inner(*arguments, **keywords)
         return replace(fit, status=replace(fit.status, at_bound=at_bound))
 
-    monkeypatch.setattr(fitting, "fit_effects", fit_effects)
+    monkeypatch.setattr(fitting, "fit_in_turn", fit_in_turn)
     monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
     first = start_of(("stiction",), 0.9 * FITTED_SAMPLES, FITTED_SAMPLES)
     again = start_of(("stiction",), 2 * NEAR_FLOOR * FITTED_SAMPLES, 0.9 * FITTED_SAMPLES)

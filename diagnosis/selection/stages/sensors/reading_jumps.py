@@ -71,7 +71,7 @@ def _objection(state: SearchState, jump: ReadingJump, workers: Workers) -> str:
 
 def _explains_alone(state: SearchState) -> bool:
     """Whether the nominal rig explains the log, with what is allowed for."""
-    return any(c.explains and not c.names for c in (state.checked.candidates if state.checked else ()))
+    return any(c.explains and not c.named for c in (state.checked.candidates if state.checked else ()))
 
 
 def _may_be_a_slip(state: SearchState, jump: ReadingJump, workers: Workers) -> bool:
