@@ -167,7 +167,8 @@ def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -
 
 def _without_absent(judged: Judged, assessment: Assessment) -> tuple[Judged, Assessment]:
     """Both without effects that may as well be absent."""
-    verdict = without_absent(judged.verdict, assessment.parameters)
+    sample_s = min(trial.sample_s for trial in judged.problem.log.trials)
+    verdict = without_absent(judged.verdict, assessment.parameters, sample_s)
     parameters = {name: own for name, own in assessment.parameters.items() if name in verdict.effects}
     return replace(judged, verdict=verdict), replace(assessment, parameters=parameters)
 

@@ -3,7 +3,7 @@
 The score of an explanation knows white noise. The intervals of its parameters also know what the
 noise of the base encoder and the error of the replay do. Where the interval of an effect's strength
 reaches the value at which there is no effect, the explanation without it says the same, and more
-simply.
+simply. A time below a small share of a sample is none: no replay resolves it.
 """
 
 import math
@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.criteria import RESOLVED_SHARE_OF_SAMPLE
 from diagnosis.effects.effect import Parameter
 from diagnosis.selection.verdict import NOTHING, Verdict, VerdictKind
 
@@ -18,18 +19,21 @@ _ROUNDING = 1e-9
 """Of a bound that was fitted in its logarithm."""
 
 
-def without_absent(verdict: Verdict, parameters: Mapping[str, Mapping[str, Interval]]) -> Verdict:
+def without_absent(
+    verdict: Verdict, parameters: Mapping[str, Mapping[str, Interval]], sample_s: float
+) -> Verdict:
     """The verdict without effects that may as well be absent; what was told stays confusable.
 
     Args:
       parameters: intervals by effect and parameter.
+      sample_s: time between samples.
     """
     own = verdict.best.fit.parameterization
     each = list(zip(own.owners, own.parameters, strict=True))
     absent = {
         name
         for name in verdict.effects
-        if _may_be_absent([p for owner, p in each if owner == name], parameters.get(name, {}))
+        if _may_be_absent([p for owner, p in each if owner == name], parameters.get(name, {}), sample_s)
     }
     if not absent:
         return verdict
@@ -47,13 +51,17 @@ def without_absent(verdict: Verdict, parameters: Mapping[str, Mapping[str, Inter
     )
 
 
-def _may_be_absent(parameters: Sequence[Parameter], own: Mapping[str, Interval]) -> bool:
+def _may_be_absent(
+    parameters: Sequence[Parameter], own: Mapping[str, Interval], sample_s: float
+) -> bool:
     """Whether every parameter of strength has an interval that reaches the value of no effect."""
     sizes = [p for p in parameters if p.name in own and p.neutral is not None]
-    return bool(sizes) and all(_reaches_neutral(p, own[p.name]) for p in sizes)
+    return bool(sizes) and all(_reaches_neutral(p, own[p.name], sample_s) for p in sizes)
 
 
-def _reaches_neutral(parameter: Parameter, interval: Interval) -> bool:
+def _reaches_neutral(parameter: Parameter, interval: Interval, sample_s: float) -> bool:
+    if parameter.unit == "s" and parameter.neutral == 0.0:
+        return interval.low <= RESOLVED_SHARE_OF_SAMPLE * sample_s
     if parameter.neutral == math.inf:
         return interval.high >= parameter.high * (1 - _ROUNDING)
     if parameter.logarithmic and parameter.neutral == 0.0:

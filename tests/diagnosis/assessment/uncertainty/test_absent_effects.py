@@ -12,10 +12,11 @@ def between(low, high):
     return Interval(value=0.5 * (low + high), low=low, high=high, unit="")
 
 
+SAMPLE_S = 0.01
 FRICTION = {"level": between(0.001, 0.002)}
 BIAS = {"bias": between(1.0, 2.0)}
 ABSENT = {
-    "tip_sensor_delay": {"delay": between(0.0, 3e-4)},
+    "tip_sensor_delay": {"delay": between(1e-4, 3e-4)},  # of a sample of 10 ms
     "torque_bias": {"bias": between(-0.1, 0.2)},
     "tip_angle_scale": {"scale": between(0.99, 1.01)},
     "coulomb_friction": {"level": between(0.0, 1e-4)},
@@ -30,14 +31,14 @@ def verdict(*names):
 @pytest.mark.parametrize("name", ABSENT)
 def test_an_effect_that_may_as_well_be_absent_is_told_only_beside_the_others(name):
     both = verdict("tip_angle_bias", name)
-    found = without_absent(both, {"tip_angle_bias": BIAS, name: ABSENT[name]})
+    found = without_absent(both, {"tip_angle_bias": BIAS, name: ABSENT[name]}, SAMPLE_S)
     assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("tip_angle_bias",))
     assert found.confusable == (("tip_angle_bias",), both.effects)
     assert found.ranking[0] == (("tip_angle_bias",), 1.0)
 
 
 def test_nothing_is_there_where_all_effects_may_as_well_be_absent():
-    found = without_absent(verdict("torque_bias"), {"torque_bias": ABSENT["torque_bias"]})
+    found = without_absent(verdict("torque_bias"), {"torque_bias": ABSENT["torque_bias"]}, SAMPLE_S)
     assert (found.kind, found.effects) == (VerdictKind.NONE, ())
 
 
@@ -48,9 +49,10 @@ def test_nothing_is_there_where_all_effects_may_as_well_be_absent():
         ("torque_bias", {"bias": between(0.01, 0.2)}),
         ("tip_angle_scale", {"scale": between(1.001, 1.01)}),
         ("base_compliance", {"stiffness": between(100.0, 200.0)}),
+        ("tip_sensor_delay", {"delay": between(0.002, 0.004)}),
         ("stiction", {"kinetic": between(0.0, 1e-3), "static": between(1e-3, 2e-3)}),
     ],
 )
 def test_an_effect_whose_strength_is_certain_stays(name, own):
     one = verdict(name)
-    assert without_absent(one, {name: own}) is one
+    assert without_absent(one, {name: own}, SAMPLE_S) is one
