@@ -20,7 +20,7 @@ def test_a_depth_that_hardly_changes_is_constant():
 
 def test_a_depth_that_grows_is_kept():
     ready = prepared(trial(turns()))
-    deeper = replace(ready, inserted_mm=90.0 + ready.time_s)
+    deeper = replace(ready, inserted_mm=90.0 + ready.time_s, free_mm=ready.free_mm - ready.time_s)
     np.testing.assert_allclose(deeper.schedule.inserted_mm, 90.0 + deeper.schedule.time_s)
     assert deeper.schedule.mesh is Mesh.LAGRANGIAN
 
