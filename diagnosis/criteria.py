@@ -515,9 +515,9 @@ SAME_DEPTH_MM = 1.0
 ALMOST_NOTHING_SIGMA = 0.015
 """Reduction of the gap by another effect that the report calls almost nothing: half of what GAP_LIMIT
 leaves above the noise; of gaps above the noise, this share of them."""
-RESOLVED_SHARE_OF_SAMPLE = 0.1
-"""A delay below this share of a sample is told as none. Physical: inputs are lines between samples, and
-what they leave out moves a reading by about this share; true delays of sensors are longer."""
+RESOLVED_SHARE_OF_SAMPLE = 0.02
+"""A delay whose interval begins below this share of a sample may as well be absent. Set on logs of
+several independent rigs: delays that were named, and were none, began below 0.003 of a sample."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
 CONFIDENCE = 0.95

@@ -28,7 +28,7 @@ from diagnosis.progress import ProgressClock, Watcher, silent
 from diagnosis.result import Diagnosis
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
-from diagnosis.selection.record import RecordEntry, dropped, judged
+from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, refuted
@@ -169,8 +169,15 @@ def _without_absent(judged: Judged, assessment: Assessment) -> tuple[Judged, Ass
     """Both without effects that may as well be absent."""
     sample_s = min(trial.sample_s for trial in judged.problem.log.trials)
     verdict = without_absent(judged.verdict, assessment.parameters, sample_s)
+    if verdict is judged.verdict:
+        return judged, assessment
     parameters = {name: own for name, own in assessment.parameters.items() if name in verdict.effects}
-    return replace(judged, verdict=verdict), replace(assessment, parameters=parameters)
+    absent = [name for name in judged.verdict.effects if name not in verdict.effects]
+    entry = noted("verdict", Decision.DROPPED, f"{', '.join(absent)}: the interval reaches its absence")
+    return (
+        replace(judged, verdict=verdict, record=(*judged.record, entry)),
+        replace(assessment, parameters=parameters),
+    )
 
 
 def _judged(told: ToldApart, *, cut: bool) -> Judged:

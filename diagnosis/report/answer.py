@@ -25,7 +25,7 @@ def _sure(found: Diagnosis) -> str:
         return f"Not sure, because what was not tried may explain the log as well; {best}"
     match found.verdict.kind:
         case VerdictKind.NONE:
-            return _sure_of_nothing(found)
+            return f"{_sure_of_nothing(found)}{_beside(found)}"
         case VerdictKind.EXPLAINED:
             return f"{_probability(found)}; {_share(found, 'it')}{_beside(found)}"
         case VerdictKind.UNDECIDED:

@@ -15,7 +15,6 @@ from sim.kernel.compiled import Array, inlined
 
 XI_LEFT = 0.5 * (1.0 - (2.0 / 3.0) ** 0.5)
 XI_RIGHT = 1.0 - XI_LEFT
-_AT_TIP = 1e-9
 
 
 @inlined
@@ -72,8 +71,9 @@ def cover(
         + row[memory_map.L_TOP_INSERTED] * inserted
     )
     top = _clip(top, 0.0, x[n])
+    near = 1e-9 * (x[n] - x[0])
     if row[memory_map.L_POINT] != 0.0:
-        if top >= free + inserted - _AT_TIP * (x[n] - x[0]):
+        if top >= free + inserted - near:
             top = x[n]  # the tip, even of a mesh that reaches beyond it
         _locate(x, top, point)
         return
@@ -83,7 +83,6 @@ def cover(
         + row[memory_map.L_END_INSERTED] * inserted
     )
     end = _clip(end, top, x[n])
-    near = 1e-9 * (x[n] - x[0])
     for e in range(n):
         if x[e + 1] <= top or x[e] >= end:
             loads[e, 0] = loads[e, 1] = loads[e, 2] = loads[e, 3] = 0.0

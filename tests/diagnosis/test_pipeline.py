@@ -1,11 +1,14 @@
 """From a log to a diagnosis."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
 from diagnosis_fixtures import concluded, joined, log_of, start_of_search
 from reference_log import BETA, make_log
 
+from diagnosis import pipeline
 from diagnosis.criteria import NOISE_TRUST
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import floor_of
@@ -116,6 +119,24 @@ def test_where_nothing_but_the_nominal_rig_can_be_simulated_there_is_a_verdict(r
     lost = {e.effects for e in found.record if e.decision is Decision.FAILED}
     assert () in lost
     assert any(warning.startswith("the nominal rig: not fully tried") for warning in found.warnings)
+
+
+def test_an_effect_that_may_as_well_be_absent_is_not_part_of_the_answer(monkeypatch):
+    """Its interval is made to begin at no friction."""
+    inner = pipeline.assess
+
+    def assess(*arguments):
+        found = inner(*arguments)
+        level = replace(found.parameters["coulomb_friction"]["level"], low=0.0)
+        return replace(found, parameters={"coulomb_friction": {"level": level}})
+
+    monkeypatch.setattr(pipeline, "assess", assess)
+    found = diagnose(log_of(DRY, speed=-1.0, seed=1), workers=1)
+    assert (found.verdict.kind, found.verdict.effects) == (VerdictKind.NONE, ())
+    assert found.verdict.confusable == ((), ("coulomb_friction",))
+    assert found.assessment.parameters == {}
+    assert found.record[-1].decision is Decision.DROPPED
+    assert "coulomb_friction: the interval reaches its absence" in found.record[-1].reason
 
 
 def test_progress_is_told_by_stage():

@@ -56,8 +56,7 @@ def by_lines(speed_mm_s, at_s, cells=300):
     return np.array(tips)
 
 
-@pytest.mark.parametrize("speed_mm_s", [6.0, -6.0])
-def test_a_fed_shaft_turns_as_the_equation_of_its_twist_says(speed_mm_s):
+def simulated(speed_mm_s, needle=NITINOL):
     depth = lengths_mm(speed_mm_s, TIMES)
     fed = Schedule(
         time_s=TIMES,
@@ -69,17 +68,37 @@ def test_a_fed_shaft_turns_as_the_equation_of_its_twist_says(speed_mm_s):
     )
     assert fed.mesh is Mesh.FED
     setup = Setup(
-        needle=NITINOL,
+        needle=needle,
         tissue=Tissue.uniform(viscous_n_mm_s_per_mm=BETA),
         discretisation=Discretisation(elements=96),
         mesh=fed.mesh,
         free_mm=FREE_MM,
         inserted_mm=fed.longest_mm - FREE_MM,
     )
-    run = simulate([setup], fed)[0]
+    return simulate([setup], fed)[0]
+
+
+@pytest.mark.parametrize("speed_mm_s", [6.0, -6.0])
+def test_a_fed_shaft_turns_as_the_equation_of_its_twist_says(speed_mm_s):
+    run = simulated(speed_mm_s)
     at = np.array([0.0, 0.5, 1.5, 2.5, 4.0, 6.0, 8.0])
     tip = np.interp(at, run.time_s, run.tip_deg)
     # Angles are linear along an element: its share of the 80 deg of twist, squared, over 8, is
     # (1 / 96)^2 / 8 * 80 = 0.001 deg at each of its ends inside an element. Without the sliding
     # 0.3 deg would be missing.
     assert np.abs(tip - by_lines(speed_mm_s, at)).max() < 0.01
+
+
+@pytest.mark.parametrize("speed_mm_s", [6.0, -6.0])
+def test_friction_under_load_acts_at_the_tip_of_a_fed_shaft(speed_mm_s):
+    """Once it turns steadily backwards, the base carries the share of the tip's torque as well."""
+    coefficient = 0.3
+    loaded = simulated(speed_mm_s, NITINOL.model_copy(update={"load_coefficient": coefficient}))
+    plain = simulated(speed_mm_s)
+    steady = loaded.time_s >= 7.0  # 3 s of 4 after the reversal: the slowest mode takes 0.5 s
+    more = (loaded.base_torque_n_mm - plain.base_torque_n_mm)[steady]
+    tip = (loaded.tip_deg - plain.tip_deg)[steady] * units.DEG
+    entry = -more * FREE_MM / NITINOL.rigidity_n_mm2
+    # Both turn alike, so that of the damping only what the sliding of more twist takes is left.
+    sliding = BETA * speed_mm_s * (tip - entry)
+    np.testing.assert_allclose(more, -coefficient * TORQUE_N_MM[-1] + sliding, rtol=2e-3)

@@ -37,6 +37,15 @@ def test_what_cannot_be_told_from_it_is_in_the_second_sentence(dry):
     )
 
 
+def test_what_may_be_there_beside_nothing_is_in_the_second_sentence(dry):
+    alike = ((), ("coulomb_friction",))
+    nothing = concluding(dry.found, kind=VerdictKind.NONE, effects=(), confusable=alike)
+    _, sure, _ = answer(nothing)
+    assert sure.endswith(
+        f"no reading of this log distinguishes it from {titles(('coulomb_friction',))}."
+    )
+
+
 @pytest.mark.parametrize(
     ("verdict", "sure", "then"),
     [
