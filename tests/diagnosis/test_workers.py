@@ -190,13 +190,13 @@ def killed(seconds_s):
 
 def test_a_process_that_is_lost_is_an_error_and_the_others_end_too():
     """The other one is busy and hears no signal but that which nobody can ignore."""
-    others = active_children()
+    others = set(active_children())  # a list of them comes in any order
     tasks = [Task(effects=(), arguments=(seconds_s,)) for seconds_s in (60.0, 0.0)]
     start = time.perf_counter()
     with pytest.raises(BrokenProcessPool), process_pool(2) as two:
         two.each("", killed, tasks)
     assert time.perf_counter() - start < 30.0
-    assert within(5.0, lambda: active_children() == others)
+    assert within(5.0, lambda: others.issuperset(active_children()))
 
 
 @pytest.mark.parametrize("count", [1, 2])
