@@ -326,6 +326,9 @@ COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ, COLOUR_PARTS_GAP = 3, 4.0, 2.0
 oscillate; and what the residual of a sensor may come to for more than one part. Physical: a needle is
 turned by hand or drive at less than 4 Hz, and what a model lacks there must not pass for noise. Nor must
 the swinging of a rig: of a friction damper with play, 3 sigma of it were noise of 5 Hz."""
+COLOUR_MOST_ORDER = 24
+"""Values before that an autoregression of the noise may use: white noise through a Butterworth filter of
+fourth order takes 7 to 23, through one of second order 24 and more, of which the last hardly tell."""
 COLOUR_LEAST_PART, COLOUR_OSCILLATOR = 0.05, 6.0
 """Share of the variance that each part of the noise has to have at least, and by how much chi-square an
 oscillator has to be better than a process: three for each of its two more parameters, a choice."""

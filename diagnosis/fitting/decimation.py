@@ -19,7 +19,9 @@ from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.autoregression import Autoregression
 from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_spectrum import Colour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction, predict
@@ -65,24 +67,33 @@ def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     """Noise of the decimated log, with the same spectral density at frequency 0 as that of the log.
 
     The white part is reduced by averaging. Coloured parts keep their correlation times, with the
-    variances for which the densities are preserved. Of an oscillation that is fast for the decimated log
-    no more is left than its density, as white noise.
+    variances for which the densities are preserved; an autoregression becomes that of means. Of an
+    oscillation that is fast for the decimated log no more is left than its density, as white noise.
     """
     share = _share(log, rare)
     step_s = float(np.median([trial.sample_s for trial in rare.trials]))
-    sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in noise.sigma.items()}
-    colour = {}
+    sigma, colour = dict(noise.sigma), dict[str, Colour]()
     for sensor, own in noise.colour.items():
-        slow = [p for p in own.parts if p.frequency_hz * step_s <= _SLOW_FOR_A_SAMPLE]
-        fast = sum(p.share * p.density(step_s * share) for p in own.parts if p not in slow)
-        sizes = [p.share * p.density(step_s * share) / p.density(step_s) for p in slow]
-        total = 1 - own.share + fast + sum(sizes)
-        sigma[sensor] *= float(np.sqrt(total))
-        each = zip(slow, sizes, strict=True)
-        parts = tuple(replace(part, share=size / total) for part, size in each)
-        if parts:
-            colour[sensor] = NoiseColour(parts=parts)
+        size, kept = _of_means(own, share, step_s)
+        sigma[sensor] *= size
+        if kept:
+            colour[sensor] = kept
+    sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in sigma.items()}
     return replace(noise, sigma=sigma, colour=colour)
+
+
+def _of_means(colour: Colour, share: float, step_s: float) -> tuple[float, Colour | None]:
+    """Standard deviation / that of means of white noise, and what colour is left; None: white."""
+    if isinstance(colour, Autoregression):
+        means = colour.of_means(max(round(1.0 / share), 1))
+        return float(np.sqrt(colour.density / means.density)), means
+    slow = [p for p in colour.parts if p.frequency_hz * step_s <= _SLOW_FOR_A_SAMPLE]
+    fast = sum(p.share * p.density(step_s * share) for p in colour.parts if p not in slow)
+    sizes = [p.share * p.density(step_s * share) / p.density(step_s) for p in slow]
+    total = 1 - colour.share + fast + sum(sizes)
+    each = zip(slow, sizes, strict=True)
+    parts = tuple(replace(part, share=size / total) for part, size in each)
+    return float(np.sqrt(total)), NoiseColour(parts=parts) if parts else None
 
 
 def _share(log: PreparedLog, rare: PreparedLog) -> float:

@@ -15,7 +15,8 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Dependence, Law, Missing
-from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.autoregression import Autoregression
+from diagnosis.prepare.noise.noise_spectrum import Colour
 from diagnosis.report.sentences import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
@@ -64,8 +65,11 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
     }
 
 
-def _colour(colour: NoiseColour) -> dict[str, Any]:
+def _colour(colour: Colour) -> dict[str, Any]:
     """The share of the variance that is correlated, and over what: the largest part, and all."""
+    if isinstance(colour, Autoregression):
+        own = {"parts": [], "autoregression": colour.coefficients.tolist(), "step_s": colour.step_s}
+        return {"share": colour.share, "correlation_time_s": colour.correlation_time_s, **own}
     largest, parts = colour.parts[0], [asdict(part) for part in colour.parts]
     return {
         "share": colour.share,

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES
-from diagnosis.prepare.noise.noise_colour import NoiseColour
+from diagnosis.prepare.noise.noise_spectrum import Colour
 
 Array = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ class Drift:
 
     size_sigma: float
     zeroed: bool = False
-    colour: NoiseColour | None = None
+    colour: Colour | None = None
 
     def whitened(self, time_s: Array, values: Array) -> Array:
         """Residuals without what may be drift, (N,) or (N, n).

@@ -94,6 +94,17 @@ class NoiseColour:
         """Share of the variance that is correlated in time."""
         return sum(part.share for part in self.parts)
 
+    @property
+    def in_words(self) -> str:
+        """The times over which noise is correlated, or the frequencies at which it oscillates."""
+        each = (
+            f"at {part.frequency_hz:.2g} Hz"
+            if part.frequency_hz
+            else f"over {1000 * part.correlation_time_s:.0f} ms"
+            for part in self.parts
+        )
+        return " and ".join(each)
+
     def whitened(self, time_s: Array, values: Array) -> Array:
         """Innovations / their standard deviation; noise of variance 1 becomes white noise of variance 1.
 

@@ -9,7 +9,8 @@ noise and an Ornstein-Uhlenbeck process is fitted to them (`noise_colour`), with
 at most `COLOUR_LONGEST_S`: its part below the bands is extrapolated and never taken from the data.
 So missing slow friction cannot be mistaken for noise. Beside an explanation that leaves little, further
 parts are added one by one where the spectrum asks for them: another such process, or an oscillator that
-is faster than what needles do.
+is faster than what needles do. Noise that a digital filter has limited to a band is no sum of these:
+there an autoregression takes their place, if it is clearly likelier (`autoregression_fit`).
 
 Missing samples count as zeros; the autocorrelation of the windows takes this into account in the
 spectrum that a model of the noise is expected to show.
@@ -36,21 +37,31 @@ from diagnosis.criteria import (
     COLOUR_WINDOW_S,
     COLOUR_WINDOWS,
 )
+from diagnosis.prepare.noise.autoregression import Autoregression
+from diagnosis.prepare.noise.autoregression_fit import autoregression
 from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour, covariances_of_means
+from diagnosis.prepare.noise.periodograms import (
+    MEAN,
+    QUANTILE,
+    periodogram,
+    step_of,
+    taper_of,
+    trend,
+    windows_of,
+)
 
 Array = NDArray[np.float64]
+Colour = NoiseColour | Autoregression
+"""How the noise of a sensor is correlated."""
 
 _BANDS = 12
 _TIMES = 32  # correlation times that are tried
 _FREQUENCIES, _QUALITIES = 24, (0.55, 0.8, 1.2, 1.8, 2.7, 4.0, 6.0)  # of oscillators that are tried
 _OSCILLATES_BELOW = 0.4  # periods per sample
-_QUANTILE = 0.3
-_MEAN = -np.log(1 - _QUANTILE)  # of an exponential distribution, its mean over this quantile of it
-_SCATTER = np.sqrt(_QUANTILE / (1 - _QUANTILE)) / _MEAN  # of ln(quantile), times sqrt(samples)
+_SCATTER = np.sqrt(QUANTILE / (1 - QUANTILE)) / MEAN  # of ln(quantile), times sqrt(samples)
 _INDEPENDENT = 0.8  # of the periodograms of half overlapping windows, at neighbouring frequencies
 _FEWEST_BANDS = 4
 _MASKS, _IN_BAND = 12, 8  # windows and frequencies that stand for all
-_FEWEST = 0.5  # share of its samples that a window has to have
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -97,7 +108,7 @@ def noise_colour(
     means_of: int = 1,
     least_chi_square: float = COLOUR_CHI_SQUARE,
     most_parts: int = COLOUR_MOST_PARTS,
-) -> tuple[float, NoiseColour] | None:
+) -> tuple[float, Colour] | None:
     """Standard deviation and colour of the noise in residuals; None: it may be white.
 
     Args:
@@ -131,7 +142,9 @@ def noise_colour(
         kept = min(open_, key=lambda own: _unlikeliness(parts, own.colour))
         found, chosen, cost = (kept.sigma, kept.colour), list(kept.shapes), kept.cost
         asked = COLOUR_CHI_SQUARE
-    return found if found and found[1].share >= least_share else None
+    if found is None or found[1].share < least_share:
+        return None
+    return _likelier(parts, found, autoregression(parts)) if most_parts > 1 else found
 
 
 def _processes(spectrum: _Spectrum, lags_s: Array, means_of: int) -> list[_Shape]:
@@ -179,7 +192,20 @@ def _sized(spectrum: _Spectrum, white: Array, shapes: Sequence[_Shape]) -> _Size
     )
 
 
-def _unlikeliness(parts: Sequence[tuple[Array, Array]], colour: NoiseColour) -> float:
+def _likelier(
+    parts: Sequence[tuple[Array, Array]],
+    found: tuple[float, NoiseColour],
+    other: tuple[float, Autoregression] | None,
+) -> tuple[float, Colour]:
+    """The parts that were found, or an autoregression that is clearly likelier."""
+    if other is None:
+        return found
+    order, samples = other[1].coefficients.size, sum(np.isfinite(values).sum() for _, values in parts)
+    lead = _unlikeliness(parts, found[1]) - _unlikeliness(parts, other[1])
+    return other if lead > COLOUR_CHI_SQUARE + order * np.log(samples) else found
+
+
+def _unlikeliness(parts: Sequence[tuple[Array, Array]], colour: Colour) -> float:
     """-2 log(likelihood) of residuals whose noise has a colour, and any size."""
     squares, uncertainty, samples = 0.0, 0.0, 0
     for time_s, values in parts:
@@ -203,21 +229,19 @@ def _fitted(spectrum: _Spectrum, columns: Array) -> tuple[float, Array]:
 
 def _spectrum(parts: Sequence[tuple[Array, Array]]) -> _Spectrum | None:
     """The spectrum of all trials; None: they are too short."""
-    steps = np.concatenate([np.diff(time) for time, _ in parts]) if parts else np.zeros(0)
-    if not steps.size:
+    step_s = step_of(parts)
+    if np.isnan(step_s):
         return None
-    step_s = float(np.median(steps))
     size = round(COLOUR_WINDOW_S / step_s)
-    taper = np.hanning(size + 2)[1:-1]
-    cut = [one for time, values in parts for one in _windows(_even(time, values, step_s), size)]
+    taper, cut = taper_of(size), windows_of(parts, step_s)
     frequencies = np.fft.rfftfreq(size, step_s)
     edges = np.geomspace(COLOUR_ABOVE_HZ, max(frequencies[-1], COLOUR_ABOVE_HZ) * 1.001, _BANDS + 1)
     inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]
     bands = [own for own in inside if own.size]
     if len(cut) < COLOUR_WINDOWS or len(bands) < _FEWEST_BANDS:
         return None
-    squares = np.array([_periodogram(values, taper) for values in cut])
-    levels = np.array([np.quantile(squares[:, own], _QUANTILE) / _MEAN for own in bands])
+    squares = np.array([periodogram(values, taper) for values in cut])
+    levels = np.array([np.quantile(squares[:, own], QUANTILE) / MEAN for own in bands])
     if not (levels > 0).all():
         return None
     count = np.array([_INDEPENDENT * len(cut) * own.size for own in bands])
@@ -235,7 +259,7 @@ def _lag_weights(cut: Sequence[Array], taper: Array, bands: Sequence[NDArray[np.
     looked_at = masks[:: max(len(masks) // _MASKS, 1)]
     each = []
     for values in looked_at:
-        known, weights, scale = _known(values, taper)
+        known, weights, scale = trend(values, taper)
         base, inverse = known, np.linalg.pinv(known)
         size = values.size
         rows = []
@@ -248,34 +272,3 @@ def _lag_weights(cut: Sequence[Array], taper: Array, bands: Sequence[NDArray[np.
             rows.append(np.where(np.arange(size) == 0, overlap, 2 * overlap))
         each.append(np.array(rows))
     return np.asarray(np.mean(each, axis=0))
-
-
-def _even(time_s: Array, values: Array, step_s: float) -> Array:
-    """Values at even steps, each at the nearest; NaN where none was read."""
-    place = np.rint((time_s - time_s[0]) / step_s).astype(int)
-    even = np.full(place[-1] + 1, np.nan)
-    read = np.isfinite(values)
-    even[place[read]] = values[read]
-    return even
-
-
-def _windows(values: Array, size: int) -> list[Array]:
-    """Windows with half overlap that have enough samples."""
-    cut = [values[i : i + size] for i in range(0, values.size - size + 1, max(size // 2, 1))]
-    return [one for one in cut if np.isfinite(one).mean() >= _FEWEST]
-
-
-def _periodogram(values: Array, taper: Array) -> Array:
-    """Periodogram of one window without its parabola, per sample that was read."""
-    known, weights, scale = _known(values, taper)
-    there = np.nan_to_num(values)
-    left = (there - known @ (np.linalg.pinv(known) @ there)) * weights
-    return np.asarray(np.abs(np.fft.rfft(left)) ** 2 / scale)
-
-
-def _known(values: Array, taper: Array) -> tuple[Array, Array, float]:
-    """Parabolas where a window was read and 0 elsewhere, (N, 3), its taper likewise, and its squares."""
-    read = np.isfinite(values)
-    parabolas = np.vander(np.linspace(-1, 1, values.size), 3) * read[:, None]
-    weights = taper * read
-    return parabolas, weights, float(np.sum(weights**2))

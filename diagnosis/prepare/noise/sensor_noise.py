@@ -22,8 +22,7 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.noise.drift import Drift
-from diagnosis.prepare.noise.noise_colour import NoiseColour
-from diagnosis.prepare.noise.noise_spectrum import noise_colour
+from diagnosis.prepare.noise.noise_spectrum import Colour, noise_colour
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
@@ -51,7 +50,7 @@ class Noise:
 
     sigma: Mapping[str, float]
     warnings: tuple[str, ...] = field(default=())
-    colour: Mapping[str, NoiseColour] = field(default_factory=dict)
+    colour: Mapping[str, Colour] = field(default_factory=dict)
     white: Mapping[str, float] = field(default_factory=dict)
     least: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
@@ -124,21 +123,10 @@ class Noise:
         """Warnings, and the sensors whose noise is not white."""
         each = (
             f"{sensor}: {100 * min(colour.share, 1.0):.0f} % of the noise's variance is correlated "
-            f"{_over(colour)}; the diagnosis allows for it"
+            f"{colour.in_words}; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
         return (*self.warnings, *each)
-
-
-def _over(colour: NoiseColour) -> str:
-    """The time over which noise is correlated, in words, or the frequency at which it oscillates."""
-    each = (
-        f"at {part.frequency_hz:.2g} Hz"
-        if part.frequency_hz
-        else f"over {1000 * part.correlation_time_s:.0f} ms"
-        for part in colour.parts
-    )
-    return " and ".join(each)
 
 
 def estimate_noise(

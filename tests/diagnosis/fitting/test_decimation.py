@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, log_of, prepared
+from scipy.signal import lfilter
 
 from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.prepare.noise.autoregression import Autoregression
 from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import predict, residuals
@@ -127,6 +129,25 @@ def test_an_oscillation_keeps_its_density_and_is_white_where_it_is_fast(frequenc
         for noise, step_s in ((before, 0.01), (after, 0.04))
     ]
     assert power[1] == pytest.approx(power[0], rel=0.01)
+
+
+def test_an_autoregression_keeps_its_density_and_is_that_of_means():
+    log = log_of(NOMINAL)
+    ready = replay_nominal(log).problem.log
+    rare = decimated(replay_nominal(log).problem, replay_nominal(log).predictions).log
+    lags = np.arange(5)
+    # cov(k) = r^k (cos(k t) + s sin(k t)) of the process of second order 1.5, -0.8
+    pulse = lfilter([1], [1, -1.5, 0.8], np.eye(1, 4000)[0])
+    shown = np.array([pulse[: pulse.size - lag] @ pulse[lag:] for lag in lags]) / (pulse @ pulse)
+    own = Autoregression(autocovariances=tuple(shown), step_s=0.01)
+    before = Noise(sigma={"tip_angle_deg": 0.3}, colour={"tip_angle_deg": own})
+    after = decimated_noise(before, ready, rare)
+    power = [
+        noise["tip_angle_deg"] ** 2 * noise.colour["tip_angle_deg"].density * step_s
+        for noise, step_s in ((before, 0.01), (after, 0.04))
+    ]
+    assert power[1] == pytest.approx(power[0], rel=0.01)
+    assert after.colour["tip_angle_deg"] == own.of_means(4)
 
 
 def test_a_decimated_log_with_coloured_noise_weighs_an_explanation_as_the_log_does():

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
+from scipy.signal import butter, lfilter, sosfilt
 
+from diagnosis.prepare.noise.autoregression import Autoregression
 from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 RATE_HZ = 100
@@ -140,3 +141,21 @@ def test_noise_of_several_correlation_times_is_whitened():
     means = 5.0 * left.reshape(-1, 25).mean(axis=1)
     assert np.sqrt(np.mean(means**2)) == pytest.approx(1.0, abs=0.2)
     assert np.sqrt(np.mean(left**2)) == pytest.approx(1.0, abs=0.03)
+
+
+def test_noise_of_a_digital_filter_is_an_autoregression_but_not_beside_much_else():
+    """A band-limited sensor; where a model lacks much (one part is asked for), it is none."""
+    rng = np.random.default_rng(11)
+    filter_ = butter(4, 0.3, output="sos")
+    parts = [
+        (np.arange(2000) / RATE_HZ, sosfilt(filter_, rng.normal(size=2500))[500:]) for _ in range(4)
+    ]
+    sigma, colour = noise_colour(parts)
+    assert isinstance(colour, Autoregression)
+    left = np.concatenate([colour.whitened(time_s, values / sigma) for time_s, values in parts])
+    assert left.std() == pytest.approx(1.0, abs=0.04)
+    assert not isinstance(noise_colour(parts, most_parts=1)[1], Autoregression)
+
+
+def test_noise_of_a_process_is_no_autoregression():
+    assert not isinstance(noise_colour(trials(1, share=0.6, correlation_time_s=0.1))[1], Autoregression)
