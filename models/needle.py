@@ -16,7 +16,7 @@ from models.record import Record
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 
-STIFFNESS_POINTS = 5
+STIFFNESS_POINTS = 7
 """Of a curve of the stiffness over the torque."""
 
 
@@ -42,9 +42,10 @@ class Needle(Record):
     tip_inertia_kg_m2: NonNegative = 0.0
     """Of what is fixed to the tip, about the axis."""
     stiffness_curve: tuple[Positive, ...] = ()
-    """Factors of the torsional stiffness at `STIFFNESS_POINTS` even torques from 0; none: it is 1."""
+    """Factors of the torsional stiffness at `STIFFNESS_POINTS` even torques from 0, first of negative
+    ones, then of positive ones; none: it is 1."""
     stiffness_torque_n_mm: NonNegative = 0.0
-    """At the last of these. Torques are what the nominal stiffness would carry at the same twist; the
+    """At the last of either. Torques are what the nominal stiffness would carry at the same twist; the
     curve is level beyond them."""
     yield_torque_n_mm: Positive | None = None
     """Beyond which the shaft twists plastically, either way; None: it is elastic."""
@@ -53,9 +54,9 @@ class Needle(Record):
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Needle":
-        if len(self.stiffness_curve) not in (0, STIFFNESS_POINTS):
+        if len(self.stiffness_curve) not in (0, 2 * STIFFNESS_POINTS):
             raise InvalidValue(
-                "stiffness_curve", len(self.stiffness_curve), f"{STIFFNESS_POINTS} factors, or none"
+                "stiffness_curve", len(self.stiffness_curve), f"{2 * STIFFNESS_POINTS} factors, or none"
             )
         if self.stiffness_curve and self.stiffness_torque_n_mm == 0.0:
             raise InvalidValue("stiffness_torque_n_mm", 0.0, "a torque above 0 where there is a curve")

@@ -132,6 +132,28 @@ def covered(angle, *, tip=None, torque=None, speed=0.0, seen=None):
     return ranges_of(*one_trial(angle, tip=tip, torque=torque, speed=speed, seen=seen))
 
 
+def covered_by(trials, softer=()):
+    """Ranges of a log of several trials: the angle, the tip's readings, and what the nominal rig reads.
+
+    Args:
+      softer: what one with less damping reads, (tip, torque) each.
+    """
+    tables = [
+        replace(own, table=own.table.assign(tip_angle_deg=tip))
+        for i, (angle, tip, _) in enumerate(trials)
+        for own in [trial(np.asarray(angle, float), name=f"trial_{i + 1:02d}.csv")]
+    ]
+    ready = prepare(log_with(*tables))[0]
+    problem = FitProblem(log=ready, noise=NOISE, nuisance=nuisance_of(ready))
+    return ranges_of(
+        problem, [_prediction(*seen) for _, _, seen in trials], [_prediction(*own) for own in softer]
+    )
+
+
+def _prediction(tip_deg, torque_n_mm):
+    return Prediction(tip_angle_deg=tip_deg, base_torque_n_mm=torque_n_mm)
+
+
 def one_trial(angle, *, tip=None, torque=None, speed=0.0, seen=None):
     """A problem of one trial, and what its nominal rig reads."""
     clean = trial(np.asarray(angle, float), speed=speed)
@@ -140,8 +162,7 @@ def one_trial(angle, *, tip=None, torque=None, speed=0.0, seen=None):
     ready = prepare(log_with(replace(clean, table=table)))[0]
     problem = FitProblem(log=ready, noise=NOISE, nuisance=nuisance_of(ready))
     size = ready.trials[0].time_s.size
-    tip_deg, torque_n_mm = seen if seen else (np.zeros(size), np.zeros(size))
-    return problem, [Prediction(tip_angle_deg=tip_deg, base_torque_n_mm=torque_n_mm)]
+    return problem, [_prediction(*(seen or (np.zeros(size), np.zeros(size))))]
 
 
 DAMPING = RIG.tissue.damping_n_mm_s_per_mm

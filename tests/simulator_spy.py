@@ -34,7 +34,7 @@ class SimulatorSpy(AbstractContextManager):
         )
         self._patch.setattr(pipeline, "assess", self._watched(pipeline.assess, self._assessed))
         for stage, module, name in (
-            ("search", candidate, "held_out_residuals"),
+            ("search", candidate, "held_out_or_refitted"),
             ("assessment", nearest, "held_out_or_refitted"),
         ):
             count = self._counter(self.held_out[stage])

@@ -43,7 +43,11 @@ def with_colour(problem: FitProblem, best: Fit) -> Noise:
     plain = problem.noise.uncoloured
     in_sigma = _by_sensor(problem, in_units_of(problem, best.by_trial, plain))
     left = {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
-    gaps = {s: floor_of([values for _, values in parts]).gap for s, parts in in_sigma.items()}
+    claims = problem.log.rig.sensors.by_column()  # a filter hides most of what differences show
+    gaps = {
+        s: floor_of([v for _, v in parts]).gap * plain[s] / max(plain[s], claims[s])
+        for s, parts in in_sigma.items()
+    }
     few = {s: COLOUR_MOST_PARTS if gap <= COLOUR_PARTS_GAP else 1 for s, gap in gaps.items()}
     return problem.noise.with_colour(left, most_parts=few)
 

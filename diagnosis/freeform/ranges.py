@@ -17,7 +17,7 @@ from models import units
 Array = NDArray[np.float64]
 
 _OF_READINGS = (Variable.PAST, Variable.TURNED_BY)
-LEAST_PAST_S, LONGEST_PAST_S = 0.03, 3.0
+LEAST_PAST_S, LONGEST_PAST_S = 0.02, 12.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
 LEAST_RANGE = {
     Variable.TIME: 1.0,
@@ -47,6 +47,7 @@ class LogRanges:
       missing: rms of the nominal residual by measured sensor, in the unit of its name.
       nominal: readings of the nominal rig by trial.
       left: residual of the nominal rig by sensor and trial, in the unit of its name; NaN: no reading.
+      softer: readings of a rig with a little less damping by trial; none: not simulated.
       library: effects with bounds and starts for a rig of this size.
       damping_n_mm_s_per_mm: nominal damping.
     """
@@ -56,6 +57,7 @@ class LogRanges:
     ends: Mapping[Variable, tuple[float, float]]
     missing: Mapping[str, float]
     left: Mapping[str, tuple[Array, ...]]
+    softer: Sequence[Prediction] = ()
 
     @property
     def library(self) -> Mapping[str, Effect]:
@@ -88,8 +90,10 @@ class LogRanges:
         return fastest
 
 
-def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
-    """Ranges of a log, given readings of the nominal rig by trial."""
+def ranges_of(
+    problem: FitProblem, nominal: Sequence[Prediction], softer: Sequence[Prediction] = ()
+) -> LogRanges:
+    """Ranges of a log, given readings of the nominal rig, and of one with less damping, by trial."""
     trials = problem.log.trials
     moving = (v for v in Variable if v not in _OF_READINGS)
     found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
@@ -110,6 +114,7 @@ def ranges_of(problem: FitProblem, nominal: Sequence[Prediction]) -> LogRanges:
         ends={v: e for v, e in found.items() if e[1] - e[0] > LEAST_RANGE[v]},
         missing={s: float(np.sqrt(np.nanmean(np.concatenate(each) ** 2))) for s, each in read.items()},
         left=read,
+        softer=softer,
     )
 
 

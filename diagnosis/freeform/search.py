@@ -23,6 +23,7 @@ from diagnosis.freeform.family import Family
 from diagnosis.freeform.prior import free_covariance, well_determined, with_estimated_prior
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.replay import replay
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.screening import screen
 from diagnosis.workers import Failure, Task, Workers
 from sim.needles.run import SimulationFailed
@@ -43,6 +44,9 @@ FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets th
 FINAL_SIGMA = 0.1  # tolerance: a curve has a band of two of these
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
 WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 2.0, 1.3  # times the least gap; where that closes the gap
+
+
+_SOFTER = RigParameters(damping_scale=0.95)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -97,7 +101,8 @@ def free_form_fits(
       companions: effects of the library that came nearest, best first.
     """
     nominal = replay(coarse.log, resolution=coarse.resolution)
-    families = families_of(ranges_of(coarse, nominal))
+    softer = replay(coarse.log, _SOFTER, coarse.resolution)
+    families = families_of(ranges_of(coarse, nominal, softer))
     base = fit_effects(coarse, ())
     first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
     better, rest = _promising(first, len(first) // WORTH_MORE)

@@ -21,6 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 _LENGTH, _PERIODIC_LENGTH = 0.4, 0.6
+_NEXT_TO_ZERO = 1e-6  # of the range
+_AT_REST = 0.02  # of the range: as slow as that is no rest
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,6 +90,40 @@ def bent_curve(low: float, high: float, count: int = 8) -> SmoothCurve:
     return SmoothCurve(places=places, basis=_beside(line, covariance), straight=3)
 
 
+def jumping_curve(low: float, high: float, count: int = 9) -> SmoothCurve:
+    """A curve whose values on both sides of zero, and at rest, have nothing to do with each other.
+
+    Its straight part is a line on each side and a value of its own at zero. If the range has one sign
+    only, there is a line on that side. Zero is always among the places.
+    """
+    sides = [(side, end) for side, end in ((-1.0, -low), (1.0, high)) if end > 0]
+    each = max(count // len(sides), 3)
+    away = np.concatenate([[_AT_REST], np.linspace(0.0, 1.0, each)[1:]])
+    places = np.unique(np.concatenate([[0.0], *(side * end * away for side, end in sides)]))
+    u = places / max(-low, high)
+    on = [u * side > 0 for side, _ in sides]
+    line = np.stack([u == 0, *on, *(own * u for own in on)], axis=1).astype(float)
+    covariance = np.exp(-((u[:, None] - u) ** 2) / (2 * _LENGTH**2))
+    covariance *= np.sign(u)[:, None] == np.sign(u)
+    return SmoothCurve(places=places, basis=_beside(line, covariance), straight=line.shape[1])
+
+
+def two_sided_curve(most: float, count: int) -> SmoothCurve:
+    """A smooth curve of the size of a variable, and a jump and a slope that tell its signs apart.
+
+    Args:
+      count: places of either sign, from next to zero on.
+    """
+    size = np.maximum(np.linspace(0.0, 1.0, count), _NEXT_TO_ZERO)
+    u = np.concatenate([-size[::-1], size])
+    size = np.abs(u)
+    line = np.stack([np.ones(u.size), size, np.sign(u), u], axis=1)
+    covariance = np.exp(-((size[:, None] - size) ** 2) / (2 * (0.5 * _LENGTH) ** 2))
+    basis = _beside(line, covariance)
+    even = basis[:, -(count - 2) :]  # of the others, the process has none
+    return SmoothCurve(places=most * u, basis=np.hstack([line, even]), straight=4)
+
+
 def periodic_curve(period: float, count: int = 12) -> SmoothCurve:
     """A curve that repeats after a period."""
     places = np.arange(count) * period / count
@@ -114,4 +150,4 @@ def _beside(line: Array, covariance: Array) -> Array:
     rest = np.eye(len(line)) - onto
     values, vectors = np.linalg.eigh(rest @ covariance @ rest)
     kept = slice(line.shape[1], None)  # eigenvalues rise; those of the line are 0
-    return np.hstack([line, vectors[:, kept] * np.sqrt(values[kept])])
+    return np.hstack([line, vectors[:, kept] * np.sqrt(np.maximum(values[kept], 0.0))])

@@ -11,8 +11,9 @@ period is a periodic cubic spline: a sine through 5 places is off by less than 1
     torque_reading  the torque sensor reads the torque + the curve, N mm
 
 A curve over the past gives the weights with which a reading shows past values instead of the present,
+as a filter of first order with each time constant does,
 
-    reading += sum over places of value (past value - present value).
+    reading += sum over time constants of value (filtered value - present value).
 
 A curve over the turn since the last reversal adds hysteresis (Prandtl-Ishlinskii),
 
@@ -33,6 +34,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.sensing.bearing import stopped_at
+from diagnosis.replay.sensing.filters import first_order
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
 from models.contact import ContactCurve
 from models.drive import Drive
@@ -118,9 +120,9 @@ class Curve:
         return replace(self, values=tuple(value * strength for value in self.values))
 
     def of_past(self, time_s: Array, values: Array) -> Array:
-        """Contribution of past values to a reading, (N,)."""
+        """Contribution of past values to a reading at even times, (N,)."""
         each = zip(self.places, self.values, strict=True)
-        shown = [share * (np.interp(time_s - ago, time_s, values) - values) for ago, share in each]
+        shown = [share * (first_order(time_s, values, time) - values) for time, share in each]
         return np.asarray(np.sum(shown, axis=0))
 
 

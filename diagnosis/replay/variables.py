@@ -12,7 +12,7 @@ tip_rate       rad/s
 tip_direction  in which the tip last turned, as direction
 torque         torque on the needle at the chuck, N mm
 torque_rate    N mm / s
-past           age of the value, s, for a reading that shows past values
+past           time constant, s, with which a reading follows what it shows
 turned_by      turn since the last reversal, for a reading with hysteresis, in its own unit
 """
 

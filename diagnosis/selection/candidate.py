@@ -11,6 +11,7 @@ from diagnosis.criteria import (
     BASE_NOISE_GAP,
     BASE_NOISE_MORE,
     BASE_NOISE_READINGS,
+    HELD_OUT_GAP,
     SCATTER,
     SCATTER_CERTAIN_SIGMA,
     SCATTER_LEAST,
@@ -19,7 +20,8 @@ from diagnosis.criteria import (
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
-from diagnosis.fitting.held_out.cross_validation import held_out_residuals, shift_statistic
+from diagnosis.fitting.held_out.cross_validation import shift_statistic
+from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem
@@ -93,6 +95,8 @@ class Candidate:
             if own.slow > own.slow_limit:
                 seen = f"slow part {own.slow:.2f} σ over seconds, limit {own.slow_limit:.2f}"
                 yield f"not the noise of {sensor}: {seen}"
+        if self.held_out_floor and self.held_out_floor.gap > HELD_OUT_GAP:
+            yield f"held-out trials are {self.held_out_floor.gap:.3g} σ off, limit {HELD_OUT_GAP:.3g} σ"
         if self.shift > self.shift_limit:
             yield f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
         if self.unidentifiable:
@@ -133,7 +137,7 @@ class Candidate:
         if not self.floor.reached:
             return self
         try:
-            left = held_out_residuals(problem, self.fit)
+            left = held_out_or_refitted(problem, self.fit)
         except SimulationFailed as failed:
             return replace(self, held_out_failure=str(failed))
         return replace(

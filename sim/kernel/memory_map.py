@@ -29,16 +29,26 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_FREE_REF,  # free length at carriage position 0, m
     H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
     H_STIFFNESS_TORQUE,  # nominal torque at the last place of the curve of stiffness; 0: no curve
-    H_STIFFNESS_0,  # log factors of the stiffness at even places of the torque, from 0
+    H_STIFFNESS_0,  # log factors of the stiffness at even torques from 0: of negative ones, of positive
     H_STIFFNESS_1,
     H_STIFFNESS_2,
     H_STIFFNESS_3,
     H_STIFFNESS_4,
+    H_STIFFNESS_5,
+    H_STIFFNESS_6,
+    H_STIFFNESS_7,
+    H_STIFFNESS_8,
+    H_STIFFNESS_9,
+    H_STIFFNESS_10,
+    H_STIFFNESS_11,
+    H_STIFFNESS_12,
+    H_STIFFNESS_13,
     H_YIELD,  # torque beyond which the shaft twists plastically, N m; 0: it is elastic
     H_YIELD_SLOPE,  # stiffness beyond it over the elastic one
     HEADER,
-) = range(22)
-STIFFNESS_POINTS = H_YIELD - H_STIFFNESS_0
+) = range(31)
+STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
+"""Of either sign."""
 
 # --- numeric "needle_mesh": node positions from the chuck, m (n + 1 values) -------
 

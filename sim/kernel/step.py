@@ -70,7 +70,7 @@ def _prepare(
             within = (free + inserted - x[i]) / (x[i + 1] - x[i])
             springs[i] /= min(max(within, _RIGID), 1.0)
         if head[memory_map.H_STIFFNESS_TORQUE] > 0.0:
-            springs[i] *= _stiffness_factor(head, abs(springs[i] * (theta[i + 1] - theta[i])))
+            springs[i] *= _stiffness_factor(head, springs[i] * (theta[i] - theta[i + 1]))
     for i in range(n + 1):
         inertias[i] = inertia[i] / frame.g
         angles[i] = theta[i]
@@ -94,12 +94,10 @@ def _stiffness_factor(head: Array, torque: float) -> float:
     """Factor of an element's stiffness, where its twist at the start of the step asks for this torque
     at the nominal stiffness, N m."""
     last = memory_map.STIFFNESS_POINTS - 1
-    at = last * torque / head[memory_map.H_STIFFNESS_TORQUE]
-    if at >= last:
-        return math.exp(head[memory_map.H_STIFFNESS_0 + last])
-    i = int(at)
-    below, above = head[memory_map.H_STIFFNESS_0 + i], head[memory_map.H_STIFFNESS_0 + i + 1]
-    return math.exp(below + (at - i) * (above - below))
+    at = min(last * abs(torque) / head[memory_map.H_STIFFNESS_TORQUE], float(last))
+    i = min(int(at), last - 1)
+    first = memory_map.H_STIFFNESS_0 + i + (memory_map.STIFFNESS_POINTS if torque > 0.0 else 0)
+    return math.exp(head[first] + (at - i) * (head[first + 1] - head[first]))
 
 
 @inlined

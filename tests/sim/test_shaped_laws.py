@@ -140,20 +140,27 @@ def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
         Interface(rate_curve=(1.0, 2.0))
 
 
-def test_a_shaft_may_be_as_stiff_as_the_torque_says() -> None:
+CURVE = (0.8, 0.8, 0.7, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 1.9, 2.4, 2.2, 2.0)
+"""Factors of the stiffness at torques of -0, -1 ... -6 and 0, 1 ... 6 N mm: it jumps at 0."""
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_shaft_may_be_as_stiff_as_the_torque_says(way: float) -> None:
     """Dry friction at the tip holds a torque that the whole shaft carries.
 
     Twist = torque l / (factor kappa), with the factor at kappa twist / l = torque / factor.
     """
-    needle = NEEDLE.but(stiffness_curve=(1.0, 1.2, 1.5, 1.9, 2.4), stiffness_torque_n_mm=4.0)
+    needle = NEEDLE.but(stiffness_curve=CURVE, stiffness_torque_n_mm=6.0)
     tissue = Tissue(layers=(Layer(interface=Interface()),), at_tip=(Interface(kinetic_n_mm_per_mm=2.5),))
 
     def factor_at(nominal: float) -> float:
-        return math.exp(np.interp(nominal, np.arange(5.0), np.log(needle.stiffness_curve)))
+        own = CURVE[7:] if nominal > 0 else CURVE[:7]
+        return math.exp(np.interp(abs(nominal), np.arange(7.0), np.log(own)))
 
-    factor = factor_at(brentq(lambda nominal: nominal * factor_at(nominal) - 2.5, 0.0, 4.0))
-    run = turned(tissue, needle=needle)
-    lag_deg = math.degrees(2.5 * (10.0 + LENGTH_MM) / (factor * NEEDLE.rigidity_n_mm2))
+    torque = way * 2.5
+    factor = factor_at(brentq(lambda nominal: nominal * factor_at(nominal) - torque, 0.0, way * 5.0))
+    run = turned(tissue, needle=needle, rate=way * RATE)
+    lag_deg = math.degrees(torque * (10.0 + LENGTH_MM) / (factor * NEEDLE.rigidity_n_mm2))
     assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-3)
     with pytest.raises(InvalidValue, match=r"stiffness_torque_n_mm"):
-        NEEDLE.but(stiffness_curve=(1.0, 1.2, 1.5, 1.9, 2.4))
+        NEEDLE.but(stiffness_curve=CURVE)

@@ -1,10 +1,13 @@
 """A single event: an angle or a reading that steps, at an unknown time, fast or slowly.
 
+What has stepped may be back at the start of the next trial, or stay so in all that follow.
+
 The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
 one at which the means before and after differ most, in units of their scatter (two-sample test).
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -25,6 +28,8 @@ Array = NDArray[np.float64]
 _SHORTEST_S, _USUAL_S, _LONGEST_S = 0.01, 0.1, 1.0  # that a step takes
 _MOVES_S = 1.5  # at the most, from where it is looked for first
 _LEAST_S = 0.5  # from either end of a trial
+DIFFERENCES = (0.3, 0.1, 3e-2)
+"""Steps of derivatives by time, duration and size."""
 _PLACES = {
     ActsOn.DRIVE_ANGLE: (TIP, Place.DRIVE, "slip between drive and needle"),
     ActsOn.TIP_READING: (TIP, Place.SENSOR, "jump of the tip sensor"),
@@ -46,8 +51,32 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     for acts_on, (sensor, place, title) in _PLACES.items():
         moment = largest_event(ranges, sensor) if sensor in ranges.missing else None
         if moment is not None:
-            found.append(_step(acts_on, place, title, moment, ranges.missing[sensor]))
+            found.append(_step(acts_on, place, title, moment, ranges.missing[sensor], ()))
+            if after := trials_after(ranges, moment):
+                found.append(_step(acts_on, place, title, moment, ranges.missing[sensor], after))
     return tuple(found)
+
+
+def trials_after(ranges: LogRanges, moment: Moment) -> tuple[str, ...]:
+    """Names of the trials that follow that of an event."""
+    names = [trial.name for trial in ranges.problem.log.trials]
+    return tuple(names[names.index(moment.trial) + 1 :])
+
+
+def times_of(moment: Moment, usual_s: float = _USUAL_S) -> tuple[Parameter, Parameter]:
+    """Parameters of an event: when it is, and how long it takes."""
+    low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
+    when = Parameter(name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0)
+    lasting = Parameter(
+        name="duration",
+        unit="s",
+        low=_SHORTEST_S,
+        high=_LONGEST_S,
+        start=(usual_s,),
+        logarithmic=True,
+        neutral=None,
+    )
+    return when, lasting
 
 
 def largest_event(ranges: LogRanges, sensor: str) -> Moment | None:
@@ -69,28 +98,21 @@ def _largest_change(time_s: Array, left: Array) -> ResidualStep | None:
     return largest_step(left, np.ones((left.size, 1)), [slice(None)], beside)
 
 
-def _step(acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float) -> Family:
-    low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
-    when = Parameter(name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0)
-    lasting = Parameter(
-        name="duration",
-        unit="s",
-        low=_SHORTEST_S,
-        high=_LONGEST_S,
-        start=(_USUAL_S,),
-        logarithmic=True,
-        neutral=None,
-    )
+def _step(
+    acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float, after: tuple[str, ...]
+) -> Family:
+    """The step; in trials `after` it, it stays."""
+    how = "for good" if after else "once"
     step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
     return Family(
         effect=Effect(
-            name=f"{title}, once",
-            title=f"{title}, once in {moment.trial}",
+            name=f"{title}, {how}",
+            title=f"{title}, {how}, {'from' if after else 'in'} {moment.trial}",
             place=place,
-            parameters=(when, lasting, step),
-            apply=partial(_apply, acts_on, moment.trial),
-            differences=(0.3, 0.1, 3e-2),
-            trial=moment.trial,
+            parameters=(*times_of(moment), step),
+            apply=partial(_apply, acts_on, moment.trial, after),
+            differences=DIFFERENCES,
+            trial="" if after else moment.trial,
         ),
         places={place: 1.0},
         says="event",
@@ -106,13 +128,27 @@ def _stepped(time_s: float, duration_s: float, step: float) -> Points:
 
 
 def _apply(
-    acts_on: ActsOn, trial: str, rig: RigParameters, time_s: float, duration_s: float, step: float
+    acts_on: ActsOn,
+    trial: str,
+    after: tuple[str, ...],
+    rig: RigParameters,
+    time_s: float,
+    duration_s: float,
+    step: float,
 ) -> RigParameters:
-    curve = Curve(
-        acts_on=acts_on,
-        variable=Variable.TIME,
-        places=(time_s, time_s + duration_s),
-        values=(0.0, step),
-        trial=trial,
-    )
-    return replace(rig, free=FreeLaw(curves=(curve,)))
+    curves = curves_of(acts_on, trial, after, (time_s, time_s + duration_s), (0.0, step))
+    return replace(rig, free=FreeLaw(curves=curves))
+
+
+def curves_of(
+    acts_on: ActsOn,
+    trial: str,
+    after: Sequence[str],
+    times_s: tuple[float, float],
+    values: tuple[float, float],
+) -> tuple[Curve, ...]:
+    """A value that changes in one trial, and keeps to the second one in those after it."""
+    of_time = partial(Curve, acts_on=acts_on, variable=Variable.TIME)
+    changes = of_time(places=times_s, values=values, trial=trial)
+    stays = (of_time(places=(0.0, 1.0), values=2 * values[1:], trial=name) for name in after)
+    return (changes, *stays)

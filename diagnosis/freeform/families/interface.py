@@ -15,7 +15,7 @@ import numpy as np
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -40,6 +40,14 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     return (*damping, *friction, _rate(ranges), _direction(ranges), _position(ranges))
 
 
+def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
+    """A smooth curve over the range of the log; of the axial speed, one that may jump at rest."""
+    ends = ranges.ends[variable]
+    if variable is Variable.AXIAL_SPEED:
+        return jumping_curve(*ends)
+    return smooth_curve(*ends, fading=variable in FADING)
+
+
 def tissue_curve(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> Curve:
     """A curve of factors on the tissue's torque, which are always positive."""
     return Curve(
@@ -55,7 +63,7 @@ def _level(ranges: LogRanges) -> Parameter:
 
 
 def _damping_over(variable: Variable, ranges: LogRanges) -> Family:
-    curve = smooth_curve(*ranges.ends[variable], fading=variable in FADING)
+    curve = curve_over(variable, ranges)
     beta = ranges.damping_n_mm_s_per_mm
 
     return Family(
@@ -86,7 +94,7 @@ def _apply_damping(
 
 
 def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
-    curve = smooth_curve(*ranges.ends[variable], fading=variable in FADING)
+    curve = curve_over(variable, ranges)
 
     return Family(
         effect=Effect(

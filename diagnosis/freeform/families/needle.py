@@ -1,13 +1,14 @@
 """Free laws of the needle itself.
 
-- the stiffness of the shaft as a curve of the torque that it carries
+- the stiffness of the shaft as a curve of the torque that it carries, either way
 - a shaft that twists plastically beyond a torque
 - at the tip: drag and dry friction, which may differ between the directions
-- at the tip, or along the inserted shaft: a torque that depends on the angle, with one and two
-  waves per turn
+- at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
+  one and two waves per turn
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -16,18 +17,19 @@ import numpy as np
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve, two_sided_curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 from models.needle import STIFFNESS_POINTS
 from models.tissue import Interface
 
-WAVES = (1, 2)  # in a turn
-_SHOWN_DEG = np.linspace(-180.0, 180.0, 25)
+AT_TIP, ALONG = (1, 2, 3, 4), (1, 2)  # waves in a turn
+_SHOWN_DEG = np.linspace(-180.0, 180.0, 49)
 _SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])
 _YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
 _LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
+_BEYOND = 1.5  # torque that a curve spans / that of the nominal shaft: one that yields twists more
 _AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
 
 
@@ -73,8 +75,8 @@ def _at_rates(damping: float, level: float, side: float) -> Points:
 
 
 def _stiffness(ranges: LogRanges) -> Family:
-    most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    curve = smooth_curve(0.0, most_n_mm, STIFFNESS_POINTS)
+    most_n_mm = _BEYOND * max(abs(end) for end in ranges.ends[Variable.TORQUE])
+    curve = two_sided_curve(most_n_mm, STIFFNESS_POINTS)
     return Family(
         effect=Effect(
             name="stiffness over torque",
@@ -96,10 +98,16 @@ def _factors(curve: SmoothCurve, *c: float) -> Points:
     return curve.places, curve.factors(c)
 
 
+def _by_sign(factors: Sequence[float]) -> tuple[float, ...]:
+    """Of negative torques from 0, then of positive ones; they come in the order of the torques."""
+    negative, positive = factors[:STIFFNESS_POINTS], factors[STIFFNESS_POINTS:]
+    return (*negative[::-1], *positive)
+
+
 def _apply_stiffness(
     curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
 ) -> RigParameters:
-    law = FreeLaw(stiffness_over_torque=curve.factors(c), stiffness_torque_n_mm=most_n_mm)
+    law = FreeLaw(stiffness_over_torque=_by_sign(curve.factors(c)), stiffness_torque_n_mm=most_n_mm)
     return replace(rig, free=law)
 
 
@@ -170,34 +178,34 @@ def _angle(ranges: LogRanges, *, tip: bool) -> Family:
     """A torque over the angle, with sine and cosine of each wave as coordinates."""
     level = ranges.library["coulomb_friction"].parameters[0].start[-1]
     size = level * _AT_TIP_MM if tip else level
-    where = "tip torque" if tip else "torque along the shaft"
+    where, waves = ("tip torque", AT_TIP) if tip else ("torque along the shaft", ALONG)
 
     return Family(
         effect=Effect(
             name=f"{where} over tip_angle",
             title=f"{where} that depends on its angle",
             place=Place.NEEDLE,
-            parameters=coordinates(2 * len(WAVES), 0, size),
-            apply=partial(_apply_angle, tip),
+            parameters=coordinates(2 * len(waves), 0, size),
+            apply=partial(_apply_angle, waves, tip),
         ),
         places={Place.NEEDLE: 1.0},
         says="tip_angle",
         title=where,
-        curve=_over_a_turn,
+        curve=partial(_over_a_turn, waves),
         x_unit="deg",
         unit="N mm" if tip else "N mm / mm",
     )
 
 
-def _over_a_turn(*c: float) -> Points:
+def _over_a_turn(waves: Sequence[int], *c: float) -> Points:
     angle = np.radians(_SHOWN_DEG)
-    each = zip(WAVES, c[::2], c[1::2], strict=True)
+    each = zip(waves, c[::2], c[1::2], strict=True)
     waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each]
     return _SHOWN_DEG, np.sum(waves, axis=0)
 
 
-def _apply_angle(tip: bool, rig: RigParameters, *c: float) -> RigParameters:
-    laws = tuple(_wave(n, a, b) for n, a, b in zip(WAVES, c[::2], c[1::2], strict=True))
+def _apply_angle(waves: Sequence[int], tip: bool, rig: RigParameters, *c: float) -> RigParameters:
+    laws = tuple(_wave(n, a, b) for n, a, b in zip(waves, c[::2], c[1::2], strict=True))
     free = FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws)
     return replace(rig, free=free)
 

@@ -43,6 +43,7 @@ from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour, cova
 from diagnosis.prepare.noise.periodograms import (
     MEAN,
     QUANTILE,
+    even,
     periodogram,
     step_of,
     taper_of,
@@ -233,7 +234,8 @@ def _spectrum(parts: Sequence[tuple[Array, Array]]) -> _Spectrum | None:
     if np.isnan(step_s):
         return None
     size = round(COLOUR_WINDOW_S / step_s)
-    taper, cut = taper_of(size), windows_of(parts, step_s)
+    evens = [even(time_s, values, step_s) for time_s, values in parts]
+    taper, cut = taper_of(size), windows_of(evens, step_s)
     frequencies = np.fft.rfftfreq(size, step_s)
     edges = np.geomspace(COLOUR_ABOVE_HZ, max(frequencies[-1], COLOUR_ABOVE_HZ) * 1.001, _BANDS + 1)
     inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]

@@ -27,14 +27,22 @@ def step_of(parts: Sequence[tuple[Array, Array]]) -> float:
     return float(np.median(steps)) if steps.size else float("nan")
 
 
-def windows_of(parts: Sequence[tuple[Array, Array]], step_s: float) -> list[Array]:
-    """Windows with half overlap that have enough samples, (N,) each; NaN where none was read."""
+def windows_of(
+    evens: Sequence[Array], step_s: float, filled: Sequence[Array] | None = None
+) -> list[Array]:
+    """Windows with half overlap that have enough samples, (N,) each; NaN where none was read.
+
+    Args:
+      evens: values at even steps by trial.
+      filled: the same with something else where none was read, to be cut into the same windows.
+    """
     size = round(COLOUR_WINDOW_S / step_s)
     found = []
-    for time_s, values in parts:
-        level = _even(time_s, values, step_s)
-        cut = [level[i : i + size] for i in range(0, level.size - size + 1, max(size // 2, 1))]
-        found += [one for one in cut if np.isfinite(one).mean() >= _FEWEST]
+    for values, shown in zip(evens, filled or evens, strict=True):
+        starts = range(0, values.size - size + 1, max(size // 2, 1))
+        found += [
+            shown[i : i + size] for i in starts if np.isfinite(values[i : i + size]).mean() >= _FEWEST
+        ]
     return found
 
 
@@ -59,7 +67,7 @@ def trend(values: Array, taper: Array) -> tuple[Array, Array, float]:
     return parabolas, weights, float(np.sum(weights**2))
 
 
-def _even(time_s: Array, values: Array, step_s: float) -> Array:
+def even(time_s: Array, values: Array, step_s: float) -> Array:
     """Values at even steps, each at the nearest; NaN where none was read."""
     place = steps_of(time_s, step_s)
     level = np.full(place[-1] + 1, np.nan)

@@ -5,9 +5,11 @@ import pytest
 
 from diagnosis.freeform.smooth_curve import (
     bent_curve,
+    jumping_curve,
     periodic_curve,
     separate_values,
     smooth_curve,
+    two_sided_curve,
     two_values,
 )
 
@@ -95,3 +97,41 @@ def test_coordinates_are_those_of_the_curve_that_comes_nearest_to_values():
     curve = smooth_curve(0.0, 2.0, 7)
     given = np.random.default_rng(5).normal(size=curve.size)
     np.testing.assert_allclose(curve.coordinates(curve.values(given)), given, atol=1e-9)
+
+
+def test_a_curve_that_jumps_has_a_value_at_rest_and_a_line_on_each_side():
+    curve = jumping_curve(-10.0, 5.0)
+    assert curve.straight == 5
+    values = np.array(curve.values([7.0, 1.0, 2.0, 3.0, 4.0, *np.zeros(curve.size - 5)]))
+    u = curve.places / 10.0
+    expected = np.where(u < 0, 1.0 + 3.0 * u, np.where(u > 0, 2.0 + 4.0 * u, 7.0))
+    np.testing.assert_allclose(values, expected)
+    assert (curve.places[0], curve.places[-1], 0.0 in curve.places) == (-10.0, 5.0, True)
+
+
+def test_the_smooth_part_of_a_curve_that_jumps_knows_nothing_of_the_other_side():
+    curve = jumping_curve(-10.0, 10.0)
+    rest = curve.basis[:, curve.straight :]
+    covariance = rest @ rest.T
+    before, after = curve.places < 0, curve.places > 0
+    np.testing.assert_allclose(covariance[np.ix_(before, after)], 0.0, atol=1e-12)
+    assert covariance[np.ix_(after, after)].max() > 0.01
+
+
+def test_a_range_of_one_sign_has_one_side():
+    curve = jumping_curve(0.0, 5.0)
+    assert (curve.straight, curve.places[0]) == (3, 0.0)
+    assert jumping_curve(-5.0, 0.0).places[-1] == 0.0
+
+
+def test_the_signs_of_a_two_sided_curve_differ_by_a_jump_and_a_slope_alone():
+    curve = two_sided_curve(3.0, 7)
+    assert (curve.places.size, curve.straight) == (14, 4)
+    np.testing.assert_allclose(curve.places[7:], np.linspace(0.0, 3.0, 7), atol=1e-5)
+    np.testing.assert_allclose(curve.places, -curve.places[::-1])
+    mirrored = curve.basis[::-1]
+    signs = np.array([1.0, 1.0, -1.0, -1.0, *np.ones(curve.size - 4)])
+    np.testing.assert_allclose(mirrored, curve.basis * signs, atol=1e-7)
+    # Next to zero it is the constant on both sides, and the jump.
+    values = curve.values([0.5, 0.0, 0.2, 0.0, *np.zeros(curve.size - 4)])
+    assert (values[6], values[7]) == (pytest.approx(0.3), pytest.approx(0.7))

@@ -65,21 +65,19 @@ def test_a_periodic_curve_repeats_without_a_jump():
     assert own.at(np.array([90.0 - 1e-6]))[0] == pytest.approx(1.0, abs=1e-4)
 
 
-def test_a_reading_of_the_past_alone_is_late_by_it():
+def test_a_reading_of_the_past_alone_follows_a_step_as_a_filter_of_first_order():
     own = curve(variable=Variable.PAST, places=(0.5, 1.0), values=(1.0, 0.0))
-    shown = TIP + own.of_past(TIME, TIP)
-    np.testing.assert_allclose(shown[50:], TIP[:-50], atol=1e-9)
-    np.testing.assert_allclose(shown[:50], TIP[0])
+    step = np.where(TIME > 2.0, 10.0, 0.0)
+    since_s = np.maximum(TIME - 2.0, 0.0)
+    expected = 10.0 * (1.0 - np.exp(-since_s / 0.5))
+    # The step takes one sample: half of it is a delay.
+    np.testing.assert_allclose(step + own.of_past(TIME, step), expected, atol=10.0 * 0.01 / 0.5)
 
 
-def test_a_past_of_falling_shares_is_a_low_pass():
-    """Shares of an exponential add up to less than one: a ramp lags by their mean delay."""
-    tau, ago = 0.3, np.arange(0.05, 3.0, 0.1)
-    shares = np.exp(-(ago - 0.05) / tau) - np.exp(-(ago + 0.05) / tau)
-    own = curve(variable=Variable.PAST, places=tuple(ago), values=tuple(shares))
+def test_a_ramp_lags_by_the_shares_of_the_past_times_their_time_constants():
+    own = curve(variable=Variable.PAST, places=(0.1, 0.3), values=(0.4, 0.5))
     lag = -own.of_past(TIME, 7.0 * TIME)[-1] / 7.0
-    assert lag == pytest.approx(float(shares @ ago))
-    assert lag == pytest.approx(tau, rel=0.01)
+    assert lag == pytest.approx(0.4 * 0.1 + 0.5 * 0.3, rel=0.01)
 
 
 def test_a_trial_sees_what_is_of_all_trials_and_of_itself():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, joined, log_of, problem_of, scored
 
-from diagnosis.criteria import BASE_NOISE_READINGS, SCATTER, SCATTER_NAMED, SHIFT_LIMIT
+from diagnosis.criteria import BASE_NOISE_READINGS, HELD_OUT_GAP, SCATTER, SCATTER_NAMED, SHIFT_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import FitStatus, Termination
@@ -57,15 +57,23 @@ def test_what_cannot_be_simulated_without_a_trial_is_said_and_explains_nothing(s
     def failing(*_):
         raise SimulationFailed("lost its numbers")
 
-    monkeypatch.setattr(module, "held_out_residuals", failing)
+    monkeypatch.setattr(module, "held_out_or_refitted", failing)
     checked = candidate(good.fit).cross_validated(problem)
     assert checked.held_out_failure == "lost its numbers"
     assert checked.held_out is None
     assert not checked.explains
 
 
+def test_what_is_far_off_on_held_out_trials_explains_nothing(same):
+    _, good = same
+    off = replace(good, held_out_floor=good.held_out_floor.times(1.01 * HELD_OUT_GAP))
+    assert not off.explains
+    assert "held-out trials are" in off.objection
+    assert replace(good, held_out_floor=good.held_out_floor.times(0.9 * HELD_OUT_GAP)).explains
+
+
 def test_what_is_above_the_floor_is_not_simulated_on_held_out_trials(monkeypatch):
-    monkeypatch.setattr(module, "held_out_residuals", pytest.fail)
+    monkeypatch.setattr(module, "held_out_or_refitted", pytest.fail)
     above = scored(["tip_drag"], 1.0, floor=NoiseFloor(gap=2, slow=2), held_out=None)
     assert above.cross_validated(None) is above
 

@@ -67,7 +67,7 @@ def test_what_was_checked_is_not_simulated_once_more_unless_the_noise_is_another
     worse = candidate(nominal_fit([1.5 * r for r in best.fit.by_trial]))
     simulated = []
     monkeypatch.setattr(
-        module, "held_out_residuals", lambda _, fit: simulated.append(fit) or fit.by_trial
+        module, "held_out_or_refitted", lambda _, fit: simulated.append(fit) or fit.by_trial
     )
     assert check(problem, [best, worse], known).candidates[0] is known.candidates[0]
     assert not simulated

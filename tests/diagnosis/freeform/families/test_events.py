@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from diagnosis_fixtures import turns
-from free_forms import covered
+from free_forms import covered, covered_by
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.events import families, largest_event
@@ -18,6 +18,12 @@ AT_REST = (ANGLE, np.zeros(ANGLE.size))
 def stepping(at_s, size):
     """Ranges of a log whose tip sensor jumps, by a nominal rig that reads the base."""
     return covered(ANGLE, tip=ANGLE + NOISE + size * (at_s < TIME), seen=AT_REST)
+
+
+def two_trials(at_s, size, number=0):
+    """Ranges of two trials, of which that of a number has the step."""
+    tips = [ANGLE + NOISE + size * (i == number) * (at_s < TIME) for i in range(2)]
+    return covered_by([(ANGLE, tip, AT_REST) for tip in tips])
 
 
 @pytest.mark.parametrize(("at_s", "size"), [(2.0, 1.0), (5.5, -0.8), (7.0, 3.0)])
@@ -50,6 +56,24 @@ def test_the_step_may_be_of_the_drive_or_of_each_sensor_that_was_read():
         (Place.SENSOR, "N mm"),
     ]
     assert len(families(stepping(5.0, 1.0))) == 2
+
+
+def test_a_step_may_stay_in_the_trials_that_follow_it():
+    """Of two trials, in the first: it is once there, or for good; in the second, nothing follows."""
+    first, second = two_trials(5.0, 1.0), two_trials(5.0, 1.0, number=1)
+    names = [family.name for family in families(first)]
+    assert names == [
+        "slip between drive and needle, once",
+        "slip between drive and needle, for good",
+        "jump of the tip sensor, once",
+        "jump of the tip sensor, for good",
+    ]
+    assert [family.name for family in families(second)] == names[::2]
+    good = families(first)[3]
+    assert good.effect.trial == ""
+    changes, stays = good.effect.apply(NOMINAL, 5.0, 0.1, 1.5).free.curves
+    assert (changes.trial, stays.trial) == ("trial_01.csv", "trial_02.csv")
+    np.testing.assert_allclose(stays.at(np.array([0.0, 0.5, 8.0])), 1.5)
 
 
 def test_a_step_is_in_its_own_trial_from_its_time_on():

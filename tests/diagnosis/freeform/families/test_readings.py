@@ -5,7 +5,7 @@ import pytest
 from diagnosis_fixtures import RIG, turns
 from free_forms import covered, same_readings
 
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.readings import PAST_PLACES, families
 from diagnosis.replay.rig_parameters import NOMINAL
@@ -51,11 +51,12 @@ def test_an_error_that_rises_with_the_reading_is_a_gain():
     assert same_readings(0.5 * ANGLE, found, gained)
 
 
-def test_all_of_a_reading_from_so_long_ago_is_a_delay():
-    places, _ = FAMILIES["tip reading over past"].curve(*[0.0] * PAST_PLACES)
-    late = LIBRARY["tip_sensor_delay"].apply(NOMINAL, float(places[2]))
-    assert same_readings(ANGLE, rig_of("tip reading over past", 0.0, 0.0, 1.0), late)
-    assert not same_readings(ANGLE, rig_of("tip reading over past", 0.0, 1.0), late)
+def test_all_of_the_torque_behind_a_time_constant_is_a_low_pass():
+    name = "torque reading over past"
+    places, _ = FAMILIES[name].curve(*[0.0] * PAST_PLACES)
+    late = IMPERFECTIONS["torque_low_pass"].apply(NOMINAL, float(places[2]))
+    assert same_readings(ANGLE, rig_of(name, 0.0, 0.0, 1.0), late)
+    assert not same_readings(ANGLE, rig_of(name, 0.0, 1.0), late)
 
 
 def test_an_offset_of_the_drive_turns_the_whole_needle():

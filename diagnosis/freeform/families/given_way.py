@@ -1,0 +1,113 @@
+"""Tissue that gives way, or grips, at an unknown time, and stays so in the trials that follow.
+
+Its torque is multiplied by a factor from then on. The starting value of the time is from what less
+damping changes: of all times of all trials, the one from which on a multiple of this change takes most
+off the nominal residual,
+
+    gain(t) = (sum of change * residual after t)^2 / sum of change^2 after t,  in units of the noise.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.events import (
+    DIFFERENCES,
+    Moment,
+    curves_of,
+    times_of,
+    trials_after,
+)
+from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import SENSORS
+from diagnosis.replay.free_law import ActsOn, FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+
+Array = NDArray[np.float64]
+
+_LEAST_S = 1.0  # from either end of a trial
+_START, _LEAST, _MOST = (0.6, 1.6), 0.01, 100.0  # factor
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """The change of the tissue, if the log is long enough and less damping was simulated."""
+    moment = largest_change(ranges) if ranges.softer else None
+    return (_gives_way(ranges, moment),) if moment else ()
+
+
+def largest_change(ranges: LogRanges) -> Moment | None:
+    """From when on a changed damping takes most off the nominal residual; None: trials are too short."""
+    best, found, along, size = 0.0, None, 0.0, 0.0
+    trials = ranges.problem.log.trials
+    for number in reversed(range(len(trials))):
+        time_s, product, square = _in_time(ranges, number)
+        after = along + np.cumsum(product[::-1])[::-1]
+        squares = size + np.cumsum(square[::-1])[::-1]
+        gain = np.where(squares > 0, after**2 / np.maximum(squares, 1e-300), 0.0)
+        inside = (time_s > _LEAST_S) & (time_s < time_s[-1] - _LEAST_S) if time_s.size else []
+        gain = np.where(inside, gain, 0.0)
+        if gain.size and gain.max() > best:
+            at = int(np.argmax(gain))
+            best, found = float(gain[at]), Moment(trial=trials[number].name, time_s=float(time_s[at]))
+        along, size = along + float(product.sum()), size + float(square.sum())
+    return found
+
+
+def _in_time(ranges: LogRanges, number: int) -> tuple[Array, Array, Array]:
+    """Of a trial, in the order of time: s after its start, change * residual, and change^2."""
+    problem = ranges.problem
+    trial, each = problem.log.trials[number], []
+    for sensor in filter(trial.has, SENSORS):
+        nominal, noise = ranges.nominal[number][sensor], problem.noise[sensor]
+        change = (ranges.softer[number][sensor] - nominal) / noise
+        left = (trial.readings[sensor] - nominal) / noise
+        read = np.isfinite(left)
+        after_s = trial.time_s[read] - trial.time_s[0]
+        each.append(np.stack([after_s, (change * left)[read], (change**2)[read]]))
+    rows = np.concatenate(each, axis=1)
+    time_s, product, square = rows[:, np.argsort(rows[0], kind="stable")]
+    return time_s, product, square
+
+
+def _gives_way(ranges: LogRanges, moment: Moment) -> Family:
+    after = trials_after(ranges, moment)
+    when, lasting = (replace(p, start=2 * p.start) for p in times_of(moment))
+    factor = Parameter(
+        name="factor", unit="-", low=_LEAST, high=_MOST, start=_START, logarithmic=True, neutral=1.0
+    )
+    return Family(
+        effect=Effect(
+            name="tissue that gives way",
+            title=f"tissue that gives way or grips in {moment.trial}, for good",
+            place=Place.TISSUE,
+            parameters=(when, lasting, factor),
+            apply=partial(_apply, moment.trial, after),
+            differences=DIFFERENCES,
+        ),
+        places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
+        says="event",
+        title="torque of the tissue over that before",
+        curve=_changes,
+        x_unit="s",
+        unit="-",
+    )
+
+
+def _changes(time_s: float, duration_s: float, factor: float) -> Points:
+    return (0.0, time_s, time_s + duration_s, time_s + 2.0), (1.0, 1.0, factor, factor)
+
+
+def _apply(
+    trial: str,
+    after: tuple[str, ...],
+    rig: RigParameters,
+    time_s: float,
+    duration_s: float,
+    factor: float,
+) -> RigParameters:
+    curves = curves_of(ActsOn.TISSUE, trial, after, (time_s, time_s + duration_s), (1.0, factor))
+    return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))

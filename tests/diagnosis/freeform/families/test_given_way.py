@@ -1,0 +1,56 @@
+"""Tissue that gives way, once."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import RIG, prepared, trial, turns
+from free_forms import covered_by
+
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.families.given_way import families, largest_change
+from diagnosis.replay.replay import predict
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+ANGLE = turns(8.0)
+TIME = 0.01 * np.arange(ANGLE.size)
+REST = np.zeros(ANGLE.size)
+CHANGE = 0.3 * np.sin(2.0 * TIME)
+"""What less damping changes, deg; the noise is NOISE."""
+
+
+def log_with_a_change(at_s, number, size=4.0, count=3):
+    """Ranges of trials whose residual is a multiple of that change from a moment of one of them on."""
+    rng = np.random.default_rng(3)
+    there = [(i > number) | ((i == number) & (at_s < TIME)) for i in range(count)]
+    tips = [size * CHANGE * own + rng.normal(0, 0.25, TIME.size) for own in there]
+    seen = [(ANGLE, tip, (REST, REST)) for tip in tips]
+    return covered_by(seen, softer=[(CHANGE, REST)] * count)
+
+
+@pytest.mark.parametrize(("at_s", "number"), [(3.0, 0), (5.5, 1), (2.0, 2)])
+def test_the_moment_is_found_in_noise(at_s, number):
+    found = largest_change(log_with_a_change(at_s, number))
+    assert found.trial == f"trial_{number + 1:02d}.csv"
+    assert found.time_s == pytest.approx(at_s, abs=0.3)  # what less damping changes swings within 3 s
+
+
+def test_without_a_rig_of_less_damping_there_is_none():
+    assert families(covered_by([(ANGLE, ANGLE, (REST, REST))])) == ()
+
+
+def test_it_is_of_the_tissue_and_stays():
+    (family,) = families(log_with_a_change(5.0, 0))
+    assert (family.place, family.says, family.effect.trial) == (Place.TISSUE, "event", "")
+    changes, *stay = family.effect.apply(NOMINAL, 5.0, 0.1, 0.5).free.curves
+    np.testing.assert_allclose(changes.at(np.array([0.0, 5.0, 5.1, 8.0])), [1.0, 1.0, 0.5, 0.5])
+    assert [own.trial for own in stay] == ["trial_02.csv", "trial_03.csv"]
+    x, y = family.curve(5.0, 0.1, 0.5)
+    assert (x[1], y[0], y[-1]) == (5.0, 1.0, 0.5)
+
+
+def test_trials_after_it_are_those_of_a_rig_with_less_damping_and_those_before_of_the_nominal_one():
+    (family,) = families(log_with_a_change(5.0, 1))
+    gives_way = family.effect.apply(NOMINAL, 5.0, 0.1, 0.5)
+    for name, rig in (("trial_01.csv", NOMINAL), ("trial_03.csv", RigParameters(damping_scale=0.5))):
+        own = prepared(trial(ANGLE, name=name))
+        found, expected = predict(RIG, own, [gives_way, rig])
+        np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
