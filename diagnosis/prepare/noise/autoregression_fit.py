@@ -3,7 +3,8 @@
 Its autocovariances are those of the spectrum that a low quantile of the periodograms of windows shows
 (`periodograms`): the inverse Fourier transform of it, / that of the taper. Below `COLOUR_ABOVE_HZ`,
 where residuals of effects are, the spectrum is taken as level, so that what is slow is never taken for
-noise. The order p is the one with the least N log(s^2) + p log(N), where N is half of the samples:
+noise. From `COLOUR_OSCILLATES_ABOVE_HZ` on, where effects leave nothing, the mean of the periodograms is
+used: errors of the replay, which a filter's noise does not cover there, are in it. The order p is the one with the least N log(s^2) + p log(N), where N is half of the samples:
 windows overlap, and a quantile tells less than a mean.
 
 Missing values are first straight lines between their neighbours, then drawn from what the autoregression
@@ -17,7 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 
-from diagnosis.criteria import COLOUR_ABOVE_HZ, COLOUR_MOST_ORDER, COLOUR_WINDOWS
+from diagnosis.criteria import (
+    COLOUR_ABOVE_HZ,
+    COLOUR_MOST_ORDER,
+    COLOUR_OSCILLATES_ABOVE_HZ,
+    COLOUR_WINDOWS,
+)
 from diagnosis.prepare.noise.autoregression import Autoregression
 from diagnosis.prepare.noise.missing_values import completed
 from diagnosis.prepare.noise.periodograms import (
@@ -97,7 +103,10 @@ def _autocovariances(cut: Sequence[Array], step_s: float) -> Array:
     """Of the noise in windows, at lags of 0, 1, ... steps."""
     size = cut[0].size
     taper, frequencies = taper_of(size), np.fft.rfftfreq(size, step_s)
-    shown = np.quantile([periodogram(values, taper) for values in cut], QUANTILE, axis=0) / MEAN
+    each = np.array([periodogram(values, taper) for values in cut])
+    shown = np.quantile(each, QUANTILE, axis=0) / MEAN
+    fast = frequencies >= COLOUR_OSCILLATES_ABOVE_HZ
+    shown[fast] = each[:, fast].mean(axis=0)
     slow, next_to = frequencies < COLOUR_ABOVE_HZ, frequencies < _LEVEL * COLOUR_ABOVE_HZ
     shown[slow] = shown[next_to & ~slow].mean()
     lags = min(COLOUR_MOST_ORDER, size // 4) + 1
