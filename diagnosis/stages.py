@@ -65,6 +65,7 @@ STAGES = {
     "mesh refinement": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "finer mesh near the floor": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "finer mesh": _whole("fitting with a finer mesh", 5.0, 0, 0),
+    "simpler effects": _whole("fitting simpler effects in the best", 1.0, 0, 0),
     "noise of the best": _whole("fitting with the noise that the best leaves", 1.0, 0, 0),
     "outliers beside the best": _whole("fitting without outliers", 1.0, 0, 0),
     "weakly coloured noise": _whole("fitting with noise of another colour", 1.0, 0, 0),

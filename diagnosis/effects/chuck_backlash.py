@@ -15,7 +15,7 @@ EFFECT = Effect(
     title="play (backlash) in the chuck",
     place=Place.DRIVE,
     parameters=(
-        Parameter(name="gap", unit="deg", low=0.02, high=30.0, start=(0.5, 2.0, 8.0), logarithmic=True),
+        Parameter(name="gap", unit="deg", low=0.02, high=60.0, start=(0.5, 2.0, 8.0), logarithmic=True),
     ),
     apply=_apply,
     remedy="add to the model play of {gap} between drive shaft and needle, or tighten the chuck",

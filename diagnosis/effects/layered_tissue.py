@@ -18,8 +18,8 @@ EFFECT = Effect(
         Parameter(
             name="ratio",
             unit="-",
-            low=0.05,
-            high=20.0,
+            low=0.02,
+            high=50.0,
             start=(3.0, 0.33, 3.0, 0.33),
             logarithmic=True,
             neutral=1.0,

@@ -21,7 +21,7 @@ EFFECT = Effect(
         Parameter(
             name="stiffness",
             unit="N mm / rad / mm",
-            low=0.0005,
+            low=5e-05,
             high=2.0,
             start=(0.05, 0.02, 0.01, 0.1),
             logarithmic=True,

@@ -25,6 +25,7 @@ from diagnosis.selection.stages.richer_effects import (
     richer_effects,
     richer_effects_in_place_of_three,
     richer_effects_in_the_best,
+    simpler_effects_in_the_best,
 )
 from diagnosis.selection.stages.sensors.coloured_noise import (
     coloured_noise,
@@ -72,6 +73,7 @@ STAGES: tuple[Stage, ...] = (
     outliers_and_more((weakly_coloured_noise, drift_of_the_torque_sensor, jumps_of_readings)),
     drift_or_offset,
     finer_mesh,
+    simpler_effects_in_the_best,
     best_with_imperfections_in_place,
 )
 

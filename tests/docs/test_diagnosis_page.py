@@ -13,6 +13,7 @@ from free_forms import covered
 from diagnosis.freeform import families as folder
 from diagnosis.freeform.missing import FLOOR, FREEDOM, PATIENCE
 from diagnosis.freeform.search import CONTENDERS, FINALISTS
+from diagnosis.replay.replay import Prediction
 from diagnosis.replay.variables import Variable
 
 PAGE = (Path(__file__).parents[2] / "docs" / "diagnosis.md").read_text()
@@ -38,7 +39,8 @@ def test_every_file_of_families_is_in_the_table_and_no_other():
 def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
     angle = turns()
     ranges = covered(angle, tip=angle + 1.0, torque=0.01 * angle, seen=(angle, np.zeros(angle.size)))
-    every = replace(ranges, ends=dict.fromkeys(Variable, (0.1, 1.0)))
+    softer = [Prediction(tip_angle_deg=0.9 * angle, base_torque_n_mm=0.01 * angle)]
+    every = replace(ranges, ends=dict.fromkeys(Variable, (0.1, 1.0)), softer=softer)
     own = import_module(f"diagnosis.freeform.families.{file}").families(every)
     assert own
     found = {match[1] for f in own if (match := re.search(r" over ([a-z_]+)", f.name))}

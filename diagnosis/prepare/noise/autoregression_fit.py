@@ -4,8 +4,9 @@ Its autocovariances are those of the spectrum that a low quantile of the periodo
 (`periodograms`): the inverse Fourier transform of it, / that of the taper. Below `COLOUR_ABOVE_HZ`,
 where residuals of effects are, the spectrum is taken as level, so that what is slow is never taken for
 noise. From `COLOUR_OSCILLATES_ABOVE_HZ` on, where effects leave nothing, the mean of the periodograms is
-used: errors of the replay, which a filter's noise does not cover there, are in it. The order p is the one with the least N log(s^2) + p log(N), where N is half of the samples:
-windows overlap, and a quantile tells less than a mean.
+used: errors of the replay, which the noise does not cover there, are in it. The order p is the one
+with the least N log(s^2) + p log(N), where N is half of the samples: windows overlap, and a quantile
+tells less than a mean.
 
 Missing values are first straight lines between their neighbours, then drawn from what the autoregression
 that was found says of them, given all that were read, and so on: each round leaves of the first error

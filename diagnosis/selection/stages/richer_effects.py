@@ -1,4 +1,4 @@
-"""Effects that contain a simpler one, fitted from where that is."""
+"""Effects that contain a simpler one, fitted from where that is; and the other way round."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,13 +8,13 @@ import numpy as np
 from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import FITTED
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import fit_all, fit_finalists
+from diagnosis.selection.fitting import fit_all, fit_beside, fit_finalists
 from diagnosis.selection.richer_forms import forms_beyond, with_richer
 from diagnosis.selection.stages.stage import worth_the_log
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
-STAGE = "richer effects"
+STAGE, SIMPLER = "richer effects", "simpler effects"
 _STARTS = 2  # forms from which fits start
 
 
@@ -59,6 +59,28 @@ def richer_effects_in_the_best(state: SearchState, workers: Workers) -> SearchSt
         for start in forms_beyond(state.problem, best, simple, rich)[:_STARTS]
     ]
     return state.adding(fit_all(f"{STAGE} in the best", calls, workers))
+
+
+def simpler_effects_in_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """What an effect of the best contains, in its place, where that never came to the log itself.
+
+    On the decimated log a richer law may imitate what this is too coarse for, and leave the simpler one
+    behind.
+    """
+    best = state.best
+    state, _ = state.rechecked()
+    inner = [(rich, simple) for rich in best.names for simple in FITTED[rich].contains]
+    if not inner or not state.at_the_floor(best):
+        return state
+    known = {frozenset(c.names) for c in state.candidates}
+    simpler = [
+        names
+        for rich, simple in inner
+        if simple not in best.names
+        for names in [tuple(simple if name == rich else name for name in best.names)]
+        if frozenset(names) not in known
+    ]
+    return state.adding(fit_beside(SIMPLER, state.problem, best, simpler, workers))
 
 
 def _ahead(

@@ -52,6 +52,7 @@ def test_the_stages_are_these_in_this_order():
         "outliers_and_another_imperfection",
         "drift_or_offset",
         "finer_mesh",
+        "simpler_effects_in_the_best",
         "best_with_imperfections_in_place",
     ]
 

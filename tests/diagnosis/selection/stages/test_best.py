@@ -13,7 +13,7 @@ from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection import checked, fitting
+from diagnosis.selection import candidate, checked, fitting
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import best as module
 from diagnosis.workers import Workers
@@ -26,8 +26,9 @@ TORQUE_LAGS = (
 
 @pytest.fixture
 def asked(monkeypatch):
-    """Sets of effects that are fitted."""
+    """Sets of effects that are fitted; fits that are scores alone have no trials to leave out."""
     found = []
+    monkeypatch.setattr(candidate, "held_out_or_refitted", lambda _, fit: fit.by_trial)
 
     def fit_all(stage, calls, workers):
         found.extend(call[1] for call in calls)

@@ -80,6 +80,31 @@ def test_of_three_effects_a_richer_one_is_tried_also_where_they_explain_the_log(
     assert [c.names for c in found.candidates] == [(), ("stiction",)]
 
 
+@pytest.fixture(scope="module")
+def taken_for_falling():
+    """A log with constant friction, for which friction that falls with the rate was found."""
+    log = log_of(RigParameters(kinetic_n_mm_per_mm=0.002), seconds=8.0)
+    start = start_of_search(log, ("coulomb_friction", "stiction"))
+    at = np.array([np.log(0.0019), np.log(0.002), np.log(1.0)])
+    fit = fit_effects(start.coarse, ("stiction",), np.concatenate([at, np.zeros(2)]))
+    return replace(start, problem=start.coarse, candidates=(candidate(fit),))
+
+
+def test_what_the_best_contains_is_fitted_in_its_place(taken_for_falling, monkeypatch):
+    monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
+    monkeypatch.setattr(SearchState, "at_the_floor", lambda *_: True)
+    found = module.simpler_effects_in_the_best(taken_for_falling, Workers())
+    assert found.best.names == ("coulomb_friction",)
+    assert np.exp(found.best.fit.x[0]) == pytest.approx(0.002, rel=0.05)
+    assert module.simpler_effects_in_the_best(found, Workers()) is found  # it is known by now
+
+
+def test_nothing_simpler_is_fitted_above_the_noise(taken_for_falling, monkeypatch):
+    monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, False))
+    monkeypatch.setattr(SearchState, "at_the_floor", lambda *_: False)
+    assert module.simpler_effects_in_the_best(taken_for_falling, Workers()) is taken_for_falling
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("behind", [0.0, 2.0 * SIMPLE_LEAD])
 def test_what_ended_as_the_simpler_law_is_fitted_once_more_in_the_best(
