@@ -14,6 +14,7 @@ from diagnosis.criteria import (
     COLOUR_AT_ONCE_SHARE,
     COLOUR_CHI_SQUARE,
     COLOUR_LEAST_SHARE,
+    COLOUR_MOST,
     LEAST_DIFFERENCES,
     LEAST_GAP,
     NOISE_RATIO,
@@ -42,6 +43,7 @@ class Noise:
       colour: colour of the noise, for sensors whose noise is not white.
       white: standard deviation by sensor, if all noise is taken as white.
       least: least noise of readings in coarse steps.
+      most: largest noise that may be coloured: more is what the model lacks.
       means_of: number of readings that a sample is the mean of.
       colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
       torque_drift_n_mm: size of the drift that the torque sensor may have within a trial; 0: none.
@@ -53,6 +55,7 @@ class Noise:
     colour: Mapping[str, Colour] = field(default_factory=dict)
     white: Mapping[str, float] = field(default_factory=dict)
     least: Mapping[str, float] = field(default_factory=dict)
+    most: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
     colour_chi_square: float = COLOUR_CHI_SQUARE
     torque_drift_n_mm: float = 0.0
@@ -96,7 +99,7 @@ class Noise:
             found = noise_colour(
                 parts, least_share, self.means_of, self.colour_chi_square, most.get(sensor, 1)
             )
-            if found:
+            if found and found[0] <= self.most.get(sensor, np.inf):
                 sigma[sensor], colour[sensor] = found
             elif sensor in self.colour:  # it was taken for coloured, and is not
                 sigma[sensor] = self.white[sensor]
@@ -159,7 +162,8 @@ def estimate_noise(
             found = claims[sensor] or _UNKNOWN
         found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
-    noise = Noise(sigma=sigma, white=sigma, means_of=means_of).with_colour(
+    most = {s: COLOUR_MOST * max(claims[s], sigma[s]) for s in SENSORS if claims[s] > 0}
+    noise = Noise(sigma=sigma, white=sigma, most=most, means_of=means_of).with_colour(
         residuals, COLOUR_AT_ONCE_SHARE
     )
     for sensor in SENSORS:

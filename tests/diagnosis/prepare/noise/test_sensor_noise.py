@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, trial, turns
+from scipy.signal import lfilter
 
 from diagnosis.prepare.noise.sensor_noise import base_noise_deg, estimate_noise
 
@@ -82,3 +83,21 @@ def test_what_was_told_when_the_log_was_read_is_not_told_again():
     rig = RIG.but(sensors=claims)
     assert len(estimate_noise(rig, residuals(), BASE).warnings) == 1
     assert estimate_noise(rig, residuals(), BASE, told=["tip_angle_deg"]).warnings == ()
+
+
+@pytest.mark.parametrize(("size", "coloured"), [(0.8, True), (1.5, True), (6.0, False)])
+def test_what_is_far_above_the_claim_is_no_noise(size, coloured):
+    """Wholly correlated over 100 ms; beside it some white noise, of a tenth of the claim."""
+    rng = np.random.default_rng(5)
+    parts = []
+    for _ in range(3):
+        kept = np.exp(-0.1)
+        slow = lfilter([np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=4000))
+        values = TORQUE * (size * slow + 0.1 * rng.normal(size=slow.size))
+        parts.append((0.01 * np.arange(slow.size), values))
+    noise = estimate_noise(RIG, {"base_torque_n_mm": parts}, BASE)
+    assert ("base_torque_n_mm" in noise.colour) is coloured
+    if coloured:
+        assert noise["base_torque_n_mm"] == pytest.approx(size * TORQUE, rel=0.2)
+    unclaimed = RIG.but(sensors=RIG.sensors.but(base_torque_noise_n_mm=0))
+    assert estimate_noise(unclaimed, {"base_torque_n_mm": parts}, BASE).colour
