@@ -481,9 +481,10 @@ CONTENDING = 60.0
 within SIMPLE_LEAD of the best on the decimated log, of which a weak effect has many. And the score
 behind the best beyond which they are out of the question: six times the largest lead that any decision
 asks for, since the decimated log weighs costs to 5 % only."""
-PART_LEAD = 30.0
-"""Score by which an explanation has to lead a part of it at the noise floor, if that shifts over trials
-or samples are means: one more effect may take up what a replay does not resolve. A choice."""
+PART_LEAD, NEARLY = 30.0, 1.1
+"""Score by which an explanation has to lead a part of it at the noise floor, for every effect more, if
+that shifts over trials, samples are means, or the part is above the floor by up to this factor: one more
+effect may take up what a replay does not resolve. A choice; in 4000 samples, an effect of 0.1 sigma."""
 NOMINAL_LEAD = 10.0
 """Cost by which scatter of stiffness and damping has to improve on the exact nominal rig to be told."""
 

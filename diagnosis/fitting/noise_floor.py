@@ -49,6 +49,10 @@ class NoiseFloor:
         """The floor of residuals so many times as large."""
         return replace(self, gap=factor * self.gap, slow=factor * self.slow)
 
+    def within(self, factor: float) -> bool:
+        """Whether it is at the floor, or above it by no more than that factor."""
+        return self.gap <= factor * self.gap_limit and self.slow <= factor * self.slow_limit
+
     @property
     def small(self) -> bool:
         """Whether the residual is no larger than noise."""

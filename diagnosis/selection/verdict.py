@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from diagnosis.criteria import NESTED_LEAD, NOMINAL_LEAD, PART_LEAD, SHIFT_LIMIT, SIMPLE_LEAD
+from diagnosis.criteria import NEARLY, NESTED_LEAD, NOMINAL_LEAD, PART_LEAD, SHIFT_LIMIT, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
@@ -63,8 +63,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     """The verdict on candidates, best first.
 
     One whose parameters are at a bound, or as good as none, explains nothing; but where it leads what
-    does, that is open. And so it is where a part of it is likelier, but above the floor by a hair, or is
-    hardly less likely and only shifts from trial to trial, or samples are means of many.
+    does, that is open. And so it is where a part of it is likelier, but above the floor; or is hardly
+    less likely, and shifts from trial to trial or is above the floor by a hair, or samples are means.
     """
     at_floor = _without_needless_scatter(_explaining(candidates))
     if not at_floor:
@@ -218,15 +218,18 @@ def _is_richer_but_shifts(one: Candidate, best: Candidate) -> bool:
 
 
 def _hardly_led(one: Candidate, best: Candidate, reached: float) -> bool:
-    """Whether it is a part of the best, at the floor, that is led by what a replay may not resolve.
+    """Whether it is a part of the best that is led by what a replay may not resolve.
+
+    That is at the floor, or above it by a hair.
 
     Args:
       reached: score of the best.
     """
-    part = {*one.names} < {*best.names} and one.floor.reached and _says(one) != ()
+    part = {*one.names} < {*best.names} and one.floor.within(NEARLY) and _says(one) != ()
     part = part and {*one.named} != {*best.named}  # else only an imperfection of a sensor is doubtful
-    doubtful = one.shift > SHIFT_LIMIT or one.of_means
-    return part and doubtful and one.score - reached <= PART_LEAD
+    doubtful = one.shift > SHIFT_LIMIT or one.of_means or not one.floor.reached
+    more = len(best.names) - len(one.names)
+    return part and doubtful and one.score - reached <= more * PART_LEAD
 
 
 def _less_likely(best: Candidate, other: Candidate, reached: float) -> bool:

@@ -1,12 +1,15 @@
-"""How much of the lead of an explanation over a part of it the errors of the replay may have made.
+"""How much of a lead over a part of an explanation, or over a rival, errors of the replay may have made.
 
-One more effect may take up what a replay does wrong: noise of the base's encoder that is left in the
-motion that drives it, what smoothing rounds off this motion, and the error of mesh and step. Let d be
-the difference between the residuals of the two, in units of the noise. Its square is the lead in cost.
-Errors m of the residual change it along d by m' d / |d|, with the mean square s^2 over several readings
-of the encoder; noise has the variance 1 there. So the lead counts as
+One more effect, or another one, may take up what a replay does wrong: noise of the base's encoder that
+is left in the motion that drives it, what smoothing rounds off this motion, and the error of mesh and
+step. Let d be the difference between the residuals of the two, in units of the noise. Its square is the
+lead in cost over a part. Errors m of the residual change it along d by m' d / |d|, with the mean square
+s^2 over several readings of the encoder; noise has the variance 1 there. So a lead in cost counts as
 
-    |d|^2 / (1 + s^2).
+    lead / (1 + s^2).
+
+Two rivals may each lead a part that they share, and errors may be more like one of them: between these
+two their own difference decides.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import BASE_NOISE_READINGS
+from diagnosis.criteria import BASE_NOISE_READINGS, CONTENDING, SIMPLE_LEAD
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from sim.needles.run import SimulationFailed
@@ -26,13 +29,15 @@ _SEED = 22
 
 
 def without_replay_errors(problem: FitProblem, candidates: Sequence[Candidate]) -> list[Candidate]:
-    """Candidates with scores that count no lead over a part of theirs that errors may have made.
+    """Candidates with scores that count no lead over a part or a rival that errors may have made.
 
     Args:
       candidates: checked, in units of the noise of the problem.
     """
     at_floor = [c for c in candidates if c.floor.reached]
-    return sorted((_scored(problem, one, at_floor) for one in candidates), key=lambda c: c.score)
+    pairs = [(_scored(problem, one, at_floor), one) for one in candidates]
+    ranked = sorted(pairs, key=lambda pair: pair[0].score)
+    return sorted(_with_rivals_nearer(problem, ranked), key=lambda c: c.score)
 
 
 def _scored(problem: FitProblem, one: Candidate, at_floor: Sequence[Candidate]) -> Candidate:
@@ -45,6 +50,42 @@ def _scored(problem: FitProblem, one: Candidate, at_floor: Sequence[Candidate]) 
         return one
     needless = max(_needless(one, part, errors) for part in parts)
     return replace(one, score=one.score + needless)
+
+
+def _with_rivals_nearer(
+    problem: FitProblem, ranked: Sequence[tuple[Candidate, Candidate]]
+) -> list[Candidate]:
+    """Candidates, those that the best leads by a little as near to it as errors may bring them.
+
+    Args:
+      ranked: each with the score that counts, best first, and with its own.
+    """
+    known = [one for one, _ in ranked]
+    first = next((pair for pair in ranked if pair[0].explains), None)
+    if first is None or not any(_is_rival(first[0], one) for one in known):
+        return known
+    best, own = first
+    try:
+        errors = list(_errors(problem, best))
+    except SimulationFailed:
+        return known
+    return [
+        replace(one, score=min(one.score, best.score + _lead(own, bare, errors)))
+        if _is_rival(best, one)
+        else one
+        for one, bare in ranked
+    ]
+
+
+def _is_rival(best: Candidate, other: Candidate) -> bool:
+    """Whether it explains the log as well, by something else, and its lead would decide."""
+    else_ = not ({*best.names} <= {*other.names} or {*other.names} <= {*best.names})
+    return other.explains and else_ and SIMPLE_LEAD < other.score - best.score <= CONTENDING
+
+
+def _lead(best: Candidate, rival: Candidate, errors: Sequence[Array]) -> float:
+    """By how much a rival is behind, without what errors may have made of that."""
+    return rival.score - best.score - _needless(best, rival, errors)
 
 
 def _needless(one: Candidate, part: Candidate, errors: Sequence[Array]) -> float:

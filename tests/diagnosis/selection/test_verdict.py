@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, scored
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria import PART_LEAD, SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.candidate import candidate
@@ -122,7 +122,14 @@ def test_what_is_held_by_a_bound_and_above_the_noise_leaves_nothing_open():
     assert verdict_on([held(["base_compliance"], 1.0)]).kind is VerdictKind.UNKNOWN
 
 
-@pytest.mark.parametrize(("lead", "kind"), [(7, VerdictKind.UNDECIDED), (-1, VerdictKind.EXPLAINED)])
+@pytest.mark.parametrize(
+    ("lead", "kind"),
+    [
+        (7, VerdictKind.UNDECIDED),
+        (-1, VerdictKind.UNDECIDED),
+        (-1.1 * PART_LEAD, VerdictKind.EXPLAINED),
+    ],
+)
 def test_what_only_brings_a_likelier_part_below_the_floor_is_not_certain(lead, kind):
     """Shear thinning was above the limit by 0.001; a bias of a tenth of the noise brought it below."""
     above = NoiseFloor(gap=1.031, slow=1.0)
@@ -131,6 +138,9 @@ def test_what_only_brings_a_likelier_part_below_the_floor_is_not_certain(lead, k
     found = verdict_on(sorted((part, both), key=lambda c: c.score))
     assert (found.kind, set(found.effects)) == (kind, {"shear_thinning", "torque_bias"})
     assert (("shear_thinning",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
+    far = replace(part, floor=NoiseFloor(gap=1.2, slow=1.0))
+    led = verdict_on(sorted((far, both), key=lambda c: c.score))
+    assert (led.kind is VerdictKind.UNDECIDED) is (lead > 0)
     other = scored(["stiction"], 100.0 - lead, floor=above)  # no part of it: it explains nothing
     assert verdict_on(sorted((other, both), key=lambda c: c.score)).kind is VerdictKind.EXPLAINED
 

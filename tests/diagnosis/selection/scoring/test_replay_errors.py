@@ -35,11 +35,35 @@ def test_along_the_difference_errors_add_to_the_variance_of_the_noise(size, monk
     assert [c.score for c in found] == sorted(scores.values())
 
 
-def test_what_is_no_part_or_above_the_floor_changes_nothing(monkeypatch, still_start):
-    """No error is simulated where no lead over a part is to be judged."""
+@pytest.mark.parametrize("size", [0.0, 1.0, 3.0])
+def test_a_rival_is_as_near_as_errors_may_bring_it(size, monkeypatch, still_start):
+    """A lead in cost of 25, and of 4 for what it says in fewer words, which no error makes."""
+    best = fitted(["tip_drag", "torque_bias"], np.zeros(4), 100.0)
+    rival = replace(fitted(["stiction"], 5.0 * UNIT, 125.0), score=best.score + 21.0)
+    monkeypatch.setattr(module, "_errors", lambda *_: [size * UNIT, -size * UNIT])
+    scores = {c.names: c.score for c in without_replay_errors(still_start.problem, [best, rival])}
+    assert scores[best.names] == best.score
+    assert scores[rival.names] - best.score == pytest.approx(25.0 / (1.0 + size**2) - 4.0)
+
+
+def test_between_two_rivals_a_part_that_both_lead_decides_nothing(monkeypatch, still_start):
+    """Errors are more like the first one, which leads the part by 64: it is the likelier all the same."""
+    across = np.array([0.0, 0.0, 1.0, 0.0])
+    part = fitted([], np.zeros(4), 200.0)
+    one = fitted(["tip_drag"], 8.0 * UNIT, 136.0)
+    other = fitted(["stiction"], 8.0 * across, 138.0)
+    monkeypatch.setattr(module, "_errors", lambda *_: [1.5 * UNIT, -1.5 * UNIT])
+    scores = {c.names: c.score for c in without_replay_errors(still_start.problem, [one, other, part])}
+    assert scores[other.names] == other.score
+    assert scores[one.names] <= other.score
+    assert abs(scores[one.names] - other.score) < 10.0
+
+
+def test_what_is_far_behind_or_above_the_floor_changes_nothing(monkeypatch, still_start):
+    """No error is simulated where no lead is to be judged."""
     monkeypatch.setattr(module, "_errors", lambda *_: pytest.fail("simulated"))
     both = fitted(["tip_drag", "torque_bias"], np.zeros(4), 100.0)
-    other = fitted(["stiction"], 5.0 * UNIT, 125.0)
+    other = fitted(["stiction"], 9.0 * UNIT, 181.0)
     far = fitted(["tip_drag"], 50.0 * UNIT, 2600.0)
     far = replace(far, floor=replace(far.floor, gap=2.0 * far.floor.gap_limit))
     assert without_replay_errors(still_start.problem, [both, other, far]) == [both, other, far]
