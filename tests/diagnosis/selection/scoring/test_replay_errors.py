@@ -47,7 +47,7 @@ def test_a_rival_is_as_near_as_errors_may_bring_it(size, monkeypatch, still_star
 
 
 def test_between_two_rivals_a_part_that_both_lead_decides_nothing(monkeypatch, still_start):
-    """Errors are more like the first one, which leads the part by 64: it is the likelier all the same."""
+    """Errors are more like the first one, which leads the part by 64, but it is the likelier one."""
     across = np.array([0.0, 0.0, 1.0, 0.0])
     part = fitted([], np.zeros(4), 200.0)
     one = fitted(["tip_drag"], 8.0 * UNIT, 136.0)
