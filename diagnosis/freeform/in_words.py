@@ -101,7 +101,10 @@ def course_of(law: Law) -> str:
     """The course of a law, in words."""
     low, high = min(law.y), max(law.y)
     if law.variable == "event":
-        return f"{law.title}, by {law.y[-1]:.3g} {law.unit} at {law.x[1]:.2f} {law.x_unit}"
+        change = (
+            f"by {law.y[-1]:.3g} {law.unit}" if law.unit != "-" else f"{law.y[-1]:.3g} times as large"
+        )
+        return f"{law.title}, {change} at {law.x[1]:.2f} {law.x_unit}"
     if law.variable == "direction":
         back, forth = law.y[0], law.y[-1]
         if back * forth > 0:

@@ -102,12 +102,12 @@ def _step(
     acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float, after: tuple[str, ...]
 ) -> Family:
     """The step; in trials `after` it, it stays."""
-    how = "for good" if after else "once"
+    how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
     step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
     return Family(
         effect=Effect(
             name=f"{title}, {how}",
-            title=f"{title}, {how}, {'from' if after else 'in'} {moment.trial}",
+            title=f"{title}, {how}, {where}",
             place=place,
             parameters=(*times_of(moment), step),
             apply=partial(_apply, acts_on, moment.trial, after),
@@ -116,7 +116,7 @@ def _step(
         ),
         places={place: 1.0},
         says="event",
-        title=title,
+        title=f"{title} {where}",
         curve=_stepped,
         x_unit="s",
         unit="N mm" if acts_on is ActsOn.TORQUE_READING else "deg",

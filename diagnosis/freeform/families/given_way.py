@@ -82,7 +82,7 @@ def _gives_way(ranges: LogRanges, moment: Moment) -> Family:
     return Family(
         effect=Effect(
             name="tissue that gives way",
-            title=f"tissue that gives way or grips in {moment.trial}, for good",
+            title=f"tissue that gives way or grips, for good, from {moment.trial} on",
             place=Place.TISSUE,
             parameters=(when, lasting, factor),
             apply=partial(_apply, moment.trial, after),
@@ -90,7 +90,7 @@ def _gives_way(ranges: LogRanges, moment: Moment) -> Family:
         ),
         places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
         says="event",
-        title="torque of the tissue over that before",
+        title=f"torque of the tissue from {moment.trial} on",
         curve=_changes,
         x_unit="s",
         unit="-",

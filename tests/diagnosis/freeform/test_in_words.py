@@ -50,6 +50,16 @@ def test_every_family_says_a_variable_of_the_vocabulary():
             {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
             "by 3 N mm / mm at 2.50 s",
         ),
+        (
+            {
+                "variable": "event",
+                "x": (0, 2.5, 2.6, 4.5),
+                "y": (1, 1, 0.2, 0.2),
+                "unit": "-",
+                "x_unit": "s",
+            },
+            "along the shaft, 0.2 times as large at 2.50 s",
+        ),
     ],
 )
 def test_the_course_of_a_law_is_told(changes, said):

@@ -70,6 +70,7 @@ def test_a_step_may_stay_in_the_trials_that_follow_it():
     ]
     assert [family.name for family in families(second)] == names[::2]
     good = families(first)[3]
+    assert good.title == "jump of the tip sensor from trial_01.csv on"
     assert good.effect.trial == ""
     changes, stays = good.effect.apply(NOMINAL, 5.0, 0.1, 1.5).free.curves
     assert (changes.trial, stays.trial) == ("trial_01.csv", "trial_02.csv")
