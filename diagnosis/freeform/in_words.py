@@ -100,10 +100,9 @@ def next_step(missing: Missing) -> str:
 def course_of(law: Law) -> str:
     """The course of a law, in words."""
     low, high = min(law.y), max(law.y)
+    own = "" if law.unit == "-" else f" {law.unit}"
     if law.variable == "event":
-        change = (
-            f"by {law.y[-1]:.3g} {law.unit}" if law.unit != "-" else f"{law.y[-1]:.3g} times as large"
-        )
+        change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
         return f"{law.title}, {change} at {law.x[1]:.2f} {law.x_unit}"
     if law.variable == "direction":
         back, forth = law.y[0], law.y[-1]
@@ -111,18 +110,18 @@ def course_of(law: Law) -> str:
             stronger = abs(forth) > abs(back)
             way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
             return f"{law.title} is {ratio:.2g} times as strong {way}"
-        return f"{law.title} is {forth:.3g} {law.unit} forwards, {back:.3g} {law.unit} backwards"
+        return f"{law.title} is {forth:.3g}{own} forwards, {back:.3g}{own} backwards"
     if high == low:
-        return f"{law.title} is {low:.3g} {law.unit}"
+        return f"{law.title} is {low:.3g}{own}"
     rises = law.y[-1] - law.y[0]
     if abs(rises) >= _MOSTLY * (high - low):
         verb = "rises" if rises > 0 else "falls"
         unit = "" if law.x_unit == "-" else f" {law.x_unit}"
         return (
-            f"{law.title} {verb} from {law.y[0]:.3g} to {law.y[-1]:.3g} {law.unit} between "
+            f"{law.title} {verb} from {law.y[0]:.3g} to {law.y[-1]:.3g}{own} between "
             f"{law.x[0]:.3g} and {law.x[-1]:.3g}{unit}"
         )
-    return f"{law.title} varies between {low:.3g} and {high:.3g} {law.unit}"
+    return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
 
 
 def period_deg(missing: Missing) -> float:

@@ -118,7 +118,7 @@ def two_sided_curve(most: float, count: int) -> SmoothCurve:
     u = np.concatenate([-size[::-1], size])
     size = np.abs(u)
     line = np.stack([np.ones(u.size), size, np.sign(u), u], axis=1)
-    covariance = np.exp(-((size[:, None] - size) ** 2) / (2 * (0.5 * _LENGTH) ** 2))
+    covariance = np.exp(-((size[:, None] - size) ** 2) / (2 * _LENGTH**2))
     basis = _beside(line, covariance)
     even = basis[:, -(count - 2) :]  # of the others, the process has none
     return SmoothCurve(places=most * u, basis=np.hstack([line, even]), straight=4)
