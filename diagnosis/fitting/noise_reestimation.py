@@ -84,9 +84,9 @@ def in_units_of(problem: FitProblem, by_trial: Sequence[Array], noise: Noise) ->
     """Residuals of the problem, or their slopes, in units of another noise, whitened as it asks."""
     before = problem.noise
     found = []
-    for parts in by_trial_and_sensor(problem, by_trial):
+    for rows, parts in zip(by_trial, by_trial_and_sensor(problem, by_trial), strict=True):
         each = [_other_units(part, before, noise) for part in parts]
-        found.append(np.concatenate(each) if each else np.zeros(0))
+        found.append(np.concatenate(each) if each else rows)  # a trial that is not read has no rows
     return tuple(found)
 
 

@@ -66,6 +66,17 @@ def test_a_fit_in_units_of_another_noise_is_what_a_fit_to_it_would_be(problem):
     assert again.cost == pytest.approx(float(again.by_trial[0] @ again.by_trial[0]) + prior)
 
 
+def test_a_trial_of_which_nothing_is_left_keeps_its_slopes_of_no_row(problem):
+    """All of a recording that began late may be left out."""
+    (trial,) = problem.log.trials
+    none = {sensor: np.full(values.size, np.nan) for sensor, values in trial.readings.items()}
+    unread = replace(trial, name="trial_02.csv", readings=none)
+    both = replace(problem, log=replace(problem.log, trials=(trial, unread)))
+    slopes = (np.ones((2 * SAMPLES, 3)), np.zeros((0, 3)))
+    noise = replace(problem.noise, sigma=SIGMA | {"tip_angle_deg": 1.05 * TIP})
+    assert [own.shape for own in in_units_of(both, slopes, noise)] == [(2 * SAMPLES, 3), (0, 3)]
+
+
 def coloured(problem, share=0.8, time_s=0.05):
     """The problem with a colour of the tip angle."""
     colour = {"tip_angle_deg": NoiseColour.of(share=share, correlation_time_s=time_s)}
