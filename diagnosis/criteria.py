@@ -470,9 +470,10 @@ JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
 allowed for; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
 Choices; the search tries them last."""
-DRIFT_RANGE_SIGMA = 6.0
-"""Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise; more is
-no roughness but a fault, and the answer stays unknown."""
+DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ALIKE = 10.0, 6.0, 0.3
+"""Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: 5 to one
+side and the other; more is no roughness but a fault, and the answer stays unknown. So it does for less
+where the drift is a line of one rate in all trials, to that share: that is a law."""
 IMPERFECT_BASES = 4
 """Leading explanations with an imperfection of a sensor, to which another one is added."""
 FINALISTS, MOST_FINALISTS = 4, 8

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria import DRIFT_ALIKE
 from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction
@@ -33,6 +34,19 @@ def with_drift(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]
 def drift_range_sigma(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
     """Largest range of the drift within a trial, in sigma of the torque."""
     return max((float(np.ptp(drift)) for drift in _by_trial(log, noise, predictions)), default=0.0)
+
+
+def drifts_alike(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> bool:
+    """Whether the sensor drifts along a line in every trial, at one rate: a law, and no accident."""
+    rates = []
+    for trial, drift in zip(log.trials, _by_trial(log, noise, predictions), strict=True):
+        if trial.has(TORQUE):
+            after_s = trial.time_s - trial.time_s[0]
+            line = np.polyfit(after_s, drift, 1)
+            if np.ptp(drift - np.polyval(line, after_s)) > DRIFT_ALIKE * np.ptp(drift):
+                return False
+            rates.append(float(line[0]))
+    return len(rates) > 1 and float(np.ptp(rates)) <= DRIFT_ALIKE * abs(float(np.mean(rates)))
 
 
 def least_start(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:

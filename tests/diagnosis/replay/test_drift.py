@@ -7,7 +7,13 @@ import pytest
 from diagnosis_fixtures import log_of, problem_of
 
 from diagnosis.prepare.noise.sensor_noise import TORQUE
-from diagnosis.replay.drift import drift_range_sigma, least_start, torque_drift_sigma, with_drift
+from diagnosis.replay.drift import (
+    drift_range_sigma,
+    drifts_alike,
+    least_start,
+    torque_drift_sigma,
+    with_drift,
+)
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL
 
@@ -43,6 +49,30 @@ def test_a_line_is_found_and_belongs_to_what_the_sensor_reads(drifting):
     moved = shown.base_torque_n_mm - predictions[0].base_torque_n_mm
     np.testing.assert_allclose(moved, problem.noise["base_torque_n_mm"] * found)
     np.testing.assert_array_equal(shown.tip_angle_deg, predictions[0].tip_angle_deg)
+
+
+@pytest.mark.parametrize(
+    ("shapes", "alike"),
+    [
+        (("line", "line"), True),
+        (("line", "opposite"), False),
+        (("line", "half"), False),
+        (("wave", "wave"), False),
+        (("line",), False),
+    ],
+)
+def test_one_line_in_every_trial_is_a_law_and_anything_else_is_none(shapes, alike, drifting):
+    problem, line, (prediction,) = drifting
+    (one,) = problem.log.trials
+    course = {"line": line, "opposite": -line, "half": 0.5 * line, "wave": 3.0 * np.sin(1.5 * line)}
+    plain = one.readings[TORQUE] - problem.noise[TORQUE] * line
+    trials = tuple(
+        replace(one, readings={**one.readings, TORQUE: plain + 3.0 * problem.noise[TORQUE] * course[s]})
+        for s in shapes
+    )
+    noise = replace(problem.noise, torque_drift_n_mm=2.0 * problem.noise[TORQUE])
+    log = replace(problem.log, trials=trials)
+    assert drifts_alike(log, noise, [prediction] * len(trials)) is alike
 
 
 def test_a_drift_from_zero_starts_there_and_one_beside_an_offset_does_not(drifting):

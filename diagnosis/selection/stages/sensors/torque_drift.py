@@ -5,16 +5,24 @@ most of what one of the leading explanations leaves beyond noise. And it is near
 effect of the library. So the best explanation is fitted with and without offset, beside no drift, beside
 one that begins at zero in every trial, and beside one that does not; the least score decides
 (scoring/drift_evidence). One that begins off zero in every trial may hide an offset. A drift of more
-than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works.
+than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of DRIFT_ALIKE_SIGMA that
+is the same line in every trial.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
 
 from dataclasses import replace
 
-from diagnosis.criteria import CONTENDING, DRIFT_RANGE_SIGMA, DRIFT_SHARE, DRIFT_START_SIGMA, NEAR_FLOOR
+from diagnosis.criteria import (
+    CONTENDING,
+    DRIFT_ALIKE_SIGMA,
+    DRIFT_RANGE_SIGMA,
+    DRIFT_SHARE,
+    DRIFT_START_SIGMA,
+    NEAR_FLOOR,
+)
 from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
-from diagnosis.replay.drift import drift_range_sigma, least_start
+from diagnosis.replay.drift import drift_range_sigma, drifts_alike, least_start
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
@@ -48,7 +56,7 @@ def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchSt
     if not explained:
         return state.noting(_dropped(STAGE, "no explanation reaches the noise with it"))
     most = _range_sigma(again)
-    if most > DRIFT_RANGE_SIGMA:
+    if most > _allowed_sigma(again):
         return state.noting(
             _dropped(STAGE, f"{most:.1f} sigma within a trial is more than a sensor's drift")
         )
@@ -63,7 +71,7 @@ def drift_or_offset(state: SearchState, workers: Workers) -> SearchState:
         return state
     others = [_beside(state, best, zeroed, workers) for zeroed in (True, False)]
     plain = _with_and_without_offset(state, _without_drift(state), best, workers)
-    drifting = [other for other in others if _range_sigma(other) <= DRIFT_RANGE_SIGMA]
+    drifting = [other for other in others if _range_sigma(other) <= _allowed_sigma(other)]
     open_to = [state, plain, *drifting]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
     likeliest = min(explaining, key=_score, default=state)
@@ -164,6 +172,12 @@ def _range_sigma(state: SearchState) -> float:
     problem = state.problem
     sigma = drift_range_sigma(problem.log, problem.noise, _replayed(state))
     return sigma * problem.noise[TORQUE] / noise_of_a_reading_n_mm(problem)
+
+
+def _allowed_sigma(state: SearchState) -> float:
+    """Range of a drift of a working sensor; less, where it is the same line in every trial."""
+    alike = drifts_alike(state.problem.log, state.problem.noise, _replayed(state))
+    return DRIFT_ALIKE_SIGMA if alike else DRIFT_RANGE_SIGMA
 
 
 def _replayed(state: SearchState) -> list[Prediction]:
