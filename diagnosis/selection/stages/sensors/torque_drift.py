@@ -5,8 +5,8 @@ most of what one of the leading explanations leaves beyond noise. And it is near
 effect of the library. So the best explanation is fitted with and without offset, beside no drift, beside
 one that begins at zero in every trial, and beside one that does not; the least score decides
 (scoring/drift_evidence). One that begins off zero in every trial may hide an offset. A drift of more
-than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of DRIFT_ALIKE_SIGMA that
-is the same line in every trial.
+than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more than
+DRIFT_ALIKE_SIGMA that is the same line in every trial.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
