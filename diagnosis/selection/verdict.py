@@ -13,7 +13,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from diagnosis.criteria import NEARLY, NESTED_LEAD, NOMINAL_LEAD, PART_LEAD, SHIFT_LIMIT, SIMPLE_LEAD
+from diagnosis.criteria import (
+    CLEAR_SHIFT,
+    NEARLY,
+    NESTED_LEAD,
+    NOMINAL_LEAD,
+    PART_LEAD,
+    SHIFT_LIMIT,
+    SIMPLE_LEAD,
+)
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
@@ -162,7 +170,17 @@ def _explaining(candidates: Sequence[Candidate]) -> list[Candidate]:
         c
         for c in candidates
         if c.explains and (c.score <= alone or c.only_scatter or not c.jointly_significant)
+        if not any(_shifts_without_imperfections(c, other) for other in candidates)
     ]
+
+
+def _shifts_without_imperfections(one: Candidate, other: Candidate) -> bool:
+    """Whether it is another one with imperfections that nothing asks for but its shift over trials.
+
+    With more freedom the same change of the parameters is less of a shift.
+    """
+    same = {*other.names} < {*one.names} and {*other.named} == {*one.named} and other.floor.reached
+    return same and other.score <= one.score and other.shift > CLEAR_SHIFT * other.shift_limit
 
 
 def _effects(one: Candidate) -> tuple[str, ...]:

@@ -356,5 +356,13 @@ def test_a_likelier_richer_form_that_only_shifts_is_open():
 def test_a_part_that_names_the_same_leaves_nothing_open():
     """Without the clock, trials shift: drive friction is the answer with it or without it."""
     both, alone = scored(["drive_friction", "torque_clock"], 100.0), scored(["drive_friction"], 95.0)
-    found = verdict_on([replace(alone, shift=20.0), both])
+    found = verdict_on([replace(alone, shift=13.0), both])
     assert (found.kind, found.confusable) == (VerdictKind.EXPLAINED, ())
+
+
+def test_an_imperfection_that_nothing_asks_for_does_not_excuse_a_clear_shift():
+    """Damping that grows with the axial speed was told as two wrong constants beside a clock."""
+    both, alone = scored(["damping_error", "tip_clock"], 100.0), scored(["damping_error"], 95.0)
+    assert verdict_on([replace(alone, shift=20.0), both]).kind is VerdictKind.UNKNOWN
+    asked = replace(alone, score=105.0, shift=20.0)  # the clock takes off more than it costs
+    assert verdict_on([both, asked]).kind is VerdictKind.EXPLAINED
