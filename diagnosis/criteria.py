@@ -322,9 +322,9 @@ The spectrum is taken from at least so many windows of so many seconds, from the
 effects leave little; colours within so much chi-square of the best are open. Physical: what is
 correlated for longer is drift and not noise."""
 COLOUR_MOST = 3.0
-"""Coloured noise / the larger of the claim and of the scatter from sample to sample, at most. Claims are
-right to 15 %, and rarely off by two; what a late torque and friction in the bearing left of the nominal
-rig passed for twelve times the claim, and hid both."""
+"""Coloured noise / the larger of the claim and of the scatter from sample to sample, at most, where
+these two agree: then the noise is white as claimed. What a late torque and friction in the bearing left
+of the nominal rig passed for twelve times the claim, and hid both."""
 COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ, COLOUR_PARTS_GAP = 3, 4.0, 2.0
 """Correlated parts that noise may have, each for COLOUR_CHI_SQUARE; the frequency from which on it may
 oscillate; and what the residual of a sensor may come to for more than one part. Physical: a needle is

@@ -162,7 +162,8 @@ def estimate_noise(
             found = claims[sensor] or _UNKNOWN
         found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
-    most = {s: COLOUR_MOST * max(claims[s], sigma[s]) for s in SENSORS if claims[s] > 0}
+    right = [s for s in SENSORS if claims[s] > 0 and _agrees(sigma[s], claims[s])]
+    most = {s: COLOUR_MOST * max(claims[s], sigma[s]) for s in right}
     noise = Noise(sigma=sigma, white=sigma, most=most, means_of=means_of).with_colour(
         residuals, COLOUR_AT_ONCE_SHARE
     )
