@@ -19,9 +19,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.noise.autoregression import Autoregression
-from diagnosis.prepare.noise.noise_colour import NoiseColour
-from diagnosis.prepare.noise.noise_spectrum import Colour
+from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction, predict
@@ -31,7 +29,6 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 Array = NDArray[np.float64]
 
 _SAME_S = 1e-9
-_SLOW_FOR_A_SAMPLE = 0.2  # periods of an oscillation between samples
 _TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
@@ -74,26 +71,12 @@ def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     step_s = float(np.median([trial.sample_s for trial in rare.trials]))
     sigma, colour = dict(noise.sigma), dict[str, Colour]()
     for sensor, own in noise.colour.items():
-        size, kept = _of_means(own, share, step_s)
+        size, kept = own.of_means(share, step_s)
         sigma[sensor] *= size
         if kept:
             colour[sensor] = kept
     sigma = {sensor: s * float(np.sqrt(share)) for sensor, s in sigma.items()}
     return replace(noise, sigma=sigma, colour=colour)
-
-
-def _of_means(colour: Colour, share: float, step_s: float) -> tuple[float, Colour | None]:
-    """Standard deviation / that of means of white noise, and what colour is left; None: white."""
-    if isinstance(colour, Autoregression):
-        means = colour.of_means(max(round(1.0 / share), 1))
-        return float(np.sqrt(colour.density / means.density)), means
-    slow = [p for p in colour.parts if p.frequency_hz * step_s <= _SLOW_FOR_A_SAMPLE]
-    fast = sum(p.share * p.density(step_s * share) for p in colour.parts if p not in slow)
-    sizes = [p.share * p.density(step_s * share) / p.density(step_s) for p in slow]
-    total = 1 - colour.share + fast + sum(sizes)
-    each = zip(slow, sizes, strict=True)
-    parts = tuple(replace(part, share=size / total) for part, size in each)
-    return float(np.sqrt(total)), NoiseColour(parts=parts) if parts else None
 
 
 def _share(log: PreparedLog, rare: PreparedLog) -> float:

@@ -15,8 +15,6 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Dependence, Law, Missing
-from diagnosis.prepare.noise.autoregression import Autoregression
-from diagnosis.prepare.noise.noise_spectrum import Colour
 from diagnosis.report.sentences import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
@@ -59,22 +57,11 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "replay_error": told.numerical_error,
         "rig": diagnosis.log.rig.model_dump(mode="json"),
         "noise": dict(diagnosis.noise.sigma),
-        "noise_colour": {s: _colour(own) for s, own in diagnosis.noise.colour.items()},
+        "noise_colour": {
+            s: {"share": own.share, **own.numbers()} for s, own in diagnosis.noise.colour.items()
+        },
         "search": [_entry(entry) for entry in diagnosis.record],
         "warnings": list(diagnosis.warnings),
-    }
-
-
-def _colour(colour: Colour) -> dict[str, Any]:
-    """The share of the variance that is correlated, and over what: the largest part, and all."""
-    if isinstance(colour, Autoregression):
-        own = {"parts": [], "autoregression": colour.coefficients.tolist(), "step_s": colour.step_s}
-        return {"share": colour.share, "correlation_time_s": colour.correlation_time_s, **own}
-    largest, parts = colour.parts[0], [asdict(part) for part in colour.parts]
-    return {
-        "share": colour.share,
-        "correlation_time_s": largest.correlation_time_s,
-        "parts": parts,
     }
 
 

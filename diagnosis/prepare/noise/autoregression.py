@@ -16,11 +16,14 @@ stamps tell no more than how many steps there are between two samples, so that t
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
+
+from diagnosis.prepare.noise.colour import Colour
 
 Array = NDArray[np.float64]
 
@@ -30,7 +33,7 @@ _FORGOTTEN_STEPS = 2000  # a gap after which nothing is known; longer ones are a
 
 
 @dataclass(frozen=True, kw_only=True)
-class Autoregression:
+class Autoregression(Colour):
     """Correlation of one sensor's noise from sample to sample, whatever its size.
 
     Attributes:
@@ -63,29 +66,22 @@ class Autoregression:
         """Over what noise is correlated."""
         return f"from sample to sample, over {1000 * self.correlation_time_s:.0f} ms"
 
-    def whitened(self, time_s: Array, values: Array) -> Array:
-        """Innovations / their standard deviation; noise of variance 1 becomes white noise of variance 1.
-
-        Args:
-          time_s: (N,), increasing.
-          values: residuals / sigma, (N,) or (N, n).
-        """
-        return self._filtered(time_s, values, restored=False)[0]
-
-    def uncertainty(self, time_s: Array) -> float:
-        """Sum of the logarithms of the variances of samples, given those before them."""
-        return self._filtered(time_s, np.zeros((time_s.size, 0)), restored=False)[1]
-
-    def restored(self, time_s: Array, whitened: Array) -> Array:
-        """The inverse of `whitened`."""
-        return self._filtered(time_s, whitened, restored=True)[0]
-
     @property
     def density(self) -> float:
         """Spectral density at frequency 0 of samples at every step / that of white noise."""
         return (1.0 - self.share) / (1.0 - float(self.coefficients.sum())) ** 2
 
-    def of_means(self, count: int) -> "Autoregression":
+    def numbers(self) -> dict[str, Any]:
+        """Its coefficients, and the slowest part of it."""
+        own = {"autoregression": self.coefficients.tolist(), "step_s": self.step_s}
+        return {"correlation_time_s": self.correlation_time_s, "parts": [], **own}
+
+    def of_means(self, share: float, step_s: float) -> tuple[float, Colour | None]:
+        """Means of readings are an autoregression as well."""
+        means = self.of_so_many(max(round(1.0 / share), 1))
+        return math.sqrt(self.density / means.density), means
+
+    def of_so_many(self, count: int) -> "Autoregression":
         """The autoregression of means of so many values, one after the other."""
         order = min(len(self.autocovariances) - 1, _MOST_OF_MEANS)
         lags = np.arange(order + 1) * count
@@ -106,15 +102,14 @@ class Autoregression:
             found[lag] = told @ found[lag - 1 : lag - known.size : -1]
         return found
 
-    def _filtered(self, time_s: Array, values: Array, *, restored: bool) -> tuple[Array, float]:
-        columns = np.ascontiguousarray(values.reshape(time_s.size, -1), float)
+    def _filtered(self, time_s: Array, columns: Array, *, restored: bool) -> tuple[Array, float]:
         moved = np.diff(steps_of(time_s, self.step_s), prepend=-_FORGOTTEN_STEPS)
         moved = np.clip(moved, 1, _FORGOTTEN_STEPS)
-        variances = np.array(self.autocovariances[:-1])
-        found, log_variance = _filtered(
-            moved, columns, self.coefficients, variances, 1.0 - self.share, restored
+        variances, rest = np.array(self.autocovariances[:-1]), 1.0 - self.share
+        found: tuple[Array, float] = _filtered(
+            moved, columns, self.coefficients, variances, rest, restored
         )
-        return np.asarray(found).reshape(values.shape), float(log_variance)
+        return found
 
 
 def steps_of(time_s: Array, step_s: float) -> NDArray[np.int64]:
@@ -162,7 +157,7 @@ def _filtered(
             for _ in range(moved[i]):
                 _advance(mean, spread, told, rest, known)
                 known = False
-        variance = spread[0, 0]
+        variance = max(spread[0, 0], rest)  # no more is told by any number of values before
         root = math.sqrt(variance)
         log_variance += math.log(variance)
         for j in range(n):

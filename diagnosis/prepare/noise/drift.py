@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES
-from diagnosis.prepare.noise.noise_spectrum import Colour
+from diagnosis.prepare.noise.colour import Colour
 
 Array = NDArray[np.float64]
 

@@ -28,14 +28,18 @@ sum of squares of whitened residuals is -2 log(likelihood), up to a constant.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from diagnosis.prepare.noise.colour import Colour
+
 Array = NDArray[np.float64]
 
+_SLOW_FOR_A_SAMPLE = 0.2  # periods of an oscillation between means
 _LEAST_VARIANCE = 1e-3  # of a sample that those before it predict, where times are too close for means
 
 
@@ -75,7 +79,7 @@ class ColouredPart:
 
 
 @dataclass(frozen=True, kw_only=True)
-class NoiseColour:
+class NoiseColour(Colour):
     """Correlation in time of one sensor's noise, whatever its size.
 
     Attributes:
@@ -105,33 +109,30 @@ class NoiseColour:
         )
         return " and ".join(each)
 
-    def whitened(self, time_s: Array, values: Array) -> Array:
-        """Innovations / their standard deviation; noise of variance 1 becomes white noise of variance 1.
-
-        Args:
-          time_s: (N,), increasing.
-          values: residuals / sigma, (N,) or (N, n).
-        """
-        return self._filtered(time_s, values, restored=False)[0]
-
-    def uncertainty(self, time_s: Array) -> float:
-        """Sum of the logarithms of the variances of samples, given those before them."""
-        return self._filtered(time_s, np.zeros((time_s.size, 0)), restored=False)[1]
-
-    def restored(self, time_s: Array, whitened: Array) -> Array:
-        """The inverse of `whitened`."""
-        return self._filtered(time_s, whitened, restored=True)[0]
-
     def density(self, step_s: float) -> float:
         """Spectral density at frequency 0 of samples at even steps / that of white noise."""
         return 1.0 - self.share + sum(part.share * part.density(step_s) for part in self.parts)
 
-    def _filtered(self, time_s: Array, values: Array, *, restored: bool) -> tuple[Array, float]:
-        columns = np.ascontiguousarray(values.reshape(time_s.size, -1), float)
+    def numbers(self) -> dict[str, Any]:
+        """All parts, and what of the largest."""
+        largest, parts = self.parts[0], [asdict(part) for part in self.parts]
+        return {"correlation_time_s": largest.correlation_time_s, "parts": parts}
+
+    def of_means(self, share: float, step_s: float) -> tuple[float, Colour | None]:
+        """Parts keep their correlation times; an oscillation that is fast for means is white."""
+        slow = [p for p in self.parts if p.frequency_hz * step_s <= _SLOW_FOR_A_SAMPLE]
+        fast = sum(p.share * p.density(step_s * share) for p in self.parts if p not in slow)
+        sizes = [p.share * p.density(step_s * share) / p.density(step_s) for p in slow]
+        total = 1 - self.share + fast + sum(sizes)
+        each = zip(slow, sizes, strict=True)
+        parts = tuple(replace(part, share=size / total) for part, size in each)
+        return float(np.sqrt(total)), NoiseColour(parts=parts) if parts else None
+
+    def _filtered(self, time_s: Array, columns: Array, *, restored: bool) -> tuple[Array, float]:
         table = np.array([(p.share, p.correlation_time_s, p.frequency_hz) for p in self.parts])
         steps_s = np.diff(time_s, prepend=-np.inf)
-        found, log_variance = _filtered(steps_s, columns, table, 1.0 - self.share, restored)
-        return np.asarray(found).reshape(values.shape), float(log_variance)
+        found: tuple[Array, float] = _filtered(steps_s, columns, table, 1.0 - self.share, restored)
+        return found
 
 
 def covariances_of_means(lags_s: Array, time_s: float, step_s: float, count: int) -> tuple[Array, float]:

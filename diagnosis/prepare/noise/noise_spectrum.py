@@ -39,6 +39,7 @@ from diagnosis.criteria import (
 )
 from diagnosis.prepare.noise.autoregression import Autoregression
 from diagnosis.prepare.noise.autoregression_fit import autoregression
+from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour, covariances_of_means
 from diagnosis.prepare.noise.periodograms import (
     MEAN,
@@ -52,8 +53,6 @@ from diagnosis.prepare.noise.periodograms import (
 )
 
 Array = NDArray[np.float64]
-Colour = NoiseColour | Autoregression
-"""How the noise of a sensor is correlated."""
 
 _BANDS = 12
 _TIMES = 32  # correlation times that are tried

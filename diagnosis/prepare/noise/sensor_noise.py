@@ -22,8 +22,9 @@ from diagnosis.criteria import (
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
+from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.drift import Drift
-from diagnosis.prepare.noise.noise_spectrum import Colour, noise_colour
+from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]

@@ -147,7 +147,7 @@ def test_an_autoregression_keeps_its_density_and_is_that_of_means():
         for noise, step_s in ((before, 0.01), (after, 0.04))
     ]
     assert power[1] == pytest.approx(power[0], rel=0.01)
-    assert after.colour["tip_angle_deg"] == own.of_means(4)
+    assert after.colour["tip_angle_deg"] == own.of_so_many(4)
 
 
 def test_a_decimated_log_with_coloured_noise_weighs_an_explanation_as_the_log_does():

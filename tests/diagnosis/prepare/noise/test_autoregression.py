@@ -60,7 +60,7 @@ def test_what_was_whitened_can_be_restored():
 
 @pytest.mark.parametrize("count", [1, 4])
 def test_means_have_the_autoregression_of_their_covariances(count):
-    means = process(6).of_means(count)
+    means = process(6).of_so_many(count)
     lags = np.abs(np.arange(7 * count)[:, None] - np.arange(7 * count))
     blocks = exact(7 * count)[lags].reshape(7, count, 7, count).mean(axis=(1, 3))
     np.testing.assert_allclose(means.autocovariances, blocks[0] / blocks[0, 0], atol=1e-9)
