@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from diagnosis.prepare.noise.autoregression import Autoregression
+from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 
 TIME_S = 0.01 * np.arange(50)
@@ -35,3 +36,15 @@ def test_a_report_has_its_share_words_and_numbers(model):
     assert "ms" in model.in_words
     assert model.numbers()["correlation_time_s"] > 0.0
     assert isinstance(model.numbers()["parts"], list)
+
+
+def test_a_model_has_to_say_all_of_it():
+    """A filter alone is no model of a colour: its share, words, numbers and means are missing."""
+
+    class FilterAlone(Colour):
+        def _filtered(self, time_s, columns, *, restored):
+            return columns, 0.0
+
+    with pytest.raises(TypeError, match="abstract"):
+        FilterAlone()
+    assert all(isinstance(model, Colour) for model in MODELS)
