@@ -78,6 +78,11 @@ class Needle(Record):
         return self.density_g_cm3 * units.G_PER_CM3 * self.polar_moment_mm4 * units.MM**4
 
     @property
+    def wave_speed_m_s(self) -> float:
+        """Speed of torsional waves, sqrt(kappa / eta) = sqrt(G / rho), m/s."""
+        return math.sqrt(self.rigidity_n_mm2 * units.N_MM2 / self.rotary_inertia_kg_m)
+
+    @property
     def mass_kg_per_m(self) -> float:
         """rho A, kg/m."""
         area = math.pi / 4 * (self.diameter_mm * units.MM) ** 2

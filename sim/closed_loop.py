@@ -214,8 +214,7 @@ class _Loop:
         Raises:
           SimulationFailed: see `sim.needles.run.refuse_untrustworthy`.
         """
-        step_s = self.setup.discretisation.step_s
-        refuse_untrustworthy(self._outputs, self.scheduled.time_s, step_s)
+        refuse_untrustworthy(self._outputs, self.scheduled.time_s, self.setup)
         lengths = {"free_mm": self._free_mm, "inserted_mm": self._inserted_mm}
         inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._acting})
         angles = self._angles if keep_shape else None

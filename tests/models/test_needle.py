@@ -32,6 +32,10 @@ def test_a_needle_may_be_stiffer_than_any_that_a_file_may_name():
     )
 
 
+def test_torsional_waves_run_at_the_root_of_modulus_over_density():
+    assert NITINOL.wave_speed_m_s == pytest.approx(math.sqrt(NITINOL.shear_modulus_gpa * 1e9 / 6450))
+
+
 def test_mass_per_length_is_density_times_cross_section():
     assert NITINOL.mass_kg_per_m == pytest.approx(6450 * math.pi * 0.295e-3**2)
     assert NITINOL.radius_mm == 0.295

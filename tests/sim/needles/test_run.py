@@ -56,7 +56,7 @@ def trusted():
 
 def test_what_is_finite_and_lands_passes():
     outputs, time_s = trusted()
-    refuse_untrustworthy(outputs, time_s, 0.01)
+    refuse_untrustworthy(outputs, time_s, SETUP)
 
 
 @pytest.mark.parametrize("lost", [math.nan, math.inf])
@@ -64,11 +64,31 @@ def test_lost_numbers_are_refused_with_their_time(lost):
     outputs, time_s = trusted()
     outputs[4:, memory_map.O_TIP_ANGLE] = lost
     with pytest.raises(SimulationFailed, match=r"NaN or infinity at 0\.040 s"):
-        refuse_untrustworthy(outputs, time_s, 0.01)
+        refuse_untrustworthy(outputs, time_s, SETUP)
 
 
 def test_a_step_that_ends_elsewhere_is_refused():
     outputs, time_s = trusted()
     outputs[-1, memory_map.O_LANDING] = 1e-6
     with pytest.raises(SimulationFailed, match="within 1e-08 rad"):
-        refuse_untrustworthy(outputs, time_s, 0.01)
+        refuse_untrustworthy(outputs, time_s, SETUP)
+
+
+def test_a_step_may_end_as_far_off_as_rounding_takes_it():
+    """A thin needle in short elements and long steps: (c h / a)^2 = 1e9, and eps of that is 2e-7."""
+    needle = NITINOL.model_copy(update={"diameter_mm": 0.5})
+    element_mm = needle.wave_speed_m_s * 0.04 * 1e3 / math.sqrt(1e9)
+    thin = replace(
+        SETUP,
+        needle=needle,
+        free_mm=0.0,
+        inserted_mm=4 * element_mm,
+        discretisation=Discretisation(elements=4, step_s=0.04),
+    )
+    outputs, time_s = trusted()
+    outputs[:, memory_map.O_TIP_ANGLE] = 1.0
+    outputs[-1, memory_map.O_LANDING] = 1e-7
+    refuse_untrustworthy(outputs, time_s, thin)
+    outputs[-1, memory_map.O_LANDING] = 1e-6
+    with pytest.raises(SimulationFailed, match="within 2e-07 rad"):
+        refuse_untrustworthy(outputs, time_s, thin)
