@@ -7,7 +7,9 @@ The changes due to effects are slow compared with the samples. Samples are avera
 
 so that the residual of the nominal rig on the decimated log is the mean of that on the
 log. Sums of squares / sigma^2 are preserved, at a tenth of the cost: a mean of few readings, of a sensor
-that was read less often than others or lost some, counts for less.
+that was read less often than others or lost some, counts for less. Where the coarse needle does not follow
+the nominal rig, for its base turns fast or its noise is small, windows are half as long: what an effect
+changes would be as wrong.
 """
 
 from collections.abc import Sequence
@@ -17,13 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
+from diagnosis.criteria import DECIMATION_SIGMA
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction, predict
-from diagnosis.replay.resolution import COARSE
+from diagnosis.replay.resolution import COARSE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
 Array = NDArray[np.float64]
@@ -43,21 +46,52 @@ def decimated(
     Raises:
       SimulationFailed: the nominal rig cannot be simulated with the coarse needle.
     """
-    log = problem.log
-    bare = replace(log, trials=tuple(_without_readings(trial) for trial in log.trials))
-    coarse = [predict(log.rig, trial, [nominal_rig], COARSE)[0] for trial in bare.trials]
-    each = zip(log.trials, nominal, bare.trials, coarse, strict=True)
-    trials = tuple(_with_readings(*one, _share(log, bare)) for one in each)
+    for resolution in (COARSE, replace(COARSE, step_s=COARSE.step_s / 2)):
+        rare, error_sigma = _decimated(problem, nominal, nominal_rig, resolution)
+        if error_sigma <= DECIMATION_SIGMA:
+            break
+    return rare
+
+
+def _decimated(
+    problem: FitProblem,
+    nominal: Sequence[Prediction],
+    nominal_rig: RigParameters,
+    resolution: Resolution,
+) -> tuple[FitProblem, float]:
+    """The problem in windows of one step, and the largest rms error of the coarse needle, in sigma."""
+    log, step_s = problem.log, resolution.step_s
+    bare = replace(log, trials=tuple(_without_readings(trial, step_s) for trial in log.trials))
+    coarse = [predict(log.rig, trial, [nominal_rig], resolution)[0] for trial in bare.trials]
+    each = list(zip(log.trials, nominal, bare.trials, coarse, strict=True))
+    trials = tuple(_with_readings(*one, step_s, _share(log, bare)) for one in each)
     rare = PreparedLog(rig=log.rig, trials=trials)
     noise = decimated_noise(problem.noise, log, rare)
-    return replace(
+    decimated = replace(
         problem,
         log=rare,
         noise=noise,
-        resolution=COARSE,
+        resolution=resolution,
         tolerance_sigma=_TOLERANCE_SIGMA,
         callback_alone=True,
     )
+    return decimated, max(_error_sigma(*one, step_s, noise) for one in each)
+
+
+def _error_sigma(
+    trial: PreparedTrial,
+    nominal: Prediction,
+    bare: PreparedTrial,
+    coarse: Prediction,
+    step_s: float,
+    noise: Noise,
+) -> float:
+    """Rms by which the coarse nominal readings differ from means of the fine ones, in sigma."""
+    off = [0.0]
+    for sensor in (s for s in SENSORS if trial.has(s)):
+        fine = _means(trial.time_s, nominal[sensor], bare.time_s, _window_s(trial, step_s))
+        off.append(float(np.sqrt(np.nanmean((coarse[sensor] - fine) ** 2))) / noise[sensor])
+    return max(off)
 
 
 def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
@@ -84,13 +118,13 @@ def _share(log: PreparedLog, rare: PreparedLog) -> float:
     return sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)
 
 
-def _window_s(trial: PreparedTrial) -> float:
-    return max(COARSE.step_s, trial.sample_s)
+def _window_s(trial: PreparedTrial, step_s: float) -> float:
+    return max(step_s, trial.sample_s)
 
 
-def _without_readings(trial: PreparedTrial) -> PreparedTrial:
-    """The inputs of a trial at the middles of windows."""
-    time_s, width_s = trial.time_s, _window_s(trial)
+def _without_readings(trial: PreparedTrial, step_s: float) -> PreparedTrial:
+    """The inputs of a trial at the middles of windows of one step."""
+    time_s, width_s = trial.time_s, _window_s(trial, step_s)
     middles_s = time_s[0] + width_s * np.arange(int((time_s[-1] - time_s[0]) / width_s) + 1)
 
     def sampled(values: Array) -> Array:
@@ -112,10 +146,15 @@ def _without_readings(trial: PreparedTrial) -> PreparedTrial:
 
 
 def _with_readings(
-    trial: PreparedTrial, nominal: Prediction, bare: PreparedTrial, coarse: Prediction, share: float
+    trial: PreparedTrial,
+    nominal: Prediction,
+    bare: PreparedTrial,
+    coarse: Prediction,
+    step_s: float,
+    share: float,
 ) -> PreparedTrial:
     """The inputs with the means of readings, and the weights that these have in a log of that share."""
-    width_s, readings, weights = _window_s(trial), {}, {}
+    width_s, readings, weights = _window_s(trial, step_s), {}, {}
     for sensor in SENSORS:
         if trial.has(sensor):
             residual = trial.readings[sensor] - nominal[sensor]

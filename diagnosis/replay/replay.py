@@ -16,6 +16,7 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -135,8 +136,8 @@ def _sensed(rig: RigParameters, run: Run, trial: PreparedTrial) -> Prediction:
     at_s = trial.time_s
     tip, torque = sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
     shown = {
-        "tip_angle_deg": np.interp(at_s, run.time_s, tip),
-        "base_torque_n_mm": np.interp(at_s, run.time_s, torque),
+        "tip_angle_deg": interpolated(at_s, run.time_s, tip),
+        "base_torque_n_mm": interpolated(at_s, run.time_s, torque),
     }
     for jump in (one for one in rig.jumps if one.sensor in shown):
         shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)

@@ -13,6 +13,7 @@ makes no reversals of its own (diagnosis.prepare.motion.false_reversals).
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import Akima1DInterpolator
 from scipy.signal import savgol_coeffs
 
 from diagnosis.criteria import SMOOTHING_SIGMA
@@ -29,15 +30,25 @@ def smooth_base(time_s: Array, reading_deg: Array, sigma_deg: float) -> Array:
     """Motion of the base, deg, (N,), from the readings of its encoder and their noise."""
     if sigma_deg <= 0:
         return reading_deg
-    even = np.linspace(
-        time_s[0], time_s[-1], round((time_s[-1] - time_s[0]) / np.median(np.diff(time_s))) + 1
-    )
-    raw = np.interp(even, time_s, reading_deg)
+    even = _even_times(time_s)
+    raw = _on(even, time_s, reading_deg)
     chains = [_longest(raw, sigma_deg, *side) for side in _SIDES]
     weight = np.array([1 / spread**2 for _, spread in chains])
     value = np.array([value for value, _ in chains])
     smooth = (weight * value).sum(axis=0) / weight.sum(axis=0)
-    return np.asarray(np.interp(time_s, even, without_false_reversals(smooth, sigma_deg)))
+    return _on(time_s, even, without_false_reversals(smooth, sigma_deg))
+
+
+def _even_times(time_s: Array) -> Array:
+    """Even times within the trial that fall on as many of its samples as they can."""
+    step_s = float(np.median(np.diff(time_s)))
+    phase = np.angle(np.median(np.exp(2j * np.pi * (time_s - time_s[0]) / step_s))) / (2 * np.pi)
+    return np.asarray(np.arange(time_s[0] + phase % 1.0 * step_s, time_s[-1] + 1e-6 * step_s, step_s))
+
+
+def _on(at_s: Array, time_s: Array, values: Array) -> Array:
+    """Values at other times; a straight line between samples would be off by a h^2 / 8 in fast turns."""
+    return np.asarray(Akima1DInterpolator(time_s, values, extrapolate=True)(at_s))
 
 
 def _longest(raw: Array, sigma: float, order: int, place: float) -> tuple[Array, Array]:

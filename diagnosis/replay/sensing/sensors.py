@@ -10,11 +10,13 @@ of the torque may have a low-pass filter (`filters`):
     reading = bias + scale * (tip angle),    reading = bias + scale * (torque at chuck + of bearing)
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.rig_parameters import BASE, RigParameters
 from diagnosis.replay.sensing.bearing import bearing_torque_n_mm
 from diagnosis.replay.sensing.filters import butterworth, first_order, moving_average
@@ -71,11 +73,11 @@ def sensed(
     start_s = float(time_s[0]) if start_s is None else start_s
     if rig.drive_friction_n_mm != 0.0:
         torque = torque + bearing_torque_n_mm(inputs.drive, rig.drive_friction_n_mm)
-    tip = _late(time_s, tip_deg, start_s, rig.tip_clock_ratio, rig.tip_delay_s)
+    tip = _late(interpolated, time_s, tip_deg, start_s, rig.tip_clock_ratio, rig.tip_delay_s)
     torque = first_order(time_s, torque, rig.torque_low_pass_s)
     torque = butterworth(time_s, torque, rig.torque_butterworth_s)
     torque = moving_average(time_s, torque, rig.torque_average_s)
-    torque = _late(time_s, torque, start_s, rig.torque_clock_ratio, rig.torque_delay_s)
+    torque = _late(np.interp, time_s, torque, start_s, rig.torque_clock_ratio, rig.torque_delay_s)
     tip = rig.tip_bias_deg + rig.tip_scale * tip
     torque = rig.torque_bias_n_mm + rig.torque_scale * torque
     if rig.free is None:
@@ -102,11 +104,22 @@ def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Arra
     }
 
 
-def _late(time_s: Array, values: Array, start_s: float, clock_ratio: float, delay_s: float) -> Array:
-    """Values a delay ago, by a clock that drifts; before the first sample, that sample."""
+def _late(
+    interpolate: Callable[[Array, Array, Array], Array],
+    time_s: Array,
+    values: Array,
+    start_s: float,
+    clock_ratio: float,
+    delay_s: float,
+) -> Array:
+    """Values a delay ago, by a clock that drifts; before the first sample, that sample.
+
+    Args:
+      interpolate: as smooth as the values; straight lines where filters assume them, too.
+    """
     if clock_ratio == 1.0 and delay_s == 0.0:
         return values
-    return np.asarray(np.interp(_shown_s(time_s, start_s, clock_ratio, delay_s), time_s, values))
+    return interpolate(_shown_s(time_s, start_s, clock_ratio, delay_s), time_s, values)
 
 
 def _shown_s(time_s: Array, start_s: float, clock_ratio: float, delay_s: float) -> Array:

@@ -183,3 +183,14 @@ def test_a_window_that_readings_begin_in_has_the_mean_of_what_was_read():
 
 def _read(nominal):
     return {s: nominal.predictions[0][s] for s in ("tip_angle_deg", "base_torque_n_mm")}
+
+
+@pytest.mark.parametrize(("noise_sigma", "step_s"), [(1.0, 0.04), (0.1, 0.02)])
+def test_windows_are_shorter_where_the_coarse_needle_does_not_follow(noise_sigma, step_s):
+    """The same log with a tenth of the noise: what the coarse needle misses is ten times as much of it."""
+    nominal = replay_nominal(log_of(NOMINAL))
+    sigma = {sensor: noise_sigma * own for sensor, own in nominal.problem.noise.sigma.items()}
+    quiet = replace(nominal.problem, noise=replace(nominal.problem.noise, sigma=sigma))
+    coarse = decimated(quiet, nominal.predictions)
+    assert coarse.resolution.step_s == step_s
+    assert coarse.log.trials[0].sample_s == pytest.approx(step_s)
