@@ -7,9 +7,9 @@ The changes due to effects are slow compared with the samples. Samples are avera
 
 so that the residual of the nominal rig on the decimated log is the mean of that on the
 log. Sums of squares / sigma^2 are preserved, at a tenth of the cost: a mean of few readings, of a sensor
-that was read less often than others or lost some, counts for less. Where the coarse needle does not follow
-the nominal rig, for its base turns fast or its noise is small, windows are half as long: what an effect
-changes would be as wrong.
+that was read less often than others or lost some, counts for less. Where the coarse needle does not
+follow the nominal rig, for its base turns fast or its noise is small, windows are half as long: what an
+effect changes would be as wrong.
 """
 
 from collections.abc import Sequence

@@ -187,7 +187,7 @@ def _read(nominal):
 
 @pytest.mark.parametrize(("noise_sigma", "step_s"), [(1.0, 0.04), (0.1, 0.02)])
 def test_windows_are_shorter_where_the_coarse_needle_does_not_follow(noise_sigma, step_s):
-    """The same log with a tenth of the noise: what the coarse needle misses is ten times as much of it."""
+    """With a tenth of the noise, what the coarse needle misses is ten times as much of it."""
     nominal = replay_nominal(log_of(NOMINAL))
     sigma = {sensor: noise_sigma * own for sensor, own in nominal.problem.noise.sigma.items()}
     quiet = replace(nominal.problem, noise=replace(nominal.problem.noise, sigma=sigma))

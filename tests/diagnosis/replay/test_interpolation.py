@@ -15,7 +15,7 @@ def fast(time_s):
 def test_a_fast_turn_is_followed_between_its_samples():
     """A straight line is off by a h^2 / 8 = 0.13 deg in the middle between two samples.
 
-    Akima's slopes are those of the turn to h^2 a' / 6, which makes h^3 a' / 48 = 4e-3 deg; inner samples.
+    Akima's slopes are those of the turn to h^2 a' / 6, which makes h^3 a' / 48 = 4e-3 deg.
     """
     between = STEPS[3:-4] + 0.005
     straight = np.abs(np.interp(between, STEPS, fast(STEPS)) - fast(between)).max()
