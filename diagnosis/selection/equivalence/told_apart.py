@@ -30,6 +30,7 @@ from diagnosis.workers import Failure, Task, Workers
 Array = NDArray[np.float64]
 
 _STAGE = "what cannot be told apart"
+_ROUNDS = 2  # an equivalent set that takes the lead has equivalents of its own
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -75,18 +76,29 @@ def _told_apart(found: SearchState, workers: Workers) -> ToldApart:
     if workers.stop.due:
         workers.stop.leave_out(_STAGE)
         return first
-    found, forms = _with_weak_forms(found, first, workers)
+    wider, forms = _with_weak_forms(found, first, workers)
     if forms:
-        first = _judged(found, first.checked, forms)
-    open_ = set(first.verdict.best.names) & set(IMPERFECTIONS)
-    effects = [name for name in found.effects if name not in open_]
-    equal = equivalent_sets(first.coarse, first.verdict.best, effects, workers)
-    few = [e for e in equal if len(e.names) <= len(first.verdict.effects)]
-    wider = _fitted(found, first.verdict.best, few, workers)
-    last = first if wider is found else _judged(wider, first.checked, forms)
-    named = (e.names for e in equal if set(e.names) <= set(LIBRARY))
-    alike = [first.verdict.effects, *named]
-    return replace(last, verdict=_beside(last.verdict, alike))
+        first = _judged(wider, first.checked, forms)
+    told, alike = first, list[tuple[str, ...]]()
+    for _ in range(_ROUNDS):
+        before = told.verdict
+        told, equal = _with_equals(told, workers)
+        alike += [before.effects, *(names for names in equal if set(names) <= set(LIBRARY))]
+        if set(told.verdict.effects) == set(before.effects):
+            break
+    return replace(told, verdict=_beside(told.verdict, alike))
+
+
+def _with_equals(told: ToldApart, workers: Workers) -> tuple[ToldApart, list[tuple[str, ...]]]:
+    """The verdict with equivalent sets of no more effects as candidates, and all equivalent sets."""
+    verdict = told.verdict
+    open_ = set(verdict.best.names) & set(IMPERFECTIONS)
+    effects = [name for name in told.state.effects if name not in open_]
+    equal = equivalent_sets(told.coarse, verdict.best, effects, workers) if verdict.effects else ()
+    few = [e for e in equal if len(e.names) <= len(verdict.effects)]
+    wider = _fitted(told.state, verdict.best, few, workers)
+    last = told if wider is told.state else _judged(wider, told.checked, told.forms)
+    return last, [e.names for e in equal]
 
 
 def _judged(
@@ -138,6 +150,8 @@ def _fitted(
 
 def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:
     """The verdict with all sets that are alike; richer forms of a set that is told add nothing."""
+    if verdict.kind is VerdictKind.UNKNOWN:
+        return verdict
     told = list({frozenset(names): names for names in verdict.confusable or (verdict.effects,)}.values())
     most = max(len(names) for names in told)
     for names in sorted(alike, key=len):

@@ -6,21 +6,25 @@ effect of the library. So the best explanation is fitted with and without offset
 one that begins at zero in every trial, and beside one that does not; the least score decides
 (scoring/drift_evidence). One that begins off zero in every trial may hide an offset. A drift of more
 than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more than
-DRIFT_ALIKE_SIGMA that is the same line in every trial.
+DRIFT_ALIKE_SIGMA that is the same line in every trial. And it stands beside one effect at most: with two
+it takes the shape of what no library holds. (An offset does not count before it is told from a drift.)
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.criteria import (
     CONTENDING,
     DRIFT_ALIKE_SIGMA,
+    DRIFT_MOST_EFFECTS,
     DRIFT_RANGE_SIGMA,
     DRIFT_SHARE,
     DRIFT_START_SIGMA,
     NEAR_FLOOR,
 )
+from diagnosis.effects import LIBRARY
 from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
 from diagnosis.replay.drift import drift_range_sigma, drifts_alike, least_start
 from diagnosis.replay.replay import Prediction, replay
@@ -52,7 +56,8 @@ def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchSt
     widest = widest_drift(state.problem)
     if not any(_promises(state, widest, c) for c in leading):
         return state
-    again, explained = _searched_again(state, widest, workers).rechecked()
+    again = _with_few_effects(_searched_again(state, widest, workers), beside=(_OFFSET,))
+    again, explained = again.rechecked() if again.candidates else (again, False)
     if not explained:
         return state.noting(_dropped(STAGE, "no explanation reaches the noise with it"))
     most = _range_sigma(again)
@@ -69,13 +74,26 @@ def drift_or_offset(state: SearchState, workers: Workers) -> SearchState:
     best = state.best
     if not state.at_the_floor(best) or not (_drifts(state) or _OFFSET in best.names):
         return state
-    others = [_beside(state, best, zeroed, workers) for zeroed in (True, False)]
+    beside = [_beside(state, best, zeroed, workers) for zeroed in (True, False)]
     plain = _with_and_without_offset(state, _without_drift(state), best, workers)
-    drifting = [other for other in others if _range_sigma(other) <= _allowed_sigma(other)]
-    open_to = [state, plain, *drifting]
+    few = [_with_few_effects(own) for own in beside]
+    drifting = [own for own in few if own.candidates and _range_sigma(own) <= _allowed_sigma(own)]
+    state = _with_few_effects(state) if _drifts(state) else state
+    open_to = [own for own in (state, plain, *drifting) if own.candidates]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
-    likeliest = min(explaining, key=_score, default=state)
+    likeliest = min(explaining, key=_score, default=plain)
     return _without_what_is_hidden(likeliest).noting(noted(OR_OFFSET, Decision.KEPT, _told(likeliest)))
+
+
+def _with_few_effects(state: SearchState, beside: Sequence[str] = ()) -> SearchState:
+    """The state without explanations that name more effects than may be beside a drift.
+
+    Args:
+      beside: effects that do not count.
+    """
+    counted = set(LIBRARY) - set(beside)
+    few = (c for c in state.candidates if len(counted & {*c.names}) <= DRIFT_MOST_EFFECTS)
+    return replace(state, candidates=tuple(few))
 
 
 def _without_what_is_hidden(state: SearchState) -> SearchState:

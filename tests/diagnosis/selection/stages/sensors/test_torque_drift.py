@@ -7,8 +7,10 @@ import pytest
 from diagnosis_fixtures import log_of, log_with, scored, start_of_search
 
 from diagnosis.criteria import CONTENDING, DRIFT_RANGE_SIGMA, MOST_QUIETENED, NEAR_FLOOR
+from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.trial import Trial
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.scoring.drift_evidence import noise_of_a_reading_n_mm, widest_drift
 from diagnosis.selection.stages import stage
@@ -50,6 +52,27 @@ def test_a_drift_that_a_sensor_may_have_explains_a_log():
     assert after.best.floor.reached
     assert after.problem.noise.torque_drift_n_mm > 0
     assert Decision.KEPT in [e.decision for e in after.record if e.stage == STAGE]
+
+
+@pytest.mark.parametrize(
+    ("names", "decision"),
+    [
+        (("tip_drag",), Decision.KEPT),
+        (("tip_drag", "torque_bias"), Decision.KEPT),
+        (("tip_drag", "coulomb_friction"), Decision.DROPPED),
+    ],
+    ids=["one effect", "an offset beside it", "two effects"],
+)
+def test_a_drift_stands_beside_one_effect_at_most(monkeypatch, names, decision):
+    """All of them leave nothing but noise beside the drift."""
+    _, drifting = searched(drifted(3.5))
+    found = replace(drifting, candidates=(candidate(fit_effects(drifting.problem, names)),))
+    monkeypatch.setattr(torque_drift, "_searched_again", lambda *_: found)
+    monkeypatch.setattr(torque_drift, "_promises", lambda *_: True)
+    state = nominal_rig(start_of_search(drifted(3.5), effects=()), Workers())
+    after = drift_of_the_torque_sensor(state, Workers())
+    kept = after.problem.noise.torque_drift_n_mm > 0
+    assert kept == (decision is Decision.KEPT)
 
 
 def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeypatch):
