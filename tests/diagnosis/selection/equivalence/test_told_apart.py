@@ -9,6 +9,8 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
+from diagnosis.selection.equivalence import told_apart as module
+from diagnosis.selection.equivalence.equivalent_sets import Equivalent
 from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.verdict import VerdictKind
 from diagnosis.stopping import StopReason, StopSignal
@@ -88,3 +90,17 @@ def test_an_effect_of_its_own_kind_is_named_alone():
     rig = RigParameters(kinetic_n_mm_per_mm=0.001)
     found = verdict_of(rig, "coulomb_friction", coulomb_friction=0.001)
     assert (found.kind, found.confusable) == (VerdictKind.EXPLAINED, ())
+
+
+def test_what_takes_the_lead_is_told_from_its_own_equivalents(gain, monkeypatch):
+    """An equivalent of the two that the search has found leads, and has one that the two do not have."""
+
+    def equals(_, best, *__):
+        known = {frozenset(("torque_scale",)): "coulomb_friction", ALIKE: "torque_scale"}
+        own = known[frozenset(best.named)]
+        return (Equivalent(names=(own,), parts={own: np.log([1.1])}, cost=0.0),)
+
+    monkeypatch.setattr(module, "equivalent_sets", equals)
+    found = verdict_of(gain, *sorted(ALIKE), damping_error=1.1, stiffness_error=1.1)
+    assert found.effects == ("torque_scale",)
+    assert ("coulomb_friction",) in found.confusable
