@@ -418,6 +418,9 @@ SLIDING_MM_S = 0.05
 
 SIMPLE_LEAD = 10.0
 """Score by which unrelated or richer explanations have to lead: odds of 150 to 1."""
+EQUAL_SCORE = 0.1
+"""Score by which two explanations of the same size differ that no log can tell apart: odds of 1.05 to 1,
+what fits leave of their tolerance."""
 NESTED_LEAD = 5.0
 """Score by which an effect has to lead one that it contains, or that one it: odds of 12 to 1. Derived:
 where the simple one is true it leads by what the further freedom of the other costs, 2 log(samples),

@@ -15,6 +15,7 @@ from enum import StrEnum
 
 from diagnosis.criteria import (
     CLEAR_SHIFT,
+    EQUAL_SCORE,
     NEARLY,
     NESTED_LEAD,
     NOMINAL_LEAD,
@@ -80,7 +81,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
             kind=VerdictKind.UNKNOWN,
             effects=(),
             confusable=(),
-            best=candidates[0],
+            best=_first_of_equals(candidates),
             ranking=_ranking(candidates, known=False),
         )
     best = _simplest(at_floor)
@@ -196,6 +197,15 @@ def _without_needless_scatter(at_floor: Sequence[Candidate]) -> list[Candidate]:
         return list(at_floor)
     kept = replace(exact, score=min(c.score for c in nominal))
     return sorted((kept, *(c for c in at_floor if c.names)), key=lambda c: c.score)
+
+
+def _first_of_equals(candidates: Sequence[Candidate]) -> Candidate:
+    """The likeliest; of those that the log cannot tell from it, always the same one.
+
+    Where a needle never slides, dry friction and that which depends on the speed are one.
+    """
+    equal = (c for c in candidates if c.score - candidates[0].score <= EQUAL_SCORE)
+    return min(equal, key=lambda c: (len(c.names), sorted(c.names)))
 
 
 def _simplest(at_floor: Sequence[Candidate]) -> Candidate:

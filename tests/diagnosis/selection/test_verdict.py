@@ -366,3 +366,14 @@ def test_an_imperfection_that_nothing_asks_for_does_not_excuse_a_clear_shift():
     assert verdict_on([replace(alone, shift=20.0), both]).kind is VerdictKind.UNKNOWN
     asked = replace(alone, score=105.0, shift=20.0)  # the clock takes off more than it costs
     assert verdict_on([both, asked]).kind is VerdictKind.EXPLAINED
+
+
+@pytest.mark.parametrize(
+    ("ahead", "nearest"), [(0.001, "coulomb_friction"), (2.0, "speed_dependent_friction")]
+)
+def test_of_two_that_are_equally_near_always_the_same_one_is_named(ahead, nearest):
+    """Rounding decides which of them a fit leaves ahead."""
+    above = {"floor": NoiseFloor(gap=2.0, slow=5.0)}
+    names = ("speed_dependent_friction", "coulomb_friction")
+    each = [scored([n], 90.0 + i * ahead, **above) for i, n in enumerate(names)]
+    assert verdict_on(each).best.names == (nearest,)
