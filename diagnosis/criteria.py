@@ -479,7 +479,7 @@ DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ALIKE = 10.0, 6.0, 0.3
 side and the other; more is no roughness but a fault, and the answer stays unknown. So it does for less
 where the drift is a line of one rate in all trials, to that share: that is a law."""
 DRIFT_MOST_EFFECTS = 1
-"""Effects that an explanation may name beside a drift. Of 15 logs of three rigs that two effects and a
+"""Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
 drift explained one was so; the others had one effect, or a law that is in no library."""
 IMPERFECT_BASES = 4
 """Leading explanations with an imperfection of a sensor, to which another one is added."""
