@@ -21,7 +21,7 @@ def interpolated(at_s: Array, time_s: Array, values: Array) -> Array:
 
     Args:
       at_s: times, (M,).
-      time_s: times of its samples at even steps, (N,).
+      time_s: times of its samples, increasing, (N,).
     """
     if _on_samples(at_s, time_s):
         return np.asarray(np.interp(at_s, time_s, values))
@@ -32,5 +32,6 @@ def interpolated(at_s: Array, time_s: Array, values: Array) -> Array:
 def _on_samples(at_s: Array, time_s: Array) -> bool:
     if time_s.size < 3:
         return True
-    steps = (at_s - time_s[0]) / (time_s[1] - time_s[0])
-    return bool(np.abs(steps - np.round(steps)).max() < _ON_SAMPLES)
+    after = np.clip(np.searchsorted(time_s, at_s), 1, time_s.size - 1)
+    off_s = np.minimum(np.abs(at_s - time_s[after - 1]), np.abs(at_s - time_s[after]))
+    return bool(off_s.max() < _ON_SAMPLES * float(np.diff(time_s).min()))

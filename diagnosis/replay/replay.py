@@ -45,7 +45,7 @@ class Prediction:
 
     def at(self, wanted_s: Array, time_s: Array) -> "Prediction":
         """The prediction at other times, given the times of its samples."""
-        return Prediction(**{s: np.interp(wanted_s, time_s, self[s]) for s in SENSORS})
+        return Prediction(**{s: interpolated(wanted_s, time_s, self[s]) for s in SENSORS})
 
 
 def replay(
