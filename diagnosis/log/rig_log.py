@@ -18,7 +18,8 @@ from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.sensor_faults import without_faults
-from diagnosis.log.time_stamps import with_even_times
+from diagnosis.log.times.even_times import with_even_times
+from diagnosis.log.times.sampling_jitter import with_sampling_times
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 from diagnosis.log.trial_file import read_trial, refuse_too_large
 
@@ -51,8 +52,9 @@ def read_rig_log(folder: Path) -> RigLog:
     paths = [folder / entry.file for entry in rig.trials]
     refuse_too_large(paths)
     read = [_readable(path, rig) for path in paths]
-    timed, warnings = with_even_times(read)
-    trials = []
+    even, warnings = with_even_times(read)
+    timed, jittered = with_sampling_times(even)
+    warnings, trials = [*warnings, *jittered], list[Trial]()
     for path, one in zip(paths, timed, strict=True):
         trial, found = without_faults(one, noise)
         refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from diagnosis.log.time_stamps import with_even_times
+from diagnosis.log.times.even_times import with_even_times
 from diagnosis.log.trial import Trial
 
 STEP_S, BASE = 0.01, 0.02

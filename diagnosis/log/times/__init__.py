@@ -1,0 +1,1 @@
+"""When the samples of a trial were taken, where its time stamps do not say so."""

@@ -1,0 +1,178 @@
+"""Samples that were taken unevenly, and stamped as if they had been even.
+
+A busy computer reads a row late by d and stamps it by its count. All columns were read at the same
+moment, so the base tells when: beside the curve B through its neighbours the reading is
+
+    b - B = dB/dt d + noise,    variance = rate^2 jitter^2 + noise^2
+
+The curve is the local cubic in the window that leaves the least; a reading beside the curve through
+the others has this variance and that of the curve. The two parts are told apart by the rates of the
+motion: the scatter of an encoder does not grow with them, nor does that of its rounding. What a curve
+does not follow is off in the same way from sample to sample, jitter is not.
+
+The best linear estimate of d then is the time by which a sample is moved. What it leaves is an error
+of the curve, which base, tip and torque share.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+from scipy.signal import savgol_coeffs
+
+from diagnosis.criteria import (
+    JITTER_CERTAIN,
+    JITTER_LEAST_STEPS,
+    JITTER_MOST_ALIKE,
+    JITTER_MOST_STEPS,
+)
+from diagnosis.log.trial import FileRows, Trial
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_BASE = "base_angle_deg"
+_WIDTHS = (5, 7, 11, 17, 25, 41)  # samples
+_ORDER = 3
+_EVEN = 0.02  # of a step
+_MOVING = 0.1  # of the fastest rate, from which a sample moves
+_FEWEST = 50  # samples that move
+_BINS, _STEPS = 8, 10
+_MAD = 0.6745  # median size of a normal distribution, in sigma
+_EFFICIENCY = 0.37  # of a median of squares beside their mean
+_OUTLIER_SIGMA = 4.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Beside:
+    """Readings of the base beside the curve through the others, at even steps.
+
+    Attributes:
+      off: reading minus curve, deg, (N,); NaN at the ends.
+      rate: of the curve, deg/s, (N,).
+      gain: standard deviation of `off`, in that of a reading.
+      moves: samples whose rate tells a jitter, (N,).
+    """
+
+    off: Array
+    rate: Array
+    gain: float
+    moves: Mask
+    step_s: float
+
+    @property
+    def jitter_s(self) -> float:
+        """If all that is off were jitter."""
+        return float(np.median(np.abs(self.off[self.moves] / self.rate[self.moves]))) / (
+            _MAD * self.gain
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Scatter:
+    """What readings of the base scatter by: by themselves and in time; and how certain that is."""
+
+    noise_deg: float
+    jitter_s: float
+    certainty: float
+
+
+def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
+    """The trials with the times that their base tells, if it does; warnings."""
+    each = [_beside(trial) for trial in trials]
+    told = [own for own in each if own is not None]
+    if not told:
+        return list(trials), []
+    scatter, step_s = _scatter(told), float(np.median([own.step_s for own in told]))
+    jitters = JITTER_LEAST_STEPS < scatter.jitter_s / step_s < JITTER_MOST_STEPS
+    if not jitters or scatter.certainty < JITTER_CERTAIN or _alike(told) > JITTER_MOST_ALIKE:
+        return list(trials), []
+    said = (
+        f"the readings of base_angle_deg scatter in time, by {1e3 * scatter.jitter_s:.2g} ms about even "
+        f"stamps {1e3 * step_s:.4g} ms apart: all samples are taken to be from when the base was there; "
+        "stamp them when they are taken"
+    )
+    pairs = zip(trials, each, strict=True)
+    return [trial if own is None else _moved(trial, own, scatter) for trial, own in pairs], [said]
+
+
+def _beside(trial: Trial) -> _Beside | None:
+    """With the window that leaves the least; None if the trial does not move, or is not even."""
+    time_s, base = trial["time_s"], trial[_BASE]
+    steps = np.diff(time_s)
+    step_s = float(np.median(steps))
+    if not np.isfinite(base).all() or np.abs(steps - step_s).max() > _EVEN * step_s:
+        return None
+    found = [_in_window(base, width, step_s) for width in _WIDTHS if 4 * width <= base.size]
+    telling = [own for own in found if own.moves.sum() >= _FEWEST]
+    return min(telling, key=lambda own: own.gain * own.jitter_s, default=None)
+
+
+def _in_window(base: Array, width: int, step_s: float) -> _Beside:
+    half = width // 2
+    curve = savgol_coeffs(width, _ORDER, use="dot")
+    slope = savgol_coeffs(width, _ORDER, deriv=1, delta=step_s, use="dot")
+    own = curve[half]
+    off, rate = np.full(base.size, np.nan), np.zeros(base.size)
+    inner = slice(half, base.size - half)
+    off[inner] = (base[inner] - np.correlate(base, curve, "valid")) / (1 - own)
+    rate[inner] = np.correlate(base, slope, "valid")
+    moves = np.isfinite(off) & (np.abs(rate) > _MOVING * np.abs(rate).max())
+    gain = float(np.sqrt(1 + (curve @ curve - own**2) / (1 - own) ** 2))
+    return _Beside(off=off, rate=rate, gain=gain, moves=moves, step_s=step_s)
+
+
+def _scatter(told: Sequence[_Beside]) -> _Scatter:
+    """From medians in bins of the rate, variance = noise^2 + rate^2 jitter^2, against noise alone."""
+    size = np.concatenate([np.abs(own.off[own.moves]) / own.gain for own in told])
+    rate = np.concatenate([np.abs(own.rate[own.moves]) for own in told])
+    bins = np.array_split(np.argsort(rate), _BINS)
+    count = np.array([own.size for own in bins])
+    squared = np.array([np.mean(rate[own] ** 2) for own in bins])
+    variance = np.array([(np.median(size[own]) / _MAD) ** 2 for own in bins])
+    alone = np.full(_BINS, np.average(variance, weights=count))
+    slopes, both = np.stack([np.ones(_BINS), squared], axis=1), alone
+    parts = np.zeros(2)
+    for _ in range(_STEPS):
+        weights = np.sqrt(count) / np.maximum(both, np.finfo(float).tiny)
+        parts, _left = nnls(slopes * weights[:, None], variance * weights)
+        both = slopes @ parts
+    gained = _likelihood(variance, both, count) - _likelihood(variance, alone, count)
+    noise, jitter = np.sqrt(parts)
+    return _Scatter(noise_deg=float(noise), jitter_s=float(jitter), certainty=2 * gained)
+
+
+def _likelihood(variance: Array, model: Array, count: Array) -> float:
+    model = np.maximum(model, np.finfo(float).tiny)
+    return -float(np.sum(_EFFICIENCY * count * (np.log(model) + variance / model)))
+
+
+def _alike(told: Sequence[_Beside]) -> float:
+    """Correlation of the times by which samples are off with those of the next."""
+    products, squares = 0.0, 0.0
+    for own in told:
+        most = _OUTLIER_SIGMA * own.gain * own.jitter_s
+        late = np.where(own.moves, own.off, 0.0) / np.where(own.moves, own.rate, 1.0)
+        late = np.where(np.abs(late) < most, late, 0.0)  # without corners of the motion
+        products += float(late[1:] @ late[:-1])
+        squares += float(late @ late)
+    return products / squares if squares > 0 else 0.0
+
+
+def _moved(trial: Trial, own: _Beside, scatter: _Scatter) -> Trial:
+    """A trial with its samples at the likeliest times.
+
+    What is off by more than both scatters stays, and what noise tells more of than time.
+    """
+    of_time = own.rate**2 * scatter.jitter_s**2
+    variance = of_time + scatter.noise_deg**2
+    known = np.isfinite(own.off) & (own.off**2 < _OUTLIER_SIGMA**2 * own.gain**2 * variance)
+    known &= of_time > scatter.noise_deg**2
+    share = own.rate * scatter.jitter_s**2 / (variance * own.gain**2)
+    late_s = np.where(known, share * np.nan_to_num(own.off), 0.0)
+    late_s = np.clip(late_s, -JITTER_MOST_STEPS * own.step_s, JITTER_MOST_STEPS * own.step_s)
+    taken_s = trial["time_s"] + late_s
+    rows = FileRows(stamps_s=trial.file_rows.stamps_s, taken_s=taken_s)
+    return replace(trial, table=trial.table.assign(time_s=taken_s), rows=rows)

@@ -1,0 +1,77 @@
+"""Samples that were taken unevenly under even stamps are moved to where their base was there."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from diagnosis.criteria import JITTER_MOST_STEPS
+from diagnosis.log.times.sampling_jitter import with_sampling_times
+from diagnosis.log.trial import Trial
+
+STEP_S, NOISE = 0.01, 0.01
+STAMPS = STEP_S * np.arange(3000)
+
+
+def swinging(time_s):
+    """A motion of up to 190 deg/s, slow at its ends."""
+    return 60 * np.sin(2 * np.pi * 0.5 * time_s)
+
+
+def staircase(time_s):
+    """Turns at three rates with sharp corners."""
+    return np.interp(time_s, [0, 2, 4, 8, 12, 20, 30], [0, 0, 200, 200, 0, 160, 160])
+
+
+def trial(late_s, motion=swinging, step_deg=0.0, seed=1):
+    """Base and tip read late by these times, s, under even stamps."""
+    rng = np.random.default_rng(seed)
+    base = motion(STAMPS + late_s) + rng.normal(0, NOISE, STAMPS.size)
+    if step_deg:
+        base = step_deg * np.round(base / step_deg)
+    tip = motion(STAMPS + late_s - 0.05)
+    columns = {"time_s": STAMPS, "base_angle_deg": base, "tip_angle_deg": tip}
+    return Trial(name="trial_01.csv", table=pd.DataFrame(columns))
+
+
+def jitter(steps, seed=2):
+    most = JITTER_MOST_STEPS * STEP_S
+    return np.clip(np.random.default_rng(seed).normal(0, steps * STEP_S, STAMPS.size), -most, most)
+
+
+@pytest.mark.parametrize("motion", [swinging, staircase])
+@pytest.mark.parametrize("steps", [0.05, 0.2])
+def test_samples_are_moved_to_when_they_were_taken(motion, steps):
+    """What is left is the error of the curve, and the noise of a reading.
+
+    A cubic through 11 readings has its middle to sqrt(9 / 4 / 11) = 0.45 of the scatter of one; noise
+    of 0.01 deg is 0.4 of a jitter of 0.5 ms at 50 deg/s: together 0.6.
+    """
+    late = jitter(steps)
+    (found,), (warning,) = with_sampling_times([trial(late, motion)])
+    turning = np.abs(np.gradient(motion(STAMPS), STEP_S)) > 45
+    left = (found["time_s"] - STAMPS - late)[turning]
+    assert np.sqrt(np.mean(left**2)) < 0.7 * np.sqrt(np.mean(late[turning] ** 2))
+    assert f"{1e3 * steps * STEP_S:.1g}" in warning
+    assert (np.diff(found["time_s"]) > 0).all()
+    np.testing.assert_array_equal(found.file_rows.stamps_s, STAMPS)
+    np.testing.assert_array_equal(found.file_rows.taken_s, found["time_s"])
+
+
+@pytest.mark.parametrize("motion", [swinging, staircase])
+@pytest.mark.parametrize("step_deg", [0.0, 0.3], ids=["fine encoder", "coarse encoder"])
+def test_even_samples_are_left_alone(motion, step_deg):
+    one = trial(np.zeros(STAMPS.size), motion, step_deg)
+    assert with_sampling_times([one]) == ([one], [])
+
+
+def test_a_motion_that_no_curve_follows_is_no_jitter():
+    """Turns at 9 Hz, eleven samples each: what a cubic leaves is alike from sample to sample."""
+    one = trial(np.zeros(STAMPS.size), lambda t: swinging(t) + 5 * np.sin(2 * np.pi * 9.0 * t))
+    assert with_sampling_times([one]) == ([one], [])
+
+
+def test_a_trial_at_rest_stays_beside_one_that_tells():
+    still = trial(jitter(0.2), np.zeros_like)
+    found, _ = with_sampling_times([still, trial(jitter(0.2))])
+    np.testing.assert_allclose(found[0]["time_s"], STAMPS, atol=1e-4)
+    assert with_sampling_times([still]) == ([still], [])
