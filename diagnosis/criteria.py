@@ -491,6 +491,9 @@ where the drift is a line of one rate in all trials, to that share: that is a la
 DRIFT_MOST_EFFECTS = 1
 """Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
 drift explained one was so; the others had one effect, or a law that is in no library."""
+DRIFT_FOLLOWS_SIGMA = 5.0
+"""Standard deviations of the axial speed in what a drift takes up: derived, none by chance in a million
+logs. Six blind logs with a drift: at most 2.5; a torque sensor that feels the axial force: 6.7."""
 IMPERFECT_BASES = 4
 """Leading explanations with an imperfection of a sensor, to which another one is added."""
 FINALISTS, MOST_FINALISTS = 4, 8

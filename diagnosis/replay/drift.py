@@ -59,6 +59,23 @@ def least_start(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction
     return min(abs(drift.start(trial.time_s, left)) for trial, left in read)
 
 
+def follows_speed(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
+    """How much of the axial speed is in the residual of the torque, in standard deviations.
+
+    By generalised least squares: the drift is a part of the noise.
+    """
+    shared, power = 0.0, 0.0
+    for trial, one in zip(log.trials, predictions, strict=True):
+        if not trial.has(TORQUE):
+            continue
+        left = (trial.readings[TORQUE] - one[TORQUE]) / noise[TORQUE]
+        read = np.isfinite(left)
+        time_s, speed = trial.time_s[read], trial.speed_mm_s[read]
+        white, own = (noise.whitened(TORQUE, time_s, part) for part in (left[read], speed))
+        shared, power = shared + float(white @ own), power + float(own @ own)
+    return shared / float(np.sqrt(power)) if power > 0 else 0.0
+
+
 def _by_trial(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Array]:
     each = zip(log.trials, predictions, strict=True)
     return [torque_drift_sigma(trial, one, noise) for trial, one in each]

@@ -87,7 +87,9 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
-    leading = [c for c in candidates if c.score < reached and _alike(best, c)]
+    leading = [
+        c for c in candidates if c.score < reached and (_alike(best, c) or _clearly_leads(c, reached))
+    ]
     refused = [
         c for c in leading if c.refused_for_values or _is_part(c, best) or _is_richer_but_shifts(c, best)
     ]
@@ -237,6 +239,15 @@ def _alike(best: Candidate, other: Candidate) -> bool:
 def _is_part(one: Candidate, best: Candidate) -> bool:
     """Whether it is the best without some of its effects, and not at the noise floor."""
     return {*one.names} < {*best.names} and not one.floor.reached
+
+
+def _clearly_leads(one: Candidate, reached: float) -> bool:
+    """Whether an explanation at a bound leads by more than what a replay may not resolve.
+
+    Args:
+      reached: score of the best.
+    """
+    return bool(one.reached_bounds) and one.refused_for_values and reached - one.score > PART_LEAD
 
 
 def _is_richer_but_shifts(one: Candidate, best: Candidate) -> bool:

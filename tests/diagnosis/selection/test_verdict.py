@@ -99,6 +99,16 @@ def test_what_is_held_by_a_bound_explains_nothing_but_leaves_open_what_it_leads(
     assert (("base_compliance",) in found.confusable) is (kind is VerdictKind.UNDECIDED)
 
 
+@pytest.mark.parametrize(("lead", "kind"), [(20, VerdictKind.EXPLAINED), (40, VerdictKind.UNDECIDED)])
+def test_what_is_held_by_a_bound_beside_the_best_leaves_it_open_if_it_leads_clearly(lead, kind):
+    """Freedom at a bound takes up a little of everything; 40 of a score is more than that."""
+    both = scored(["stiffness_error", "layered_tissue"], 100.0 - lead)
+    bound = replace(both.fit.status, at_bound=("layered_tissue.ratio",))
+    both = replace(both, fit=replace(both.fit, status=bound))
+    found = verdict_on([both, scored(["stiffness_error"], 100.0)])
+    assert (found.kind, found.effects) == (kind, ("stiffness_error",))
+
+
 def test_what_is_as_good_as_none_explains_nothing_but_leaves_open_what_it_leads():
     """Shear thinning of an exponent of 0.995, which dry friction replaces less well."""
     x = [0.995, 0.0]

@@ -8,6 +8,7 @@ one that begins at zero in every trial, and beside one that does not; the least 
 than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more than
 DRIFT_ALIKE_SIGMA that is the same line in every trial. And it stands beside one effect at most: with two
 it takes the shape of what no library holds. (An offset does not count before it is told from a drift.)
+Nor does it follow the axial speed.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
@@ -18,6 +19,7 @@ from dataclasses import replace
 from diagnosis.criteria import (
     CONTENDING,
     DRIFT_ALIKE_SIGMA,
+    DRIFT_FOLLOWS_SIGMA,
     DRIFT_MOST_EFFECTS,
     DRIFT_RANGE_SIGMA,
     DRIFT_SHARE,
@@ -26,7 +28,7 @@ from diagnosis.criteria import (
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
-from diagnosis.replay.drift import drift_range_sigma, drifts_alike, least_start
+from diagnosis.replay.drift import drift_range_sigma, drifts_alike, follows_speed, least_start
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
@@ -82,6 +84,8 @@ def drift_or_offset(state: SearchState, workers: Workers) -> SearchState:
     open_to = [own for own in (state, plain, *drifting) if own.candidates]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
     likeliest = min(explaining, key=_score, default=plain)
+    if _follows_the_speed(likeliest):
+        return plain.noting(_dropped(OR_OFFSET, "it follows the axial speed, as no drift does"))
     return _without_what_is_hidden(likeliest).noting(noted(OR_OFFSET, Decision.KEPT, _told(likeliest)))
 
 
@@ -196,6 +200,11 @@ def _allowed_sigma(state: SearchState) -> float:
     """Range of a drift of a working sensor; less, where it is the same line in every trial."""
     alike = drifts_alike(state.problem.log, state.problem.noise, _replayed(state))
     return DRIFT_ALIKE_SIGMA if alike else DRIFT_RANGE_SIGMA
+
+
+def _follows_the_speed(state: SearchState) -> bool:
+    noise = state.problem.noise
+    return abs(follows_speed(state.problem.log, noise, _replayed(state))) > DRIFT_FOLLOWS_SIGMA
 
 
 def _replayed(state: SearchState) -> list[Prediction]:

@@ -202,3 +202,15 @@ def test_a_drift_that_begins_off_zero_in_every_trial_may_hide_an_offset():
     after = compared(moved((3, 0, 2), (3, 2, 4)))
     assert after.best.names == ()
     assert after.open_effects == ("torque_bias",)
+
+
+@pytest.mark.parametrize(("share", "kept"), [(0.0, True), (3.5, False)], ids=["time", "axial speed"])
+def test_what_follows_the_axial_speed_is_no_drift(share, kept):
+    """The needle slides in the second half; what the speed adds is as large as the drift."""
+    log = drifted(3.5 - share)
+    table = log.trials[0].table
+    sliding = (table["time_s"] > 0.5 * table["time_s"].max()).to_numpy(float)
+    table["speed_mm_s"] = 2.0 * sliding
+    table["base_torque_n_mm"] += share * 0.015 * sliding
+    _, after = searched(log)
+    assert (after.problem.noise.torque_drift_n_mm > 0) == kept
