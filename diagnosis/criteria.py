@@ -74,13 +74,15 @@ deviations; samples have to tell for even times by six of those of a fair coin, 
 
 # Samples taken unevenly under even stamps (log/times/sampling_jitter.py)
 
-JITTER_CERTAIN = 100.0
+JITTER_CERTAIN_SIGMA = 10.0
 JITTER_MOST_ALIKE = 0.2
+JITTER_MOST_BEYOND = 0.03
 JITTER_LEAST_STEPS, JITTER_MOST_STEPS = 0.02, 0.45
-"""Twice the log-likelihood by which the scatter of the base has to grow with its rate, correlation from
-sample to sample that is none of jitter, and steps that it may be. Six logs of the third rig with such a
-jitter: 300 to 8000, -0.15 to 0.03 and 0.08 to 0.27; 58 without: at most 79, with a correlation of 0.9,
-and 0.005. Under half a step samples keep their order."""
+"""Certainty with which the scatter of the base grows with its rate (root of twice the log-likelihood),
+correlation from sample to sample that is none of jitter, share of samples beyond four sigma, and steps
+that it may be. Six logs of the third rig with such a jitter: 17 to 90, -0.15 to 0.03, at most 0.008, and
+0.08 to 0.27; 58 without: at most 9, with a correlation of 0.9, and 0.005. Pulses of an exact base: 0.08
+beyond. Under half a step samples keep their order."""
 
 # Sensor faults: which readings are set aside (log/sensor_faults.py)
 

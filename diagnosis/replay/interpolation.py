@@ -30,7 +30,7 @@ def interpolated(at_s: Array, time_s: Array, values: Array) -> Array:
 
 
 def _on_samples(at_s: Array, time_s: Array) -> bool:
-    if time_s.size < 3:
+    if time_s.size <= 2:
         return True
     after = np.clip(np.searchsorted(time_s, at_s), 1, time_s.size - 1)
     off_s = np.minimum(np.abs(at_s - time_s[after - 1]), np.abs(at_s - time_s[after]))

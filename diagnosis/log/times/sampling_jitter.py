@@ -23,9 +23,10 @@ from scipy.optimize import nnls
 from scipy.signal import savgol_coeffs
 
 from diagnosis.criteria import (
-    JITTER_CERTAIN,
+    JITTER_CERTAIN_SIGMA,
     JITTER_LEAST_STEPS,
     JITTER_MOST_ALIKE,
+    JITTER_MOST_BEYOND,
     JITTER_MOST_STEPS,
 )
 from diagnosis.log.trial import FileRows, Trial
@@ -72,11 +73,15 @@ class _Beside:
 
 @dataclass(frozen=True, kw_only=True)
 class _Scatter:
-    """What readings of the base scatter by: by themselves and in time; and how certain that is."""
+    """What readings of the base scatter by, by themselves and in time, and how certain that is."""
 
     noise_deg: float
     jitter_s: float
-    certainty: float
+    certainty_sigma: float
+
+    def variance(self, own: _Beside) -> Array:
+        """Of what readings are off by, deg^2, (N,)."""
+        return (own.rate**2 * self.jitter_s**2 + self.noise_deg**2) * own.gain**2
 
 
 def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
@@ -87,7 +92,10 @@ def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]
         return list(trials), []
     scatter, step_s = _scatter(told), float(np.median([own.step_s for own in told]))
     jitters = JITTER_LEAST_STEPS < scatter.jitter_s / step_s < JITTER_MOST_STEPS
-    if not jitters or scatter.certainty < JITTER_CERTAIN or _alike(told) > JITTER_MOST_ALIKE:
+    certain = scatter.certainty_sigma > JITTER_CERTAIN_SIGMA
+    if not jitters or not certain or _alike(told) > JITTER_MOST_ALIKE:
+        return list(trials), []
+    if _beyond(told, scatter) > JITTER_MOST_BEYOND:
         return list(trials), []
     said = (
         f"the readings of base_angle_deg scatter in time, by {1e3 * scatter.jitter_s:.2g} ms about even "
@@ -141,7 +149,11 @@ def _scatter(told: Sequence[_Beside]) -> _Scatter:
         both = slopes @ parts
     gained = _likelihood(variance, both, count) - _likelihood(variance, alone, count)
     noise, jitter = np.sqrt(parts)
-    return _Scatter(noise_deg=float(noise), jitter_s=float(jitter), certainty=2 * gained)
+    return _Scatter(
+        noise_deg=float(noise),
+        jitter_s=float(jitter),
+        certainty_sigma=float(np.sqrt(max(2 * gained, 0.0))),
+    )
 
 
 def _likelihood(variance: Array, model: Array, count: Array) -> float:
@@ -161,16 +173,22 @@ def _alike(told: Sequence[_Beside]) -> float:
     return products / squares if squares > 0 else 0.0
 
 
+def _beyond(told: Sequence[_Beside], scatter: _Scatter) -> float:
+    """Share of samples that neither scatter explains: where the curve, and not the time, is wrong."""
+    far = [own.off**2 > _OUTLIER_SIGMA**2 * scatter.variance(own) for own in told]
+    moving = np.concatenate([own.moves for own in told])
+    return float(np.mean(np.concatenate(far)[moving]))
+
+
 def _moved(trial: Trial, own: _Beside, scatter: _Scatter) -> Trial:
     """A trial with its samples at the likeliest times.
 
     What is off by more than both scatters stays, and what noise tells more of than time.
     """
-    of_time = own.rate**2 * scatter.jitter_s**2
-    variance = of_time + scatter.noise_deg**2
-    known = np.isfinite(own.off) & (own.off**2 < _OUTLIER_SIGMA**2 * own.gain**2 * variance)
-    known &= of_time > scatter.noise_deg**2
-    share = own.rate * scatter.jitter_s**2 / (variance * own.gain**2)
+    variance = scatter.variance(own)
+    known = np.isfinite(own.off) & (own.off**2 < _OUTLIER_SIGMA**2 * variance)
+    known &= np.abs(own.rate) * scatter.jitter_s > scatter.noise_deg
+    share = own.rate * scatter.jitter_s**2 / np.maximum(variance, np.finfo(float).tiny)
     late_s = np.where(known, share * np.nan_to_num(own.off), 0.0)
     late_s = np.clip(late_s, -JITTER_MOST_STEPS * own.step_s, JITTER_MOST_STEPS * own.step_s)
     taken_s = trial["time_s"] + late_s

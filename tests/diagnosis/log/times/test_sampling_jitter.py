@@ -18,8 +18,8 @@ def swinging(time_s):
 
 
 def staircase(time_s):
-    """Turns at three rates with sharp corners."""
-    return np.interp(time_s, [0, 2, 4, 8, 12, 20, 30], [0, 0, 200, 200, 0, 160, 160])
+    """Turns at 100, 50 and 20 deg/s with sharp corners."""
+    return np.interp(time_s, [0, 2, 4, 12, 30], [0, 0, 200, -200, 160])
 
 
 def trial(late_s, motion=swinging, step_deg=0.0, seed=1):
