@@ -9,7 +9,7 @@ unknown     nothing that was tried brings the residual to the noise floor
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -101,7 +101,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     return Verdict(
         kind=kind,
         effects=best.named,
-        confusable=tuple(tuple(c.named) for c in (best, *rivals)) if rivals else (),
+        confusable=distinct(tuple(c.named) for c in (best, *rivals)) if rivals else (),
         best=best,
         rivals=tuple(rivals),
         ranking=_ranking((*at_floor, *refused), known=True),
@@ -121,11 +121,16 @@ def provisional(verdict: Verdict, candidates: Sequence[Candidate]) -> Verdict:
     if verdict.kind is VerdictKind.UNKNOWN:
         return verdict
     others = [c for c in candidates if c.explains and c is not verdict.best]
-    sets: dict[frozenset[str], tuple[str, ...]] = {}
-    for names in (verdict.effects, *(c.named for c in others), *verdict.confusable):
-        sets.setdefault(frozenset(names), names)
-    confusable = tuple(sets.values())
+    confusable = distinct((verdict.effects, *(c.named for c in others), *verdict.confusable))
     return replace(verdict, kind=VerdictKind.UNDECIDED, confusable=confusable, rivals=tuple(others))
+
+
+def distinct(sets: Iterable[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
+    """Sets of effects, each once, as it is first named."""
+    found: dict[frozenset[str], tuple[str, ...]] = {}
+    for names in sets:
+        found.setdefault(frozenset(names), names)
+    return tuple(found.values())
 
 
 def with_open_effects(verdict: Verdict, effects: Sequence[str]) -> Verdict:

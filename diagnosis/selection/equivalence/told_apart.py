@@ -24,7 +24,13 @@ from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, wit
 from diagnosis.selection.fitting import candidates_of, fit_all
 from diagnosis.selection.scoring.replay_errors import without_replay_errors
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, verdict_on, with_open_effects
+from diagnosis.selection.verdict import (
+    Verdict,
+    VerdictKind,
+    distinct,
+    verdict_on,
+    with_open_effects,
+)
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
@@ -152,7 +158,7 @@ def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:
     """The verdict with all sets that are alike; richer forms of a set that is told add nothing."""
     if verdict.kind is VerdictKind.UNKNOWN:
         return verdict
-    told = list({frozenset(names): names for names in verdict.confusable or (verdict.effects,)}.values())
+    told = list(distinct(verdict.confusable or (verdict.effects,)))
     most = max(len(names) for names in told)
     for names in sorted(alike, key=len):
         beyond = verdict.kind is VerdictKind.UNDECIDED and len(names) > most

@@ -12,6 +12,7 @@ from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.verdict import (
     VerdictKind,
+    distinct,
     places,
     provisional,
     refuted,
@@ -107,6 +108,11 @@ def test_what_is_held_by_a_bound_beside_the_best_leaves_it_open_if_it_leads_clea
     both = replace(both, fit=replace(both.fit, status=bound))
     found = verdict_on([both, scored(["stiffness_error"], 100.0)])
     assert (found.kind, found.effects) == (kind, ("stiffness_error",))
+
+
+def test_sets_that_cannot_be_told_apart_are_named_once_each():
+    sets = [("tip_drag", "stiction"), ("stiction", "tip_drag"), (), ("tip_drag",), ()]
+    assert distinct(sets) == (("tip_drag", "stiction"), (), ("tip_drag",))
 
 
 def test_what_is_as_good_as_none_explains_nothing_but_leaves_open_what_it_leads():

@@ -84,7 +84,7 @@ def drift_or_offset(state: SearchState, workers: Workers) -> SearchState:
     open_to = [own for own in (state, plain, *drifting) if own.candidates]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
     likeliest = min(explaining, key=_score, default=plain)
-    if _follows_the_speed(likeliest):
+    if _drifts(likeliest) and _follows_the_speed(likeliest):
         return plain.noting(_dropped(OR_OFFSET, "it follows the axial speed, as no drift does"))
     return _without_what_is_hidden(likeliest).noting(noted(OR_OFFSET, Decision.KEPT, _told(likeliest)))
 
