@@ -98,12 +98,16 @@ def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]
     if _beyond(told, scatter) > JITTER_MOST_BEYOND:
         return list(trials), []
     said = (
-        f"the readings of base_angle_deg scatter in time, by {1e3 * scatter.jitter_s:.2g} ms about even "
-        f"stamps {1e3 * step_s:.4g} ms apart: all samples are taken to be from when the base was there; "
-        "stamp them when they are taken"
+        "base_angle_deg scatters in proportion to its rate, as rows do that were read "
+        f"{_ms(scatter.jitter_s)} early or late (rms) under stamps {_ms(step_s)} apart: every row is "
+        "moved to the time that its base angle tells; stamp rows when they are read"
     )
     pairs = zip(trials, each, strict=True)
     return [trial if own is None else _moved(trial, own, scatter) for trial, own in pairs], [said]
+
+
+def _ms(time_s: float) -> str:
+    return f"{1e3 * time_s:.2g} ms"
 
 
 def _beside(trial: Trial) -> _Beside | None:
