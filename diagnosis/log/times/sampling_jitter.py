@@ -10,6 +10,8 @@ the others has this variance and that of the curve. The two parts are told apart
 motion: the scatter of an encoder does not grow with them, nor does that of its rounding. What a curve
 does not follow is off in the same way from sample to sample, jitter is not.
 
+Rows may be missing: the cubic goes through those that are there.
+
 The best linear estimate of d then is the time by which a sample is moved. What it leaves is an error
 of the curve, which base, tip and torque share.
 """
@@ -20,7 +22,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
-from scipy.signal import savgol_coeffs
 
 from diagnosis.criteria import (
     JITTER_CERTAIN_SIGMA,
@@ -32,11 +33,13 @@ from diagnosis.criteria import (
 from diagnosis.log.trial import FileRows, Trial
 
 Array = NDArray[np.float64]
+Counts = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 _BASE = "base_angle_deg"
 _WIDTHS = (5, 7, 11, 17, 25, 41)  # samples
 _ORDER = 3
+_MOST_OWN = 0.7  # weight of a reading in the curve, beyond which its neighbours are too few
 _EVEN = 0.02  # of a step
 _MOVING = 0.1  # of the fastest rate, from which a sample moves
 _FEWEST = 50  # samples that move
@@ -51,24 +54,22 @@ class _Beside:
     """Readings of the base beside the curve through the others, at even steps.
 
     Attributes:
-      off: reading minus curve, deg, (N,); NaN at the ends.
-      rate: of the curve, deg/s, (N,).
-      gain: standard deviation of `off`, in that of a reading.
+      off: reading minus curve, deg, (N,); NaN where the neighbours are too few.
+      rate: of the curve, deg/s, (N,); 0 there.
+      gain: standard deviation of `off`, in that of a reading, (N,).
       moves: samples whose rate tells a jitter, (N,).
     """
 
     off: Array
     rate: Array
-    gain: float
+    gain: Array
     moves: Mask
     step_s: float
 
     @property
-    def jitter_s(self) -> float:
-        """If all that is off were jitter."""
-        return float(np.median(np.abs(self.off[self.moves] / self.rate[self.moves]))) / (
-            _MAD * self.gain
-        )
+    def late_s(self) -> Array:
+        """By how much samples that move are late if all that is off were jitter, s, (M,)."""
+        return self.off[self.moves] / self.rate[self.moves]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,30 +116,49 @@ def _beside(trial: Trial) -> _Beside | None:
     time_s, base = trial["time_s"], trial[_BASE]
     steps = np.diff(time_s)
     step_s = float(np.median(steps))
-    if not np.isfinite(base).all() or np.abs(steps - step_s).max() > _EVEN * step_s:
+    counts = np.rint(steps / step_s)
+    if not np.isfinite(base).all() or np.abs(steps - counts * step_s).max() > _EVEN * step_s:
         return None
-    found = [_in_window(base, width, step_s) for width in _WIDTHS if 4 * width <= base.size]
+    rows = np.append(0, np.cumsum(np.minimum(counts, _WIDTHS[-1]))).astype(int)
+    found = [_in_window(base, rows, width, step_s) for width in _WIDTHS if 4 * width <= base.size]
     telling = [own for own in found if own.moves.sum() >= _FEWEST]
-    return min(telling, key=lambda own: own.gain * own.jitter_s, default=None)
+    return min(telling, key=lambda own: np.median(np.abs(own.late_s)), default=None)
 
 
-def _in_window(base: Array, width: int, step_s: float) -> _Beside:
-    half = width // 2
-    curve = savgol_coeffs(width, _ORDER, use="dot")
-    slope = savgol_coeffs(width, _ORDER, deriv=1, delta=step_s, use="dot")
-    own = curve[half]
-    off, rate = np.full(base.size, np.nan), np.zeros(base.size)
-    inner = slice(half, base.size - half)
-    off[inner] = (base[inner] - np.correlate(base, curve, "valid")) / (1 - own)
-    rate[inner] = np.correlate(base, slope, "valid")
-    moves = np.isfinite(off) & (np.abs(rate) > _MOVING * np.abs(rate).max())
-    gain = float(np.sqrt(1 + (curve @ curve - own**2) / (1 - own) ** 2))
-    return _Beside(off=off, rate=rate, gain=gain, moves=moves, step_s=step_s)
+def _in_window(base: Array, rows: Counts, width: int, step_s: float) -> _Beside:
+    """Normal equations of the cubic from moments of the readings that are there.
+
+    Args:
+      rows: place of each reading on the even grid, (N,).
+    """
+    steps = np.arange(width) - width // 2
+    there, values = np.zeros((2, rows[-1] + 1 + 2 * (width // 2)))
+    there[rows + width // 2] = 1.0
+    values[rows + width // 2] = base
+    powers = [(steps / width) ** k for k in range(2 * _ORDER + 1)]
+    counted = np.stack([np.correlate(there, own, "valid")[rows] for own in powers], axis=-1)
+    weighted = np.stack([np.correlate(values, own, "valid")[rows] for own in powers[: _ORDER + 1]], -1)
+    normal = counted[:, np.add.outer(range(_ORDER + 1), range(_ORDER + 1))]
+    determined = counted[:, 0] > _ORDER + 1
+    normal[~determined] = np.eye(_ORDER + 1)
+    curve = np.linalg.solve(normal, np.stack([weighted, np.eye(_ORDER + 1)[0] + 0 * weighted], -1))
+    own = curve[:, 0, 1]  # weight of a reading in its curve, and the variance of that
+    known = determined & (own < _MOST_OWN)
+    left = np.where(known, 1 - own, np.nan)
+    rate = np.where(known, curve[:, 1, 0] / (width * step_s), 0.0)
+    off = (base - curve[:, 0, 0]) / left
+    return _Beside(
+        off=off,
+        rate=rate,
+        gain=1 / np.sqrt(left),
+        moves=known & (np.abs(rate) > _MOVING * np.abs(rate).max()),
+        step_s=step_s,
+    )
 
 
 def _scatter(told: Sequence[_Beside]) -> _Scatter:
     """From medians in bins of the rate, variance = noise^2 + rate^2 jitter^2, against noise alone."""
-    size = np.concatenate([np.abs(own.off[own.moves]) / own.gain for own in told])
+    size = np.concatenate([np.abs(own.off[own.moves]) / own.gain[own.moves] for own in told])
     rate = np.concatenate([np.abs(own.rate[own.moves]) for own in told])
     bins = np.array_split(np.argsort(rate), _BINS)
     count = np.array([own.size for own in bins])
@@ -169,9 +189,9 @@ def _alike(told: Sequence[_Beside]) -> float:
     """Correlation of the times by which samples are off with those of the next."""
     products, squares = 0.0, 0.0
     for own in told:
-        most = _OUTLIER_SIGMA * own.gain * own.jitter_s
-        late = np.where(own.moves, own.off, 0.0) / np.where(own.moves, own.rate, 1.0)
-        late = np.where(np.abs(late) < most, late, 0.0)  # without corners of the motion
+        most = _OUTLIER_SIGMA * np.median(np.abs(own.late_s)) / _MAD
+        late = np.zeros(own.off.size)
+        late[own.moves] = np.where(np.abs(own.late_s) < most, own.late_s, 0.0)  # without corners
         products += float(late[1:] @ late[:-1])
         squares += float(late @ late)
     return products / squares if squares > 0 else 0.0

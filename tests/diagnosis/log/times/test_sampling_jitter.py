@@ -1,5 +1,8 @@
 """Samples that were taken unevenly under even stamps are moved to where their base was there."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -10,6 +13,12 @@ from diagnosis.log.trial import Trial
 
 STEP_S, NOISE = 0.01, 0.01
 STAMPS = STEP_S * np.arange(3000)
+
+SCATTER = 0.03  # of a median of 1500 squares that tell: 1 / sqrt(2 x 0.37 x 1500), rounded to 0.1 ms
+
+
+def said_ms(warning):
+    return float(re.search(r"read ([\d.]+) ms", warning)[1])
 
 
 def swinging(time_s):
@@ -51,10 +60,29 @@ def test_samples_are_moved_to_when_they_were_taken(motion, steps):
     turning = np.abs(np.gradient(motion(STAMPS), STEP_S)) > 45
     left = (found["time_s"] - STAMPS - late)[turning]
     assert np.sqrt(np.mean(left**2)) < 0.7 * np.sqrt(np.mean(late[turning] ** 2))
-    assert f"{1e3 * steps * STEP_S:.1g}" in warning
+    assert said_ms(warning) == pytest.approx(1e3 * steps * STEP_S, rel=4 * SCATTER)
     assert (np.diff(found["time_s"]) > 0).all()
     np.testing.assert_array_equal(found.file_rows.stamps_s, STAMPS)
     np.testing.assert_array_equal(found.file_rows.taken_s, found["time_s"])
+
+
+@pytest.mark.parametrize("lost", [0.05, 0.2])
+def test_rows_may_be_missing(lost):
+    """A fifth of the rows less is at most 1 / sqrt(0.8) = 1.12 times the error of the curve."""
+    late, kept = jitter(0.2), np.random.default_rng(3).uniform(size=STAMPS.size) > lost
+    whole = trial(late)
+    (found,), (warning,) = with_sampling_times([replace(whole, table=whole.table[kept])])
+    turning = np.abs(np.gradient(swinging(STAMPS), STEP_S))[kept] > 45
+    left = (found["time_s"] - STAMPS[kept] - late[kept])[turning]
+    assert np.sqrt(np.mean(left**2)) < 0.7 * 1.12 * np.sqrt(np.mean(late[kept][turning] ** 2))
+    assert said_ms(warning) == pytest.approx(2.0, rel=4 * SCATTER)
+
+
+def test_even_samples_with_missing_rows_are_left_alone():
+    whole = trial(np.zeros(STAMPS.size))
+    kept = np.random.default_rng(3).uniform(size=STAMPS.size) > 0.1
+    one = replace(whole, table=whole.table[kept])
+    assert with_sampling_times([one]) == ([one], [])
 
 
 @pytest.mark.parametrize("motion", [swinging, staircase])
