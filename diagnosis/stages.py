@@ -82,6 +82,7 @@ STAGES = {
     "free-form laws": _coarse("fitting free-form laws", 0.3, 0, 10),
     "free-form laws beside an effect": _coarse("fitting free-form laws beside an effect", 0.3, 0, 0),
     "finalists, free-form laws": _whole("fitting the best free-form laws to the whole log", 1.5, 0, 4),
+    "plain laws": _whole("fitting plain laws like the free-form ones", 1.0, 0, 2),
 }
 """Times and numbers of tasks are rounded from six logs: one without any effect, two with one, one with
 three, two that nothing explains. Only the estimate of the time that is left depends on them."""

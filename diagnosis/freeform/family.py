@@ -27,6 +27,7 @@ class Family:
       as_effect: values of its parameters with which it is an effect of the library, given those of the
         effect, by its name.
       contains: effects of the library that it may have for a part.
+      shape: name of the plain law that its curve has; empty: a curve of any form.
     """
 
     effect: Effect
@@ -38,6 +39,7 @@ class Family:
     unit: str
     as_effect: Mapping[str, Callable[..., tuple[float, ...]]] = field(default_factory=dict)
     contains: tuple[str, ...] = ()
+    shape: str = ""
 
     @property
     def name(self) -> str:

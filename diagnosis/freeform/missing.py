@@ -57,6 +57,7 @@ class Law:
 
     Attributes:
       beside: effects of the library that are fitted together with it.
+      shape: name of the plain law that it was fitted as; empty: a curve of any form.
     """
 
     place: Place
@@ -69,6 +70,7 @@ class Law:
     low: tuple[float, ...]
     high: tuple[float, ...]
     beside: tuple[str, ...] = ()
+    shape: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -96,16 +98,21 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
     Args:
       nearest_gap: gap of the library's nearest explanation, on unseen trials.
     """
-    ranked = sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
+    ranked = likelier_first(fits)
     best = ranked[0]
     helps = best.final and best.gap_after < FREE_LAW_GAIN * nearest_gap
     return Missing(
         place=_places(fits, nearest_gap),
         depends_on=_dependences(ranked),
-        law=_law(best) if helps else None,
+        law=law_of(best) if helps else None,
         best=best,
         closed=helps and best.gap_after <= CLOSED_GAP,
     )
+
+
+def likelier_first(fits: Sequence[FreeFit]) -> list[FreeFit]:
+    """Fits to the log itself before others, and of these the likelier ones first."""
+    return sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
 
 
 def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
@@ -150,8 +157,8 @@ def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
     return (first, *sorted(others, key=lambda one: one.gap_after))
 
 
-def _law(one: FreeFit) -> Law:
-    """The curve with a band from draws of its coordinates."""
+def law_of(one: FreeFit) -> Law:
+    """The curve of a fit, with a band from draws of its coordinates."""
     family, fit = one.family, one.fit
     own = np.array([owner == family.name for owner in fit.parameterization.owners])
     rng = np.random.default_rng(_SEED)
@@ -170,6 +177,7 @@ def _law(one: FreeFit) -> Law:
         low=_numbers(ends[0]),
         high=_numbers(ends[1]),
         beside=one.beside,
+        shape=family.shape,
     )
 
 

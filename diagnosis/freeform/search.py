@@ -173,10 +173,18 @@ def _to_its_end(
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
+    iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
+    return fitted_and_checked(problem, contender, contender.fit.x, iterations)
+
+
+def fitted_and_checked(
+    problem: FitProblem, contender: FreeFit, start: Array, most_iterations: int = FINAL_ITERATIONS
+) -> FreeFit:
+    """The family of a contender, fitted to the log itself and checked on trials that it has not seen."""
     own = with_family(problem, contender.family)
     own = replace(own, differences_halved=True, tolerance_sigma=FINAL_SIGMA)
-    iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
-    fit = fit_effects(own, contender.fit.names, contender.fit.x, most_iterations=iterations)
+    names = (contender.family.name, *contender.beside)
+    fit = fit_effects(own, names, start, most_iterations=most_iterations)
     if len(problem.log.trials) == 1:
         return replace(contender, fit=fit, gap_after=fit.gap, final=True)
     try:
@@ -193,11 +201,14 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
     That is the noise and what the other trials leave open of the curve: where none of them has been,
     its law says nothing, and nothing is held against it. Of a law that they determine it is the gap.
     """
-    squares = []
-    for i, (left, slopes) in enumerate(zip(held_out, fit.jacobian, strict=True)):
-        spread = free_covariance(fit, without=i)
-        squares.append(left**2 / (1.0 + np.sum((slopes @ spread) * slopes, axis=1)))
+    squares = [left**2 / (1.0 + left_open(fit, i)) for i, left in enumerate(held_out)]
     return float(np.sqrt(np.mean(np.concatenate(squares))))
+
+
+def left_open(fit: Fit, trial: int) -> Array:
+    """Variance of a trial's prediction that the other trials leave open, in that of the noise, (N,)."""
+    slopes = fit.jacobian[trial]
+    return np.asarray(np.sum((slopes @ free_covariance(fit, without=trial)) * slopes, axis=1))
 
 
 def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:

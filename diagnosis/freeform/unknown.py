@@ -7,6 +7,7 @@ import numpy as np
 from diagnosis.assessment.assess import Assessment
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
+from diagnosis.freeform.likeness.plain_fits import with_plain_laws
 from diagnosis.freeform.missing import Missing, missing_of
 from diagnosis.freeform.search import FreeFit, free_form_fits
 from diagnosis.log.rig_log import RigLog
@@ -51,6 +52,7 @@ def _fits(
 ) -> tuple[FreeFit, ...]:
     """Free-form fits; empty if the nominal rig cannot be simulated, or there was no time."""
     try:
-        return free_form_fits(problem, coarse, companions, workers)
+        fits = free_form_fits(problem, coarse, companions, workers)
     except (SimulationFailed, StoppedEarly):
         return ()
+    return fits if workers.stop.due else with_plain_laws(problem, fits, workers)

@@ -46,16 +46,24 @@ def _verdict(found: Diagnosis) -> str:
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
             near = found.assessment.nearest
-            best = f"at best {in_sigma(near.gap_after)}" if near.effects else "which none of them lowers"
             if found.verdict.other_form:
                 return (
                     f"Unknown: residual {before}. {_capital(titles(near.effects))} would leave "
                     f"{in_sigma(near.gap_after)} (σ = sensor noise), but {found.verdict.other_form} "
                     "leaves clearly less"
                 )
+            best, named = found.verdict.best, titles(near.effects) or _NOTHING
+            if best.floor.small and best.objection and {*best.named} == {*near.effects}:
+                return (
+                    f"Unknown: {named} would leave a residual of {in_sigma(near.gap_after)} (σ = sensor "
+                    f"noise), but does not count: {best.objection}"
+                )
+            least = (
+                f"at best {in_sigma(near.gap_after)}" if near.effects else "which none of them lowers"
+            )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
-                f"residual {before}, {best} (σ = sensor noise)"
+                f"residual {before}, {least} (σ = sensor noise)"
             )
 
 

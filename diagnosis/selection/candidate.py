@@ -93,8 +93,8 @@ class Candidate:
             yield f"held-out trials cannot be simulated: {self.held_out_failure or 'not tried'}"
         for sensor, own in self.coloured.items():
             if own.slow > own.slow_limit:
-                seen = f"slow part {own.slow:.2f} σ over seconds, limit {own.slow_limit:.2f}"
-                yield f"not the noise of {sensor}: {seen}"
+                seen = f"{own.slow:.2f} times what its noise makes them, limit {own.slow_limit:.2f}"
+                yield f"means of {sensor} over seconds are {seen}"
         if self.held_out_floor and self.held_out_floor.gap > HELD_OUT_GAP:
             yield f"held-out trials are {self.held_out_floor.gap:.3g} σ off, limit {HELD_OUT_GAP:.3g} σ"
         if self.shift > self.shift_limit:

@@ -15,7 +15,7 @@ EFFECT = Effect(
     title="a clock of the torque sensor that drifts",
     place=Place.SENSOR,
     parameters=(
-        Parameter(name="rate", unit="-", low=-0.015, high=0.015, start=(0.002, -0.002), scale=0.003),
+        Parameter(name="rate", unit="-", low=-0.02, high=0.02, start=(0.002, -0.002), scale=0.003),
     ),
     apply=_apply,
     needs="base_torque_n_mm",

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.optimize import OptimizeWarning, curve_fit
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.likeness.shapes import OF_ANGLE, OF_ANY, OF_RATE, Shape
+from diagnosis.freeform.likeness.shapes import OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
 from diagnosis.freeform.missing import Law
 
 Array = NDArray[np.float64]
@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 _LEAST_BAND = 0.01  # of the range of a curve: no band is taken to be narrower
 _WITHIN = 1.0  # half widths of the band, root mean square
 _MOST_EVALUATIONS = 4000
+_FEWEST = 3  # points of a curve
 _ANGLES = ("base_angle", "tip_angle")
 _DRY, _VISCOUS = "N mm / mm", "N mm s / rad / mm"  # per mm of shaft
 LIBRARY_LAWS = {
@@ -55,10 +56,28 @@ class Likeness:
     library: tuple[str, ...]
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Recognised:
+    """A shape with the parameters for which it lies within the band of a curve, (n,)."""
+
+    shape: Shape
+    values: Array
+
+
 def likeness_of(law: Law) -> Likeness | None:
-    """The plain law that a curve resembles; None: none of the known ones, or the law is no curve."""
-    if law.variable in ("direction", "event"):
+    """The plain law that a curve resembles, in words; None: none of the known ones."""
+    found = recognised(law)
+    if not found:
         return None
+    shape, values = found[0].shape, found[0].values
+    library = LIBRARY_LAWS.get((law.place, law.variable, law.unit, shape.name), ())
+    return Likeness(shape=shape.name, says=shape.says.format(*values), library=library)
+
+
+def recognised(law: Law) -> list[Recognised]:
+    """Shapes that lie within the band of a curve, likeliest first; none if the law is no curve."""
+    if law.variable in ("direction", "event") or len(law.x) < _FEWEST:
+        return []
     x, y = np.array(law.x), np.array(law.y)
     half = 0.5 * (np.array(law.high) - np.array(law.low))
     half = np.maximum(half, _LEAST_BAND * max(float(np.ptp(y)), 1e-12))
@@ -66,20 +85,25 @@ def likeness_of(law: Law) -> Likeness | None:
     for shape in _shapes_of(law):
         fitted = _fitted(shape, x, y, half)
         if fitted is not None:
-            tried.append((fitted[1] + 2 * len(fitted[0]), fitted[1], shape, fitted[0]))
-    if not tried:
-        return None
-    _, chi_square, shape, values = min(tried, key=lambda one: one[0])
-    if chi_square > _WITHIN**2 * x.size:
-        return None
-    library = LIBRARY_LAWS.get((law.place, law.variable, law.unit, shape.name), ())
-    return Likeness(shape=shape.name, says=shape.says.format(*values), library=library)
+            values, chi_square = fitted
+            tried.append((chi_square, Recognised(shape=shape, values=values)))
+    tried.sort(key=lambda one: one[0] + 2 * one[1].values.size)
+    if not tried or tried[0][0] > _WITHIN**2 * x.size:
+        return []
+    return [found for chi_square, found in tried if chi_square <= _WITHIN**2 * x.size]
 
 
 def _shapes_of(law: Law) -> tuple[Shape, ...]:
+    every = _of_variable(law)
+    return tuple(shape for shape in every if shape.name == law.shape) if law.shape else every
+
+
+def _of_variable(law: Law) -> tuple[Shape, ...]:
+    x = np.array(law.x)
+    either = OF_BOTH_SIGNS if x.min() < 0 < x.max() else ()
     if law.variable == "rate":
         return (*OF_RATE, *OF_ANY[:1])
-    return (*OF_ANY, *OF_ANGLE) if law.variable in _ANGLES else OF_ANY
+    return (*OF_ANY, *either, *(of_angle(x) if law.variable in _ANGLES else ()))
 
 
 def _fitted(shape: Shape, x: Array, y: Array, half: Array) -> tuple[Array, float] | None:

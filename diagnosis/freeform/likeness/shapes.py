@@ -5,6 +5,7 @@ Each is y(x) with few parameters, and a start for a fit to the points of a curve
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ Array = NDArray[np.float64]
 _STEP_WIDTH = 0.03
 """Of the range: less than from one point to the next, not so steep that no fit finds it."""
 _MOST_CYCLES = 4  # of a wave in one turn, from which a fit starts
+_WHOLE = 1e-6  # off a whole number of cycles: none
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +53,22 @@ def _step(x: Array, a: float, b: float, at: float) -> Array:
 
 def _wave(x: Array, a: float, b: float, phase: float, cycles: float) -> Array:
     return np.asarray(a + b * np.sin(np.radians(cycles * x) + phase))
+
+
+def _parabola(x: Array, a: float, b: float, c: float) -> Array:
+    return a + b * x + c * x**2
+
+
+def _cubic(x: Array, a: float, b: float, c: float) -> Array:
+    return a + b * x + c * x**3
+
+
+def _of_size(x: Array, a: float, b: float) -> Array:
+    return a + b * np.abs(x)
+
+
+def _hyperbola(x: Array, a: float, half: float) -> Array:
+    return np.asarray(a / (1.0 + np.abs(x / half)))
 
 
 def _power(x: Array, a: float, p: float) -> Array:
@@ -118,6 +136,24 @@ OF_ANY = (
         start=lambda x, y: (float(y[0]), _slope(x, y)),
     ),
     Shape(
+        name="parabola",
+        says="{0:.3g} {1:+.3g} x {2:+.3g} x^2",
+        law=_parabola,
+        start=lambda x, y: tuple(np.polynomial.polynomial.polyfit(x, y, 2)),
+    ),
+    Shape(
+        name="cubic",
+        says="{0:.3g} {1:+.3g} x {2:+.3g} x^3",
+        law=_cubic,
+        start=lambda x, y: tuple(np.polynomial.polynomial.polyfit(x, y, (0, 1, 3))[[0, 1, 3]]),
+    ),
+    Shape(
+        name="hyperbola",
+        says="{0:.3g} at 0, half of it at {1:.3g}",
+        law=_hyperbola,
+        start=lambda x, y: (float(y[np.argmin(np.abs(x))]), float(0.3 * np.abs(x).max())),
+    ),
+    Shape(
         name="exponential approach",
         says="settles at {0:.3g}, {1:+.3g} at the beginning, which falls to 37 % over {2:.3g}",
         law=_decay,
@@ -130,11 +166,38 @@ OF_ANY = (
         start=lambda x, y: (float(y[0]), float(y[-1] - y[0]), _largest_jump(x, y)),
     ),
 )
-OF_ANGLE = (
+OF_BOTH_SIGNS = (
     Shape(
-        name="sine wave",
-        says="{0:.3g} + {1:.3g} sin({3:.3g} angle + phase), phase {2:.3g} rad",
-        law=_wave,
-        start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
+        name="line in the size of the variable",
+        says="{0:.3g} at 0, changing by {1:+.3g} per unit either way",
+        law=_of_size,
+        start=lambda x, y: (float(y[np.argmin(np.abs(x))]), float(np.polyfit(np.abs(x), y, 1)[0])),
     ),
 )
+_WAVE = Shape(
+    name="sine wave",
+    says="{0:.3g} + {1:.3g} sin({3:.3g} angle + phase), phase {2:.3g} rad",
+    law=_wave,
+    start=lambda x, y: min(_waves(x, y, n) for n in range(1, _MOST_CYCLES + 1))[1],
+)
+
+
+def of_angle(x: Array) -> tuple[Shape, ...]:
+    """Waves of a curve over an angle, deg: of whole numbers of cycles in a turn, and of any number.
+
+    Places that are even parts of a whole part of a turn are those of a curve that repeats with it.
+    """
+    cycles = {*range(1, _MOST_CYCLES + 1)}
+    repeats = 360.0 / (x.size * float(np.mean(np.diff(x))))
+    if repeats > 0.5 and abs(repeats - round(repeats)) < _WHOLE:
+        cycles.add(round(repeats))
+    return (*(_whole_waves(n) for n in sorted(cycles)), _WAVE)
+
+
+def _whole_waves(cycles: int) -> Shape:
+    return Shape(
+        name=_WAVE.name,
+        says=f"{{0:.3g}} + {{1:.3g}} sin({cycles} angle + phase), phase {{2:.3g}} rad",
+        law=partial(_wave, cycles=cycles),
+        start=lambda x, y: _waves(x, y, cycles)[1][:3],
+    )

@@ -183,7 +183,7 @@ def test_what_is_slow_beside_coloured_noise_explains_nothing(same):
     held = replace(good, coloured={"tip_angle_deg": slow})
     assert not held.explains
     assert held.objection == (
-        "not the noise of tip_angle_deg: slow part 1.80 σ over seconds, limit 1.40"
+        "means of tip_angle_deg over seconds are 1.80 times what its noise makes them, limit 1.40"
     )
     assert replace(good, coloured={"tip_angle_deg": replace(slow, slow=1.3)}).explains
 

@@ -12,6 +12,7 @@ from diagnosis.freeform.missing import Law
 
 RATES = np.geomspace(0.006, 3.0, 7)
 TIMES = np.linspace(0.0, 10.0, 8)
+SIGNED = np.linspace(-5.0, 5.0, 11)
 PLACES = (np.arange(6) + 0.5) / 6
 ANGLES = 30.0 * np.arange(12)
 BAND = 0.03  # half of it, of the range of the curve
@@ -43,6 +44,10 @@ def sine(x, mean, size, cycles, phase):
 LAWS = [
     ("constant", "time", TIMES, lambda x, a: 0 * x + a, (2.0,)),
     ("straight line", "time", TIMES, lambda x, a, b: a + b * x, (1.0, 0.5)),
+    ("parabola", "time", TIMES, lambda x, a, b, c: a + b * x + c * x**2, (1.0, -2.0, 0.4)),
+    ("cubic", "torque", SIGNED, lambda x, a, b, c: a + b * x + c * x**3, (0.5, 0.2, 0.1)),
+    ("line in the size of the variable", "torque", SIGNED, lambda x, a, b: a + b * abs(x), (0.5, 0.2)),
+    ("hyperbola", "axial_speed", SIGNED, lambda x, a, half: a / (1 + abs(x / half)), (2.0, 0.8)),
     ("exponential approach", "time", TIMES, lambda x, a, b, t: a + b * np.exp(-x / t), (1, 3, 2.5)),
     ("exponential approach", "depth", TIMES, lambda x, a, b, t: a + b * np.exp(-x / t), (4, -3, 1.5)),
     ("sine wave", "tip_angle", ANGLES, sine, (1.0, 0.5, 1.0, -0.8)),

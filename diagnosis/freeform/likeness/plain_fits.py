@@ -1,0 +1,72 @@
+"""Plain laws in place of the free-form curves that resemble them, fitted through the simulation.
+
+A plain law has few parameters, so it also tells what happens where no other trial has been. The curves
+of the likeliest fits are looked at; where one resembles plain laws, the best of these is fitted in its
+place. It is dropped if it leaves more than its fewer parameters are worth.
+
+A trial is predicted by the plain law if the other trials determine that; if they do not, by the curve,
+whose prior knows how little they tell.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import FAR_GAP
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.family import Family
+from diagnosis.freeform.likeness.likeness import recognised
+from diagnosis.freeform.likeness.plain_family import plain_family
+from diagnosis.freeform.missing import law_of, likelier_first
+from diagnosis.freeform.search import FreeFit, fitted_and_checked, left_open, with_family
+from diagnosis.workers import Failure, Task, Workers
+
+Array = NDArray[np.float64]
+
+STAGE = "plain laws"
+MOST, SHAPES = 2, 4  # fits that are looked at, and plain laws that are tried of each, likeliest first
+DETERMINED = 100.0  # variance of a prediction, in that of the noise, mean over a trial
+
+
+def with_plain_laws(
+    problem: FitProblem, fits: Sequence[FreeFit], workers: Workers
+) -> tuple[FreeFit, ...]:
+    """The fits, with those of plain laws that leave as little."""
+    near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= FAR_GAP][:MOST]
+    tasks = [Task(effects=f.fit.names, arguments=(problem, f)) for f in near]
+    found = [f for f in workers.each(STAGE, _as_plain, tasks) if not isinstance(f, Failure)]
+    return (*(f for f in found if f is not None), *fits)
+
+
+def _as_plain(problem: FitProblem, curve: FreeFit) -> FreeFit | None:
+    """The best fit of a plain law; None: the curve resembles none, or that leaves more."""
+    law = law_of(curve)
+    parameterization = curve.fit.parameterization
+    own = np.array([owner == curve.family.name for owner in parameterization.owners])
+    values = np.array(parameterization.values(curve.fit.x))[own]
+    families = [plain_family(curve.family, values, law, shape) for shape in recognised(law)[:SHAPES]]
+    fits = [_fitted(problem, curve, family) for family in families if family]
+    best = min(fits, key=lambda f: f.score, default=curve)
+    if best.score >= curve.score:
+        return None
+    return replace(best, held_out=_each_by_what_is_determined(best, curve))
+
+
+def _fitted(problem: FitProblem, curve: FreeFit, family: Family) -> FreeFit:
+    vector = with_family(problem, family).parameterization((family.name, *curve.beside))
+    begun = np.array([p.to_fit(p.start[0]) for p in family.effect.parameters])
+    start = vector.joined({**curve.fit.parts, family.name: begun})
+    return fitted_and_checked(problem, replace(curve, family=family), start)
+
+
+def _each_by_what_is_determined(plain: FreeFit, curve: FreeFit) -> tuple[Array, ...] | None:
+    """Residuals / sigma of held-out trials by the plain law, or by the curve."""
+    if plain.held_out is None or curve.held_out is None:
+        return plain.held_out
+    each = zip(plain.held_out, curve.held_out, strict=True)
+    determined = [
+        float(left_open(plain.fit, i).mean()) <= DETERMINED for i in range(len(plain.held_out))
+    ]
+    return tuple(p if own else c for own, (p, c) in zip(determined, each, strict=True))
