@@ -7,6 +7,8 @@ length eta = rho J (Section II-A and below (4) of Reed, Okamura and Cowan 2009).
 import math
 from typing import Annotated
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from models import units
@@ -47,6 +49,11 @@ class Needle(Record):
     stiffness_torque_n_mm: NonNegative = 0.0
     """At the last of either. Torques are what the nominal stiffness would carry at the same twist; the
     curve is level beyond them."""
+    stiffness_along: tuple[Positive, ...] = ()
+    """Factors of the torsional stiffness at even places from the tip on, straight between them and level
+    beyond; none: it is 1."""
+    stiffness_along_mm: NonNegative = 0.0
+    """From the tip to the last of these."""
     yield_torque_n_mm: Positive | None = None
     """Beyond which the shaft twists plastically, either way; None: it is elastic."""
     yield_stiffness_ratio: Annotated[float, Field(ge=0, lt=1)] = 0.0
@@ -60,6 +67,8 @@ class Needle(Record):
             )
         if self.stiffness_curve and self.stiffness_torque_n_mm == 0.0:
             raise InvalidValue("stiffness_torque_n_mm", 0.0, "a torque above 0 where there is a curve")
+        if self.stiffness_along and self.stiffness_along_mm == 0.0:
+            raise InvalidValue("stiffness_along_mm", 0.0, "a length above 0 where there are factors")
         return self
 
     @property
@@ -71,6 +80,13 @@ class Needle(Record):
     def rigidity_n_mm2(self) -> float:
         """kappa = J G, N mm^2: torque over twist per length."""
         return self.polar_moment_mm4 * self.shear_modulus_gpa * units.GPA_TO_N_PER_MM2
+
+    def stiffness_factors(self, from_tip_mm: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Of the stiffness at distances from the tip, (n,)."""
+        if not self.stiffness_along:
+            return np.ones(from_tip_mm.shape)
+        places = np.linspace(0.0, self.stiffness_along_mm, len(self.stiffness_along))
+        return np.interp(from_tip_mm, places, self.stiffness_along)
 
     @property
     def rotary_inertia_kg_m(self) -> float:

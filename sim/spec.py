@@ -266,9 +266,10 @@ def header(setup: Setup, *, rows: int) -> Array:
 
 def springs_n_m_per_rad(setup: Setup) -> Array:
     """Torsional stiffness kappa / a of every element at the start, (n,)."""
-    rigidity = setup.needle.rigidity_n_mm2 * units.N_MM2
-    stiffness: Array = rigidity / (np.diff(setup.nodes_mm) * units.MM)
-    return stiffness
+    rigidity, nodes = setup.needle.rigidity_n_mm2 * units.N_MM2, setup.nodes_mm
+    from_tip_mm = nodes[-1] - 0.5 * (nodes[1:] + nodes[:-1])
+    stiffness: Array = rigidity / (np.diff(nodes) * units.MM)
+    return stiffness * setup.needle.stiffness_factors(from_tip_mm)
 
 
 def _numbers(setup: Setup) -> dict[str, Array]:

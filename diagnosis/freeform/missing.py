@@ -2,13 +2,15 @@
 
 Families are weighted by the gap g that they leave on trials that their fits have not seen,
 
-    weight = (FLOOR + g^2 - 1)^(-1 / PATIENCE) exp(-freedom / FREEDOM),
+    weight = [(FLOOR + g^2 - 1) (FLOOR + r^2 - 1)]^(-1 / PATIENCE) exp(-freedom / FREEDOM),
 
-so that far above the noise a law that leaves 10 % more than another has a seventh of its weight, and
-near the noise, where laws are nearly true, 2 % decide as much. A likelihood would decide more sharply;
-but no family is the true law, and the best of them may be so by chance. Places that no family favours
-keep a small probability. The library's nearest explanation, which has no place for what is missing,
-counts for all places alike: where it leaves less than every family, none of them is likely.
+where r is the gap on the trials of the fit over the least of these: where few trials tell of a law,
+leaving one out says little. Far above the noise a law that leaves 10 % more than another has a seventh
+of its weight by either, and near the noise, where laws are nearly true, 2 % decide as much. A
+likelihood would decide more sharply; but no family is the true law, and the best of them may be so by
+chance. Places that no family favours keep a small probability. The library's nearest explanation,
+which has no place for what is missing, counts for all places alike: where it leaves less than every
+family, none of them is likely.
 """
 
 import math
@@ -112,13 +114,20 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
 
 def likelier_first(fits: Sequence[FreeFit]) -> list[FreeFit]:
     """Fits to the log itself before others, and of these the likelier ones first."""
-    return sorted(fits, key=lambda f: (not f.final, -_log_weight(f)))
+    least = least_gap(fits)
+    return sorted(fits, key=lambda f: (not f.final, -_log_weight(f, least)))
+
+
+def least_gap(fits: Sequence[FreeFit]) -> float:
+    """Of the fits to the log itself, on their own trials."""
+    return min((f.fit.gap for f in fits if f.final), default=1.0)
 
 
 def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
     """Probabilities of places, each by the best family that may be there."""
-    logs = [_log_weight(f) for f in fits]
-    of_library = _log_gap_weight(nearest_gap)
+    least = least_gap(fits)
+    logs = [_log_weight(f, least) for f in fits]
+    of_library = _log_gap_weight(nearest_gap) + _log_gap_weight(nearest_gap / least)
     best = max(*logs, of_library)
     everywhere = LEAST_WEIGHT + math.exp(of_library - best)
     most = dict.fromkeys(Place, 0.0)
@@ -129,9 +138,9 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
     return {place: weight / sum(weights.values()) for place, weight in weights.items()}
 
 
-def _log_weight(one: FreeFit) -> float:
+def _log_weight(one: FreeFit, least: float) -> float:
     freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
-    return _log_gap_weight(one.gap_after) - freedom / FREEDOM
+    return _log_gap_weight(one.gap_after) + _log_gap_weight(one.fit.gap / least) - freedom / FREEDOM
 
 
 def _log_gap_weight(gap: float) -> float:

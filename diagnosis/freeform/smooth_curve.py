@@ -74,6 +74,17 @@ def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = Fals
     return SmoothCurve(places=places, basis=_beside(line, covariance), straight=2)
 
 
+def rough_curve(low: float, high: float, count: int) -> SmoothCurve:
+    """A curve that may change from one place to the next, as from layer to layer: a random walk.
+
+    Covariance exp(-|u - u'| / l) beside a straight line.
+    """
+    u = np.linspace(-1.0, 1.0, count)
+    covariance = np.exp(-np.abs(u[:, None] - u) / _LENGTH)
+    line = np.stack([np.ones(count), u], axis=1)
+    return SmoothCurve(places=np.linspace(low, high, count), basis=_beside(line, covariance), straight=2)
+
+
 def bent_curve(low: float, high: float, count: int = 8) -> SmoothCurve:
     """A smooth curve that may bend at zero, where both signs of a variable may differ.
 

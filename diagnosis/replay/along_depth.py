@@ -20,6 +20,7 @@ class AlongDepth:
       stiffness: factors of the stiffness, if the tissue is elastic.
       friction_n_mm_per_mm: dry friction in addition to the nominal one.
       thickness_mm: of each part; the last takes the rest. 0: the parts share the inserted length.
+      thicknesses_mm: of each part but the last, where they differ; empty: they do not.
 
     Raises:
       InvalidValue: a factor of the damping, or a thickness, is not allowed.
@@ -29,6 +30,7 @@ class AlongDepth:
     stiffness: tuple[float, ...] = ()
     friction_n_mm_per_mm: tuple[float, ...] = ()
     thickness_mm: float = 0.0
+    thicknesses_mm: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         if min(self.damping, default=1.0) <= 0:
@@ -38,6 +40,11 @@ class AlongDepth:
             raise InvalidValue("friction_n_mm_per_mm", self.friction_n_mm_per_mm, expected)
         if self.thickness_mm < 0:
             raise InvalidValue("thickness_mm", self.thickness_mm, "a thickness, or 0")
+        if self.thicknesses_mm and (
+            len(self.thicknesses_mm) != self.parts - 1 or min(self.thicknesses_mm) <= 0
+        ):
+            expected = f"{self.parts - 1} thicknesses above 0, of all parts but the last"
+            raise InvalidValue("thicknesses_mm", self.thicknesses_mm, expected)
 
     @property
     def parts(self) -> int:
@@ -51,6 +58,7 @@ class AlongDepth:
             stiffness=tuple(factor**strength for factor in self.stiffness),
             friction_n_mm_per_mm=tuple(strength * level for level in self.friction_n_mm_per_mm),
             thickness_mm=self.thickness_mm,
+            thicknesses_mm=self.thicknesses_mm,
         )
 
     def layers(self, law: Interface) -> tuple[Layer, ...]:
@@ -66,10 +74,17 @@ class AlongDepth:
             )
             for damping, stiffness, level in each
         )
-        size = (
-            {"thickness_mm": self.thickness_mm} if self.thickness_mm else {"fraction": 1.0 / self.parts}
+        return (
+            *(Layer(interface=own, **size) for own, size in zip(upper, self._sizes(), strict=True)),
+            Layer(interface=last),
         )
-        return (*(Layer(interface=own, **size) for own in upper), Layer(interface=last))
+
+    def _sizes(self) -> list[dict[str, float]]:
+        """Of all parts but the last."""
+        if self.thicknesses_mm:
+            return [{"thickness_mm": own} for own in self.thicknesses_mm]
+        same = {"thickness_mm": self.thickness_mm} if self.thickness_mm else {"fraction": 1 / self.parts}
+        return [same] * (self.parts - 1)
 
 
 def _times(factor: float | None, nominal: float) -> float:

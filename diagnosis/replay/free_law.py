@@ -6,6 +6,8 @@ period is a periodic cubic spline: a sine through 5 places is off by less than 1
     tissue          the torque of tissue that varies is multiplied by the curve
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
+    inserted_length the length in contact with tissue is what is logged + the curve, mm, and the free
+                    length what is left of the shaft
     drive_torque    the torque sensor reads the needle's torque + the curve, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
@@ -56,6 +58,7 @@ class ActsOn(StrEnum):
     TISSUE = "tissue"
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
+    INSERTED_LENGTH = "inserted_length"
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"
     TORQUE_READING = "torque_reading"
@@ -147,6 +150,9 @@ class FreeLaw:
       along_depth: what changes with the depth.
       stiffness_over_torque: factors of the shaft's stiffness (models.needle).
       stiffness_torque_n_mm: torque at the last of them.
+      stiffness_along: its factors at even places from the tip on (models.needle).
+      stiffness_along_mm: from the tip to the last of them.
+      stiffness_by_trial: its factor in each trial, by name; it is 1 in others.
       yield_torque_n_mm: torque beyond which the shaft twists plastically (models.needle); None: never.
       yield_stiffness_ratio: its stiffness beyond it over the elastic one.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
@@ -166,6 +172,9 @@ class FreeLaw:
     along_depth: AlongDepth = AlongDepth()  # noqa: RUF009 - frozen
     stiffness_over_torque: tuple[float, ...] = ()
     stiffness_torque_n_mm: float = 0.0
+    stiffness_along: tuple[float, ...] = ()
+    stiffness_along_mm: float = 0.0
+    stiffness_by_trial: tuple[tuple[str, float], ...] = ()
     yield_torque_n_mm: float | None = None
     yield_stiffness_ratio: float = 0.0
     contact: ContactCurve | None = None
@@ -200,6 +209,9 @@ class FreeLaw:
             along_depth=self.along_depth.times(strength),
             stiffness_over_torque=tuple(factor**strength for factor in self.stiffness_over_torque),
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
+            stiffness_along=tuple(factor**strength for factor in self.stiffness_along),
+            stiffness_along_mm=self.stiffness_along_mm,
+            stiffness_by_trial=tuple((name, f**strength) for name, f in self.stiffness_by_trial),
             contact=_raised(self.contact, strength) if self.contact else None,
             yield_torque_n_mm=_weaker(self.yield_torque_n_mm, strength),
             yield_stiffness_ratio=self.yield_stiffness_ratio,
@@ -210,7 +222,9 @@ class FreeLaw:
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """The parts of the law that apply to one trial."""
-        return self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
+        own = tuple(one for one in self.stiffness_by_trial if one[0] == trial)
+        law = self if own == self.stiffness_by_trial else replace(self, stiffness_by_trial=own)
+        return law._with(tuple(c for c in self.curves if c.trial in ("", trial)))
 
     def without_sensors(self) -> "FreeLaw":
         """The parts of the law that act on the needle, without those of the sensors."""
@@ -223,10 +237,14 @@ class FreeLaw:
         return tuple(c for c in self.curves if c.acts_on not in _SENSORS)
 
     def needle(self, needle: Needle) -> Needle:
-        """The needle with the law in it."""
+        """The needle with the law in it, in the only trial that it is about."""
+        factor = self.stiffness_by_trial[0][1] if len(self.stiffness_by_trial) == 1 else 1.0
         changed: Needle = needle.but(
+            shear_modulus_gpa=factor * needle.shear_modulus_gpa,
             stiffness_curve=self.stiffness_over_torque,
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
+            stiffness_along=self.stiffness_along,
+            stiffness_along_mm=self.stiffness_along_mm,
             yield_torque_n_mm=self.yield_torque_n_mm,
             yield_stiffness_ratio=self.yield_stiffness_ratio,
         )
@@ -271,7 +289,7 @@ class FreeLaw:
         curves = self._of_the_needle()
         if not curves:
             return inputs
-        factor, drive = np.ones(inputs.time_s.size), inputs.drive
+        factor, drive, deeper = np.ones(inputs.time_s.size), inputs.drive, np.zeros(inputs.time_s.size)
         for curve in curves:
             if curve.variable is Variable.TURNED_BY:
                 drive = drive + curve.with_hysteresis(inputs.drive)
@@ -280,11 +298,21 @@ class FreeLaw:
             own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on is ActsOn.TISSUE:
                 factor = factor * own
+            elif curve.acts_on is ActsOn.INSERTED_LENGTH:
+                deeper = deeper + own
             elif curve.acts_on is ActsOn.DRIVE_SLIP:
                 drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
             else:
                 drive = drive + own
-        return replace(inputs, drive=drive, tissue_factor=np.maximum(factor, _LEAST_FACTOR))
+        factor = np.maximum(factor, _LEAST_FACTOR)
+        deeper = np.clip(deeper, -inputs.inserted_mm, inputs.free_mm)
+        return replace(
+            inputs,
+            drive=drive,
+            inserted_mm=inputs.inserted_mm + deeper,
+            free_mm=inputs.free_mm - deeper,
+            tissue_factor=factor,
+        )
 
     def sensed(
         self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array

@@ -1,5 +1,7 @@
 """Tissue that gives way, or grips, at an unknown time, and stays so in the trials that follow.
 
+That may also be between two trials: where the needle is inserted in another place.
+
 Its torque is multiplied by a factor from then on. The starting value of the time is from what less
 damping changes: of all times of all trials, the one from which on a multiple of this change takes most
 off the nominal residual,
@@ -49,6 +51,8 @@ def largest_change(ranges: LogRanges) -> Moment | None:
         squares = size + np.cumsum(square[::-1])[::-1]
         gain = np.where(squares > 0, after**2 / np.maximum(squares, 1e-300), 0.0)
         inside = (time_s > _LEAST_S) & (time_s < time_s[-1] - _LEAST_S) if time_s.size else []
+        if time_s.size and number > 0:
+            inside[0] = True  # between two trials
         gain = np.where(inside, gain, 0.0)
         if gain.size and gain.max() > best:
             at = int(np.argmax(gain))

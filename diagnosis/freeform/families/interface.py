@@ -222,11 +222,11 @@ def _position(ranges: LogRanges) -> Family:
         effect=Effect(
             name="damping over position",
             title="damping that changes along the inserted shaft",
-            place=Place.INTERFACE,
+            place=Place.TISSUE,
             parameters=coordinates_of(curve),
             apply=partial(_apply_position, curve),
         ),
-        places={Place.INTERFACE: 0.6, Place.TISSUE: 0.4},
+        places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
         says="position",
         title="damping along the shaft",
         curve=partial(_along_depth, curve, beta),

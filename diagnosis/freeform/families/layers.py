@@ -1,6 +1,7 @@
 """Free laws of a tissue in layers: what each mm of shaft meets depends on its depth below the surface.
 
 - dry friction that each layer has
+- damping of one layer, which is thin or thick, anywhere
 - damping, or the stiffness of elastic tissue, of each layer; only where the inserted length varies: at
   one length these are laws of the place along the shaft (interface.py, tissue.py)
 """
@@ -12,17 +13,21 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.interface import PARTS
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
 SAYS = "position"
-_EITHER = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
+LAYERS = 12  # down to the greatest depth
+_EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
+_FRICTION = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
+_FROM = (0.2, 0.35, 0.5, 0.65, 0.8)  # of the greatest depth, where one layer is looked for
+_THICK = 0.1  # of it
+_TIMES = (2.0, 0.5)  # its damping / that of the rest
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,17 +39,17 @@ class _Layers:
 
     @property
     def middles_mm(self) -> tuple[float, ...]:
-        return tuple((i + 0.5) * self.thickness_mm for i in range(PARTS))
+        return tuple((i + 0.5) * self.thickness_mm for i in range(LAYERS))
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of layers that may be missing."""
     deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
-    layers = _Layers(curve=smooth_curve(0.0, 1.0, PARTS), thickness_mm=deepest / PARTS)
+    layers = _Layers(curve=rough_curve(0.0, 1.0, LAYERS), thickness_mm=deepest / LAYERS)
     friction = _friction(layers, ranges)
     if Variable.DEPTH not in ranges.ends:
         return (friction,)
-    return (friction, _damping(layers, ranges), _elastic(layers, ranges))
+    return (friction, _damping(layers, ranges), _elastic(layers, ranges), _one_layer(deepest, ranges))
 
 
 def _friction(layers: _Layers, ranges: LogRanges) -> Family:
@@ -58,7 +63,7 @@ def _friction(layers: _Layers, ranges: LogRanges) -> Family:
             apply=partial(_apply_friction, layers),
             differences=(1e-2,),
         ),
-        places=_EITHER,
+        places=_FRICTION,
         says=SAYS,
         title="dry friction along the shaft",
         curve=partial(_levels, layers),
@@ -81,7 +86,7 @@ def _damping(layers: _Layers, ranges: LogRanges) -> Family:
         effect=Effect(
             name="damping over position, in layers",
             title="damping that changes with the depth below the surface",
-            place=Place.INTERFACE,
+            place=Place.TISSUE,
             parameters=coordinates_of(layers.curve),
             apply=partial(_apply_damping, layers),
         ),
@@ -135,6 +140,50 @@ def _apply_elastic(
     )
     along = AlongDepth(stiffness=layers.curve.factors(c), thickness_mm=layers.thickness_mm)
     return _with(elastic, along)
+
+
+def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
+    each = [(share * deepest_mm, times) for times in _TIMES for share in _FROM]
+    upper, factors = zip(*each, strict=True)
+    length = Parameter(
+        name="depth",
+        unit="mm",
+        low=1.0,
+        high=deepest_mm,
+        start=upper,
+        logarithmic=True,
+        neutral=None,
+    )
+    thickness = replace(length, name="thickness", start=(_THICK * deepest_mm,) * len(each))
+    times = Parameter(
+        name="times", unit="-", low=0.02, high=50.0, start=factors, logarithmic=True, neutral=1.0
+    )
+    return Family(
+        effect=Effect(
+            name="damping over position, in one layer",
+            title="one layer of tissue whose damping is another",
+            place=Place.TISSUE,
+            parameters=(length, thickness, times),
+            apply=_apply_one_layer,
+            differences=(1e-1, 1e-2),
+        ),
+        places=_EITHER,
+        says=SAYS,
+        title="damping along the shaft",
+        curve=partial(_one_layers, ranges.damping_n_mm_s_per_mm),
+        x_unit="mm below the surface",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _one_layers(beta: float, depth: float, thickness: float, times: float) -> Points:
+    return (0.0, depth, depth, depth + thickness, depth + thickness, 2 * depth + thickness), [
+        beta * factor for factor in (1.0, 1.0, times, times, 1.0, 1.0)
+    ]
+
+
+def _apply_one_layer(rig: RigParameters, depth: float, thickness: float, times: float) -> RigParameters:
+    return _with(rig, AlongDepth(damping=(1.0, times, 1.0), thicknesses_mm=(depth, thickness)))
 
 
 def _with(rig: RigParameters, along: AlongDepth) -> RigParameters:

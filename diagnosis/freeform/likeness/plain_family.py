@@ -86,8 +86,8 @@ def plain_family(family: Family, values: Array, law: Law, found: Recognised) -> 
     own += [_begun_at(family.effect.parameters[i], values[i]) for i in through.beside]
     effect = replace(
         family.effect,
-        name=f"{family.effect.name}, as a {found.shape.name}",
-        title=f"{family.effect.title}, as a {found.shape.name}",
+        name=f"{family.effect.name}: {found.shape.name}",
+        title=f"{family.effect.title}: {found.shape.name}",
         parameters=tuple(own),
         apply=partial(_apply, through),
     )

@@ -1,8 +1,7 @@
-"""Free laws of the needle itself.
+"""Free laws of the tip, and of the angle of each piece of the shaft.
 
-- the stiffness of the shaft as a curve of the torque that it carries, either way
-- a shaft that twists plastically beyond a torque
 - at the tip: drag and dry friction, which may differ between the directions
+- at the tip: the same times a curve of the axial speed or the inserted length, as of a bevel that cuts
 - at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
   one and two waves per turn
 """
@@ -15,31 +14,28 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import SLOW_RAD_S, curve_over, tissue_curve
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, two_sided_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import Variable
-from models.needle import STIFFNESS_POINTS
+from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface
 
 AT_TIP, ALONG = (1, 2, 3, 4), (1, 2)  # waves in a turn
+TORQUE_OVER = (Variable.AXIAL_SPEED, Variable.DEPTH)
 _SHOWN_DEG = np.linspace(-180.0, 180.0, 49)
 _SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])
-_YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
-_LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
-_BEYOND = 1.5  # torque that a curve spans / that of the nominal shaft: one that yields twists more
 _AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """Families of laws that the needle may lack."""
+    """Families of laws that the tip may lack."""
     turned = Variable.BASE_ANGLE in ranges.ends
     angles = (_angle(ranges, tip=True), _angle(ranges, tip=False)) if turned else ()
-    loaded = Variable.TORQUE in ranges.ends
-    shaft = (_stiffness(ranges), _yielding(ranges)) if loaded else ()
-    return (_tip_rate(ranges), *shaft, *angles)
+    changing = (_torque_over(v, ranges) for v in TORQUE_OVER if v in ranges.ends)
+    return (_tip_rate(ranges), *changing, *angles)
 
 
 def _tip_rate(ranges: LogRanges) -> Family:
@@ -74,85 +70,6 @@ def _at_rates(damping: float, level: float, side: float) -> Points:
     return _SHOWN_RAD_S, own * (1 + side * np.sign(_SHOWN_RAD_S))
 
 
-def _stiffness(ranges: LogRanges) -> Family:
-    most_n_mm = _BEYOND * max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    curve = two_sided_curve(most_n_mm, STIFFNESS_POINTS)
-    return Family(
-        effect=Effect(
-            name="stiffness over torque",
-            title="a shaft whose stiffness changes with the torque that it carries",
-            place=Place.NEEDLE,
-            parameters=coordinates_of(curve),
-            apply=partial(_apply_stiffness, curve, most_n_mm),
-        ),
-        places={Place.NEEDLE: 1.0},
-        says="torque",
-        title="stiffness of the shaft over the nominal",
-        curve=partial(_factors, curve),
-        x_unit="N mm",
-        unit="-",
-    )
-
-
-def _factors(curve: SmoothCurve, *c: float) -> Points:
-    return curve.places, curve.factors(c)
-
-
-def _by_sign(factors: Sequence[float]) -> tuple[float, ...]:
-    """Of negative torques from 0, then of positive ones; they come in the order of the torques."""
-    negative, positive = factors[:STIFFNESS_POINTS], factors[STIFFNESS_POINTS:]
-    return (*negative[::-1], *positive)
-
-
-def _apply_stiffness(
-    curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
-) -> RigParameters:
-    law = FreeLaw(stiffness_over_torque=_by_sign(curve.factors(c)), stiffness_torque_n_mm=most_n_mm)
-    return replace(rig, free=law)
-
-
-def _yielding(ranges: LogRanges) -> Family:
-    most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    starts = tuple(share * most_n_mm for share in _YIELDS_AT)
-    torque = Parameter(
-        name="torque",
-        unit="N mm",
-        low=_LEAST_YIELD * most_n_mm,
-        high=2.0 * most_n_mm,
-        start=starts,
-        logarithmic=True,
-        neutral=None,
-    )
-    slope = Parameter(
-        name="slope", unit="-", low=0.0, high=0.98, start=(_YIELD_SLOPE,) * len(starts), neutral=1.0
-    )
-    return Family(
-        effect=Effect(
-            name="plastic twist over torque",
-            title="a shaft that twists plastically beyond a torque",
-            place=Place.NEEDLE,
-            parameters=(torque, slope),
-            apply=_apply_yielding,
-            differences=(1e-2, 1e-3),
-        ),
-        places={Place.NEEDLE: 1.0},
-        says="torque",
-        title="torque of the shaft over its twist",
-        curve=_yields,
-        x_unit="of the twist at which it yields",
-        unit="N mm",
-    )
-
-
-def _yields(torque: float, slope: float) -> Points:
-    twists = np.array([0.0, 1.0, 3.0])
-    return twists, torque * np.array([0.0, 1.0, 1.0 + 2.0 * slope])
-
-
-def _apply_yielding(rig: RigParameters, torque: float, slope: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(yield_torque_n_mm=torque, yield_stiffness_ratio=slope))
-
-
 def _drag(ranges: LogRanges, starts: int) -> Parameter:
     """Drag at the tip, which may be 0."""
     own = ranges.library["tip_drag"].parameters[0]
@@ -172,6 +89,44 @@ def _dry(ranges: LogRanges) -> Parameter:
 def _apply_tip_rate(rig: RigParameters, damping: float, level: float, asymmetry: float) -> RigParameters:
     law = Interface(viscous_n_mm_s_per_mm=damping, kinetic_n_mm_per_mm=level, asymmetry=asymmetry)
     return replace(rig, free=FreeLaw(at_tip=(law,)))
+
+
+def _torque_over(variable: Variable, ranges: LogRanges) -> Family:
+    curve, dry = curve_over(variable, ranges), _dry(ranges)
+    neutral = (0.0,) * len(dry.start)
+    own = (replace(p, start=neutral) for p in coordinates_of(curve))
+    return Family(
+        effect=Effect(
+            name=f"tip torque over {variable}",
+            title=f"drag and dry friction at the tip that change with {variable}",
+            place=Place.NEEDLE,
+            parameters=(_drag(ranges, len(dry.start)), dry, *own),
+            apply=partial(_apply_torque, variable, curve),
+            differences=(1e-2,),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says=variable,
+        title=f"torque at the tip at {SLOW_RAD_S:g} rad/s",
+        curve=partial(_torques, curve),
+        x_unit=UNITS[variable],
+        unit="N mm",
+    )
+
+
+def _torques(curve: SmoothCurve, damping: float, level: float, *c: float) -> Points:
+    return curve.places, (damping * SLOW_RAD_S + level) * np.array(curve.factors(c))
+
+
+def _apply_torque(
+    variable: Variable,
+    curve: SmoothCurve,
+    rig: RigParameters,
+    damping: float,
+    level: float,
+    *c: float,
+) -> RigParameters:
+    law = Interface(viscous_n_mm_s_per_mm=damping, kinetic_n_mm_per_mm=level, varies=True)
+    return replace(rig, free=FreeLaw(at_tip=(law,), curves=(tissue_curve(variable, curve, c),)))
 
 
 def _angle(ranges: LogRanges, *, tip: bool) -> Family:

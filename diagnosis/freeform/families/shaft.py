@@ -1,0 +1,137 @@
+"""Free laws of the shaft of the needle.
+
+- its stiffness as a curve of the torque that it carries, either way
+- its stiffness as a curve of the place along it: a joint, a thinner or a hollow part
+- a shaft that twists plastically beyond a torque
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, two_sided_curve
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+from models.needle import STIFFNESS_POINTS
+
+_YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
+_LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
+_BEYOND = 1.5  # torque that a curve spans / that of the nominal shaft: one that yields twists more
+_PARTS = 10  # of the longest shaft
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """Families of laws that the shaft may lack."""
+    loaded = Variable.TORQUE in ranges.ends
+    return (_stiffness(ranges), _along(ranges), _yielding(ranges)) if loaded else ()
+
+
+def _stiffness(ranges: LogRanges) -> Family:
+    most_n_mm = _BEYOND * max(abs(end) for end in ranges.ends[Variable.TORQUE])
+    curve = two_sided_curve(most_n_mm, STIFFNESS_POINTS)
+    return Family(
+        effect=Effect(
+            name="stiffness over torque",
+            title="a shaft whose stiffness changes with the torque that it carries",
+            place=Place.NEEDLE,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_stiffness, curve, most_n_mm),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="torque",
+        title="stiffness of the shaft over the nominal",
+        curve=partial(_factors, curve),
+        x_unit="N mm",
+        unit="-",
+    )
+
+
+def _factors(curve: SmoothCurve, *c: float) -> Points:
+    return curve.places, curve.factors(c)
+
+
+def _by_sign(factors: Sequence[float]) -> tuple[float, ...]:
+    """Of negative torques from 0, then of positive ones; they come in the order of the torques."""
+    negative, positive = factors[:STIFFNESS_POINTS], factors[STIFFNESS_POINTS:]
+    return (*negative[::-1], *positive)
+
+
+def _apply_stiffness(
+    curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
+) -> RigParameters:
+    law = FreeLaw(stiffness_over_torque=_by_sign(curve.factors(c)), stiffness_torque_n_mm=most_n_mm)
+    return replace(rig, free=law)
+
+
+def _along(ranges: LogRanges) -> Family:
+    trials = ranges.problem.log.trials
+    longest_mm = max(float((trial.free_mm + trial.inserted_mm).max()) for trial in trials)
+    curve = rough_curve(0.0, longest_mm, _PARTS)
+    return Family(
+        effect=Effect(
+            name="stiffness over position",
+            title="a shaft whose stiffness changes along it",
+            place=Place.NEEDLE,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_along, curve),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="position",
+        title="stiffness of the shaft over the nominal",
+        curve=partial(_factors, curve),
+        x_unit="mm from the tip",
+        unit="-",
+    )
+
+
+def _apply_along(curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
+    law = FreeLaw(stiffness_along=curve.factors(c), stiffness_along_mm=float(curve.places[-1]))
+    return replace(rig, free=law)
+
+
+def _yielding(ranges: LogRanges) -> Family:
+    most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
+    starts = tuple(share * most_n_mm for share in _YIELDS_AT)
+    torque = Parameter(
+        name="torque",
+        unit="N mm",
+        low=_LEAST_YIELD * most_n_mm,
+        high=2.0 * most_n_mm,
+        start=starts,
+        logarithmic=True,
+        neutral=None,
+    )
+    slope = Parameter(
+        name="slope", unit="-", low=0.0, high=0.98, start=(_YIELD_SLOPE,) * len(starts), neutral=1.0
+    )
+    return Family(
+        effect=Effect(
+            name="plastic twist over torque",
+            title="a shaft that twists plastically beyond a torque",
+            place=Place.NEEDLE,
+            parameters=(torque, slope),
+            apply=_apply_yielding,
+            differences=(1e-2, 1e-3),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="torque",
+        title="torque of the shaft over its twist",
+        curve=_yields,
+        x_unit="of the twist at which it yields",
+        unit="N mm",
+    )
+
+
+def _yields(torque: float, slope: float) -> Points:
+    twists = np.array([0.0, 1.0, 3.0])
+    return twists, torque * np.array([0.0, 1.0, 1.0 + 2.0 * slope])
+
+
+def _apply_yielding(rig: RigParameters, torque: float, slope: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(yield_torque_n_mm=torque, yield_stiffness_ratio=slope))
