@@ -16,7 +16,7 @@ PLACES = {
     Place.PARAMETERS: "in the constants of the rig",
 }
 VARIABLES = {
-    "time": "the time since a trial began",
+    "time": "the time",
     "event": "something that happened once",
     "base_angle": "the angle of the base",
     "tip_angle": "the angle of the tip",
@@ -29,7 +29,7 @@ VARIABLES = {
     "history": "what happened before",
 }
 CHECKS = {
-    "time": "repeat one slow turn at the beginning of a trial and some minutes later",
+    "time": "repeat one slow turn at the beginning of a trial, at its end, and in the last trial",
     "event": "look up what was done at that time, and repeat the trial: the jump should not come back",
     "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
     "the drive remains",

@@ -127,7 +127,7 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
     """Probabilities of places, each by the best family that may be there."""
     least = least_gap(fits)
     logs = [_log_weight(f, least) for f in fits]
-    of_library = _log_gap_weight(nearest_gap) + _log_gap_weight(nearest_gap / least)
+    of_library = _log_gap_weight(nearest_gap) + _log_gap_weight(nearest_gap / least if least else 1.0)
     best = max(*logs, of_library)
     everywhere = LEAST_WEIGHT + math.exp(of_library - best)
     most = dict.fromkeys(Place, 0.0)
@@ -140,7 +140,8 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
 
 def _log_weight(one: FreeFit, least: float) -> float:
     freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
-    return _log_gap_weight(one.gap_after) + _log_gap_weight(one.fit.gap / least) - freedom / FREEDOM
+    above = one.fit.gap / least if least > 0.0 else 1.0
+    return _log_gap_weight(one.gap_after) + _log_gap_weight(above) - freedom / FREEDOM
 
 
 def _log_gap_weight(gap: float) -> float:

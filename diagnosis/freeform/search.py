@@ -1,7 +1,7 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
 Every family is fitted through the simulation: for one iteration on the decimated log, the most
-promising quarter for a few more; the best to their end there, the strength of their prior estimated,
+promising for a few more; the best to their end there, the strength of their prior estimated,
 alone and beside the library's effects that came nearest; the best of these on the log itself, and
 checked on trials that the fit has not seen. Those that promise far more than the least gap do not go on.
 Where all leave far more than noise, fewer go to the log itself, and not to their end.
@@ -37,7 +37,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "finalists, free-form laws",
 )
 FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
-WORTH_MORE = 4  # one of so many families gets more than the first iteration
+WORTH_MORE = 15  # families that get more than the first iteration
 IN_REACH = 3.0  # times the least gap that one promises
 CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
@@ -105,7 +105,7 @@ def free_form_fits(
     families = families_of(ranges_of(coarse, nominal, softer))
     base = fit_effects(coarse, ())
     first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
-    better, rest = _promising(first, len(first) // WORTH_MORE)
+    better, rest = _promising(first, WORTH_MORE)
     first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
     near, _ = _promising(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 STILL_DEG_S = 1.0  # slower than this, a drive shaft rests
 _TURN_S = 0.1  # in which a direction changes
-_RATE_S = 0.05  # over which rates are taken
+_RATE_S = 0.02  # over which rates are taken
 
 
 class Variable(StrEnum):

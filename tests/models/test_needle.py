@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from models.errors import InvalidValue, UnknownName
@@ -55,3 +56,12 @@ def test_an_unknown_needle_is_answered_with_the_known_ones():
 
 def test_names_in_the_table_are_the_names_of_the_needles():
     assert all(name == needle.name for name, needle in NEEDLES.items())
+
+
+def test_stiffness_along_the_shaft_is_straight_between_its_places_and_level_beyond():
+    needle = NITINOL.but(stiffness_along=(1.0, 2.0, 0.5), stiffness_along_mm=100.0)
+    factors = needle.stiffness_factors(np.array([0.0, 25.0, 50.0, 100.0, 300.0]))
+    np.testing.assert_allclose(factors, [1.0, 1.5, 2.0, 0.5, 0.5])
+    np.testing.assert_array_equal(NITINOL.stiffness_factors(np.arange(3.0)), 1.0)
+    with pytest.raises(InvalidValue, match="stiffness_along_mm"):
+        NITINOL.but(stiffness_along=(1.0, 2.0))

@@ -12,7 +12,7 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
-from sim.spec import Setup, needle_spec
+from sim.spec import Setup, needle_spec, springs_n_m_per_rad
 
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.01725)
 
@@ -35,6 +35,21 @@ def test_joint_springs_in_series_are_the_torsion_of_the_whole_shaft():
     springs = [model.joint(f"twist_{i}").stiffness[0] for i in range(1, model.nq - 1)]
     whole = 1 / sum(1 / k for k in springs)
     assert whole == pytest.approx(323.5764e-6 / 0.2, rel=1e-6)
+
+
+@pytest.mark.parametrize("arrangement", list(Arrangement))
+def test_springs_in_series_are_the_torsion_of_a_shaft_that_is_stiffer_at_its_base(arrangement):
+    """Stiffness k (1 + s / L) at a distance s from the tip: integral L ln 2 / k, midpoints to 1e-3."""
+    needle = NITINOL.but(stiffness_along=(1.0, 2.0), stiffness_along_mm=200.0)
+    own = Setup(
+        needle=needle,
+        tissue=VISCOUS,
+        free_mm=50.0,
+        inserted_mm=150.0,
+        discretisation=Discretisation(elements=40, arrangement=arrangement),
+    )
+    twist = float(np.sum(1 / springs_n_m_per_rad(own)))
+    assert twist == pytest.approx(0.2 * math.log(2.0) / 323.5764e-6, rel=1e-3)
 
 
 def test_capsules_follow_one_another_along_the_shaft():

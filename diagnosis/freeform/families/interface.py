@@ -1,6 +1,7 @@
 """Free laws of the interface between shaft and tissue, per mm of shaft.
 
-- damping times a curve of time, axial speed, depth, or place along the shaft
+- damping times a curve of time, axial speed, depth, or place along the shaft, or of the base angle,
+  once a turn
 - nominal damping, and dry friction as a curve of these, or of the base angle
 - damping times a curve of the rate, and dry friction
 - damping and dry friction that differ between the directions
@@ -15,7 +16,7 @@ import numpy as np
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, smooth_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -29,15 +30,21 @@ SLOW_RAD_S = 0.03
 SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft
 LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
+TURN_DEG, WAVES = 360.0, 8
 _PLACES = {Place.INTERFACE: 1.0}
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that may be missing between shaft and tissue."""
-    damping = (_damping_over(v, ranges) for v in DAMPING_OVER if v in ranges.ends)
+    curves = {v: curve_over(v, ranges) for v in DAMPING_OVER if v in ranges.ends}
+    damping = (_damping_over(v, curve, ranges) for v, curve in curves.items())
     friction = (_friction_over(v, ranges) for v in FRICTION_OVER if v in ranges.ends)
-    return (*damping, *friction, _rate(ranges), _direction(ranges), _position(ranges))
+    turned = Variable.BASE_ANGLE in ranges.ends
+    turn = (
+        (_damping_over(Variable.BASE_ANGLE, periodic_curve(TURN_DEG, WAVES), ranges),) if turned else ()
+    )
+    return (*damping, *turn, *friction, _rate(ranges), _direction(ranges), _position(ranges))
 
 
 def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
@@ -55,6 +62,7 @@ def tissue_curve(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> 
         variable=variable,
         places=tuple(curve.places),
         values=curve.factors(c),
+        period=curve.period,
     )
 
 
@@ -62,13 +70,13 @@ def _level(ranges: LogRanges) -> Parameter:
     return ranges.library["coulomb_friction"].parameters[0]
 
 
-def _damping_over(variable: Variable, ranges: LogRanges) -> Family:
-    curve = curve_over(variable, ranges)
+def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:
     beta = ranges.damping_n_mm_s_per_mm
+    once_a_turn = f", every {curve.period:.3g} deg" if curve.period else ""
 
     return Family(
         effect=Effect(
-            name=f"damping over {variable}",
+            name=f"damping over {variable}{once_a_turn}",
             title=f"damping that changes with {variable}",
             place=Place.INTERFACE,
             parameters=coordinates_of(curve),

@@ -13,16 +13,17 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import PARTS
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
 SAYS = "position"
-LAYERS = 12  # down to the greatest depth
+FINE = 12  # layers of damping, down to the greatest depth: a thin one shows
 _EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _FRICTION = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
 _FROM = (0.2, 0.35, 0.5, 0.65, 0.8)  # of the greatest depth, where one layer is looked for
@@ -35,21 +36,26 @@ class _Layers:
     """Equally thick layers, down to the greatest depth of a log, and a curve over them."""
 
     curve: SmoothCurve
-    thickness_mm: float
+    deepest_mm: float
+
+    @property
+    def thickness_mm(self) -> float:
+        return self.deepest_mm / self.curve.places.size
 
     @property
     def middles_mm(self) -> tuple[float, ...]:
-        return tuple((i + 0.5) * self.thickness_mm for i in range(LAYERS))
+        return tuple((i + 0.5) * self.thickness_mm for i in range(self.curve.places.size))
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of layers that may be missing."""
     deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
-    layers = _Layers(curve=rough_curve(0.0, 1.0, LAYERS), thickness_mm=deepest / LAYERS)
+    layers = _Layers(curve=smooth_curve(0.0, 1.0, PARTS), deepest_mm=deepest)
+    fine = _Layers(curve=rough_curve(0.0, 1.0, FINE), deepest_mm=deepest)
     friction = _friction(layers, ranges)
     if Variable.DEPTH not in ranges.ends:
         return (friction,)
-    return (friction, _damping(layers, ranges), _elastic(layers, ranges), _one_layer(deepest, ranges))
+    return (friction, _damping(fine, ranges), _elastic(layers, ranges), _one_layer(deepest, ranges))
 
 
 def _friction(layers: _Layers, ranges: LogRanges) -> Family:

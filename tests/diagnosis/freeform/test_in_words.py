@@ -74,7 +74,7 @@ def test_place_variable_course_and_gap_are_in_the_sentence():
     )
     assert "A free-form law of this kind reduces the residual from 8.90 σ to 1.03 σ on trials" in said
     # What could not be simulated on an unseen trial has no gap to tell.
-    assert "the best laws of other variables leave 2.50 σ with the time since a trial began." in said
+    assert "the best laws of other variables leave 2.50 σ with the time." in said
 
 
 def test_gaps_of_the_decimated_log_are_not_told_beside_those_of_the_log_itself():

@@ -60,6 +60,20 @@ def test_far_above_the_noise_ten_percent_are_a_seventh_and_near_it_two_are_more(
     assert ratio == pytest.approx(share, rel=0.1)
 
 
+def test_what_a_law_leaves_on_its_own_trials_counts_as_much():
+    """Where both predict an unseen trial alike, by chance, one that leaves 2 % more is a thirtieth."""
+    each = [
+        replace(
+            free_fit(1.05, name=place, says="time", places={place: 1.0}),
+            fit=linear_fit(family_of([LEVEL]), [np.eye(100, 1)], [np.full(100, gap)], x=[0.0]),
+        )
+        for place, gap in ((Place.TISSUE, 1.0), (Place.SENSOR, 1.02))
+    ]
+    place = missing_of(each, 50.0).place
+    ratio = (place[Place.SENSOR] - place[Place.DRIVE]) / (place[Place.TISSUE] - place[Place.DRIVE])
+    assert ratio == pytest.approx(1 / 30, rel=0.1)
+
+
 def test_freedom_that_the_data_determine_costs():
     alike = {"says": "time", "places": {Place.TISSUE: 1.0}}
     simple, free = free_fit(1.1, **alike), free_fit(1.1, freedom=6, name="free")

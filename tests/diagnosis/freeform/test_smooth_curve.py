@@ -7,6 +7,7 @@ from diagnosis.freeform.smooth_curve import (
     bent_curve,
     jumping_curve,
     periodic_curve,
+    rough_curve,
     separate_values,
     smooth_curve,
     two_sided_curve,
@@ -38,6 +39,15 @@ def test_the_rest_has_the_covariance_of_a_gaussian_process_beside_lines():
     kernel = np.array([[np.exp(-((a - b) ** 2) / (2 * 0.16)) for b in u] for a in u])
     np.testing.assert_allclose(rest @ rest.T, beside_lines(u, kernel), atol=1e-12)
     np.testing.assert_allclose(curve.basis[:, :2].T @ rest, 0.0, atol=1e-12)
+
+
+def test_the_rest_of_a_rough_curve_has_the_covariance_of_a_random_walk_that_returns():
+    """exp(-|u - u'| / 0.4), and the first two coordinates are a line."""
+    curve, u = rough_curve(-5.0, 7.0, COUNT), np.linspace(-1, 1, COUNT)
+    rest = curve.basis[:, curve.straight :]
+    kernel = np.array([[np.exp(-abs(a - b) / 0.4) for b in u] for a in u])
+    np.testing.assert_allclose(rest @ rest.T, beside_lines(u, kernel), atol=1e-12)
+    np.testing.assert_allclose(curve.basis[:, 1], u)
 
 
 @pytest.mark.parametrize("curve", [smooth_curve(0.0, 1.0, COUNT), periodic_curve(360.0)])

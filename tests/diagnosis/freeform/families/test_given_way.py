@@ -26,7 +26,7 @@ def log_with_a_change(at_s, number, size=4.0, count=3):
     return covered_by(seen, softer=[(CHANGE, REST)] * count)
 
 
-@pytest.mark.parametrize(("at_s", "number"), [(3.0, 0), (5.5, 1), (2.0, 2)])
+@pytest.mark.parametrize(("at_s", "number"), [(3.0, 0), (5.5, 1), (2.0, 2), (0.0, 1)])
 def test_the_moment_is_found_in_noise(at_s, number):
     found = largest_change(log_with_a_change(at_s, number))
     assert found.trial == f"trial_{number + 1:02d}.csv"

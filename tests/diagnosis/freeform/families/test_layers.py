@@ -9,8 +9,8 @@ from free_forms import DAMPING, covered, same_readings
 
 from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.interface import PARTS
-from diagnosis.freeform.families.layers import families
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.freeform.families.layers import FINE, families
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.variables import Variable
 
 ANGLE = turns(6.0)
@@ -21,6 +21,8 @@ FLAT = [0.0] * (PARTS - 1)
 DRY, THICK, ELASTIC = (
     f"{what} over position, in layers" for what in ("dry friction", "damping", "elastic tissue")
 )
+FLAT_OF = {DRY: FLAT, THICK: [0.0] * (FINE - 1), ELASTIC: FLAT}
+ONE = "damping over position, in one layer"
 MESH = 1e-3  # layers meet in places of their own: another mesh, second order in its elements
 PLAIN = {
     DRY: (
@@ -38,16 +40,17 @@ PLAIN = {
 @pytest.mark.parametrize("name", list(PLAIN))
 def test_layers_that_are_alike_are_no_layers(name):
     first, plain = PLAIN[name]
-    alike, more = (FAMILIES[name].effect.apply(NOMINAL, *first, c, *FLAT) for c in (0.0, 0.3))
+    flat = FLAT_OF[name]
+    alike, more = (FAMILIES[name].effect.apply(NOMINAL, *first, c, *flat) for c in (0.0, 0.3))
     assert same_readings(ANGLE, alike, plain, within=MESH)
     assert not same_readings(ANGLE, more, plain, within=MESH)
 
 
 def test_the_curve_is_told_by_depth_below_the_surface():
     deepest = max(trial.schedule.inserted_mm.max() for trial in DEEPER.problem.log.trials)
-    depth, damping = FAMILIES[THICK].curve(0.0, *FLAT)
+    depth, damping = FAMILIES[THICK].curve(0.0, *FLAT_OF[THICK])
     np.testing.assert_allclose(damping, DAMPING)
-    np.testing.assert_allclose(depth, deepest * (np.arange(PARTS) + 0.5) / PARTS)
+    np.testing.assert_allclose(depth, deepest * (np.arange(FINE) + 0.5) / FINE)
     _, level = FAMILIES[DRY].curve(0.002, np.log(2.0), *FLAT)
     np.testing.assert_allclose(level, 0.004)
     _, stiffness = FAMILIES[ELASTIC].curve(0.01, 0.4, np.log(2.0), *FLAT)
@@ -55,5 +58,20 @@ def test_the_curve_is_told_by_depth_below_the_surface():
 
 
 def test_at_one_inserted_length_only_friction_is_asked_for():
-    assert set(FAMILIES) == set(PLAIN)
+    assert set(FAMILIES) == {*PLAIN, ONE}
     assert [family.name for family in families(STILL)] == [DRY]
+
+
+def test_one_layer_like_the_others_is_none():
+    one, other = (FAMILIES[ONE].effect.apply(NOMINAL, 30.0, 8.0, times) for times in (1.0, 5.0))
+    assert same_readings(ANGLE, one, NOMINAL, within=MESH)
+    assert not same_readings(ANGLE, other, NOMINAL, within=MESH)
+
+
+def test_one_layer_that_spans_all_is_another_damping():
+    """But for its first millimetre: 0.3 of 1 in 80 mm or more."""
+    nearly_all = FAMILIES[ONE].effect.apply(NOMINAL, 1.0, 500.0, 1.3)
+    assert same_readings(ANGLE, nearly_all, RigParameters(damping_scale=1.3), within=0.3 / 80)
+    depth, damping = FAMILIES[ONE].curve(30.0, 8.0, 5.0)
+    assert depth == (0.0, 30.0, 30.0, 38.0, 38.0, 68.0)
+    np.testing.assert_allclose(damping, DAMPING * np.array([1, 1, 5, 5, 1, 1]))

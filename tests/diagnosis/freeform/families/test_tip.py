@@ -1,4 +1,4 @@
-"""Free laws of the needle: where they become effects of the library, they are these."""
+"""Free laws of the tip: where they become effects of the library, they are these."""
 
 import numpy as np
 import pytest
@@ -6,13 +6,11 @@ from diagnosis_fixtures import turns
 from free_forms import covered, same_readings
 
 from diagnosis.effects import LIBRARY
-from diagnosis.freeform.families.needle import families
+from diagnosis.freeform.families.tip import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
 FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
-READS = 0.02 * ANGLE
-WITH_TORQUE = families(covered(ANGLE, tip=ANGLE, torque=READS, seen=(ANGLE, READS)))
 RATE, TIP_ANGLE, ALONG = (
     "tip torque over rate",
     "tip torque over tip_angle",
@@ -58,14 +56,24 @@ def test_curves_are_told_as_torques():
     np.testing.assert_allclose(waves, exact)
 
 
-@pytest.mark.parametrize(("torque_n_mm", "yields"), [(100.0, False), (0.3, True)])
-def test_a_shaft_that_yields_beyond_what_it_takes_is_the_nominal_one(torque_n_mm, yields):
-    (yielding,) = (f for f in WITH_TORQUE if f.name == "plastic twist over torque")
-    assert same_readings(ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, 0.4), NOMINAL) is not yields
-    twist, torque = yielding.curve(2.0, 0.25)
-    assert np.diff(torque) / np.diff(twist) == pytest.approx([2.0, 0.5])
-
-
 def test_a_needle_that_hardly_turns_has_no_law_of_its_angle():
     still = families(covered(0.1 * ANGLE, tip=ANGLE))
     assert [family.name for family in still] == [RATE]
+
+
+SLIDING = covered(ANGLE, tip=ANGLE, speed=2.0 * np.sin(np.linspace(0, 9, ANGLE.size)))
+CUTTING = next(f for f in families(SLIDING) if f.name == "tip torque over axial_speed")
+
+
+def test_a_torque_that_is_the_same_at_every_speed_is_the_one_that_does_not_change():
+    flat = [0.0] * (len(CUTTING.effect.parameters) - 2)
+    own, twice = (CUTTING.effect.apply(NOMINAL, 0.05, 0.1, *c) for c in (flat, [0.7] * len(flat)))
+    assert same_readings(ANGLE, own, rig_of(RATE, 0.05, 0.1, 0.0))
+    assert not same_readings(ANGLE, twice, own)
+
+
+def test_a_torque_over_the_speed_is_told_at_a_slow_rate():
+    flat = [0.0] * (len(CUTTING.effect.parameters) - 2)
+    speeds, torque = CUTTING.curve(1.0, 0.1, *flat)
+    np.testing.assert_allclose(torque, 0.1 + 0.03)
+    assert min(speeds) < 0 < max(speeds)

@@ -1,0 +1,100 @@
+"""Free laws of a session: what changes from trial to trial."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import RIG, prepared, trial, turns
+from free_forms import DAMPING, covered_by
+
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.families.session import FEWEST_TRIALS, families
+from diagnosis.log.trial import SENSORS
+from diagnosis.replay.replay import predict
+from diagnosis.replay.resolution import COARSE
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+ANGLE = turns(6.0)
+REST = np.zeros(ANGLE.size)
+LASTS_S = 0.01 * (ANGLE.size - 1)
+FAMILIES = {f.name: f for f in families(covered_by([(ANGLE, ANGLE, (REST, REST))] * 3))}
+TIME, TURNS, DRY, STIFF = (
+    "damping over the time of the session",
+    "damping over the turns of the session",
+    "dry friction over the time of the session",
+    "stiffness over the time of the session",
+)
+
+
+def reads(rig, number):
+    own = prepared(trial(ANGLE[::4], name=f"trial_{number:02d}.csv", step=0.04))
+    return predict(RIG, own, [rig], COARSE)[0]
+
+
+def same(rig, other, number):
+    found, expected = reads(rig, number), reads(other, number)
+    return all(
+        np.allclose(found[s], expected[s], rtol=0, atol=1e-6 * np.ptp(expected[s])) for s in SENSORS
+    )
+
+
+def test_of_two_trials_no_session_is_told():
+    assert families(covered_by([(ANGLE, ANGLE, (REST, REST))] * (FEWEST_TRIALS - 1))) == ()
+    assert set(FAMILIES) == {TIME, TURNS, DRY, STIFF}
+
+
+@pytest.mark.parametrize("name", [TIME, TURNS])
+def test_damping_that_is_the_same_in_all_trials_is_another_damping(name):
+    size = len(FAMILIES[name].effect.parameters)
+    rig = FAMILIES[name].effect.apply(NOMINAL, np.log(1.3), *[0.0] * (size - 1))
+    for number in (1, 2, 3):
+        assert same(rig, RigParameters(damping_scale=1.3), number)
+        assert not same(rig, NOMINAL, number)
+
+
+def test_friction_that_is_the_same_in_all_trials_is_that_of_the_library():
+    size = len(FAMILIES[DRY].effect.parameters)
+    rig = FAMILIES[DRY].effect.apply(NOMINAL, 0.001, *[0.0] * (size - 1))
+    assert same(rig, RigParameters(kinetic_n_mm_per_mm=0.001), 2)
+
+
+def test_a_shaft_has_the_stiffness_of_the_middle_of_each_trial():
+    """A straight line of logarithms through the session: -1, 0 and 1 times two thirds, but for bends."""
+    family = FAMILIES[STIFF]
+    size = len(family.effect.parameters)
+    rig = family.effect.apply(NOMINAL, 0.0, 0.3, *[0.0] * (size - 2))
+    factors = dict(rig.free.stiffness_by_trial)
+    assert list(factors) == ["trial_01.csv", "trial_02.csv", "trial_03.csv"]
+    np.testing.assert_allclose(list(factors.values()), np.exp([-0.2, 0.0, 0.2]), rtol=0.01)
+    for number, factor in enumerate(factors.values(), start=1):
+        assert same(rig, RigParameters(stiffness_scale=factor), number)
+
+
+@pytest.mark.parametrize("name", [TIME, TURNS])
+def test_the_next_trial_begins_where_the_last_one_ended(name):
+    family = FAMILIES[name]
+    curves = family.effect.apply(NOMINAL, 0.0, 0.5, 2.0, *[0.0] * 3).free.curves
+    for before, after in pairwise(curves):
+        assert before.values[-1] == pytest.approx(after.values[0])
+    places, damping = family.curve(0.0, 0.5, 2.0, *[0.0] * 3)
+    assert curves[0].values[0] == pytest.approx(damping[0] / DAMPING)
+    assert curves[-1].values[-1] == pytest.approx(damping[-1] / DAMPING)
+    total = LASTS_S if name == TIME else np.abs(np.diff(ANGLE)).sum() / 360
+    assert max(places) == pytest.approx(3 * total, rel=0.01)
+
+
+def test_what_wears_is_the_interface_and_what_dries_the_tissue():
+    assert {name: (f.place, f.says) for name, f in FAMILIES.items()} == {
+        TIME: (Place.TISSUE, "time"),
+        TURNS: (Place.INTERFACE, "history"),
+        DRY: (Place.TISSUE, "time"),
+        STIFF: (Place.PARAMETERS, "time"),
+    }
+
+
+def test_a_weaker_law_changes_the_stiffness_less():
+    family = FAMILIES[STIFF]
+    rig = family.effect.apply(NOMINAL, np.log(1.44), *[0.0] * (len(family.effect.parameters) - 1))
+    half = replace(rig, free=rig.free.times(0.5))
+    assert same(half, RigParameters(stiffness_scale=1.2), 1)

@@ -1,0 +1,45 @@
+"""Free laws of the shaft: where they become the nominal one, or one that is stiffer, they are these."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import RIG, turns
+from free_forms import covered, same_readings
+
+from diagnosis.freeform.families.shaft import families
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+
+ANGLE = turns(6.0)
+READS = 0.02 * ANGLE
+FAMILIES = {f.name: f for f in families(covered(ANGLE, tip=ANGLE, torque=READS, seen=(ANGLE, READS)))}
+ALONG = FAMILIES["stiffness over position"]
+
+
+def test_without_a_torque_nothing_is_asked_of_the_shaft():
+    assert families(covered(ANGLE, tip=ANGLE)) == ()
+
+
+@pytest.mark.parametrize(("torque_n_mm", "yields"), [(100.0, False), (0.3, True)])
+def test_a_shaft_that_yields_beyond_what_it_takes_is_the_nominal_one(torque_n_mm, yields):
+    yielding = FAMILIES["plastic twist over torque"]
+    assert same_readings(ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, 0.4), NOMINAL) is not yields
+    twist, torque = yielding.curve(2.0, 0.25)
+    assert np.diff(torque) / np.diff(twist) == pytest.approx([2.0, 0.5])
+
+
+@pytest.mark.parametrize("name", ["stiffness over position", "stiffness over torque"])
+def test_a_shaft_that_is_as_much_stiffer_everywhere_is_a_stiffer_one(name):
+    family = FAMILIES[name]
+    straight = [np.log(1.3), *[0.0] * (len(family.effect.parameters) - 1)]
+    stiffer = family.effect.apply(NOMINAL, *straight)
+    assert same_readings(ANGLE, stiffer, RigParameters(stiffness_scale=1.3))
+    assert not same_readings(ANGLE, stiffer, NOMINAL)
+
+
+def test_places_along_the_shaft_are_told_from_the_tip_to_the_chuck():
+    places, factors = ALONG.curve(*[0.0] * len(ALONG.effect.parameters))
+    np.testing.assert_allclose(factors, 1.0)
+    assert (min(places), max(places)) == (0.0, 150.0)
+    needle = ALONG.effect.apply(NOMINAL, 0.0, 1.0, *[0.0] * 8).needle(RIG)
+    first, last = needle.stiffness_factors(np.array([0.0, 150.0]))
+    assert first == pytest.approx(np.exp(-1.0))
+    assert last == pytest.approx(np.exp(1.0))
