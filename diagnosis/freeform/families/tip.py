@@ -1,7 +1,8 @@
 """Free laws of the tip, and of the angle of each piece of the shaft.
 
 - at the tip: drag and dry friction, which may differ between the directions
-- at the tip: the same times a curve of the axial speed or the inserted length, as of a bevel that cuts
+- at the tip: the same times a curve of the axial speed or the inserted length, as of a bevel that cuts,
+  or of the angle, once a turn
 - at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
   one and two waves per turn
 """
@@ -14,10 +15,16 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.interface import SLOW_RAD_S, curve_over, tissue_curve
+from diagnosis.freeform.families.interface import (
+    SLOW_RAD_S,
+    TURN_DEG,
+    WAVES,
+    curve_over,
+    tissue_curve,
+)
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve
+from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
@@ -25,6 +32,7 @@ from models.tissue import Interface
 
 AT_TIP, ALONG = (1, 2, 3, 4), (1, 2)  # waves in a turn
 TORQUE_OVER = (Variable.AXIAL_SPEED, Variable.DEPTH)
+_SAYS = {Variable.BASE_ANGLE: "tip_angle"}  # which follows that of the base, and is not known before
 _SHOWN_DEG = np.linspace(-180.0, 180.0, 49)
 _SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])
 _AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
@@ -34,7 +42,10 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the tip may lack."""
     turned = Variable.BASE_ANGLE in ranges.ends
     angles = (_angle(ranges, tip=True), _angle(ranges, tip=False)) if turned else ()
-    changing = (_torque_over(v, ranges) for v in TORQUE_OVER if v in ranges.ends)
+    curves = {v: curve_over(v, ranges) for v in TORQUE_OVER if v in ranges.ends}
+    if turned:
+        curves[Variable.BASE_ANGLE] = periodic_curve(TURN_DEG, WAVES)
+    changing = (_torque_over(v, curve, ranges) for v, curve in curves.items())
     return (_tip_rate(ranges), *changing, *angles)
 
 
@@ -91,8 +102,8 @@ def _apply_tip_rate(rig: RigParameters, damping: float, level: float, asymmetry:
     return replace(rig, free=FreeLaw(at_tip=(law,)))
 
 
-def _torque_over(variable: Variable, ranges: LogRanges) -> Family:
-    curve, dry = curve_over(variable, ranges), _dry(ranges)
+def _torque_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:
+    dry = _dry(ranges)
     neutral = (0.0,) * len(dry.start)
     own = (replace(p, start=neutral) for p in coordinates_of(curve))
     return Family(
@@ -105,7 +116,7 @@ def _torque_over(variable: Variable, ranges: LogRanges) -> Family:
             differences=(1e-2,),
         ),
         places={Place.NEEDLE: 1.0},
-        says=variable,
+        says=_SAYS.get(variable, variable),
         title=f"torque at the tip at {SLOW_RAD_S:g} rad/s",
         curve=partial(_torques, curve),
         x_unit=UNITS[variable],
