@@ -6,6 +6,7 @@ from diagnosis.freeform.missing import Law, Missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
 
 PLACES = {
     Place.INTERFACE: "between shaft and tissue",
@@ -135,7 +136,8 @@ def period_deg(missing: Missing) -> float:
         for law in (*free.throughout, *free.at_tip)
         if law.orientation_n_mm_per_mm
     ]
-    return max([*(curve.period for curve in free.curves), *waves], default=0.0)
+    curves = (curve.period for curve in free.curves if curve.variable is not Variable.TIME)
+    return max([*curves, *waves], default=0.0)
 
 
 def repeating(period_deg: float) -> str:

@@ -54,6 +54,7 @@ class Added:
       sensor: the sensor whose residual shows it most.
       says: variable of the vocabulary.
       period_deg: period; 0: none; RIPPLE: that of the strongest ripple per turn in the residual.
+      bent: whether the curve may bend at zero: of the variables in `SIGNED` it always may.
     """
 
     acts_on: ActsOn
@@ -63,6 +64,7 @@ class Added:
     title: str
     says: str
     period_deg: float = 0.0
+    bent: bool = False
 
     @property
     def of_the_drive(self) -> bool:
@@ -80,6 +82,7 @@ def _added(
     places: Mapping[Place, float],
     *variables: Variable,
     period_deg: float = 0.0,
+    bent: bool = False,
 ) -> tuple[Added, ...]:
     return tuple(
         Added(
@@ -90,6 +93,7 @@ def _added(
             title=title,
             says=_SAYS.get(variable, variable),
             period_deg=period_deg,
+            bent=bent or variable in SIGNED,
         )
         for variable in variables
     )
@@ -111,6 +115,7 @@ ADDED = (
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
     *_added(*_TIP, SENSOR, _V.TURNED_BY),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(*_TIP, SENSOR, _V.TIP_ANGLE, bent=True),
     *_added(*_TIP, SENSOR, _V.TIP_DIRECTION),
     *_added(*_TIP, {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}, _V.DIRECTION),
     *_added(*_TIP, {Place.NEEDLE: 0.6, Place.SENSOR: 0.4}, _V.TORQUE),
@@ -147,7 +152,7 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:
         return separate_values(_size(added, ranges) * TURNED_BY)
-    curve = bent_curve if added.variable in SIGNED else smooth_curve
+    curve = bent_curve if added.bent else smooth_curve
     return curve(*ranges.ends[added.variable], PLACES)
 
 
@@ -155,7 +160,8 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     """The family of one addition."""
     period = f", every {curve.period:.3g} deg" if curve.period else ""
     scale = 1.0 if added.variable in (Variable.PAST, Variable.TURNED_BY) else _size(added, ranges)
-    name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}"
+    either = ", either side of 0" if added.bent and added.variable not in SIGNED else ""
+    name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}{either}"
 
     return Family(
         effect=Effect(
