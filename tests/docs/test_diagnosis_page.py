@@ -35,12 +35,21 @@ def test_every_file_of_families_is_in_the_table_and_no_other():
     assert sorted(told()) == FILES
 
 
+def three_times(ranges):
+    """Ranges of a log whose only trial was made three times."""
+    (trial,) = ranges.problem.log.trials
+    trials = tuple(replace(trial, name=f"trial_{i}.csv") for i in (1, 2, 3))
+    problem = replace(ranges.problem, log=replace(ranges.problem.log, trials=trials))
+    left = {sensor: 3 * own for sensor, own in ranges.left.items()}
+    return replace(ranges, problem=problem, nominal=3 * list(ranges.nominal), left=left)
+
+
 @pytest.mark.parametrize("file", FILES)
 def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
     angle = turns()
-    ranges = covered(angle, tip=angle + 1.0, torque=0.01 * angle, seen=(angle, np.zeros(angle.size)))
+    one = covered(angle, tip=angle + 1.0, torque=0.01 * angle, seen=(angle, np.zeros(angle.size)))
     softer = [Prediction(tip_angle_deg=0.9 * angle, base_torque_n_mm=0.01 * angle)]
-    every = replace(ranges, ends=dict.fromkeys(Variable, (0.1, 1.0)), softer=softer)
+    every = replace(three_times(one), ends=dict.fromkeys(Variable, (0.1, 1.0)), softer=3 * softer)
     own = import_module(f"diagnosis.freeform.families.{file}").families(every)
     assert own
     found = {match[1] for f in own if (match := re.search(r" over ([a-z_]+)", f.name))}
@@ -50,7 +59,7 @@ def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
 def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
     words = {4: "four", 10: "ten"}
     for said in (
-        f"(g² − {1 - FLOOR:g})^(−{1 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
+        f"[(g² − {1 - FLOOR:g}) (r² − {1 - FLOOR:g})]^(−{1 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
         f"the best {words[CONTENDERS]} to their",
         f"the best {words[FINALISTS]} are fitted to the full log",
     ):

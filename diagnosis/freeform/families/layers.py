@@ -27,7 +27,7 @@ FINE = 12  # layers of damping, down to the greatest depth: a thin one shows
 _EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _FRICTION = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
 _FROM = (0.2, 0.35, 0.5, 0.65, 0.8)  # of the greatest depth, where one layer is looked for
-_THICK = 0.1  # of it
+_THICK, _STEP_MM = 0.1, 1e-3  # of it, and from one layer to the next as it is drawn
 _TIMES = (2.0, 0.5)  # its damping / that of the rest
 
 
@@ -183,9 +183,9 @@ def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
 
 
 def _one_layers(beta: float, depth: float, thickness: float, times: float) -> Points:
-    return (0.0, depth, depth, depth + thickness, depth + thickness, 2 * depth + thickness), [
-        beta * factor for factor in (1.0, 1.0, times, times, 1.0, 1.0)
-    ]
+    above, below = depth, depth + thickness
+    ends = (0.0, above, above + _STEP_MM, below, below + _STEP_MM, below + depth)
+    return ends, [beta * factor for factor in (1.0, 1.0, times, times, 1.0, 1.0)]
 
 
 def _apply_one_layer(rig: RigParameters, depth: float, thickness: float, times: float) -> RigParameters:

@@ -104,7 +104,7 @@ def _damping(session: Session, ranges: LogRanges) -> Family:
     places = _WORN if worn else _PLACES
     return Family(
         effect=Effect(
-            name=f"damping over the {'turns' if worn else 'time'} of the session",
+            name=f"damping over {session.variable}, of the session",
             title=f"damping that changes with the {'turns' if worn else 'time'} of all trials",
             place=max(places, key=lambda place: places[place]),
             parameters=coordinates_of(session.curve),
@@ -128,7 +128,7 @@ def _friction(session: Session, ranges: LogRanges) -> Family:
     neutral = (0.0,) * len(level.start)
     return Family(
         effect=Effect(
-            name="dry friction over the time of the session",
+            name="dry friction over time, of the session",
             title="dry friction that changes with the time of all trials",
             place=Place.TISSUE,
             parameters=(level, *(replace(p, start=neutral) for p in coordinates_of(session.curve))),
@@ -152,7 +152,7 @@ def _apply_friction(session: Session, rig: RigParameters, level: float, *c: floa
 def _stiffness(session: Session) -> Family:
     return Family(
         effect=Effect(
-            name="stiffness over the time of the session",
+            name="stiffness over time, of the session",
             title="stiffness of the shaft that changes with the time of all trials",
             place=Place.PARAMETERS,
             parameters=coordinates_of(session.curve),

@@ -20,10 +20,10 @@ REST = np.zeros(ANGLE.size)
 LASTS_S = 0.01 * (ANGLE.size - 1)
 FAMILIES = {f.name: f for f in families(covered_by([(ANGLE, ANGLE, (REST, REST))] * 3))}
 TIME, TURNS, DRY, STIFF = (
-    "damping over the time of the session",
-    "damping over the turns of the session",
-    "dry friction over the time of the session",
-    "stiffness over the time of the session",
+    "damping over time, of the session",
+    "damping over history, of the session",
+    "dry friction over time, of the session",
+    "stiffness over time, of the session",
 )
 
 
