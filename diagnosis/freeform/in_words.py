@@ -83,7 +83,9 @@ def _likeness(law: Law) -> str:
     if like is None:
         return ""
     library = f", a law of {' and '.join(like.library)} in the library" if like.library else ""
-    return f" The law looks like a {like.shape}{library}: {like.says}."
+    article = "an" if like.shape[0] in "aeiou" else "a"
+    how = "is fitted as" if law.shape else "looks like"
+    return f" The law {how} {article} {like.shape}{library}: {like.says}."
 
 
 def next_step(missing: Missing) -> str:

@@ -12,13 +12,14 @@ from diagnosis.result import Diagnosis
 
 _LAW = (
     "A free-form law assumes a place and a variable; of its curve it assumes only that it is smooth. "
-    "It is fitted through the simulation, as effects are. What this report calls free-form is "
-    "predicted with this law. The law does not name a cause: other laws of the same place and "
-    "variable may fit as well."
+    "It is fitted through the simulation, as effects are; if the curve resembles a plain law, that is "
+    "fitted in its place. What this report calls free-form is predicted with this law. The law does "
+    "not name a cause: other laws of the same place and variable may fit as well."
 )
 _PLACES = (
     "The probability of each place follows from the best law that may act there: from the gap that "
-    "it leaves on trials that its fit has not seen, and from its number of free parameters."
+    "it leaves on trials that its fit has not seen and on those that it has, and from its number of "
+    "free parameters."
 )
 _GAPS = (
     "For each variable, the law that leaves the smallest gap on trials that its fit has not seen, "

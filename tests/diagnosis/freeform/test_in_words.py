@@ -142,3 +142,25 @@ def test_where_no_law_helps_the_sentence_says_what_to_doubt():
     assert said.startswith("No free-form law that was tried does better than the library.")
     assert DOUBT in said
     assert "probability" not in said
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        ("", "The law looks like a straight line"),
+        ("straight line", "The law is fitted as a straight line"),
+    ],
+)
+def test_a_plain_law_is_told_as_what_was_fitted(shape, said):
+    line = {"variable": "time", "x": (0.0, 1.0, 2.0, 3.0), "y": (1.0, 2.0, 3.0, 4.0)}
+    band = {"low": (0.9, 1.9, 2.9, 3.9), "high": (1.1, 2.1, 3.1, 4.1)}
+    assert said in what_is_missing(missing_with(replace(LAW, **line, **band, shape=shape)), 8.9)
+
+
+def test_a_name_that_begins_with_a_vowel_has_its_article():
+    x = np.arange(9.0)
+    y = 1.0 + np.exp(-x / 2.0)
+    law = replace(
+        LAW, variable="time", x=tuple(x), y=tuple(y), low=tuple(y - 0.01), high=tuple(y + 0.01)
+    )
+    assert "looks like an exponential approach" in what_is_missing(missing_with(law), 8.9)
