@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 PATIENCE, FREEDOM = 0.1, 4.0
 FLOOR = 0.1  # variance beyond the noise, of that of the noise, that hardly counts
 COMPANION = 4.0  # parameters that an effect of the library beside a law counts for: two things missing
+CHOICE = 2.0  # parameters that the choice of a plain law, among some, counts for
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
 
@@ -140,6 +141,7 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
 
 def _log_weight(one: FreeFit, least: float) -> float:
     freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
+    freedom += CHOICE * bool(one.family.shape)
     above = one.fit.gap / least if least > 0.0 else 1.0
     return _log_gap_weight(one.gap_after) + _log_gap_weight(above) - freedom / FREEDOM
 

@@ -123,6 +123,7 @@ ADDED = (
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
     *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
+    *_added(*_TORQUE, SENSOR, _V.HISTORY),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
 )
 

@@ -19,6 +19,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.likeness.likeness import recognised
 from diagnosis.freeform.likeness.plain_family import plain_family
+from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing import law_of, likelier_first
 from diagnosis.freeform.search import FreeFit, fitted_and_checked, left_open, with_family
 from diagnosis.workers import Failure, Task, Workers
@@ -49,8 +50,8 @@ def _as_plain(problem: FitProblem, curve: FreeFit) -> FreeFit | None:
     families = [plain_family(curve.family, values, law, shape) for shape in recognised(law)[:SHAPES]]
     fits = [_fitted(problem, curve, family) for family in families if family]
     best = min(fits, key=lambda f: f.score, default=curve)
-    if best.score >= curve.score:
-        return None
+    if best.score >= curve.score or best.family.shape == LEVEL:
+        return None  # what is level does not depend on the variable
     return replace(best, held_out=_each_by_what_is_determined(best, curve))
 
 

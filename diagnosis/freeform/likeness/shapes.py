@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 
 _STEP_WIDTH = 0.03
 """Of the range: less than from one point to the next, not so steep that no fit finds it."""
+LEVEL = "constant"
+"""Name of the law that does not depend on its variable."""
 _MOST_CYCLES = 4  # of a wave in one turn, from which a fit starts
 _WHOLE = 1e-6  # off a whole number of cycles: none
 
@@ -124,7 +126,7 @@ _STRIBECK = Shape(
 OF_RATE = (_DRY_AND_VISCOUS, _POWER, _STRIBECK)
 OF_ANY = (
     Shape(
-        name="constant",
+        name=LEVEL,
         says="the same everywhere, {0:.3g}",
         law=_constant,
         start=lambda x, y: (float(y.mean()),),

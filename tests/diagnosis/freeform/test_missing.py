@@ -9,7 +9,7 @@ from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
 
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.missing import FLOOR, FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
+from diagnosis.freeform.missing import CHOICE, FLOOR, FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
 from diagnosis.freeform.search import FreeFit
 
 TIP = {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}
@@ -80,6 +80,16 @@ def test_freedom_that_the_data_determine_costs():
     place = missing_of([simple, free], 5.0).place
     assert place[Place.INTERFACE] / place[Place.TISSUE] == pytest.approx(
         (LEAST_WEIGHT + math.exp(-5 / FREEDOM)) / (LEAST_WEIGHT + 1.0)
+    )
+
+
+def test_the_choice_of_a_plain_law_costs():
+    curve = free_fit(1.1, says="time", places={Place.TISSUE: 1.0})
+    plain = free_fit(1.1, says="rate", places={Place.INTERFACE: 1.0})
+    plain = replace(plain, family=replace(plain.family, shape="step"))
+    place = missing_of([curve, plain], 5.0).place
+    assert place[Place.INTERFACE] / place[Place.TISSUE] == pytest.approx(
+        (LEAST_WEIGHT + math.exp(-CHOICE / FREEDOM)) / (LEAST_WEIGHT + 1.0)
     )
 
 

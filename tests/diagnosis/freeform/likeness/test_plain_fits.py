@@ -75,6 +75,12 @@ def test_one_that_leaves_more_is_dropped(refitted):
     assert refitted.of(curve) == (curve,)
 
 
+def test_what_is_level_does_not_depend_on_the_variable(refitted):
+    curve = curve_fit_of(lambda x: 2.0 + 0 * x)
+    assert refitted.of(curve) == (curve,)
+    assert "constant" in refitted.shapes
+
+
 def test_a_curve_that_resembles_nothing_stays_alone(refitted):
     curve = curve_fit_of(lambda x: 3.0 * np.sin(9.0 * x**2))
     assert refitted.of(curve) == (curve,)
