@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
+from scipy.signal import savgol_filter
 
 from diagnosis.criteria import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
@@ -83,8 +83,9 @@ class PreparedTrial:
         if not read.any():
             return np.zeros(self.time_s.size)
         torque = np.interp(self.time_s, self.time_s[read], self.readings["base_torque_n_mm"][read])
-        size = max(1, round(SMOOTH_TORQUE_S / self.sample_s))
-        return np.asarray(uniform_filter1d(torque, size, mode="nearest"))
+        # A cubic over 9 / 4 of the time has the noise of a mean, and follows what turns.
+        size = 2 * round(9 / 8 * SMOOTH_TORQUE_S / self.sample_s) + 1
+        return np.asarray(savgol_filter(torque, size, 3)) if 3 < size <= torque.size else torque
 
     @cached_property
     def sample_s(self) -> float:

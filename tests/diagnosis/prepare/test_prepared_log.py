@@ -50,3 +50,24 @@ def test_a_sensor_that_gave_nothing_was_not_measured():
     assert not read.has("base_torque_n_mm")
     assert replace(ready, readings={"tip_angle_deg": ready.time_s}).has("tip_angle_deg")
     assert ready.sample_s == pytest.approx(0.01)
+
+
+def smooth(torque):
+    """The smooth torque of a trial that reads this every 10 ms."""
+    clean = trial(turns())
+    return prepared(replace(clean, table=clean.table.assign(base_torque_n_mm=torque))).smooth_torque_n_mm
+
+
+def test_a_torque_that_swings_is_followed_without_most_of_its_noise():
+    """A cubic through n = 35 readings follows a cubic, and has 9 / 4n of the variance of one."""
+    time = 0.01 * np.arange(turns().size)
+    cubic = 0.1 * (time - 6.0) - 0.004 * (time - 6.0) ** 3
+    np.testing.assert_allclose(smooth(cubic), cubic, atol=1e-9)
+    noise = np.random.default_rng(4).normal(0, 1.0, time.size)
+    inside = smooth(noise)[17:-17]
+    # 1200 / 35 independent means tell a standard deviation to 1 / sqrt(2 x 34) = 12 %.
+    assert np.std(inside) == pytest.approx(np.sqrt(9 / (4 * 35)), rel=3.5 * 0.12)
+
+
+def test_a_torque_that_was_not_read_is_none():
+    np.testing.assert_array_equal(prepared(trial(turns())).smooth_torque_n_mm, 0.0)
