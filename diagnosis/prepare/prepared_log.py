@@ -21,6 +21,7 @@ from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 SMOOTH_TORQUE_S = 0.15
+_CUBIC = 3
 Mask = NDArray[np.bool_]
 
 
@@ -85,7 +86,9 @@ class PreparedTrial:
         torque = np.interp(self.time_s, self.time_s[read], self.readings["base_torque_n_mm"][read])
         # A cubic over 9 / 4 of the time has the noise of a mean, and follows what turns.
         size = 2 * round(9 / 8 * SMOOTH_TORQUE_S / self.sample_s) + 1
-        return np.asarray(savgol_filter(torque, size, 3)) if 3 < size <= torque.size else torque
+        return (
+            np.asarray(savgol_filter(torque, size, _CUBIC)) if _CUBIC < size <= torque.size else torque
+        )
 
     @cached_property
     def sample_s(self) -> float:

@@ -37,7 +37,7 @@ class _Through:
       values: of the family's parameters, as they were fitted, (n,).
       shaping: indices of those that shape the curve.
       beside: indices of those that the curve does not depend on.
-      size: range of the curve.
+      x, y: the curve as it was fitted, (K,).
     """
 
     family: Family
@@ -47,7 +47,12 @@ class _Through:
     shaping: NDArray[np.intp]
     beside: NDArray[np.intp]
     x: Array
-    size: float
+    y: Array
+
+    @property
+    def size(self) -> float:
+        """Range of the curve."""
+        return max(float(np.ptp(self.y)), np.finfo(float).tiny)
 
     def wanted(self, plain: Sequence[float] | Array) -> Array:
         """The law at the places of the curve, (K,)."""
@@ -107,7 +112,7 @@ def _through(family: Family, values: Array, law: Law, found: Recognised) -> _Thr
         shaping=shaping,
         beside=np.array([i for i in range(values.size) if _is_beside(family, values, i)], np.intp),
         x=np.array(law.x),
-        size=max(float(np.ptp(law.y)), np.finfo(float).tiny),
+        y=np.array(law.y),
     )
     plain = [*found.values, *values[through.beside]]
     off = through.curve(through.coordinates(plain)) - through.wanted(plain)

@@ -22,7 +22,7 @@ from diagnosis.freeform.likeness.plain_family import plain_family
 from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing import law_of, likelier_first
 from diagnosis.freeform.search import FreeFit, fitted_and_checked, left_open, with_family
-from diagnosis.workers import Failure, Task, Workers
+from diagnosis.workers import Task, Workers
 
 Array = NDArray[np.float64]
 
@@ -34,11 +34,13 @@ DETERMINED = 100.0  # variance of a prediction, in that of the noise, mean over 
 def with_plain_laws(
     problem: FitProblem, fits: Sequence[FreeFit], workers: Workers
 ) -> tuple[FreeFit, ...]:
-    """The fits, with those of plain laws that leave as little."""
+    """The fits, with plain laws in place of the curves that leave no less on unseen trials."""
     near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= FAR_GAP][:MOST]
     tasks = [Task(effects=f.fit.names, arguments=(problem, f)) for f in near]
-    found = [f for f in workers.each(STAGE, _as_plain, tasks) if not isinstance(f, Failure)]
-    return (*(f for f in found if f is not None), *fits)
+    found = zip(near, workers.each(STAGE, _as_plain, tasks), strict=True)
+    plain = [(curve, f) for curve, f in found if isinstance(f, FreeFit)]
+    replaced = [id(curve) for curve, f in plain if f.gap_after <= curve.gap_after]
+    return (*(f for _, f in plain), *(f for f in fits if id(f) not in replaced))
 
 
 def _as_plain(problem: FitProblem, curve: FreeFit) -> FreeFit | None:

@@ -191,7 +191,7 @@ def of_angle(x: Array) -> tuple[Shape, ...]:
     """
     cycles = {*range(1, _MOST_CYCLES + 1)}
     repeats = 360.0 / (x.size * float(np.mean(np.diff(x))))
-    if repeats > 0.5 and abs(repeats - round(repeats)) < _WHOLE:
+    if round(repeats) >= 1 and abs(repeats - round(repeats)) < _WHOLE:
         cycles.add(round(repeats))
     return (*(_whole_waves(n) for n in sorted(cycles)), _WAVE)
 

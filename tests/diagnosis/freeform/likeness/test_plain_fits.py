@@ -61,12 +61,18 @@ def line(x):
     return 1.0 + 2.0 * x
 
 
-def test_a_law_that_leaves_as_little_comes_first(refitted):
+def test_a_law_that_leaves_as_little_takes_the_place_of_the_curve(refitted):
     curve = curve_fit_of(line)
-    first, second = refitted.of(curve)
-    assert second is curve
+    (first,) = refitted.of(curve)
     assert first.family.shape == law_of(first).shape != ""
     assert "straight line" in refitted.shapes
+
+
+def test_beside_one_that_predicts_less_well_the_curve_stays(refitted):
+    curve = replace(curve_fit_of(line), gap_after=0.9)
+    first, second = refitted.of(curve)
+    assert first.family.shape
+    assert second is curve
 
 
 def test_one_that_leaves_more_is_dropped(refitted):
@@ -105,12 +111,12 @@ def test_a_law_that_cannot_be_simulated_is_dropped(refitted, monkeypatch):
 def test_a_trial_that_the_others_do_not_determine_is_told_by_the_curve(refitted):
     """Of the last trial alone the readings depend on the law: the curve's prior knows that."""
     curve = curve_fit_of(line)
-    first, _ = refitted.of(curve)
+    (first,) = refitted.of(curve)
     assert (first.held_out[-1] < 2.0).all()
     left_open = {0: 0.1, 1: 0.1, 2: 1e6}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(plain_fits, "left_open", lambda _, i: np.full(SAMPLES, left_open[i]))
-        first, _ = refitted.of(curve)
+        (first,) = refitted.of(curve)
     np.testing.assert_array_equal(first.held_out[-1], curve.held_out[-1])
     np.testing.assert_array_equal(first.held_out[0], first.held_out[1])
 
