@@ -28,7 +28,9 @@ EVERYTHING = replace(
     asymmetry=-0.2,
     rate_curve=(0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0),
     rate_range_rad_s=(0.1, 2.0),
-    along_depth=AlongDepth(damping=(1.0, 2.0)),
+    along_depth=AlongDepth(damping=(1.0, 2.0), thicknesses_mm=(30.0,)),
+    stiffness_along=(1.0, 0.8, 1.0),
+    stiffness_along_mm=150.0,
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""

@@ -3,6 +3,7 @@
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Law, Missing
+from diagnosis.freeform.save import can_be_saved
 from diagnosis.in_sigma import in_sigma
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -95,7 +96,7 @@ def next_step(missing: Missing) -> str:
     check = CHECKS[missing.law.variable]
     if not missing.closed:
         return f"{check}; the law leaves more than noise, so examine the remaining residual next"
-    if missing.law.variable == "event":
+    if not can_be_saved(missing):
         return check
     return f"{check}; if it comes out the same, save the law as an effect (--save-effect NAME)"
 

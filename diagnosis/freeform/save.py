@@ -6,6 +6,7 @@ from diagnosis.effects import FITTED
 from diagnosis.effects.saved.effect_file import SavedEffect, effect_as_text, refuse_no_effect_name
 from diagnosis.effects.saved.folder import OWN_FOLDER, effects_folder
 from diagnosis.freeform.missing import Missing
+from diagnosis.replay.rig_parameters import RigParameters
 from models.errors import InvalidValue
 
 
@@ -24,25 +25,35 @@ def file_of(name: str) -> Path:
     return folder / f"{name}.yaml"
 
 
-def as_file(missing: Missing | None, name: str) -> str:
-    """The content of the effect's file; empty if there is no law that a library could have.
+def can_be_saved(missing: Missing | None) -> bool:
+    """Whether a library could have the law.
 
-    Such a law closes the gap, and is not about a single event.
+    Such a law closes the gap, and is not about a single event, nor about trials of this log alone.
     """
     if missing is None or missing.law is None or not missing.closed or missing.law.variable == "event":
+        return False
+    free = _fitted(missing).free
+    return free is not None and not free.stiffness_by_trial and not any(c.trial for c in free.curves)
+
+
+def as_file(missing: Missing | None, name: str) -> str:
+    """The content of the effect's file; empty if there is no law that a library could have."""
+    if missing is None or missing.law is None or not can_be_saved(missing):
         return ""
-    fit, law = missing.best.fit, missing.law
-    rig = fit.parameterization.rig(fit.x)
-    if rig.free is None:
-        return ""
-    elastic = law.place == "tissue"
+    rig = _fitted(missing)
+    elastic = missing.law.place == "tissue"
     return effect_as_text(
         SavedEffect(
             name=name,
             title=missing.best.family.effect.title,
-            place=law.place,
+            place=missing.law.place,
             stiffness_n_mm_per_rad_per_mm=rig.tissue_stiffness_n_mm_per_rad_per_mm if elastic else 0.0,
             time_constant_s=rig.tissue_time_constant_s if elastic else 0.0,
             law=rig.free,
         )
     )
+
+
+def _fitted(missing: Missing) -> RigParameters:
+    fit = missing.best.fit
+    return fit.parameterization.rig(fit.x)

@@ -6,8 +6,7 @@ period is a periodic cubic spline: a sine through 5 places is off by less than 1
     tissue          the torque of tissue that varies is multiplied by the curve
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
-    inserted_length the length in contact with tissue is what is logged + the curve, mm, and the free
-                    length what is left of the shaft
+    inserted_length as much more of the shaft is inserted as the curve says, mm, and less is free
     drive_torque    the torque sensor reads the needle's torque + the curve, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
@@ -306,13 +305,8 @@ class FreeLaw:
                 drive = drive + own
         factor = np.maximum(factor, _LEAST_FACTOR)
         deeper = np.clip(deeper, -inputs.inserted_mm, inputs.free_mm)
-        return replace(
-            inputs,
-            drive=drive,
-            inserted_mm=inputs.inserted_mm + deeper,
-            free_mm=inputs.free_mm - deeper,
-            tissue_factor=factor,
-        )
+        lengths = {"inserted_mm": inputs.inserted_mm + deeper, "free_mm": inputs.free_mm - deeper}
+        return replace(inputs, drive=drive, tissue_factor=factor, **lengths)
 
     def sensed(
         self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array

@@ -1,5 +1,7 @@
 """Which free-form laws are saved, and under which names."""
 
+from dataclasses import replace
+
 import pytest
 import yaml
 from saved_laws import EVERYTHING, STICKY, missing_with, saved
@@ -9,8 +11,12 @@ from diagnosis.effects.effect import Place
 from diagnosis.effects.saved.effect_file import effect_as_text, read_effect
 from diagnosis.effects.saved.folder import OWN_FOLDER
 from diagnosis.freeform.save import as_file, file_of
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
+
+ONE = Curve(acts_on=ActsOn.TISSUE, variable=Variable.TIME, places=(0.0, 1.0), values=(1.0, 2.0))
 
 
 @pytest.mark.parametrize("law", [STICKY, EVERYTHING], ids=["sticky", "every field"])
@@ -34,6 +40,8 @@ UNSAVED = {
     "the gap stays open": missing_with(closed=False),
     "it happened once": missing_with(variable="event"),
     "it is of an effect of the library": missing_with(free=None),
+    "the stiffness is told by trial": missing_with(FreeLaw(stiffness_by_trial=(("trial_01.csv", 1.1),))),
+    "a curve is of one trial": missing_with(FreeLaw(curves=(replace(ONE, trial="trial_01.csv"),))),
 }
 
 
