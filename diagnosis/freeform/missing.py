@@ -4,13 +4,13 @@ Families are weighted by the gap g that they leave on trials that their fits hav
 
     weight = [(FLOOR + g^2 - 1) (FLOOR + r^2 - 1)]^(-1 / PATIENCE) exp(-freedom / FREEDOM),
 
-where r is the gap on the trials of the fit over the least of these: where few trials tell of a law,
-leaving one out says little. Far above the noise a law that leaves 10 % more than another has a seventh
-of its weight by either, and near the noise, where laws are nearly true, 2 % decide as much. A
-likelihood would decide more sharply; but no family is the true law, and the best of them may be so by
-chance. Places that no family favours keep a small probability. The library's nearest explanation,
-which has no place for what is missing, counts for all places alike: where it leaves less than every
-family, none of them is likely.
+where r is the gap on the trials of the fit (over the least of these, if that is below the noise):
+where few trials tell of a law, leaving one out says little. Far above the noise a law that leaves 10 %
+more than another has a seventh of its weight by either, and near the noise, where laws are nearly
+true, 2 % decide as much. A likelihood would decide more sharply; but no family is the true law, and
+the best of them may be so by chance. Places that no family favours keep a small probability. The
+library's nearest explanation, which has no place for what is missing, counts for all places alike:
+where it leaves less than every family, none of them is likely.
 """
 
 import math
@@ -128,7 +128,8 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
     """Probabilities of places, each by the best family that may be there."""
     least = least_gap(fits)
     logs = [_log_weight(f, least) for f in fits]
-    of_library = _log_gap_weight(nearest_gap) + _log_gap_weight(nearest_gap / least if least else 1.0)
+    own = nearest_gap / min(least, 1.0) if least > 0.0 else 1.0
+    of_library = _log_gap_weight(nearest_gap) + _log_gap_weight(own)
     best = max(*logs, of_library)
     everywhere = LEAST_WEIGHT + math.exp(of_library - best)
     most = dict.fromkeys(Place, 0.0)
@@ -142,7 +143,7 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
 def _log_weight(one: FreeFit, least: float) -> float:
     freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
     freedom += CHOICE * bool(one.family.shape)
-    above = one.fit.gap / least if least > 0.0 else 1.0
+    above = one.fit.gap / min(least, 1.0) if least > 0.0 else 1.0
     return _log_gap_weight(one.gap_after) + _log_gap_weight(above) - freedom / FREEDOM
 
 

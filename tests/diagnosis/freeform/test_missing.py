@@ -74,6 +74,18 @@ def test_what_a_law_leaves_on_its_own_trials_counts_as_much():
     assert ratio == pytest.approx(1 / 30, rel=0.1)
 
 
+def test_far_above_the_noise_own_trials_weigh_no_more_than_unseen_ones():
+    """Of two laws one leaves 10 % less on its own trials, the other 20 % less on unseen ones."""
+    each = [
+        replace(
+            free_fit(unseen, name=place, says="time", places={place: 1.0}),
+            fit=linear_fit(family_of([LEVEL]), [np.eye(100, 1)], [np.full(100, gap)], x=[0.0]),
+        )
+        for place, gap, unseen in ((Place.TISSUE, 4.4, 9.0), (Place.SENSOR, 4.9, 7.2))
+    ]
+    assert max((place := missing_of(each, 50.0).place), key=place.get) is Place.SENSOR
+
+
 def test_freedom_that_the_data_determine_costs():
     alike = {"says": "time", "places": {Place.TISSUE: 1.0}}
     simple, free = free_fit(1.1, **alike), free_fit(1.1, freedom=6, name="free")
