@@ -83,7 +83,8 @@ def test_far_above_the_noise_own_trials_weigh_no_more_than_unseen_ones():
         )
         for place, gap, unseen in ((Place.TISSUE, 4.4, 9.0), (Place.SENSOR, 4.9, 7.2))
     ]
-    assert max((place := missing_of(each, 50.0).place), key=place.get) is Place.SENSOR
+    place = missing_of(each, 50.0).place
+    assert max(place, key=place.get) is Place.SENSOR
 
 
 def test_freedom_that_the_data_determine_costs():
