@@ -1,6 +1,7 @@
 """What is reported about an unknown log in addition to the library's nearest explanation."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -44,7 +45,10 @@ def with_what_is_missing(
     missing = missing_of(fits, np.inf if verdict.other_form else told.nearest.gap_after)
     if missing.law is None:
         return missing, told
-    return missing, explained_by(missing, log, problem, nominal, told)
+    explained = explained_by(missing, log, problem, nominal, told)
+    if explained.gap.after > explained.gap.before and not missing.closed:
+        return replace(missing, law=None), told  # it predicts less than the nominal rig
+    return missing, explained
 
 
 def _fits(

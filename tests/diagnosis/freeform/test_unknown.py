@@ -22,12 +22,12 @@ from sim.needles.run import SimulationFailed
 TOLD = nothing_told(nearest=SimpleNamespace(gap_after=1.01))
 
 
-def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None):
+def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None, near=TOLD):
     """What is told where the search for laws comes to these fits, and the signal."""
     stop = StopSignal() if stop is None else stop
     monkeypatch.setattr(unknown, "free_form_fits", fits)
     verdict, workers = SimpleNamespace(kind=kind, other_form=""), Workers(stop=stop)
-    found = with_what_is_missing(None, None, None, (), verdict, TOLD, (), workers)
+    found = with_what_is_missing(None, None, None, (), verdict, near, (), workers)
     return *found, stop
 
 
@@ -44,9 +44,24 @@ def test_a_law_that_does_not_help_leaves_the_assessment_as_it_is(monkeypatch):
 
 
 def test_a_law_that_helps_takes_the_place_of_the_nearest_explanation(monkeypatch):
-    monkeypatch.setattr(unknown, "explained_by", lambda missing, *_: missing.law.title)
+    better = nothing_told(gap=SimpleNamespace(before=5.0, after=0.5))
+    monkeypatch.setattr(unknown, "explained_by", lambda *_: better)
     missing, told, _ = missing_from(lambda *_: (free_fit(0.5, title="gap"),), monkeypatch)
-    assert missing.law.title == told == "gap"
+    assert missing.law.title == "gap"
+    assert told is better
+
+
+@pytest.mark.parametrize(("gap", "told_all_the_same"), [(2.0, False), (1.05, True)])
+def test_a_law_that_predicts_less_than_the_nominal_rig_is_told_only_where_it_closes_the_gap(
+    gap, told_all_the_same, monkeypatch
+):
+    """Then the other trials leave it open, and what it predicts there is within that."""
+    worse = nothing_told(gap=SimpleNamespace(before=5.0, after=5.5))
+    monkeypatch.setattr(unknown, "explained_by", lambda *_: worse)
+    near = nothing_told(nearest=SimpleNamespace(gap_after=4.0))
+    missing, told, _ = missing_from(lambda *_: (free_fit(gap),), monkeypatch, near=near)
+    assert (missing.law is not None) is told_all_the_same
+    assert told is (worse if told_all_the_same else near)
 
 
 def test_after_a_stop_it_is_noted_as_left_out(monkeypatch):
