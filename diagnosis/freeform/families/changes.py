@@ -73,7 +73,7 @@ def largest_change(ranges: LogRanges) -> Moment | None:
 def _in_time(ranges: LogRanges, number: int) -> tuple[Array, Array, Array]:
     """Of a trial, in the order of time: s after its start, change * residual, and change^2."""
     problem = ranges.problem
-    trial, each = problem.log.trials[number], []
+    trial, each = problem.log.trials[number], [np.zeros((3, 0))]  # where nothing was read
     for sensor in filter(trial.has, SENSORS):
         nominal, noise = ranges.nominal[number][sensor], problem.noise[sensor]
         change = (ranges.softer[number][sensor] - nominal) / noise

@@ -1,5 +1,7 @@
 """Tissue that gives way once, or breathes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
@@ -31,6 +33,16 @@ def test_the_moment_is_found_in_noise(at_s, number):
     found = largest_change(log_with_a_change(at_s, number))
     assert found.trial == f"trial_{number + 1:02d}.csv"
     assert found.time_s == pytest.approx(at_s, abs=0.3)  # what less damping changes swings within 3 s
+
+
+def test_a_trial_without_readings_tells_nothing():
+    whole = log_with_a_change(3.0, 0)
+    unread = replace(whole.problem.log.trials[1], readings={})
+    trials = (whole.problem.log.trials[0], unread, whole.problem.log.trials[2])
+    log = replace(whole.problem.log, trials=trials)
+    without = replace(whole, problem=replace(whole.problem, log=log))
+    assert largest_change(without) == largest_change(whole)
+    assert len(families(without)) == len(families(whole))
 
 
 def test_without_a_rig_of_less_damping_there_is_none():
