@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 
 RATE_POINTS = 7
 """Of a curve over the rate."""
+THINNEST_MM = 1e-3
+"""A layer into which the tip reaches less far is not met."""
 
 
 class Interface(Record):
@@ -137,12 +139,15 @@ class Tissue(Record):
         return self
 
     def boundaries_mm(self, inserted_mm: float) -> Array:
-        """Where layers begin and end within an inserted length, mm, both ends included."""
+        """Where layers begin and end within an inserted length, mm, both ends included.
+
+        A boundary less than `THINNEST_MM` from the tip is left out.
+        """
         places, depth = [0.0], 0.0
         for layer in self.layers[:-1]:
             depth += layer.thickness_mm or (layer.fraction or 0.0) * inserted_mm
             places.append(depth)
-        inside = [place for place in places if place < inserted_mm]
+        inside = places[:1] + [at for at in places[1:] if at < inserted_mm - THINNEST_MM]
         return np.array([*inside, inserted_mm])
 
     @classmethod

@@ -37,6 +37,7 @@ def test_layer_boundaries_follow_thickness_and_fraction():
     )
     assert Tissue(layers=layers).boundaries_mm(100).tolist() == [0, 10, 60, 100]
     assert Tissue(layers=layers).boundaries_mm(8).tolist() == [0, 8]
+    assert Tissue(layers=layers).boundaries_mm(10 + 1e-9).tolist() == [0, 10 + 1e-9]
 
 
 def test_a_layer_has_a_thickness_or_a_fraction_but_not_both():
