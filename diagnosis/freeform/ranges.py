@@ -19,8 +19,10 @@ Array = NDArray[np.float64]
 _OF_READINGS = (Variable.PAST, Variable.TURNED_BY)
 LEAST_PAST_S, LONGEST_PAST_S = 0.02, 12.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
+LONGER = 1.2  # the longest trial, of the shortest, for shares of trials to be other than their times
 LEAST_RANGE = {
     Variable.TIME: 1.0,
+    Variable.TRIAL_SHARE: 0.5,
     Variable.BASE_ANGLE: 20.0,
     Variable.RATE: 0.05,
     Variable.DIRECTION: 1.5,
@@ -95,7 +97,8 @@ def ranges_of(
 ) -> LogRanges:
     """Ranges of a log, given readings of the nominal rig, and of one with less damping, by trial."""
     trials = problem.log.trials
-    moving = (v for v in Variable if v not in _OF_READINGS)
+    left_out = _OF_READINGS if _last_differently(trials) else (*_OF_READINGS, Variable.TRIAL_SHARE)
+    moving = (v for v in Variable if v not in left_out)
     found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
     found[Variable.PAST] = (LEAST_PAST_S, LONGEST_PAST_S)
     found[Variable.TURNED_BY] = (0.0, 1.0)
@@ -116,6 +119,12 @@ def ranges_of(
         left=read,
         softer=softer,
     )
+
+
+def _last_differently(trials: Sequence[PreparedTrial]) -> bool:
+    """Whether some trials are clearly longer than others: else a share of a trial is its time."""
+    lasting = [float(trial.time_s[-1] - trial.time_s[0]) for trial in trials]
+    return max(lasting) > LONGER * min(lasting)
 
 
 def _ends(

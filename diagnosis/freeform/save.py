@@ -33,7 +33,7 @@ def can_be_saved(missing: Missing | None) -> bool:
     if missing is None or missing.law is None or not missing.closed or missing.law.variable == "event":
         return False
     free = _fitted(missing).free
-    return free is not None and not free.stiffness_by_trial and not any(c.trial for c in free.curves)
+    return free is not None and not any(c.trial for c in free.curves)
 
 
 def as_file(missing: Missing | None, name: str) -> str:

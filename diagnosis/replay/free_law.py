@@ -4,6 +4,8 @@ A curve is smooth through its values at some places of a variable, and constant 
 period is a periodic cubic spline: a sine through 5 places is off by less than 1 %. What a curve acts on:
 
     tissue          the torque of tissue that varies is multiplied by the curve
+    stiffness       so is the stiffness of the shaft: tissue that varies resists by so much less, and the
+                    needle's torque is so much larger; exact without other torques and inertia
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
     inserted_length as much more of the shaft is inserted as the curve says, mm, and less is free
@@ -55,6 +57,7 @@ class ActsOn(StrEnum):
     """What a curve changes."""
 
     TISSUE = "tissue"
+    STIFFNESS = "stiffness"
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
     INSERTED_LENGTH = "inserted_length"
@@ -63,6 +66,7 @@ class ActsOn(StrEnum):
     TORQUE_READING = "torque_reading"
 
 
+_FACTORS = (ActsOn.TISSUE, ActsOn.STIFFNESS)
 _SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
 
 
@@ -78,7 +82,7 @@ class Curve:
 
     Raises:
       InvalidValue: places do not increase or span more than the period, there are not as many values,
-        or a factor of the tissue's torque is not positive.
+        or a factor is not positive.
     """
 
     acts_on: ActsOn
@@ -96,9 +100,11 @@ class Curve:
             raise InvalidValue(
                 "values", self.values, f"{places.size} finite numbers, one for each place"
             )
-        if self.acts_on is ActsOn.TISSUE and min(self.values) <= 0:
+        if self.acts_on in _FACTORS and min(self.values) <= 0:
             raise InvalidValue(
-                "values", self.values, "factors above 0, because the curve multiplies the tissue"
+                "values",
+                self.values,
+                f"factors above 0, because the curve multiplies the {self.acts_on}",
             )
         if self.period and self.period <= places[-1] - places[0]:
             raise InvalidValue("period", self.period, "0, or more than the places span")
@@ -117,7 +123,7 @@ class Curve:
 
     def times(self, strength: float) -> "Curve":
         """The curve multiplied by a strength; factors are raised to that power."""
-        if self.acts_on is ActsOn.TISSUE:
+        if self.acts_on in _FACTORS:
             return replace(self, values=tuple(value**strength for value in self.values))
         return replace(self, values=tuple(value * strength for value in self.values))
 
@@ -151,7 +157,6 @@ class FreeLaw:
       stiffness_torque_n_mm: torque at the last of them.
       stiffness_along: its factors at even places from the tip on (models.needle).
       stiffness_along_mm: from the tip to the last of them.
-      stiffness_by_trial: its factor in each trial, by name; it is 1 in others.
       yield_torque_n_mm: torque beyond which the shaft twists plastically (models.needle); None: never.
       yield_stiffness_ratio: its stiffness beyond it over the elastic one.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
@@ -173,7 +178,6 @@ class FreeLaw:
     stiffness_torque_n_mm: float = 0.0
     stiffness_along: tuple[float, ...] = ()
     stiffness_along_mm: float = 0.0
-    stiffness_by_trial: tuple[tuple[str, float], ...] = ()
     yield_torque_n_mm: float | None = None
     yield_stiffness_ratio: float = 0.0
     contact: ContactCurve | None = None
@@ -210,7 +214,6 @@ class FreeLaw:
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
             stiffness_along=tuple(factor**strength for factor in self.stiffness_along),
             stiffness_along_mm=self.stiffness_along_mm,
-            stiffness_by_trial=tuple((name, f**strength) for name, f in self.stiffness_by_trial),
             contact=_raised(self.contact, strength) if self.contact else None,
             yield_torque_n_mm=_weaker(self.yield_torque_n_mm, strength),
             yield_stiffness_ratio=self.yield_stiffness_ratio,
@@ -221,9 +224,7 @@ class FreeLaw:
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """The parts of the law that apply to one trial."""
-        own = tuple(one for one in self.stiffness_by_trial if one[0] == trial)
-        law = self if own == self.stiffness_by_trial else replace(self, stiffness_by_trial=own)
-        return law._with(tuple(c for c in self.curves if c.trial in ("", trial)))
+        return self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
 
     def without_sensors(self) -> "FreeLaw":
         """The parts of the law that act on the needle, without those of the sensors."""
@@ -236,10 +237,8 @@ class FreeLaw:
         return tuple(c for c in self.curves if c.acts_on not in _SENSORS)
 
     def needle(self, needle: Needle) -> Needle:
-        """The needle with the law in it, in the only trial that it is about."""
-        factor = self.stiffness_by_trial[0][1] if len(self.stiffness_by_trial) == 1 else 1.0
+        """The needle with the law in it."""
         changed: Needle = needle.but(
-            shear_modulus_gpa=factor * needle.shear_modulus_gpa,
             stiffness_curve=self.stiffness_over_torque,
             stiffness_torque_n_mm=self.stiffness_torque_n_mm,
             stiffness_along=self.stiffness_along,
@@ -297,6 +296,8 @@ class FreeLaw:
             own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on is ActsOn.TISSUE:
                 factor = factor * own
+            elif curve.acts_on is ActsOn.STIFFNESS:
+                factor = factor / own
             elif curve.acts_on is ActsOn.INSERTED_LENGTH:
                 deeper = deeper + own
             elif curve.acts_on is ActsOn.DRIVE_SLIP:
@@ -314,6 +315,9 @@ class FreeLaw:
         """Terms to add to the readings of tip and torque, (N,) each."""
         read = {True: np.zeros(tip_deg.size), False: np.zeros(torque_n_mm.size)}
         for curve in self.curves:
+            if curve.acts_on is ActsOn.STIFFNESS:
+                more = torque_n_mm * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
+                read[False] = read[False] + more
             if curve.acts_on in _SENSORS:
                 of_tip = curve.acts_on is ActsOn.TIP_READING
                 own = tip_deg if of_tip else torque_n_mm

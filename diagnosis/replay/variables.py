@@ -1,6 +1,7 @@
 """The variables that a free law may depend on, from the inputs and outputs of a trial.
 
 time           since the trial began, s
+trial_share    the same over the duration of the trial
 base_angle     of the drive shaft, deg
 rate           at which the drive shaft turns, rad/s
 direction      in which it last turned: 1 forwards, -1 backwards, straight between over a short time
@@ -16,7 +17,7 @@ past           time constant, s, with which a reading follows what it shows
 turned_by      turn since the last reversal, for a reading with hysteresis, in its own unit
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import StrEnum
 from functools import lru_cache
 
@@ -37,6 +38,7 @@ class Variable(StrEnum):
     """A variable of a free law."""
 
     TIME = "time"
+    TRIAL_SHARE = "trial_share"
     BASE_ANGLE = "base_angle"
     RATE = "rate"
     DIRECTION = "direction"
@@ -54,6 +56,7 @@ class Variable(StrEnum):
 
 UNITS = {
     Variable.TIME: "s",
+    Variable.TRIAL_SHARE: "of the trial",
     Variable.BASE_ANGLE: "deg",
     Variable.RATE: "rad/s",
     Variable.DIRECTION: "-",
@@ -68,6 +71,15 @@ UNITS = {
     Variable.PAST: "s",
     Variable.TURNED_BY: "of its unit",
 }
+SAYS: Mapping[str, str] = {
+    Variable.TRIAL_SHARE: "time",
+    Variable.TIP_RATE: "rate",
+    Variable.TIP_DIRECTION: "direction",
+    Variable.TORQUE_RATE: "history",
+    Variable.PAST: "history",
+    Variable.TURNED_BY: "history",
+}
+"""What variables are called in the vocabulary, those that have no name of their own there."""
 OF_THE_NEEDLE = (
     Variable.TIP_ANGLE,
     Variable.TIP_RATE,
@@ -116,6 +128,10 @@ def _base_rate_deg_s(inputs: Schedule) -> Array:
     return rate_of(inputs.drive, inputs.time_s)
 
 
+def _trial_share(inputs: Schedule, start_s: float) -> Array:
+    return np.asarray((inputs.time_s - start_s) / (inputs.time_s[-1] - start_s))
+
+
 def _direction(inputs: Schedule, _: float) -> Array:
     return _last_direction(_base_rate_deg_s(inputs), inputs.time_s)
 
@@ -135,6 +151,7 @@ def _history(inputs: Schedule, _: float) -> Array:
 
 _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.TIME: lambda inputs, start_s: inputs.time_s - start_s,
+    Variable.TRIAL_SHARE: _trial_share,
     Variable.BASE_ANGLE: lambda inputs, _: inputs.drive,
     Variable.RATE: lambda inputs, _: np.radians(_base_rate_deg_s(inputs)),
     Variable.DIRECTION: _direction,

@@ -1,9 +1,10 @@
-"""A single event: an angle or a reading that steps, at an unknown time, fast or slowly.
+"""An event: an angle or a reading that steps, at an unknown time, fast or slowly.
 
-What has stepped may be back at the start of the next trial, or stay so in all that follow.
+What has stepped may be back at the start of the next trial, or stay so in all that follow. Or it steps
+once in every trial, by as much, each time at a time of its own.
 
 The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
-one at which the means before and after differ most, in units of their scatter (two-sample test).
+one at which a step takes most off (residuals/step_time.py).
 """
 
 import math
@@ -13,21 +14,23 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import null_space
+from scipy.stats import theilslopes
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import TIP, TORQUE
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import FARTHEST, Family, Points, coordinates
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
-from diagnosis.residuals.largest_step import ResidualStep, largest_step
+from diagnosis.residuals.step_time import step_of
 
 Array = NDArray[np.float64]
 
-_SHORTEST_S, _USUAL_S, _LONGEST_S = 0.01, 0.1, 1.0  # that a step takes
+_SHORTEST_S, _USUAL_S, _LONGEST_S = 0.01, 0.3, 1.0  # that a step takes
 _MOVES_S = 1.5  # at the most, from where it is looked for first
-_LEAST_S = 0.5  # from either end of a trial
+_SAME = 1e-3  # durations whose range is less, of their mean, are one
 DIFFERENCES = (0.3, 0.1, 3e-2)
 """Steps of derivatives by time, duration and size."""
 _PLACES = {
@@ -46,14 +49,18 @@ class Moment:
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """One step for each angle or reading, if the log is long enough."""
+    """Steps of each angle or reading, if the log is long enough."""
     found = []
     for acts_on, (sensor, place, title) in _PLACES.items():
-        moment = largest_event(ranges, sensor) if sensor in ranges.missing else None
-        if moment is not None:
-            found.append(_step(acts_on, place, title, moment, ranges.missing[sensor], ()))
-            if after := trials_after(ranges, moment):
-                found.append(_step(acts_on, place, title, moment, ranges.missing[sensor], after))
+        moments = events(ranges, sensor) if sensor in ranges.missing else ()
+        if moments:
+            largest, size = moments[0], max(ranges.missing[sensor], ranges.problem.noise[sensor])
+            found.append(_step(acts_on, place, title, largest, size, ()))
+            if after := trials_after(ranges, largest):
+                found.append(_step(acts_on, place, title, largest, size, after))
+            if len(moments) > 1:
+                each = _EveryTrial.at(moments, ranges)
+                found.append(_steps(acts_on, place, title, each, largest, size))
     return tuple(found)
 
 
@@ -66,7 +73,9 @@ def trials_after(ranges: LogRanges, moment: Moment) -> tuple[str, ...]:
 def times_of(moment: Moment, usual_s: float = _USUAL_S) -> tuple[Parameter, Parameter]:
     """Parameters of an event: when it is, and how long it takes."""
     low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
-    when = Parameter(name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0)
+    when = Parameter(
+        name="time", unit="s", low=low, high=high, start=(moment.time_s,), scale=1.0, neutral=None
+    )
     lasting = Parameter(
         name="duration",
         unit="s",
@@ -79,23 +88,20 @@ def times_of(moment: Moment, usual_s: float = _USUAL_S) -> tuple[Parameter, Para
     return when, lasting
 
 
-def largest_event(ranges: LogRanges, sensor: str) -> Moment | None:
-    """Where the mean of the nominal residual changes most; None: all trials are too short."""
+def events(ranges: LogRanges, sensor: str) -> tuple[Moment, ...]:
+    """Where the mean of the nominal residual changes most, by trial; the largest change first.
+
+    Trials that are too short have none.
+    """
     trials = [t for t in ranges.problem.log.trials if t.has(sensor)]
-    best, found = 0.0, None
+    found = []
     for trial, left in zip(trials, ranges.left[sensor], strict=True):
         read = np.isfinite(left)
         time_s = trial.time_s[read] - trial.time_s[0]
-        step = _largest_change(time_s, left[read])
-        if step is not None and step.gain > best:
-            best, found = step.gain, Moment(trial=trial.name, time_s=float(time_s[step.sample]))
-    return found
-
-
-def _largest_change(time_s: Array, left: Array) -> ResidualStep | None:
-    """The step of a trial that takes most off, beside a mean."""
-    beside = int(np.searchsorted(time_s, _LEAST_S, side="right"))
-    return largest_step(left, np.ones((left.size, 1)), [slice(None)], beside)
+        step = step_of(time_s, left[read])
+        if step is not None:
+            found.append((step.gain, Moment(trial=trial.name, time_s=float(time_s[step.sample]))))
+    return tuple(moment for _, moment in sorted(found, key=lambda one: -one[0]))
 
 
 def _step(
@@ -103,13 +109,12 @@ def _step(
 ) -> Family:
     """The step; in trials `after` it, it stays."""
     how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
-    step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
     return Family(
         effect=Effect(
             name=f"{title}, {how}",
             title=f"{title}, {how}, {where}",
             place=place,
-            parameters=(*times_of(moment), step),
+            parameters=_started(times_of(moment), size),
             apply=partial(_apply, acts_on, moment.trial, after),
             differences=DIFFERENCES,
             trial="" if after else moment.trial,
@@ -119,8 +124,21 @@ def _step(
         title=f"{title} {where}",
         curve=_stepped,
         x_unit="s",
-        unit="N mm" if acts_on is ActsOn.TORQUE_READING else "deg",
+        unit=_unit(acts_on),
     )
+
+
+def _started(parameters: Sequence[Parameter], size: float) -> tuple[Parameter, ...]:
+    """Parameters of an event, and the size of its step, which starts from either sign."""
+    step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
+    most = max(len(p.start) for p in parameters)
+    each = [replace(p, start=most * p.start) if len(p.start) < most else p for p in parameters]
+    own = replace(step, start=most * (size,) + most * (-size,))
+    return (*(replace(p, start=2 * p.start) for p in each), own)
+
+
+def _unit(acts_on: ActsOn) -> str:
+    return "N mm" if acts_on is ActsOn.TORQUE_READING else "deg"
 
 
 def _stepped(time_s: float, duration_s: float, step: float) -> Points:
@@ -138,6 +156,103 @@ def _apply(
 ) -> RigParameters:
     curves = curves_of(acts_on, trial, after, (time_s, time_s + duration_s), (0.0, step))
     return replace(rig, free=FreeLaw(curves=curves))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _EveryTrial:
+    """An event in every trial: its times are a straight line over the durations, and what is off it.
+
+    Attributes:
+      trials: their names, (n,).
+      found_s: when it was found in each, (n,).
+      line: times of a line by its parameters, (n, 1 or 2): a time, and more in longer trials.
+      off_line: times by the other coordinates, orthogonal to these, (n, n - 1 or 2).
+    """
+
+    trials: tuple[str, ...]
+    found_s: Array
+    line: Array
+    off_line: Array
+
+    @classmethod
+    def at(cls, moments: Sequence[Moment], ranges: LogRanges) -> "_EveryTrial":
+        """The events, as they were found."""
+        log = {trial.name: trial for trial in ranges.problem.log.trials}
+        lasting = np.array([np.ptp(log[m.trial].time_s) for m in moments])
+        longer = lasting / lasting.mean() - 1.0
+        columns = [np.ones(longer.size), *([longer] if np.ptp(longer) > _SAME else [])]
+        return cls(
+            trials=tuple(m.trial for m in moments),
+            found_s=np.array([m.time_s for m in moments]),
+            line=np.stack(columns, axis=1),
+            off_line=null_space(np.stack(columns)),
+        )
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Coordinates of the times; they start where events were found, and from a line through most."""
+        own, *_ = np.linalg.lstsq(self.line, self.found_s, rcond=None)
+        line = (
+            Parameter(
+                name=name, unit="s", low=least, high=most, start=(exact, robust), neutral=None, scale=1.0
+            )
+            for name, exact, robust in zip(("time", "longer"), own, self._robust_line(), strict=False)
+            for least, most in [(min(exact, robust) - FARTHEST, max(exact, robust) + FARTHEST)]
+        )
+        found = self.off_line.T @ self.found_s
+        off = zip(coordinates(0, found.size), found, strict=True)
+        return (*line, *(replace(p, start=(float(v), 0.0), neutral=None) for p, v in off))
+
+    def _robust_line(self) -> tuple[float, ...]:
+        if self.line.shape[1] == 1:
+            return (float(np.median(self.found_s)),)
+        theil_sen = theilslopes(self.found_s, self.line[:, 1])
+        return float(theil_sen.intercept), float(theil_sen.slope)
+
+    def times_s(self, c: Sequence[float]) -> Array:
+        """When it is in each trial."""
+        own = np.concatenate([self.line, self.off_line], axis=1)
+        return np.asarray(np.maximum(own @ np.array(c), 0.0))
+
+
+def _steps(
+    acts_on: ActsOn, place: Place, title: str, each: _EveryTrial, usual: Moment, size: float
+) -> Family:
+    """A step once in every trial."""
+    _, lasting = times_of(usual)
+    name = f"{title}, once in every trial"
+    return Family(
+        effect=Effect(
+            name=name,
+            title=name,
+            place=place,
+            parameters=_started((lasting, *each.parameters), size),
+            apply=partial(_apply_to_each, acts_on, each),
+            differences=DIFFERENCES,
+        ),
+        places={place: 1.0},
+        says="event",
+        title=f"{title} once in every trial, in {each.trials[0]}",
+        curve=partial(_stepped_first, each),
+        x_unit="s",
+        unit=_unit(acts_on),
+    )
+
+
+def _stepped_first(each: _EveryTrial, duration_s: float, *c: float) -> Points:
+    *times, step = c
+    return _stepped(float(each.times_s(times)[0]), duration_s, step)
+
+
+def _apply_to_each(
+    acts_on: ActsOn, each: _EveryTrial, rig: RigParameters, duration_s: float, *c: float
+) -> RigParameters:
+    *times, step = c
+    steps = (
+        curves_of(acts_on, trial, (), (float(time_s), float(time_s) + duration_s), (0.0, step))
+        for trial, time_s in zip(each.trials, each.times_s(times), strict=True)
+    )
+    return replace(rig, free=FreeLaw(curves=tuple(curve for one in steps for curve in one)))
 
 
 def curves_of(

@@ -20,10 +20,10 @@ from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import UNITS, Variable
+from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.tissue import RATE_POINTS, Interface
 
-DAMPING_OVER = (Variable.TIME, Variable.AXIAL_SPEED, Variable.DEPTH)
+DAMPING_OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
 FRICTION_OVER = (*DAMPING_OVER, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03
@@ -83,7 +83,7 @@ def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> 
             apply=partial(_apply_damping, variable, curve),
         ),
         places=_PLACES,
-        says=variable,
+        says=SAYS.get(variable, variable),
         title="damping along the shaft",
         curve=partial(_damping, curve, beta),
         x_unit=UNITS[variable],
@@ -114,7 +114,7 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
             differences=(1e-2,),
         ),
         places=_PLACES,
-        says=variable,
+        says=SAYS.get(variable, variable),
         title="dry friction along the shaft",
         curve=partial(_dry_level, curve),
         x_unit=UNITS[variable],

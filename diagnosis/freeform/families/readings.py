@@ -28,19 +28,12 @@ from diagnosis.freeform.smooth_curve import (
 )
 from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import UNITS, Variable
+from diagnosis.replay.variables import SAYS, UNITS, Variable
 
 TURN_DEG = 360.0
 RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
 PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 10, 5
 TURNED_BY = np.geomspace(0.25, 8.0, 10)  # of the rms of what is missing
-_SAYS = {
-    Variable.TIP_RATE: "rate",
-    Variable.TIP_DIRECTION: "direction",
-    Variable.TORQUE_RATE: "history",
-    Variable.PAST: "history",
-    Variable.TURNED_BY: "history",
-}
 SIGNED = (Variable.TORQUE, Variable.TORQUE_RATE, Variable.RATE, Variable.TIP_RATE, Variable.AXIAL_SPEED)
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
@@ -91,7 +84,7 @@ def _added(
             sensor=sensor,
             places=places,
             title=title,
-            says=_SAYS.get(variable, variable),
+            says=SAYS.get(variable, variable),
             period_deg=period_deg,
             bent=bent or variable in SIGNED,
         )
@@ -106,14 +99,14 @@ _TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
 _TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
 _V = Variable
 ADDED = (
-    *_added(*_SHAFT, DRIVE, _V.TIME, _V.BASE_ANGLE, _V.DIRECTION),
+    *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.BASE_ANGLE, _V.DIRECTION),
     *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
-    *_added(*_TIP, SENSOR, _V.TURNED_BY),
+    *_added(*_TIP, SENSOR, _V.TRIAL_SHARE, _V.TURNED_BY),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, bent=True),
     *_added(*_TIP, SENSOR, _V.TIP_DIRECTION),
@@ -123,7 +116,7 @@ ADDED = (
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
     *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
-    *_added(*_TORQUE, SENSOR, _V.HISTORY),
+    *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
 )
 

@@ -44,11 +44,11 @@ class Session:
     curve: SmoothCurve
     spans: tuple[tuple[str, float, float], ...]
 
-    def curves(self, c: Sequence[float]) -> tuple[Curve, ...]:
-        """Factors on the tissue's torque in each trial, straight between the places of the curve."""
+    def curves(self, c: Sequence[float], acts_on: ActsOn = ActsOn.TISSUE) -> tuple[Curve, ...]:
+        """Factors in each trial, straight between the places of the curve."""
         return tuple(
             Curve(
-                acts_on=ActsOn.TISSUE,
+                acts_on=acts_on,
                 variable=self.variable,
                 places=tuple(float(own) - begin for own in places),
                 values=tuple(float(v) for v in np.interp(places, self.curve.places, factors)),
@@ -62,14 +62,6 @@ class Session:
     def _places(self, begin: float, end: float) -> Array:
         inside = self.curve.places[(self.curve.places > begin) & (self.curve.places < end)]
         return np.unique(np.concatenate([[begin], inside, [max(end, begin + _LEAST_SPAN)]]))
-
-    def means(self, c: Sequence[float]) -> tuple[tuple[str, float], ...]:
-        """The factor in the middle of each trial, by name."""
-        factors = self.curve.factors(c)
-        return tuple(
-            (name, float(np.interp(0.5 * (begin + end), self.curve.places, factors)))
-            for name, begin, end in self.spans
-        )
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -168,7 +160,8 @@ def _stiffness(session: Session) -> Family:
 
 
 def _apply_stiffness(session: Session, rig: RigParameters, *c: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(stiffness_by_trial=session.means(c)))
+    curves = session.curves(c, ActsOn.STIFFNESS)
+    return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))
 
 
 def _points(session: Session, size: float, *c: float) -> Points:

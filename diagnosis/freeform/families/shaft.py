@@ -2,6 +2,7 @@
 
 - its stiffness as a curve of the torque that it carries, either way
 - its stiffness as a curve of the place along it: a joint, a thinner or a hollow part
+- its stiffness as a curve of the time: a shaft that is warmed, or cracks
 - a shaft that twists plastically beyond a torque
 """
 
@@ -14,10 +15,10 @@ import numpy as np
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, two_sided_curve
-from diagnosis.replay.free_law import FreeLaw
+from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve, two_sided_curve
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import Variable
+from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.needle import STIFFNESS_POINTS
 
 _YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
@@ -28,8 +29,10 @@ _PARTS = 10  # of the longest shaft
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the shaft may lack."""
-    loaded = Variable.TORQUE in ranges.ends
-    return (_stiffness(ranges), _along(ranges), _yielding(ranges)) if loaded else ()
+    if Variable.TORQUE not in ranges.ends:
+        return ()
+    of_time = (_over(v, ranges) for v in (Variable.TIME, Variable.TRIAL_SHARE) if v in ranges.ends)
+    return (_stiffness(ranges), _along(ranges), *of_time, _yielding(ranges))
 
 
 def _stiffness(ranges: LogRanges) -> Family:
@@ -93,6 +96,35 @@ def _along(ranges: LogRanges) -> Family:
 def _apply_along(curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
     law = FreeLaw(stiffness_along=curve.factors(c), stiffness_along_mm=float(curve.places[-1]))
     return replace(rig, free=law)
+
+
+def _over(variable: Variable, ranges: LogRanges) -> Family:
+    curve = smooth_curve(*ranges.ends[variable])
+    return Family(
+        effect=Effect(
+            name=f"stiffness over {variable}",
+            title=f"a shaft whose stiffness changes with {variable}",
+            place=Place.PARAMETERS,
+            parameters=coordinates_of(curve),
+            apply=partial(_apply_over, variable, curve),
+        ),
+        places={Place.PARAMETERS: 0.6, Place.NEEDLE: 0.4},
+        says=SAYS.get(variable, variable),
+        title="stiffness of the shaft over the nominal",
+        curve=partial(_factors, curve),
+        x_unit=UNITS[variable],
+        unit="-",
+    )
+
+
+def _apply_over(variable: Variable, curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
+    own = Curve(
+        acts_on=ActsOn.STIFFNESS,
+        variable=variable,
+        places=tuple(float(x) for x in curve.places),
+        values=curve.factors(c),
+    )
+    return replace(rig, free=FreeLaw(tissue_varies=True, curves=(own,)))
 
 
 def _yielding(ranges: LogRanges) -> Family:

@@ -17,10 +17,10 @@ from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import UNITS, Variable
+from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contact_places
 
-OVER = (Variable.TIME, Variable.DEPTH, Variable.HISTORY)
+OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
 _EVEN_DEG, _MOST_DEG = 3.0, 45.0  # twist below which places are even, and beyond which none is
 
 
@@ -76,7 +76,7 @@ def _elastic(
             apply=partial(_apply, law),
         ),
         places={Place.TISSUE: 1.0},
-        says=says or over,
+        says=says or SAYS.get(over, over),
         title="stiffness of the tissue",
         curve=partial(_stiffness, curve),
         x_unit=unit,

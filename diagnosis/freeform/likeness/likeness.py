@@ -26,6 +26,7 @@ _LEAST_BAND = 0.01  # of the range of a curve: no band is taken to be narrower
 _WITHIN = 1.0  # half widths of the band, root mean square
 _MOST_EVALUATIONS = 4000
 _FEWEST = 3  # points of a curve
+_LEVEL = 1e-9  # range of a curve that is level, of its largest value
 _ANGLES = ("base_angle", "tip_angle")
 _DRY, _VISCOUS = "N mm / mm", "N mm s / rad / mm"  # per mm of shaft
 LIBRARY_LAWS = {
@@ -75,10 +76,12 @@ def likeness_of(law: Law) -> Likeness | None:
 
 
 def recognised(law: Law) -> list[Recognised]:
-    """Shapes that lie within the band of a curve, likeliest first; none if the law is no curve."""
+    """Shapes within the band of a curve, likeliest first; none if the law is level, or no curve."""
     if law.variable in ("direction", "event") or len(law.x) < _FEWEST:
         return []
     x, y = np.array(law.x), np.array(law.y)
+    if np.ptp(y) <= _LEVEL * np.abs(y).max():
+        return []
     half = 0.5 * (np.array(law.high) - np.array(law.low))
     half = np.maximum(half, _LEAST_BAND * max(float(np.ptp(y)), 1e-12))
     tried = []

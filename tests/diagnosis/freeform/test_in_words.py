@@ -33,7 +33,7 @@ def test_every_family_says_a_variable_of_the_vocabulary():
     families = families_of(ranges)
     assert {family.says for family in families} <= VOCABULARY
     # Every place but the constants of the rig, which no law is free of, has a family of its own.
-    assert {family.place for family in families} == set(Place) - {Place.PARAMETERS}
+    assert {family.place for family in families} == set(Place)
     assert len({family.name for family in families}) == len(families)
 
 

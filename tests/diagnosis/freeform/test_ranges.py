@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, turns
-from free_forms import DAMPING, covered, one_trial
+from free_forms import DAMPING, covered, covered_by, one_trial
 
 from diagnosis.freeform.ranges import LEAST_PAST_S, LONGEST_PAST_S, ranges_of, values_of
 from diagnosis.replay.variables import Variable
@@ -25,6 +25,16 @@ def test_what_a_variable_covers_is_all_but_a_few_samples():
     assert ends[Variable.BASE_ANGLE] == pytest.approx((0.002 * 50, 0.998 * 50), abs=0.1)
     assert ends[Variable.TIME] == pytest.approx((0.02, 9.97), abs=0.02)
     assert ends[Variable.PAST] == (LEAST_PAST_S, LONGEST_PAST_S)
+
+
+def test_of_trials_that_last_alike_a_share_is_a_time():
+    def ends(*lasting):
+        angles = [ANGLE[:n] for n in lasting]
+        return covered_by([(a, a, (a, np.zeros(a.size))) for a in angles]).ends
+
+    assert Variable.TRIAL_SHARE not in covered(ANGLE, tip=ANGLE).ends
+    assert Variable.TRIAL_SHARE not in ends(400, 400)
+    assert ends(400, 300)[Variable.TRIAL_SHARE] == pytest.approx((0.0, 1.0), abs=0.01)
 
 
 def test_a_base_that_turns_too_little_is_no_variable():

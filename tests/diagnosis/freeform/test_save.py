@@ -40,7 +40,6 @@ UNSAVED = {
     "the gap stays open": missing_with(closed=False),
     "it happened once": missing_with(variable="event"),
     "it is of an effect of the library": missing_with(free=None),
-    "the stiffness is told by trial": missing_with(FreeLaw(stiffness_by_trial=(("trial_01.csv", 1.1),))),
     "a curve is of one trial": missing_with(FreeLaw(curves=(replace(ONE, trial="trial_01.csv"),))),
 }
 

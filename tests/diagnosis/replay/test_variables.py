@@ -38,6 +38,13 @@ def test_time_begins_with_the_trial():
     np.testing.assert_allclose(late, TIME - 4.0)
 
 
+def test_a_share_of_the_trial_is_0_at_its_start_and_1_at_its_end():
+    share = of_inputs(Variable.TRIAL_SHARE, inputs(), 0.0)
+    np.testing.assert_allclose(share, TIME / TIME[-1])
+    later = of_inputs(Variable.TRIAL_SHARE, inputs(before_s=3.0), 1.0)
+    assert (later[400], later[-1]) == (pytest.approx(0.0), 1.0)
+
+
 def test_what_is_logged_is_as_logged():
     for variable, own in (
         (Variable.BASE_ANGLE, ANGLE),

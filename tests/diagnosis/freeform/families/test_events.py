@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered, covered_by
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.events import families, largest_event
+from diagnosis.freeform.families.events import Moment, events, families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(8.0)
@@ -28,7 +28,7 @@ def two_trials(at_s, size, number=0):
 
 @pytest.mark.parametrize(("at_s", "size"), [(2.0, 1.0), (5.5, -0.8), (7.0, 3.0)])
 def test_a_step_in_noise_is_found_where_it_is(at_s, size):
-    found = largest_event(stepping(at_s, size), "tip_angle_deg")
+    found = events(stepping(at_s, size), "tip_angle_deg")[0]
     assert found.trial == "trial_01.csv"
     # Of 3 sigma and more, a sample on the wrong side is told from one on the right one within a few.
     assert found.time_s == pytest.approx(at_s, abs=0.1)
@@ -37,14 +37,13 @@ def test_a_step_in_noise_is_found_where_it_is(at_s, size):
 def test_gaps_of_a_sensor_do_not_move_the_time():
     tip = ANGLE + NOISE + 2.0 * (TIME > 5.0)
     tip[100:300] = np.nan
-    assert largest_event(covered(ANGLE, tip=tip, seen=AT_REST), "tip_angle_deg").time_s == pytest.approx(
-        5.0, abs=0.1
-    )
+    (found,) = events(covered(ANGLE, tip=tip, seen=AT_REST), "tip_angle_deg")
+    assert found.time_s == pytest.approx(5.0, abs=0.1)
 
 
 def test_a_trial_that_is_too_short_has_no_middle_to_step_in():
     short = np.linspace(0, 90, 80)
-    assert largest_event(covered(short, tip=short), "tip_angle_deg") is None
+    assert events(covered(short, tip=short), "tip_angle_deg") == ()
     assert families(covered(short, tip=short)) == ()
 
 
@@ -65,11 +64,13 @@ def test_a_step_may_stay_in_the_trials_that_follow_it():
     assert names == [
         "slip between drive and needle, once",
         "slip between drive and needle, for good",
+        "slip between drive and needle, once in every trial",
         "jump of the tip sensor, once",
         "jump of the tip sensor, for good",
+        "jump of the tip sensor, once in every trial",
     ]
-    assert [family.name for family in families(second)] == names[::2]
-    good = families(first)[3]
+    assert [family.name for family in families(second)] == [n for n in names if "good" not in n]
+    good = families(first)[4]
     assert good.title == "jump of the tip sensor from trial_01.csv on"
     assert good.effect.trial == ""
     changes, stays = good.effect.apply(NOMINAL, 5.0, 0.1, 1.5).free.curves
@@ -89,3 +90,66 @@ def test_a_step_is_in_its_own_trial_from_its_time_on():
     np.testing.assert_allclose(curve.at(np.array([0.0, 5.0, 5.1, 8.0])), [0, 0, 1.5, 1.5])
     x, y = jump.curve(5.0, 0.1, 1.5)
     assert (x[1], y[0], y[-1]) == (5.0, 0.0, 1.5)
+
+
+def every_trial(at_s, lasting=(8.0, 8.0, 8.0), size=3.0):
+    """The last family of a log whose tip sensor jumps at times of its trials; and its events."""
+    trials = []
+    for when, last in zip(at_s, lasting, strict=True):
+        angle = ANGLE[: round(last / 0.01)]
+        time = 0.01 * np.arange(angle.size)
+        still = (angle, np.zeros(angle.size))
+        trials.append((angle, angle + NOISE[: angle.size] + size * (time > when), still))
+    ranges = covered_by(trials)
+    return families(ranges)[-1], events(ranges, "tip_angle_deg")
+
+
+def times_of(family, values):
+    """By trial, when the curves of a family step."""
+    curves = family.effect.apply(NOMINAL, *values).free.curves
+    return {curve.trial: curve.places[0] for curve in curves}
+
+
+def started(family, number):
+    return [p.start[number] for p in family.effect.parameters]
+
+
+@pytest.mark.parametrize(
+    ("at_s", "lasting"), [((2.0, 5.0, 3.0), (8.0, 8.0, 8.0)), ((3.2, 1.9, 2.4), (8.0, 5.0, 6.0))]
+)
+def test_a_step_in_every_trial_begins_at_a_time_of_its_own(at_s, lasting):
+    family, _ = every_trial(at_s, lasting)
+    assert (family.says, family.effect.trial) == ("event", "")
+    names = [f"trial_{i + 1:02d}.csv" for i in range(len(at_s))]
+    expected = dict(zip(names, at_s, strict=True))
+    assert times_of(family, started(family, 0)) == pytest.approx(expected, abs=0.1)
+
+
+def test_times_in_proportion_to_the_trials_need_no_coordinates_but_those_of_a_line():
+    family, _ = every_trial((3.2, 2.0, 2.4), (8.0, 5.0, 6.0))
+    expected = {"trial_01.csv": 3.2, "trial_02.csv": 2.0, "trial_03.csv": 2.4}
+    assert times_of(family, started(family, 1)) == pytest.approx(expected, abs=0.1)
+    off = [p for p in family.effect.parameters if p.name.startswith("rest")]
+    assert len(off) == 1
+    assert off[0].start[1] == 0.0
+
+
+def test_one_trial_that_is_off_does_not_move_the_line():
+    family, _ = every_trial((4.0, 4.0, 1.0, 4.0), (8.0,) * 4)
+    expected = {f"trial_{i:02d}.csv": 4.0 for i in range(1, 5)}
+    assert times_of(family, started(family, 1)) == pytest.approx(expected, abs=0.1)
+
+
+def test_the_step_of_every_trial_is_looked_for_with_either_sign():
+    family, found = every_trial((2.0, 5.0, 3.0))
+    step = family.effect.parameters[-1]
+    assert step.name == "step"
+    assert {np.sign(start) for start in step.start} == {1.0, -1.0}
+    assert all(len(p.start) == len(step.start) for p in family.effect.parameters)
+    values = [*started(family, 0)[:-1], 2.5]
+    curves = family.effect.apply(NOMINAL, *values).free.curves
+    assert {curve.values for curve in curves} == {(0.0, 2.5)}
+    x, y = family.curve(*values)
+    first = dict((m.trial, m.time_s) for m in found)[curves[0].trial]
+    assert (x[1], y[-1]) == (pytest.approx(first, abs=1e-9), 2.5)
+    assert isinstance(found[0], Moment)

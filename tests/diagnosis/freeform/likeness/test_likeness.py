@@ -7,7 +7,7 @@ import pytest
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.likeness.likeness import LIBRARY_LAWS, likeness_of
+from diagnosis.freeform.likeness.likeness import LIBRARY_LAWS, likeness_of, recognised
 from diagnosis.freeform.missing import Law
 
 RATES = np.geomspace(0.006, 3.0, 7)
@@ -159,3 +159,8 @@ def test_where_the_library_has_the_law_its_effect_is_named(variable, place, unit
 
 def test_every_effect_that_is_named_is_in_the_library():
     assert {name for names in LIBRARY_LAWS.values() for name in names} <= set(LIBRARY)
+
+
+@pytest.mark.parametrize("value", [0.0, 1e-6, 40.0])
+def test_a_level_curve_resembles_no_law(value):
+    assert recognised(curve(TIMES, np.full(TIMES.size, value), 0.03, variable="time")) == []

@@ -78,7 +78,7 @@ def test_the_rig_gets_the_values_of_the_law(family):
 
 def test_families_that_may_be_lines_are_of_all_places():
     places = {place for family in filter(is_line, SHAPED) for place in family.places}
-    assert places == set(Place) - {Place.PARAMETERS}
+    assert places == set(Place)
 
 
 def test_what_the_curve_does_not_depend_on_stays_a_parameter():
