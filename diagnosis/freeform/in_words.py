@@ -107,7 +107,7 @@ def course_of(law: Law) -> str:
     own = "" if law.unit == "-" else f" {law.unit}"
     if law.variable == "event":
         change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
-        return f"{law.title}, {change} at {law.x[1]:.2f} {law.x_unit}"
+        return f"{law.title}, {change} at {0.5 * (law.x[1] + law.x[2]):.2f} {law.x_unit}"
     if law.variable == "direction":
         back, forth = law.y[0], law.y[-1]
         if back * forth > 0:

@@ -22,6 +22,8 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.events import (
     DIFFERENCES,
     Moment,
+    around,
+    change_between,
     curves_of,
     times_of,
     trials_after,
@@ -111,7 +113,7 @@ def _gives_way(ranges: LogRanges, moment: Moment) -> Family:
 
 
 def _changes(time_s: float, duration_s: float, factor: float) -> Points:
-    return (0.0, time_s, time_s + duration_s, time_s + 2.0), (1.0, 1.0, factor, factor)
+    return change_between(time_s, duration_s, 1.0, factor)
 
 
 def _apply(
@@ -122,7 +124,7 @@ def _apply(
     duration_s: float,
     factor: float,
 ) -> RigParameters:
-    curves = curves_of(ActsOn.TISSUE, trial, after, (time_s, time_s + duration_s), (1.0, factor))
+    curves = curves_of(ActsOn.TISSUE, trial, after, around(time_s, duration_s), (1.0, factor))
     return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))
 
 

@@ -142,7 +142,18 @@ def _unit(acts_on: ActsOn) -> str:
 
 
 def _stepped(time_s: float, duration_s: float, step: float) -> Points:
-    return (0.0, time_s, time_s + duration_s, time_s + 2.0), (0.0, 0.0, step, step)
+    return change_between(time_s, duration_s, 0.0, step)
+
+
+def change_between(time_s: float, duration_s: float, before: float, after: float) -> Points:
+    """The curve of an event, from the start of its trial."""
+    begins, ends = around(time_s, duration_s)
+    return (0.0, begins, ends, time_s + 2.0), (before, before, after, after)
+
+
+def around(time_s: float, duration_s: float) -> tuple[float, float]:
+    """When an event begins and ends: its time is the middle, which its duration does not move."""
+    return max(0.0, time_s - 0.5 * duration_s), time_s + 0.5 * duration_s
 
 
 def _apply(
@@ -154,7 +165,7 @@ def _apply(
     duration_s: float,
     step: float,
 ) -> RigParameters:
-    curves = curves_of(acts_on, trial, after, (time_s, time_s + duration_s), (0.0, step))
+    curves = curves_of(acts_on, trial, after, around(time_s, duration_s), (0.0, step))
     return replace(rig, free=FreeLaw(curves=curves))
 
 
@@ -249,7 +260,7 @@ def _apply_to_each(
 ) -> RigParameters:
     *times, step = c
     steps = (
-        curves_of(acts_on, trial, (), (float(time_s), float(time_s) + duration_s), (0.0, step))
+        curves_of(acts_on, trial, (), around(float(time_s), duration_s), (0.0, step))
         for trial, time_s in zip(each.trials, each.times_s(times), strict=True)
     )
     return replace(rig, free=FreeLaw(curves=tuple(curve for one in steps for curve in one)))

@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered, covered_by
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.events import Moment, events, families
+from diagnosis.freeform.families.events import Moment, around, events, families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(8.0)
@@ -78,6 +78,11 @@ def test_a_step_may_stay_in_the_trials_that_follow_it():
     np.testing.assert_allclose(stays.at(np.array([0.0, 0.5, 8.0])), 1.5)
 
 
+def test_the_time_of_a_step_is_its_middle_but_for_one_at_the_start():
+    assert around(5.0, 0.3) == pytest.approx((4.85, 5.15))
+    assert around(0.1, 0.6) == pytest.approx((0.0, 0.4))
+
+
 def test_a_step_is_in_its_own_trial_from_its_time_on():
     (_, jump) = families(stepping(5.0, 1.0))
     assert (jump.says, jump.effect.trial) == ("event", "trial_01.csv")
@@ -87,9 +92,9 @@ def test_a_step_is_in_its_own_trial_from_its_time_on():
     assert lasting.low < 0.1 < lasting.high
     (curve,) = jump.effect.apply(NOMINAL, 5.0, 0.1, 1.5).free.curves
     assert curve.trial == "trial_01.csv"
-    np.testing.assert_allclose(curve.at(np.array([0.0, 5.0, 5.1, 8.0])), [0, 0, 1.5, 1.5])
+    np.testing.assert_allclose(curve.at(np.array([0.0, 4.95, 5.05, 8.0])), [0, 0, 1.5, 1.5])
     x, y = jump.curve(5.0, 0.1, 1.5)
-    assert (x[1], y[0], y[-1]) == (5.0, 0.0, 1.5)
+    assert (x[1:3], y[0], y[-1]) == (pytest.approx((4.95, 5.05)), 0.0, 1.5)
 
 
 def every_trial(at_s, lasting=(8.0, 8.0, 8.0), size=3.0):
@@ -107,7 +112,7 @@ def every_trial(at_s, lasting=(8.0, 8.0, 8.0), size=3.0):
 def times_of(family, values):
     """By trial, when the curves of a family step."""
     curves = family.effect.apply(NOMINAL, *values).free.curves
-    return {curve.trial: curve.places[0] for curve in curves}
+    return {curve.trial: np.mean(curve.places) for curve in curves}
 
 
 def started(family, number):
@@ -151,5 +156,5 @@ def test_the_step_of_every_trial_is_looked_for_with_either_sign():
     assert {curve.values for curve in curves} == {(0.0, 2.5)}
     x, y = family.curve(*values)
     first = dict((m.trial, m.time_s) for m in found)[curves[0].trial]
-    assert (x[1], y[-1]) == (pytest.approx(first, abs=1e-9), 2.5)
+    assert (np.mean(x[1:3]), y[-1]) == (pytest.approx(first, abs=1e-9), 2.5)
     assert isinstance(found[0], Moment)
