@@ -53,7 +53,7 @@ def test_it_is_of_the_tissue_and_stays():
     family, _ = families(log_with_a_change(5.0, 0))
     assert (family.place, family.says, family.effect.trial) == (Place.TISSUE, "event", "")
     changes, *stay = family.effect.apply(NOMINAL, 5.0, 0.1, 0.5).free.curves
-    np.testing.assert_allclose(changes.at(np.array([0.0, 5.0, 5.1, 8.0])), [1.0, 1.0, 0.5, 0.5])
+    np.testing.assert_allclose(changes.at(np.array([0.0, 4.95, 5.05, 8.0])), [1.0, 1.0, 0.5, 0.5])
     assert [own.trial for own in stay] == ["trial_02.csv", "trial_03.csv"]
     x, y = family.curve(5.0, 0.1, 0.5)
     assert (x[1], y[0], y[-1]) == (5.0, 1.0, 0.5)
