@@ -15,6 +15,8 @@ from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.fitting.nuisance import prior_sigma
 from diagnosis.replay.rig_parameters import RigParameters
+from models.errors import InvalidValue
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 
@@ -75,12 +77,19 @@ class Parameterization:
         return [p.from_fit(float(v)) for p, v in zip(self.parameters, near, strict=True)]
 
     def rig(self, x: Array) -> RigParameters:
-        """The rig with these effects in it."""
+        """The rig with these effects in it.
+
+        Raises:
+          SimulationFailed: there is no rig with these values.
+        """
         rig, values = RigParameters(), self.values(x)
-        for effect in self.all:
-            count = len(effect.parameters)
-            rig = effect.apply(rig, *values[:count])
-            values = values[count:]
+        try:
+            for effect in self.all:
+                count = len(effect.parameters)
+                rig = effect.apply(rig, *values[:count])
+                values = values[count:]
+        except InvalidValue as refused:
+            raise SimulationFailed(f"there is no rig with these parameters: {refused}") from refused
         return rig
 
     @property

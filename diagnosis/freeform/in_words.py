@@ -1,7 +1,10 @@
 """What the library lacks, in plain words."""
 
+import statistics
+
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.likeness.likeness import likeness_of
+from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing import Law, Missing
 from diagnosis.freeform.save import can_be_saved
 from diagnosis.in_sigma import in_sigma
@@ -53,6 +56,7 @@ SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _OTHERS = 3
 _TURN_DEG = 360.0
+_WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
@@ -81,7 +85,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
 def _likeness(law: Law) -> str:
     """The plain law that the curve resembles; empty: none."""
     like = likeness_of(law)
-    if like is None:
+    if like is None or like.shape == LEVEL:  # that a band hides everything is no law
         return ""
     library = f", a law of {' and '.join(like.library)} in the library" if like.library else ""
     article = "an" if like.shape[0] in "aeiou" else "a"
@@ -102,8 +106,7 @@ def next_step(missing: Missing) -> str:
 
 
 def course_of(law: Law) -> str:
-    """The course of a law, in words."""
-    low, high = min(law.y), max(law.y)
+    """The course of a law, in words, where the log determines it."""
     own = "" if law.unit == "-" else f" {law.unit}"
     if law.variable == "event":
         change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
@@ -115,17 +118,27 @@ def course_of(law: Law) -> str:
             way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
             return f"{law.title} is {ratio:.2g} times as strong {way}"
         return f"{law.title} is {forth:.3g}{own} forwards, {back:.3g}{own} backwards"
+    x, y = _determined(law)
+    low, high = min(y), max(y)
     if high == low:
         return f"{law.title} is {low:.3g}{own}"
-    rises = law.y[-1] - law.y[0]
+    rises = y[-1] - y[0]
     if abs(rises) >= _MOSTLY * (high - low):
         verb = "rises" if rises > 0 else "falls"
         unit = "" if law.x_unit == "-" else f" {law.x_unit}"
-        return (
-            f"{law.title} {verb} from {law.y[0]:.3g} to {law.y[-1]:.3g}{own} between "
-            f"{law.x[0]:.3g} and {law.x[-1]:.3g}{unit}"
-        )
+        between = f"between {x[0]:.3g} and {x[-1]:.3g}{unit}"
+        return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
     return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
+
+
+def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The points of a curve whose band is not far wider than the curve is large; all, if few are."""
+    most = _WIDEST * statistics.median(map(abs, law.y))
+    points = zip(law.x, law.y, law.low, law.high, strict=True)
+    known = [(x, y) for x, y, least, greatest in points if greatest - least <= most]
+    if len(known) < _FEWEST:
+        return law.x, law.y
+    return tuple(x for x, _ in known), tuple(y for _, y in known)
 
 
 def period_deg(missing: Missing) -> float:

@@ -22,6 +22,7 @@ Array = NDArray[np.float64]
 
 _LENGTH, _PERIODIC_LENGTH = 0.4, 0.6
 _NEXT_TO_ZERO = 1e-6  # of the range
+_FARTHEST_LOG = 14.0  # of a factor: a millionth, or a million
 _AT_REST = 0.02  # of the range: as slow as that is no rest
 
 
@@ -56,8 +57,9 @@ class SmoothCurve:
         return tuple(float(c) for c in found)
 
     def factors(self, coordinates: Sequence[float]) -> tuple[float, ...]:
-        """Exponentials of the values at the places, (K,): factors that are always positive."""
-        return tuple(float(v) for v in np.exp(self.values(coordinates)))
+        """Exponentials of the values at the places, (K,): factors that are positive and finite."""
+        within = np.clip(self.values(coordinates), -_FARTHEST_LOG, _FARTHEST_LOG)
+        return tuple(float(v) for v in np.exp(within))
 
 
 def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = False) -> SmoothCurve:

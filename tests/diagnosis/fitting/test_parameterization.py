@@ -10,6 +10,8 @@ from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of, starts
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from models.errors import InvalidValue
+from sim.needles.run import SimulationFailed
 
 OPEN = tuple(LIBRARY[name] for name in SCATTER)
 
@@ -78,3 +80,15 @@ def test_what_rounding_left_beyond_a_bound_is_at_the_bound():
     assert own.values(np.array([2.0 + 1e-15])) == [2.0]
     assert own.values(np.array([-1e-6])) == [-1e-6]
     assert own.values(np.array([0.5])) == [0.5]
+
+
+def test_where_there_is_no_rig_nothing_can_be_simulated():
+    """A law may be refused for values within its bounds; a fit then looks elsewhere."""
+
+    def refuse(rig, value):
+        raise InvalidValue("value", value, "nothing at all")
+
+    refused = replace(LIBRARY["tip_drag"], apply=refuse)
+    parameterization = Parameterization(effects=(refused,), nuisance=())
+    with pytest.raises(SimulationFailed, match="nothing at all"):
+        parameterization.rig(np.zeros(1))

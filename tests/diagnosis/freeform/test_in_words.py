@@ -48,7 +48,7 @@ def test_every_family_says_a_variable_of_the_vocabulary():
         ({"variable": "direction", "y": (-0.1, 0.2)}, "is 0.2 N mm / mm forwards, -0.1 N mm / mm back"),
         (
             {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
-            "by 3 N mm / mm at 2.50 s",
+            "by 3 N mm / mm at 2.55 s",
         ),
         (
             {
@@ -58,12 +58,18 @@ def test_every_family_says_a_variable_of_the_vocabulary():
                 "unit": "-",
                 "x_unit": "s",
             },
-            "along the shaft, 0.2 times as large at 2.50 s",
+            "along the shaft, 0.2 times as large at 2.55 s",
         ),
     ],
 )
 def test_the_course_of_a_law_is_told(changes, said):
     assert said in course_of(replace(LAW, **changes))
+
+
+def test_where_a_curve_is_not_determined_its_course_is_not_told():
+    x, y, wide = (0.0, 1.0, 2.0, 3.0), (1.0, 1.5, 2.0, 400.0), (0.9, 1.4, 1.9, 0.0)
+    law = replace(LAW, x=x, y=y, low=wide, high=(1.1, 1.6, 2.1, 9e4))
+    assert "rises from 1 to 2 N mm / mm between 0 and 2" in course_of(law)
 
 
 def test_place_variable_course_and_gap_are_in_the_sentence():
