@@ -4,7 +4,7 @@
   began: tissue that is warmed or dried, a needle that is
 - damping times a curve of the turns since then: tissue that wears
 
-The log does not tell how long the pauses between trials were: they count as nothing.
+The log does not tell how long the pauses between trials were: they are fitted, one length for all.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects.effect import Effect, Place
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
@@ -30,6 +30,7 @@ FEWEST_TRIALS = 3
 _PLACES = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _WORN = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
 _LEAST_SPAN = 1e-6  # of a trial that does not turn
+_SHORTEST, _USUAL, _LONGEST = 0.01, 0.3, 10.0  # pause between trials, in their mean duration
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,31 +38,68 @@ class Session:
     """A curve over the time, or the turns, of all trials, one after the other.
 
     Attributes:
-      spans: by trial, where it begins and ends.
+      curve: over the share of the session.
+      trials: their names.
+      lasting: how long each lasts, or what it turns, (n,).
     """
 
     variable: Variable
     curve: SmoothCurve
-    spans: tuple[tuple[str, float, float], ...]
+    trials: tuple[str, ...]
+    lasting: Array
 
-    def curves(self, c: Sequence[float], acts_on: ActsOn = ActsOn.TISSUE) -> tuple[Curve, ...]:
+    @property
+    def pauses(self) -> tuple[Parameter, ...]:
+        """The pause between trials; nothing turns meanwhile."""
+        if self.variable is not Variable.TIME:
+            return ()
+        mean_s = float(self.lasting.mean())
+        pause = Parameter(
+            name="pause",
+            unit="s",
+            low=_SHORTEST * mean_s,
+            high=_LONGEST * mean_s,
+            start=(_USUAL * mean_s,),
+            logarithmic=True,
+            neutral=None,
+        )
+        return (pause,)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The pause, and the coordinates of the curve."""
+        return (*self.pauses, *coordinates_of(self.curve))
+
+    def split(self, values: Sequence[float]) -> tuple[float, Sequence[float]]:
+        """The pause, and the coordinates."""
+        return (values[0], values[1:]) if self.pauses else (0.0, values)
+
+    def curves(self, values: Sequence[float], acts_on: ActsOn = ActsOn.TISSUE) -> tuple[Curve, ...]:
         """Factors in each trial, straight between the places of the curve."""
+        pause, c = self.split(values)
+        places, factors = self.length(pause) * self.curve.places, self.curve.factors(c)
+        ends = np.cumsum(self.lasting) + pause * np.arange(self.lasting.size)
         return tuple(
             Curve(
                 acts_on=acts_on,
                 variable=self.variable,
-                places=tuple(float(own) - begin for own in places),
-                values=tuple(float(v) for v in np.interp(places, self.curve.places, factors)),
+                places=tuple(float(own) - begin for own in met),
+                values=tuple(float(v) for v in np.interp(met, places, factors)),
                 trial=name,
             )
-            for factors in [self.curve.factors(c)]
-            for name, begin, end in self.spans
-            for places in [self._places(begin, end)]
+            for name, end, own in zip(self.trials, ends, self.lasting, strict=True)
+            for begin in [float(end - own)]
+            for met in [_within(places, begin, float(end))]
         )
 
-    def _places(self, begin: float, end: float) -> Array:
-        inside = self.curve.places[(self.curve.places > begin) & (self.curve.places < end)]
-        return np.unique(np.concatenate([[begin], inside, [max(end, begin + _LEAST_SPAN)]]))
+    def length(self, pause: float) -> float:
+        """Of the whole session, with its pauses."""
+        return float(self.lasting.sum()) + pause * (self.lasting.size - 1)
+
+
+def _within(places: Array, begin: float, end: float) -> Array:
+    inside = places[(places > begin) & (places < end)]
+    return np.unique(np.concatenate([[begin], inside, [max(end, begin + _LEAST_SPAN)]]))
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -82,12 +120,11 @@ def _session(variable: Variable, trials: Sequence[PreparedTrial]) -> Session:
     lasting = [
         float(of_inputs(variable, trial.schedule, float(trial.time_s[0]))[-1]) for trial in trials
     ]
-    ends = np.cumsum(lasting)
-    spans = zip([t.name for t in trials], ends - lasting, ends, strict=True)
     return Session(
         variable=variable,
-        curve=smooth_curve(0.0, float(ends[-1]), min(2 * len(trials), 8)),
-        spans=tuple((name, float(begin), float(end)) for name, begin, end in spans),
+        curve=smooth_curve(0.0, 1.0, min(2 * len(trials), 8)),
+        trials=tuple(trial.name for trial in trials),
+        lasting=np.array(lasting),
     )
 
 
@@ -99,14 +136,14 @@ def _damping(session: Session, ranges: LogRanges) -> Family:
             name=f"damping over {session.variable}, of the session",
             title=f"damping that changes with the {'turns' if worn else 'time'} of all trials",
             place=max(places, key=lambda place: places[place]),
-            parameters=coordinates_of(session.curve),
+            parameters=session.parameters,
             apply=partial(_apply_damping, session),
         ),
         places=places,
         says="history" if worn else "time",
         title="damping along the shaft",
         curve=partial(_points, session, ranges.damping_n_mm_s_per_mm),
-        x_unit=f"{UNITS[session.variable]} of all trials",
+        x_unit=f"{UNITS[session.variable]} of the session",
         unit="N mm s / rad / mm",
     )
 
@@ -117,13 +154,13 @@ def _apply_damping(session: Session, rig: RigParameters, *c: float) -> RigParame
 
 def _friction(session: Session, ranges: LogRanges) -> Family:
     level = ranges.library["coulomb_friction"].parameters[0]
-    neutral = (0.0,) * len(level.start)
+    most = len(level.start)
     return Family(
         effect=Effect(
             name="dry friction over time, of the session",
             title="dry friction that changes with the time of all trials",
             place=Place.TISSUE,
-            parameters=(level, *(replace(p, start=neutral) for p in coordinates_of(session.curve))),
+            parameters=(level, *(replace(p, start=most * p.start) for p in session.parameters)),
             apply=partial(_apply_friction, session),
             differences=(1e-2,),
         ),
@@ -131,7 +168,7 @@ def _friction(session: Session, ranges: LogRanges) -> Family:
         says="time",
         title="dry friction along the shaft",
         curve=partial(_points, session),
-        x_unit="s of all trials",
+        x_unit="s of the session",
         unit="N mm / mm",
     )
 
@@ -147,14 +184,14 @@ def _stiffness(session: Session) -> Family:
             name="stiffness over time, of the session",
             title="stiffness of the shaft that changes with the time of all trials",
             place=Place.PARAMETERS,
-            parameters=coordinates_of(session.curve),
+            parameters=session.parameters,
             apply=partial(_apply_stiffness, session),
         ),
         places={Place.PARAMETERS: 0.6, Place.NEEDLE: 0.4},
         says="time",
         title="stiffness of the shaft over the nominal",
         curve=partial(_points, session, 1.0),
-        x_unit="s of all trials",
+        x_unit="s of the session",
         unit="-",
     )
 
@@ -164,5 +201,6 @@ def _apply_stiffness(session: Session, rig: RigParameters, *c: float) -> RigPara
     return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))
 
 
-def _points(session: Session, size: float, *c: float) -> Points:
-    return session.curve.places, size * np.array(session.curve.factors(c))
+def _points(session: Session, size: float, *values: float) -> Points:
+    pause, c = session.split(values)
+    return session.length(pause) * session.curve.places, size * np.array(session.curve.factors(c))

@@ -39,6 +39,15 @@ def same(rig, other, number):
     )
 
 
+PAUSE_S = 3.0
+
+
+def law_of(name, *c, pause_s=PAUSE_S):
+    """The parameters of a family: of time, with a pause; coordinates that are not given are 0."""
+    values = [*([] if name == TURNS else [pause_s]), *c]
+    return [*values, *[0.0] * (len(FAMILIES[name].effect.parameters) - len(values))]
+
+
 def test_of_two_trials_no_session_is_told():
     assert families(covered_by([(ANGLE, ANGLE, (REST, REST))] * (FEWEST_TRIALS - 1))) == ()
     assert set(FAMILIES) == {TIME, TURNS, DRY, STIFF}
@@ -46,8 +55,7 @@ def test_of_two_trials_no_session_is_told():
 
 @pytest.mark.parametrize("name", [TIME, TURNS])
 def test_damping_that_is_the_same_in_all_trials_is_another_damping(name):
-    size = len(FAMILIES[name].effect.parameters)
-    rig = FAMILIES[name].effect.apply(NOMINAL, np.log(1.3), *[0.0] * (size - 1))
+    rig = FAMILIES[name].effect.apply(NOMINAL, *law_of(name, np.log(1.3)))
     for number in (1, 2, 3):
         assert same(rig, RigParameters(damping_scale=1.3), number)
         assert not same(rig, NOMINAL, number)
@@ -55,29 +63,33 @@ def test_damping_that_is_the_same_in_all_trials_is_another_damping(name):
 
 def test_friction_that_is_the_same_in_all_trials_is_that_of_the_library():
     size = len(FAMILIES[DRY].effect.parameters)
-    rig = FAMILIES[DRY].effect.apply(NOMINAL, 0.001, *[0.0] * (size - 1))
+    rig = FAMILIES[DRY].effect.apply(NOMINAL, 0.001, PAUSE_S, *[0.0] * (size - 2))
     assert same(rig, RigParameters(kinetic_n_mm_per_mm=0.001), 2)
 
 
 def test_a_stiffness_that_is_the_same_in_all_trials_is_another_stiffness():
-    size = len(FAMILIES[STIFF].effect.parameters)
-    rig = FAMILIES[STIFF].effect.apply(NOMINAL, np.log(1.2), *[0.0] * (size - 1))
+    rig = FAMILIES[STIFF].effect.apply(NOMINAL, *law_of(STIFF, np.log(1.2)))
     for number in (1, 2, 3):
         assert same(rig, RigParameters(stiffness_scale=1.2), number)
         assert not same(rig, NOMINAL, number)
 
 
 @pytest.mark.parametrize("name", [TIME, TURNS])
-def test_the_next_trial_begins_where_the_last_one_ended(name):
-    family = FAMILIES[name]
-    curves = family.effect.apply(NOMINAL, 0.0, 0.5, 2.0, *[0.0] * 3).free.curves
-    for before, after in pairwise(curves):
-        assert before.values[-1] == pytest.approx(after.values[0])
-    places, damping = family.curve(0.0, 0.5, 2.0, *[0.0] * 3)
+def test_the_next_trial_begins_where_the_last_one_ended_but_for_the_pause(name):
+    family, values = FAMILIES[name], law_of(name, 0.0, 0.5, 2.0)
+    curves = family.effect.apply(NOMINAL, *values).free.curves
+    places, damping = family.curve(*values)
+    if name == TURNS:
+        for before, after in pairwise(curves):
+            assert before.values[-1] == pytest.approx(after.values[0])
     assert curves[0].values[0] == pytest.approx(damping[0] / DAMPING)
     assert curves[-1].values[-1] == pytest.approx(damping[-1] / DAMPING)
-    total = LASTS_S if name == TIME else np.abs(np.diff(ANGLE)).sum() / 360
-    assert max(places) == pytest.approx(3 * total, rel=0.01)
+    total = 3 * LASTS_S + 2 * PAUSE_S if name == TIME else 3 * np.abs(np.diff(ANGLE)).sum() / 360
+    assert max(places) == pytest.approx(total, rel=0.01)
+    if name == TIME:
+        again = (LASTS_S + PAUSE_S) * np.arange(3)
+        expected = np.interp(again, places, damping) / DAMPING
+        assert [curve.values[0] for curve in curves] == pytest.approx(list(expected), rel=1e-6)
 
 
 def test_what_wears_is_the_interface_and_what_dries_the_tissue():
@@ -91,6 +103,6 @@ def test_what_wears_is_the_interface_and_what_dries_the_tissue():
 
 def test_a_weaker_law_changes_the_stiffness_less():
     family = FAMILIES[STIFF]
-    rig = family.effect.apply(NOMINAL, np.log(1.44), *[0.0] * (len(family.effect.parameters) - 1))
+    rig = family.effect.apply(NOMINAL, *law_of(STIFF, np.log(1.44)))
     half = replace(rig, free=rig.free.times(0.5))
     assert same(half, RigParameters(stiffness_scale=1.2), 1)
