@@ -34,6 +34,11 @@ EVERYTHING = replace(
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""
+SOFTENING = FreeLaw(
+    tissue_varies=True,
+    curves=(replace(OVER_DEPTH, acts_on=ActsOn.STIFFNESS, variable=Variable.TRIAL_SHARE),),
+)
+"""A shaft whose stiffness follows the share of a trial that has passed."""
 
 
 def saved(law=STICKY, name="sticky_membrane", **changes):

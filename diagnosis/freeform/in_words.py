@@ -22,7 +22,7 @@ PLACES = {
 }
 VARIABLES = {
     "time": "the time",
-    "event": "something that happened once",
+    "event": "an event",
     "base_angle": "the angle of the base",
     "tip_angle": "the angle of the tip",
     "rate": "the rate of turning",
@@ -35,7 +35,8 @@ VARIABLES = {
 }
 CHECKS = {
     "time": "repeat one slow turn at the beginning of a trial, at its end, and in the last trial",
-    "event": "look up what was done at that time, and repeat the trial: the jump should not come back",
+    "event": "look up what was done at that time, and repeat the trial: only a lasting cause makes it "
+    "jump again",
     "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
     "the drive remains",
     "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",

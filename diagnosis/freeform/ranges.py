@@ -97,11 +97,11 @@ def ranges_of(
 ) -> LogRanges:
     """Ranges of a log, given readings of the nominal rig, and of one with less damping, by trial."""
     trials = problem.log.trials
-    left_out = _OF_READINGS if _last_differently(trials) else (*_OF_READINGS, Variable.TRIAL_SHARE)
-    moving = (v for v in Variable if v not in left_out)
+    moving = (v for v in Variable if v not in (*_OF_READINGS, Variable.TRIAL_SHARE))
     found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
     found[Variable.PAST] = (LEAST_PAST_S, LONGEST_PAST_S)
     found[Variable.TURNED_BY] = (0.0, 1.0)
+    found[Variable.TRIAL_SHARE] = (0.0, float(_last_differently(trials)))
     left = {
         sensor: tuple(
             trial.readings[sensor] - own[sensor]

@@ -18,6 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from diagnosis.replay.free_law import FACTORS, ActsOn, Curve
+from diagnosis.replay.variables import Variable
+
 Array = NDArray[np.float64]
 
 _LENGTH, _PERIODIC_LENGTH = 0.4, 0.6
@@ -60,6 +63,16 @@ class SmoothCurve:
         """Exponentials of the values at the places, (K,): factors that are positive and finite."""
         within = np.clip(self.values(coordinates), -_FARTHEST_LOG, _FARTHEST_LOG)
         return tuple(float(v) for v in np.exp(within))
+
+    def acting_on(self, acts_on: ActsOn, variable: Variable, coordinates: Sequence[float]) -> Curve:
+        """The curve in a free law: of factors where it multiplies, else of values."""
+        return Curve(
+            acts_on=acts_on,
+            variable=variable,
+            places=tuple(float(x) for x in self.places),
+            values=self.factors(coordinates) if acts_on in FACTORS else self.values(coordinates),
+            period=self.period,
+        )
 
 
 def smooth_curve(low: float, high: float, count: int = 8, *, fading: bool = False) -> SmoothCurve:

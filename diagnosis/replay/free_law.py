@@ -66,7 +66,7 @@ class ActsOn(StrEnum):
     TORQUE_READING = "torque_reading"
 
 
-_FACTORS = (ActsOn.TISSUE, ActsOn.STIFFNESS)
+FACTORS = (ActsOn.TISSUE, ActsOn.STIFFNESS)  # a curve multiplies them; to others it is added
 _SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
 
 
@@ -100,7 +100,7 @@ class Curve:
             raise InvalidValue(
                 "values", self.values, f"{places.size} finite numbers, one for each place"
             )
-        if self.acts_on in _FACTORS and min(self.values) <= 0:
+        if self.acts_on in FACTORS and min(self.values) <= 0:
             raise InvalidValue(
                 "values",
                 self.values,
@@ -123,7 +123,7 @@ class Curve:
 
     def times(self, strength: float) -> "Curve":
         """The curve multiplied by a strength; factors are raised to that power."""
-        if self.acts_on in _FACTORS:
+        if self.acts_on in FACTORS:
             return replace(self, values=tuple(value**strength for value in self.values))
         return replace(self, values=tuple(value * strength for value in self.values))
 

@@ -231,7 +231,7 @@ def _steps(
 ) -> Family:
     """A step once in every trial."""
     _, lasting = times_of(usual)
-    name = f"{title}, once in every trial"
+    name = f"{title} once in every trial"
     return Family(
         effect=Effect(
             name=name,
@@ -243,9 +243,9 @@ def _steps(
         ),
         places={place: 1.0},
         says="event",
-        title=f"{title} once in every trial, in {each.trials[0]}",
+        title=name,
         curve=partial(_stepped_first, each),
-        x_unit="s",
+        x_unit=f"s of {each.trials[0]}",
         unit=_unit(acts_on),
     )
 

@@ -18,7 +18,7 @@ from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.free_law import ActsOn, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.tissue import RATE_POINTS, Interface
@@ -55,17 +55,6 @@ def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
     return smooth_curve(*ends, fading=variable in FADING)
 
 
-def tissue_curve(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> Curve:
-    """A curve of factors on the tissue's torque, which are always positive."""
-    return Curve(
-        acts_on=ActsOn.TISSUE,
-        variable=variable,
-        places=tuple(curve.places),
-        values=curve.factors(c),
-        period=curve.period,
-    )
-
-
 def _level(ranges: LogRanges) -> Parameter:
     return ranges.library["coulomb_friction"].parameters[0]
 
@@ -98,7 +87,9 @@ def _damping(curve: SmoothCurve, beta: float, *c: float) -> Points:
 def _apply_damping(
     variable: Variable, curve: SmoothCurve, rig: RigParameters, *c: float
 ) -> RigParameters:
-    return replace(rig, free=FreeLaw(tissue_varies=True, curves=(tissue_curve(variable, curve, c),)))
+    return replace(
+        rig, free=FreeLaw(tissue_varies=True, curves=(curve.acting_on(ActsOn.TISSUE, variable, c),))
+    )
 
 
 def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
@@ -135,7 +126,9 @@ def _apply_friction(
     variable: Variable, curve: SmoothCurve, rig: RigParameters, level: float, *c: float
 ) -> RigParameters:
     law = Interface(kinetic_n_mm_per_mm=level, varies=True)
-    return replace(rig, free=FreeLaw(throughout=(law,), curves=(tissue_curve(variable, curve, c),)))
+    return replace(
+        rig, free=FreeLaw(throughout=(law,), curves=(curve.acting_on(ActsOn.TISSUE, variable, c),))
+    )
 
 
 def _rate(ranges: LogRanges) -> Family:

@@ -11,7 +11,7 @@ from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, bent_curve, smooth_curve
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.free_law import ActsOn, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 
@@ -54,10 +54,5 @@ def _points(curve: SmoothCurve, *c: float) -> Points:
 
 
 def _apply(variable: Variable, curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
-    own = Curve(
-        acts_on=ActsOn.INSERTED_LENGTH,
-        variable=variable,
-        places=tuple(float(x) for x in curve.places),
-        values=curve.values(c),
-    )
+    own = curve.acting_on(ActsOn.INSERTED_LENGTH, variable, c)
     return replace(rig, free=FreeLaw(curves=(own,)))

@@ -26,7 +26,7 @@ from diagnosis.freeform.smooth_curve import (
     smooth_curve,
     two_values,
 )
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.free_law import ActsOn, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 
@@ -193,11 +193,5 @@ def _points(curve: SmoothCurve, *c: float) -> Points:
 
 
 def _apply(added: Added, curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
-    own = Curve(
-        acts_on=added.acts_on,
-        variable=added.variable,
-        places=tuple(float(x) for x in curve.places),
-        values=curve.values(c),
-        period=curve.period,
-    )
+    own = curve.acting_on(added.acts_on, added.variable, c)
     return replace(rig, free=FreeLaw(curves=(own,)))

@@ -16,7 +16,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve, two_sided_curve
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.free_law import ActsOn, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.needle import STIFFNESS_POINTS
@@ -118,12 +118,7 @@ def _over(variable: Variable, ranges: LogRanges) -> Family:
 
 
 def _apply_over(variable: Variable, curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
-    own = Curve(
-        acts_on=ActsOn.STIFFNESS,
-        variable=variable,
-        places=tuple(float(x) for x in curve.places),
-        values=curve.factors(c),
-    )
+    own = curve.acting_on(ActsOn.STIFFNESS, variable, c)
     return replace(rig, free=FreeLaw(tissue_varies=True, curves=(own,)))
 
 

@@ -20,12 +20,11 @@ from diagnosis.freeform.families.interface import (
     TURN_DEG,
     WAVES,
     curve_over,
-    tissue_curve,
 )
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
-from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_law import ActsOn, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface
@@ -137,7 +136,9 @@ def _apply_torque(
     *c: float,
 ) -> RigParameters:
     law = Interface(viscous_n_mm_s_per_mm=damping, kinetic_n_mm_per_mm=level, varies=True)
-    return replace(rig, free=FreeLaw(at_tip=(law,), curves=(tissue_curve(variable, curve, c),)))
+    return replace(
+        rig, free=FreeLaw(at_tip=(law,), curves=(curve.acting_on(ActsOn.TISSUE, variable, c),))
+    )
 
 
 def _angle(ranges: LogRanges, *, tip: bool) -> Family:

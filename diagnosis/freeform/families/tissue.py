@@ -10,12 +10,12 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.families.interface import FADING, PARTS, tissue_curve
+from diagnosis.freeform.families.interface import FADING, PARTS
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_law import ActsOn, FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contact_places
@@ -85,7 +85,7 @@ def _elastic(
 
 
 def _law_over(variable: Variable, curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
-    return FreeLaw(stiffness_varies=True, curves=(tissue_curve(variable, curve, c),))
+    return FreeLaw(stiffness_varies=True, curves=(curve.acting_on(ActsOn.TISSUE, variable, c),))
 
 
 def _law_along_depth(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:

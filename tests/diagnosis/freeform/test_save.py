@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 import yaml
-from saved_laws import EVERYTHING, STICKY, missing_with, saved
+from saved_laws import EVERYTHING, SOFTENING, STICKY, missing_with, saved
 
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
@@ -19,7 +19,7 @@ from models.errors import InvalidValue
 ONE = Curve(acts_on=ActsOn.TISSUE, variable=Variable.TIME, places=(0.0, 1.0), values=(1.0, 2.0))
 
 
-@pytest.mark.parametrize("law", [STICKY, EVERYTHING], ids=["sticky", "every field"])
+@pytest.mark.parametrize("law", [STICKY, EVERYTHING, SOFTENING], ids=["sticky", "every field", "soft"])
 def test_a_law_that_closes_the_gap_is_saved_as_it_was_fitted(tmp_path, law):
     path = tmp_path / "sticky_membrane.yaml"
     path.write_text(as_file(missing_with(law), path.stem))

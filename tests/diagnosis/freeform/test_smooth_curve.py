@@ -13,6 +13,8 @@ from diagnosis.freeform.smooth_curve import (
     two_sided_curve,
     two_values,
 )
+from diagnosis.replay.free_law import ActsOn
+from diagnosis.replay.variables import Variable
 
 COUNT = 8
 
@@ -145,3 +147,23 @@ def test_the_signs_of_a_two_sided_curve_differ_by_a_jump_and_a_slope_alone():
     # Next to zero it is the constant on both sides, and the jump.
     values = curve.values([0.5, 0.0, 0.2, 0.0, *np.zeros(curve.size - 4)])
     assert (values[6], values[7]) == (pytest.approx(0.3), pytest.approx(0.7))
+
+
+@pytest.mark.parametrize("acts_on", ActsOn)
+def test_in_a_law_a_curve_is_of_factors_where_it_multiplies_and_else_of_values(acts_on):
+    curve, c = periodic_curve(360.0), (0.4, -0.2, 0.1)
+    c = (*c, *[0.0] * (curve.size - len(c)))
+    own = curve.acting_on(acts_on, Variable.BASE_ANGLE, c)
+    multiplies = acts_on in (ActsOn.TISSUE, ActsOn.STIFFNESS)
+    expected = np.exp(curve.values(c)) if multiplies else curve.values(c)
+    np.testing.assert_allclose(own.values, expected)
+    assert own.places == tuple(curve.places)
+    assert (own.acts_on, own.variable, own.period) == (acts_on, Variable.BASE_ANGLE, 360.0)
+
+
+def test_no_factor_is_0_or_infinite():
+    curve = smooth_curve(0.0, 1.0)
+    for far in (-1e4, 1e4):
+        factors = np.array(curve.factors([far] + [0.0] * (curve.size - 1)))
+        assert np.isfinite(factors).all()
+        assert (factors > 0).all()

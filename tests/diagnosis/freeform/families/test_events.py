@@ -64,10 +64,10 @@ def test_a_step_may_stay_in_the_trials_that_follow_it():
     assert names == [
         "slip between drive and needle, once",
         "slip between drive and needle, for good",
-        "slip between drive and needle, once in every trial",
+        "slip between drive and needle once in every trial",
         "jump of the tip sensor, once",
         "jump of the tip sensor, for good",
-        "jump of the tip sensor, once in every trial",
+        "jump of the tip sensor once in every trial",
     ]
     assert [family.name for family in families(second)] == [n for n in names if "good" not in n]
     good = families(first)[4]
@@ -143,6 +143,12 @@ def test_one_trial_that_is_off_does_not_move_the_line():
     family, _ = every_trial((4.0, 4.0, 1.0, 4.0), (8.0,) * 4)
     expected = {f"trial_{i:02d}.csv": 4.0 for i in range(1, 5)}
     assert times_of(family, started(family, 1)) == pytest.approx(expected, abs=0.1)
+
+
+def test_the_time_of_a_step_in_every_trial_is_told_of_the_trial_that_shows_it_most():
+    family, found = every_trial((2.0, 5.0, 3.0))
+    assert family.title == "jump of the tip sensor once in every trial"
+    assert family.x_unit == f"s of {found[0].trial}"
 
 
 def test_the_step_of_every_trial_is_looked_for_with_either_sign():
