@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered, covered_by
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.events import Moment, around, events, families
+from diagnosis.freeform.families.events import around, events, families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(8.0)
@@ -163,4 +163,3 @@ def test_the_step_of_every_trial_is_looked_for_with_either_sign():
     x, y = family.curve(*values)
     first = dict((m.trial, m.time_s) for m in found)[curves[0].trial]
     assert (np.mean(x[1:3]), y[-1]) == (pytest.approx(first, abs=1e-9), 2.5)
-    assert isinstance(found[0], Moment)
