@@ -16,8 +16,10 @@ from diagnosis.assessment.assess import Assessment, assess
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.assessment.uncertainty.absent_effects import without_absent
 from diagnosis.criteria import REPLAYS_AFTER_STOP
-from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.decimation import decimated, decimated_noise
+from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.in_words import VARIABLES
 from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing
@@ -26,6 +28,7 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
 from diagnosis.progress import ProgressClock, Watcher, silent
 from diagnosis.result import Diagnosis
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted
@@ -161,8 +164,23 @@ def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -
     form = workers.stop.unless_due(OTHER_FORMS, lambda: other_form(nominal, best, workers))
     if form is None:
         return judged
-    entry = dropped("verdict", [verdict.best], f"{form.effect.title} leaves clearly less")
-    return replace(judged, verdict=refuted(verdict, form.effect.title), record=(*judged.record, *entry))
+    law = f"{form.title} that depends on {VARIABLES[form.says]}"
+    entry = dropped("verdict", [verdict.best], f"{law} leaves clearly less")
+    plain = _without_drift(judged)
+    return replace(plain, verdict=refuted(plain.verdict, law), record=(*judged.record, *entry))
+
+
+def _without_drift(judged: Judged) -> Judged:
+    """The same with a torque sensor that does not drift, which would hide a part of what is missing."""
+    fine, coarse = judged.problem, judged.coarse
+    noise = replace(fine.noise, torque_drift_n_mm=0.0)
+    best = candidate(rescaled(judged.verdict.best.fit, fine, noise))
+    return replace(
+        judged,
+        problem=replace(fine, noise=noise),
+        coarse=replace(coarse, noise=decimated_noise(noise, fine.log, coarse.log)),
+        verdict=replace(judged.verdict, best=best),
+    )
 
 
 def _without_absent(judged: Judged, assessment: Assessment) -> tuple[Judged, Assessment]:

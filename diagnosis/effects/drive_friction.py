@@ -25,4 +25,5 @@ EFFECT = Effect(
         "add dry friction of {level} between torque sensor and chuck to the model, or free the bearing"
     ),
     check="turn the drive without a needle: what the torque sensor reads is the friction of the bearing",
+    other_forms=("drive torque over rate",),
 )

@@ -23,4 +23,5 @@ EFFECT = Effect(
     needs="tip_angle_deg",
     remedy="calibrate the tip sensor: divide its readings by {scale}",
     check="turn the needle in air by a known angle and compare it with the tip sensor",
+    other_forms=("tip reading over tip_angle, either side of 0",),
 )

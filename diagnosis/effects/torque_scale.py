@@ -23,4 +23,5 @@ EFFECT = Effect(
     needs="base_torque_n_mm",
     remedy="calibrate the torque sensor: divide its readings by {scale}",
     check="calibrate the torque sensor with a known weight on a lever",
+    other_forms=("torque reading over torque",),
 )

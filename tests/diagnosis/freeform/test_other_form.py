@@ -16,9 +16,10 @@ from diagnosis.freeform.ranges import ranges_of
 from diagnosis.freeform.search import with_family
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.variables import Variable
 from diagnosis.selection.screening import screen
 from diagnosis.workers import Workers
 
@@ -33,6 +34,15 @@ DEEPER = RigParameters(
         )
     )
 )
+
+
+def reading_of_torque(values):
+    """A torque sensor with an error that depends on the torque: values at three torques."""
+    curve = Curve(
+        acts_on=ActsOn.TORQUE_READING, variable=Variable.TORQUE, places=(-5.0, 0.0, 5.0), values=values
+    )
+    return RigParameters(free=FreeLaw(curves=(curve,)))
+
 
 DEPTHS_MM = (40.0, 90.0, 160.0)
 
@@ -121,6 +131,15 @@ def test_a_curve_over_the_rate_begins_as_the_power_law_that_it_replaces():
         costs.append(sum(float(left[0] @ left[0]) for left in own.residuals([rig])))
     assert costs[1] < 1.25 * costs[0]
     assert sum(float(left[0] @ left[0]) for left in own.residuals([NOMINAL])) > 20 * costs[0]
+
+
+def test_a_gain_of_the_torque_sensor_is_refuted_where_only_positive_torques_have_it():
+    found = fitted(reading_of_torque((0.0, 0.0, 0.2)), ("torque_scale",))
+    assert form_of(*found).name == "torque reading over torque"
+
+
+def test_a_gain_of_the_torque_sensor_stands_where_all_torques_have_it():
+    assert form_of(*fitted(reading_of_torque((-0.2, 0.0, 0.2)), ("torque_scale",))) is None
 
 
 def test_an_effect_of_which_no_other_form_is_named_is_not_compared(monkeypatch):
