@@ -15,15 +15,16 @@ Numbers of a numerical method that decide nothing (windows, differences, iterati
 # Reading a log: what is refused (log/)
 
 NOMINAL_RANGE = {
-    ("needle", "diameter_mm"): (0.05, 10.0),
-    ("needle", "shear_modulus_gpa"): (0.01, 1000.0),
+    ("needle", "diameter_mm"): (0.05, 100.0),
+    ("needle", "shear_modulus_gpa"): (1e-7, 1000.0),
     ("needle", "density_g_cm3"): (0.1, 30.0),
     ("tissue", "damping_n_mm_s_per_mm"): (1e-8, 10.0),
     ("sensors", "tip_angle_noise_deg"): (0.0, 90.0),
     ("sensors", "base_angle_noise_deg"): (0.0, 90.0),
     ("sensors", "base_torque_noise_n_mm"): (0.0, 100.0),
 }
-"""Physical: beyond these a constant of rig.yaml is in another unit."""
+"""Physical: beyond these a constant of rig.yaml is in another unit. Other machines than needles are in
+it as an equivalent shaft, which may be thick and soft."""
 READING_RANGE = {
     "time_s": (-1e11, 1e11),
     "base_angle_deg": (-1e5, 1e5),
@@ -48,8 +49,9 @@ SHORTEST_SAMPLE_S = 1e-5
 """Physical: nobody reads an encoder of a needle more than 100 000 times a second: another unit."""
 LEAST_DEPTH_MM = 1.0
 """Derived: READING_RANGE ends at 1000 mm, so that all lengths in metres are below this."""
-SHORTEST_SHAFT_DIAMETERS = 3.0
-"""Physical: a shaft is longer, unless in metres (and below 3000 diameters); needles have 50 to 500."""
+SHORTEST_SHAFT_DIAMETERS, SHORTEST_SHAFT_MM = 3.0, 30.0
+"""Physical: a shaft is longer than one or the other, unless in metres; needles have 50 to 500
+diameters."""
 LENGTH_JUMP_MM, LENGTH_HOLD_S = 5.0, 1.0
 """Physical: what a length may change by between two samples, beside its travel in so long a hold."""
 WRAP_PERIODS_DEG = (360.0, 180.0)

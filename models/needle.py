@@ -29,7 +29,7 @@ class Needle(Record):
     """
 
     name: str = "custom"
-    diameter_mm: Annotated[float, Field(gt=0, le=10)]
+    diameter_mm: Annotated[float, Field(gt=0, le=100)]
     shear_modulus_gpa: Positive
     density_g_cm3: Annotated[float, Field(gt=0, le=30)]
     length_mm: Annotated[float, Field(gt=0, le=5000)] = 410.0

@@ -39,8 +39,11 @@ def with_what_is_missing(
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return None, told
-    fits = workers.stop.unless_due(FREE_FORM, lambda: _fits(problem, coarse, companions, workers))
-    if not fits or not any(fit.final for fit in fits):
+    stop = workers.stop
+    fits = () if stop.due else _fits(problem, coarse, companions, workers)
+    if stop.due:
+        stop.leave_out(FREE_FORM)  # those that are done tell something all the same
+    if not any(fit.final for fit in fits):
         return None, told
     missing = missing_of(fits, np.inf if verdict.other_form else told.nearest.gap_after)
     if missing.law is None:

@@ -17,6 +17,7 @@ from diagnosis.criteria import (
     LENGTH_SLACK_MM,
     PAUSE_STEPS,
     SHORTEST_SHAFT_DIAMETERS,
+    SHORTEST_SHAFT_MM,
 )
 from diagnosis.log.checks.travel import travelled_mm
 from diagnosis.log.sensor_faults import lines
@@ -46,7 +47,7 @@ def length_warnings(trial: Trial) -> list[str]:
 def _refuse_metres(path: Path, trial: Trial, diameter_mm: float) -> None:
     deepest = float(trial["inserted_mm"].max())
     longest = float((trial["inserted_mm"] + trial["free_mm"]).max())
-    if longest < SHORTEST_SHAFT_DIAMETERS * diameter_mm:
+    if longest < min(SHORTEST_SHAFT_DIAMETERS * diameter_mm, SHORTEST_SHAFT_MM):
         raise UnusableLog(
             f"{path}: inserted_mm and free_mm together never exceed {longest:.3g} mm; expected a shaft "
             f"of at least {SHORTEST_SHAFT_DIAMETERS:g} times diameter_mm ({diameter_mm:g}) in "

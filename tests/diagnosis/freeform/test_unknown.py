@@ -71,10 +71,25 @@ def test_after_a_stop_it_is_noted_as_left_out(monkeypatch):
 
     def stopped_meanwhile(*_):
         ended.request(StopReason.INTERRUPTED)
-        return (free_fit(0.5),)
+        return ()
 
     assert missing_from(stopped_meanwhile, monkeypatch, stop=ended)[:2] == (None, TOLD)
     assert late.left_out == ended.left_out == [FREE_FORM]
+
+
+def test_laws_that_were_fitted_before_a_stop_are_told(monkeypatch):
+    stop = StopSignal()
+
+    def stopped_meanwhile(*_):
+        stop.request(StopReason.INTERRUPTED)
+        return (free_fit(0.5, title="gap"),)
+
+    better = nothing_told(gap=SimpleNamespace(before=5.0, after=0.5))
+    monkeypatch.setattr(unknown, "explained_by", lambda *_: better)
+    missing, told, _ = missing_from(stopped_meanwhile, monkeypatch, stop=stop)
+    assert missing.law.title == "gap"
+    assert told is better
+    assert stop.left_out == [FREE_FORM]
 
 
 def test_laws_of_which_none_can_be_simulated_are_no_stop(monkeypatch):

@@ -14,7 +14,7 @@ FIELDS = [
     (lambda c: c.update(format="rig-log/2"), "expected 'rig-log/1', found 'rig-log/2'"),
     (
         lambda c: c["needle"].update(diameter_mm=5000),
-        r"needle.diameter_mm: .*0.05 to 10, found 5000",
+        r"needle.diameter_mm: .*0.05 to 100, found 5000",
     ),
     (
         lambda c: c["needle"].update(shear_modulus_gpa=27200),
