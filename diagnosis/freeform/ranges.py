@@ -26,6 +26,7 @@ LEAST_RANGE = {
     Variable.BASE_ANGLE: 20.0,
     Variable.RATE: 0.05,
     Variable.DIRECTION: 1.5,
+    Variable.SLID_DIRECTION: 1.5,
     Variable.AXIAL_SPEED: 0.3,
     Variable.DEPTH: 5.0,
     Variable.HISTORY: 0.1,

@@ -165,6 +165,12 @@ def two_values() -> SmoothCurve:
     return SmoothCurve(places=np.array([-1.0, 1.0]), basis=line, straight=2)
 
 
+def three_values() -> SmoothCurve:
+    """One value for each direction (-1 and 1), one for where neither is reached yet (0)."""
+    line = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
+    return SmoothCurve(places=np.array([-1.0, 0.0, 1.0]), basis=line, straight=3)
+
+
 def separate_values(places: Array) -> SmoothCurve:
     """Values at the places that are independent of each other."""
     return SmoothCurve(places=places, basis=np.eye(places.size), straight=0)

@@ -5,6 +5,7 @@ trial_share    the same over the duration of the trial
 base_angle     of the drive shaft, deg
 rate           at which the drive shaft turns, rad/s
 direction      in which it last turned: 1 forwards, -1 backwards, straight between over a short time
+slid_direction in which dry friction in the drive slides: straight between while it sticks
 axial_speed    of the needle into the tissue, mm/s
 depth          inserted length, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
@@ -25,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
+from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, stopped_at
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -42,6 +44,7 @@ class Variable(StrEnum):
     BASE_ANGLE = "base_angle"
     RATE = "rate"
     DIRECTION = "direction"
+    SLID_DIRECTION = "slid_direction"
     AXIAL_SPEED = "axial_speed"
     DEPTH = "depth"
     HISTORY = "history"
@@ -60,6 +63,7 @@ UNITS = {
     Variable.BASE_ANGLE: "deg",
     Variable.RATE: "rad/s",
     Variable.DIRECTION: "-",
+    Variable.SLID_DIRECTION: "-",
     Variable.AXIAL_SPEED: "mm/s",
     Variable.DEPTH: "mm",
     Variable.HISTORY: "turns",
@@ -73,6 +77,7 @@ UNITS = {
 }
 SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
+    Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",
     Variable.TORQUE_RATE: "history",
@@ -145,6 +150,10 @@ def _last_direction(rate: Array, time_s: Array) -> Array:
     return _smooth(np.sign(rate[last]), time_s, _TURN_S)
 
 
+def _slid_direction(inputs: Schedule, _: float) -> Array:
+    return stopped_at(inputs.drive, PRESLIDING_DEG) / PRESLIDING_DEG
+
+
 def _history(inputs: Schedule, _: float) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(inputs.drive)))]) / 360.0
 
@@ -155,6 +164,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.BASE_ANGLE: lambda inputs, _: inputs.drive,
     Variable.RATE: lambda inputs, _: np.radians(_base_rate_deg_s(inputs)),
     Variable.DIRECTION: _direction,
+    Variable.SLID_DIRECTION: _slid_direction,
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,

@@ -24,6 +24,7 @@ from diagnosis.freeform.smooth_curve import (
     periodic_curve,
     separate_values,
     smooth_curve,
+    three_values,
     two_values,
 )
 from diagnosis.replay.free_law import ActsOn, FreeLaw
@@ -36,6 +37,11 @@ PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 10, 5
 TURNED_BY = np.geomspace(0.25, 8.0, 10)  # of the rms of what is missing
 SIGNED = (Variable.TORQUE, Variable.TORQUE_RATE, Variable.RATE, Variable.TIP_RATE, Variable.AXIAL_SPEED)
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
+_OF_DIRECTION = {
+    Variable.DIRECTION: two_values,
+    Variable.TIP_DIRECTION: two_values,
+    Variable.SLID_DIRECTION: three_values,
+}
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
 
 
@@ -103,7 +109,7 @@ ADDED = (
     *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
-    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.DIRECTION),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
     *_added(*_TIP, SENSOR, _V.TRIAL_SHARE, _V.TURNED_BY),
@@ -140,8 +146,8 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         )
     if added.period_deg:
         return periodic_curve(added.period_deg)
-    if added.variable in (Variable.DIRECTION, Variable.TIP_DIRECTION):
-        return two_values()
+    if added.variable in _OF_DIRECTION:
+        return _OF_DIRECTION[added.variable]()
     if added.variable is Variable.PAST:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
 from diagnosis.replay.variables import OF_THE_NEEDLE, UNITS, Variable, of_inputs, of_needle
 from sim.schedule import Schedule
 
@@ -64,6 +65,19 @@ def test_the_rate_is_that_of_the_drive_shaft(when_s, deg_s):
 )
 def test_the_direction_is_that_of_the_last_turn_and_before_the_first_of_that(when_s, direction):
     assert at(Variable.DIRECTION, when_s) == pytest.approx(direction)
+
+
+@pytest.mark.parametrize(
+    ("when_s", "direction"), [(0.1, 0.0), (1.5, 1.0), (3.0, 1.0), (4.5, -1.0), (7.5, -1.0)]
+)
+def test_the_direction_of_sliding_is_none_before_the_first_turn(when_s, direction):
+    assert at(Variable.SLID_DIRECTION, when_s) == pytest.approx(direction)
+
+
+def test_dry_friction_reaches_a_direction_over_its_presliding_angle():
+    turned_deg = 0.5 * PRESLIDING_DEG * np.minimum(TIME / TIME[-1], 1.0)
+    values = of_inputs(Variable.SLID_DIRECTION, inputs(angle=turned_deg), 0.0)
+    np.testing.assert_allclose(values, turned_deg / PRESLIDING_DEG, atol=1e-9)
 
 
 def test_a_base_that_never_turns_has_no_direction():
