@@ -488,6 +488,8 @@ JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
 allowed for; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
 Choices; the search tries them last."""
+JUMP_PARAMETERS = 3.0
+"""Parameters that a jump of a reading counts for beside a drift: its trial, its time and its size."""
 DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ALIKE = 10.0, 6.0, 0.3
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: 5 to one
 side and the other; more is no roughness but a fault, and the answer stays unknown. So it does for less

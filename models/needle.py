@@ -18,7 +18,7 @@ from models.record import Record
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 
-STIFFNESS_POINTS = 7
+STIFFNESS_POINTS = 12
 """Of a curve of the stiffness over the torque."""
 
 
@@ -44,8 +44,8 @@ class Needle(Record):
     tip_inertia_kg_m2: NonNegative = 0.0
     """Of what is fixed to the tip, about the axis."""
     stiffness_curve: tuple[Positive, ...] = ()
-    """Factors of the torsional stiffness at `STIFFNESS_POINTS` even torques from 0, first of negative
-    ones, then of positive ones; none: it is 1."""
+    """Factors of the torsional stiffness at `STIFFNESS_POINTS` torques from 0, as squares, first of
+    negative ones, then of positive ones; none: it is 1."""
     stiffness_torque_n_mm: NonNegative = 0.0
     """At the last of either. Torques are what the nominal stiffness would carry at the same twist; the
     curve is level beyond them."""

@@ -27,7 +27,7 @@ from models.record import Record
 
 Array = NDArray[np.float64]
 
-RATE_POINTS = 7
+RATE_POINTS = 12
 """Of a curve over the rate."""
 THINNEST_MM = 1e-3
 """A layer into which the tip reaches less far is not met."""

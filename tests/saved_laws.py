@@ -12,7 +12,8 @@ from diagnosis.freeform.family import Family
 from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.freeform.search import FreeFit
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.variables import Variable
 from models.tissue import Interface
 
@@ -26,7 +27,7 @@ EVERYTHING = replace(
     tissue_varies=True,
     stiffness_varies=True,
     asymmetry=-0.2,
-    rate_curve=(0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0),
+    rate_curve=(0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0),
     rate_range_rad_s=(0.1, 2.0),
     along_depth=AlongDepth(damping=(1.0, 2.0), thicknesses_mm=(30.0,)),
     stiffness_along=(1.0, 0.8, 1.0),

@@ -17,7 +17,7 @@ from models import units
 Array = NDArray[np.float64]
 
 _OF_READINGS = (Variable.PAST, Variable.TURNED_BY)
-LEAST_PAST_S, LONGEST_PAST_S = 0.02, 12.0
+LEAST_PAST_S, LONGEST_PAST_S = 0.02, 60.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
 LONGER = 1.2  # the longest trial, of the shortest, for shares of trials to be other than their times
 LEAST_RANGE = {

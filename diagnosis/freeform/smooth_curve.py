@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from diagnosis.replay.free_law import FACTORS, ActsOn, Curve
+from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.variables import Variable
 
 Array = NDArray[np.float64]
@@ -138,9 +138,9 @@ def two_sided_curve(most: float, count: int) -> SmoothCurve:
     """A smooth curve of the size of a variable, and a jump and a slope that tell its signs apart.
 
     Args:
-      count: places of either sign, from next to zero on.
+      count: places of either sign, from next to zero on, as squares: closer where a variable is small.
     """
-    size = np.maximum(np.linspace(0.0, 1.0, count), _NEXT_TO_ZERO)
+    size = np.maximum(np.linspace(0.0, 1.0, count) ** 2, _NEXT_TO_ZERO)
     u = np.concatenate([-size[::-1], size])
     size = np.abs(u)
     line = np.stack([np.ones(u.size), size, np.sign(u), u], axis=1)

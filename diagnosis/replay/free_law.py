@@ -1,7 +1,6 @@
 """A free-form law in a rig: torques, angles and readings that no effect of the library has.
 
-A curve is smooth through its values at some places of a variable, and constant beyond them. One with a
-period is a periodic cubic spline: a sine through 5 places is off by less than 1 %. What a curve acts on:
+What its curves act on:
 
     tissue          the torque of tissue that varies is multiplied by the curve
     stiffness       so is the stiffness of the shaft: tissue that varies resists by so much less, and the
@@ -13,35 +12,21 @@ period is a periodic cubic spline: a sine through 5 places is off by less than 1
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
 
-A curve over the past gives the weights with which a reading shows past values instead of the present,
-as a filter of first order with each time constant does,
-
-    reading += sum over time constants of value (filtered value - present value).
-
-A curve over the turn since the last reversal adds hysteresis (Prandtl-Ishlinskii),
-
-    += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
-
 Dependence on the rate, angle or place of each piece of the shaft is a law of the tissue.
 """
 
 from dataclasses import dataclass, replace
-from enum import StrEnum
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
-from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.sensing.bearing import stopped_at
-from diagnosis.replay.sensing.filters import first_order
+from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
 from models.contact import ContactCurve
 from models.drive import Drive
-from models.errors import InvalidValue
 from models.needle import Needle
 from models.tissue import Interface, Tissue
 from sim.schedule import Schedule
@@ -51,94 +36,8 @@ Array = NDArray[np.float64]
 _LEAST_FACTOR = 1e-3
 _MOST_SIDED = 0.99  # asymmetry
 _TORQUES = ("viscous_n_mm_s_per_mm", "kinetic_n_mm_per_mm", "orientation_n_mm_per_mm")
-
-
-class ActsOn(StrEnum):
-    """What a curve changes."""
-
-    TISSUE = "tissue"
-    STIFFNESS = "stiffness"
-    DRIVE_ANGLE = "drive_angle"
-    DRIVE_SLIP = "drive_slip"
-    INSERTED_LENGTH = "inserted_length"
-    DRIVE_TORQUE = "drive_torque"
-    TIP_READING = "tip_reading"
-    TORQUE_READING = "torque_reading"
-
-
-FACTORS = (ActsOn.TISSUE, ActsOn.STIFFNESS)  # a curve multiplies them; to others it is added
+_OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Curve:
-    """A curve of one variable.
-
-    Attributes:
-      places: values of the variable, increasing.
-      values: values of the curve at the places.
-      period: period of the variable; 0: none.
-      trial: the only trial that it applies to; empty: all.
-
-    Raises:
-      InvalidValue: places do not increase or span more than the period, there are not as many values,
-        or a factor is not positive.
-    """
-
-    acts_on: ActsOn
-    variable: Variable
-    places: tuple[float, ...]
-    values: tuple[float, ...]
-    period: float = 0.0
-    trial: str = ""
-
-    def __post_init__(self) -> None:
-        places = np.asarray(self.places, float)
-        if places.size < 2 or not (np.diff(places) > 0).all() or not np.isfinite(places).all():
-            raise InvalidValue("places", self.places, "at least two finite numbers, increasing")
-        if len(self.values) != places.size or not np.isfinite(self.values).all():
-            raise InvalidValue(
-                "values", self.values, f"{places.size} finite numbers, one for each place"
-            )
-        if self.acts_on in FACTORS and min(self.values) <= 0:
-            raise InvalidValue(
-                "values",
-                self.values,
-                f"factors above 0, because the curve multiplies the {self.acts_on}",
-            )
-        if self.period and self.period <= places[-1] - places[0]:
-            raise InvalidValue("period", self.period, "0, or more than the places span")
-
-    def at(self, x: Array) -> Array:
-        """The curve at values of its variable, (N,)."""
-        through = _through(self.places, self.values, self.period)
-        if self.period:
-            return np.asarray(through(self.places[0] + np.mod(x - self.places[0], self.period)))
-        return np.asarray(through(np.clip(x, self.places[0], self.places[-1])))
-
-    def with_hysteresis(self, values: Array) -> Array:
-        """Hysteresis to add to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
-        each = zip(self.places, self.values, strict=True)
-        return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
-
-    def times(self, strength: float) -> "Curve":
-        """The curve multiplied by a strength; factors are raised to that power."""
-        if self.acts_on in FACTORS:
-            return replace(self, values=tuple(value**strength for value in self.values))
-        return replace(self, values=tuple(value * strength for value in self.values))
-
-    def of_past(self, time_s: Array, values: Array) -> Array:
-        """Contribution of past values to a reading at even times, (N,)."""
-        each = zip(self.places, self.values, strict=True)
-        shown = [share * (first_order(time_s, values, time) - values) for time, share in each]
-        return np.asarray(np.sum(shown, axis=0))
-
-
-@lru_cache(maxsize=64)  # trial after trial asks for the same curves
-def _through(places: tuple[float, ...], values: tuple[float, ...], period: float) -> PPoly:
-    if not period:
-        return PchipInterpolator(places, values)
-    return CubicSpline((*places, places[0] + period), (*values, values[0]), bc_type="periodic")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -276,7 +175,7 @@ class FreeLaw:
     @property
     def follows_torque(self) -> bool:
         """Whether the inputs of the needle depend on the torque."""
-        return any(curve.variable is Variable.TORQUE for curve in self._of_the_needle())
+        return any(curve.variable in _OF_TORQUE for curve in self._of_the_needle())
 
     def driven(self, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Schedule:
         """The inputs of the needle, with the variation of its tissue.
@@ -291,6 +190,9 @@ class FreeLaw:
         for curve in curves:
             if curve.variable is Variable.TURNED_BY:
                 drive = drive + curve.with_hysteresis(inputs.drive)
+                continue
+            if curve.variable is Variable.PAST:
+                drive = drive + curve.creep(inputs.time_s, torque_n_mm)
                 continue
             of_torque = curve.variable is Variable.TORQUE
             own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
@@ -324,7 +226,8 @@ class FreeLaw:
                 if curve.variable is Variable.PAST:
                     more = curve.of_past(inputs.time_s, own)
                 elif curve.variable is Variable.TURNED_BY:
-                    more = curve.with_hysteresis(own)
+                    of_drive = curve.acts_on is ActsOn.DRIVE_TORQUE
+                    more = curve.with_hysteresis(inputs.drive if of_drive else own)
                 elif curve.variable in OF_THE_NEEDLE:
                     more = curve.at(of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm))
                 else:

@@ -29,7 +29,7 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_FREE_REF,  # free length at carriage position 0, m
     H_CHAIN,  # 1: joints turn relative to the previous body, 0: to the carriage
     H_STIFFNESS_TORQUE,  # nominal torque at the last place of the curve of stiffness; 0: no curve
-    H_STIFFNESS_0,  # log factors of the stiffness at even torques from 0: of negative ones, of positive
+    H_STIFFNESS_0,  # log factors of the stiffness at torques from 0, as squares: of either sign
     H_STIFFNESS_1,
     H_STIFFNESS_2,
     H_STIFFNESS_3,
@@ -43,10 +43,20 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_STIFFNESS_11,
     H_STIFFNESS_12,
     H_STIFFNESS_13,
+    H_STIFFNESS_14,
+    H_STIFFNESS_15,
+    H_STIFFNESS_16,
+    H_STIFFNESS_17,
+    H_STIFFNESS_18,
+    H_STIFFNESS_19,
+    H_STIFFNESS_20,
+    H_STIFFNESS_21,
+    H_STIFFNESS_22,
+    H_STIFFNESS_23,
     H_YIELD,  # torque beyond which the shaft twists plastically, N m; 0: it is elastic
     H_YIELD_SLOPE,  # stiffness beyond it over the elastic one
     HEADER,
-) = range(31)
+) = range(41)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 
@@ -87,6 +97,11 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CURVE_4,
     L_CURVE_5,
     L_CURVE_6,
+    L_CURVE_7,
+    L_CURVE_8,
+    L_CURVE_9,
+    L_CURVE_10,
+    L_CURVE_11,
     L_CONTACT,  # what the curve of the following is over; 0: there is none
     L_CONTACT_SCALE,  # of the curve over that, rad or s
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
@@ -101,7 +116,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(46)
+) = range(51)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, TWIST = 1.0, 2.0, 3.0  # what the curve is over; of the last PHI is the memory
@@ -165,7 +180,7 @@ def torques(elements: int) -> int:
 def scratch(elements: int, rows: int) -> int:
     """Values of working memory that one step needs: angles, rates, inertia and springs of the
     shaft, then `sim.kernel.stage.workspace`."""
-    return 25 * (elements + 1) - 4 + 2 * rows + (4 + 2 * SITE) * elements * rows
+    return 26 * (elements + 1) - 4 + 2 * rows + (4 + 2 * SITE) * elements * rows
 
 
 def userdata(elements: int, rows: int) -> int:

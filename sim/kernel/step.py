@@ -56,6 +56,7 @@ def _prepare(
 ) -> bool:
     """Fill in what the step starts from; returns whether iteration is needed."""
     springs, inertias, angles, rest, omega = w.spring, w.inertia, w.theta, w.rest, w.omega
+    nominal = w.nominal
     damp_lower, damp_diagonal, damp_upper = w.damp_lower, w.damp_diagonal, w.damp_upper
     loads, point, start, end, x = w.loads, w.point, w.start, w.end, w.x
     spring, inertia = shaft.spring, shaft.inertia
@@ -69,14 +70,14 @@ def _prepare(
         if head[memory_map.H_FED] != 0.0:  # beyond the tip there is no shaft that could twist
             within = (free + inserted - x[i]) / (x[i + 1] - x[i])
             springs[i] /= min(max(within, _RIGID), 1.0)
-        if head[memory_map.H_STIFFNESS_TORQUE] > 0.0:
-            springs[i] *= _stiffness_factor(head, springs[i] * (theta[i] - theta[i + 1]))
+        nominal[i] = springs[i]
     for i in range(n + 1):
         inertias[i] = inertia[i] / frame.g
         angles[i] = theta[i]
         rest[i] = omega[i] = rates[i]
         damp_lower[i] = damp_diagonal[i] = damp_upper[i] = 0.0
     nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0 or frame.yield_torque > 0.0
+    nonlinear |= head[memory_map.H_STIFFNESS_TORQUE] > 0.0
     for r in range(law.shape[0]):
         if is_idle(law[r]):
             continue
@@ -87,17 +88,6 @@ def _prepare(
             nonlinear = True
             _hold_sites(before[r], start[r], end[r])
     return nonlinear
-
-
-@inlined
-def _stiffness_factor(head: Array, torque: float) -> float:
-    """Factor of an element's stiffness, where its twist at the start of the step asks for this torque
-    at the nominal stiffness, N m."""
-    last = memory_map.STIFFNESS_POINTS - 1
-    at = min(last * abs(torque) / head[memory_map.H_STIFFNESS_TORQUE], float(last))
-    i = min(int(at), last - 1)
-    first = memory_map.H_STIFFNESS_0 + i + (memory_map.STIFFNESS_POINTS if torque > 0.0 else 0)
-    return math.exp(head[first] + (at - i) * (head[first + 1] - head[first]))
 
 
 @inlined
@@ -265,7 +255,7 @@ def advance(
             carry_sets(w, sets, kept, carried)
         again = stage > 0 and not nonlinear and frame.drift == 0.0
         solved, count, recoverable, stored = newton(
-            law, w, frame, drive - slip_from, tip_torque, nonlinear, again
+            head, law, w, frame, drive - slip_from, tip_torque, nonlinear, again
         )
         for r in range(rows):
             recoverable += hardening_power(w, r, law[r], frame)

@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import brentq
 
 from models.errors import InvalidValue
-from models.needle import Needle
+from models.needle import STIFFNESS_POINTS, Needle
 from models.tissue import RATE_POINTS, Interface, Layer, Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
@@ -105,7 +105,7 @@ def test_dry_friction_over_the_inserted_length_may_be_asymmetric() -> None:
 
 @pytest.mark.parametrize("rate", [0.03, 0.3, 0.8, 20.0])
 def test_the_rate_curve_is_followed_between_and_beyond_its_places(rate: float) -> None:
-    factors = (3.0, 2.0, 1.5, 1.0, 0.8, 0.5, 0.4)
+    factors = tuple(np.geomspace(3.0, 0.4, RATE_POINTS) * (1.0 + 0.1 * np.sin(np.arange(RATE_POINTS))))
     tissue = Tissue.uniform(viscous_n_mm_s_per_mm=DAMPING, rate_curve=factors)
     places = np.linspace(math.log(0.01), math.log(10.0), RATE_POINTS)
     factor = math.exp(np.interp(math.log(rate), places, np.log(factors)))
@@ -136,12 +136,14 @@ def test_a_torque_that_depends_on_the_angle_twice_a_turn() -> None:
 
 def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
     assert RATE_POINTS == memory_map.CURVE_POINTS
-    with pytest.raises(InvalidValue, match=r"rate_curve.*7 factors"):
+    with pytest.raises(InvalidValue, match=r"rate_curve.*12 factors"):
         Interface(rate_curve=(1.0, 2.0))
 
 
-CURVE = (0.8, 0.8, 0.7, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 1.9, 2.4, 2.2, 2.0)
-"""Factors of the stiffness at torques of -0, -1 ... -6 and 0, 1 ... 6 N mm: it jumps at 0."""
+PLACES = 6.0 * (np.arange(STIFFNESS_POINTS) / (STIFFNESS_POINTS - 1)) ** 2
+"""Torques of a curve of the stiffness, of either sign, N mm."""
+CURVE = (*(0.7 + 0.1 * np.cos(PLACES)), *(1.0 + 0.4 * PLACES))
+"""Its factors, of negative torques first: it jumps at 0."""
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
@@ -154,8 +156,8 @@ def test_a_shaft_may_be_as_stiff_as_the_torque_says(way: float) -> None:
     tissue = Tissue(layers=(Layer(interface=Interface()),), at_tip=(Interface(kinetic_n_mm_per_mm=2.5),))
 
     def factor_at(nominal: float) -> float:
-        own = CURVE[7:] if nominal > 0 else CURVE[:7]
-        return math.exp(np.interp(abs(nominal), np.arange(7.0), np.log(own)))
+        own = CURVE[STIFFNESS_POINTS:] if nominal > 0 else CURVE[:STIFFNESS_POINTS]
+        return math.exp(np.interp(np.sqrt(abs(nominal)), np.sqrt(PLACES), np.log(own)))
 
     torque = way * 2.5
     factor = factor_at(brentq(lambda nominal: nominal * factor_at(nominal) - torque, 0.0, way * 5.0))

@@ -1,9 +1,9 @@
 """Tissue that changes in time, of which what less damping changes tells when.
 
-It gives way, or grips, at an unknown time, and stays so in the trials that follow. That may also be
-between two trials: where the needle is inserted in another place. Its torque is multiplied by a factor
-from then on. The starting value of the time is the one from which on a multiple of the change takes
-most off the nominal residual,
+It gives way, or grips, at an unknown time, and stays so in the trials that follow, or to the end of
+that trial. It may also change between two trials: where the needle is inserted in another place. Its
+torque is multiplied by a factor from then on. The starting value of the time is the one from which on
+a multiple of the change takes most off the nominal residual,
 
     gain(t) = (sum of change * residual after t)^2 / sum of change^2 after t,  in units of the noise.
 
@@ -31,7 +31,8 @@ from diagnosis.freeform.families.events import (
 from diagnosis.freeform.family import Family, Points, coordinates
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.log.trial import SENSORS
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
@@ -41,19 +42,29 @@ _LEAST_S = 1.0  # from either end of a trial
 _LEAST_WAVES, _FASTEST_HZ = 3.0, 2.0  # in the longest trial; hearts beat twice a second
 _WAVE_PLACES, _SWELLS = 12, 0.3
 _START, _LEAST, _MOST = (0.6, 1.6), 0.01, 100.0  # factor
+_LONGEST_S = 5.0  # that it takes to change
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """Both changes, if the log is long enough and less damping was simulated."""
+    """All changes, if the log is long enough and less damping was simulated."""
     if not ranges.softer:
         return ()
-    moment, rate_hz = largest_change(ranges), strongest_wave_hz(ranges)
-    gives_way = (_gives_way(ranges, moment),) if moment else ()
-    return (*gives_way, _breathes(ranges, rate_hz)) if rate_hz else gives_way
+    found = []
+    for stays in (True, False):
+        if moment := largest_change(ranges, stays=stays):
+            found.append(_gives_way(moment, trials_after(ranges, moment) if stays else ()))
+    distinct = {family.name: family for family in reversed(found)}  # nothing follows the last trial
+    rate_hz = strongest_wave_hz(ranges)
+    breathes = (_breathes(ranges, rate_hz),) if rate_hz else ()
+    return (*reversed(distinct.values()), *breathes)
 
 
-def largest_change(ranges: LogRanges) -> Moment | None:
-    """From when on a changed damping takes most off the nominal residual; None: trials are too short."""
+def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
+    """From when on a changed damping takes most off the nominal residual; None: trials are too short.
+
+    Args:
+      stays: whether it is changed in the trials that follow, too.
+    """
     best, found, along, size = 0.0, None, 0.0, 0.0
     trials = ranges.problem.log.trials
     for number in reversed(range(len(trials))):
@@ -62,13 +73,14 @@ def largest_change(ranges: LogRanges) -> Moment | None:
         squares = size + np.cumsum(square[::-1])[::-1]
         gain = np.where(squares > 0, after**2 / np.maximum(squares, 1e-300), 0.0)
         inside = (time_s > _LEAST_S) & (time_s < time_s[-1] - _LEAST_S) if time_s.size else []
-        if time_s.size and number > 0:
+        if time_s.size and number > 0 and stays:
             inside[0] = True  # between two trials
         gain = np.where(inside, gain, 0.0)
         if gain.size and gain.max() > best:
             at = int(np.argmax(gain))
             best, found = float(gain[at]), Moment(trial=trials[number].name, time_s=float(time_s[at]))
-        along, size = along + float(product.sum()), size + float(square.sum())
+        if stays:
+            along, size = along + float(product.sum()), size + float(square.sum())
     return found
 
 
@@ -88,24 +100,27 @@ def _in_time(ranges: LogRanges, number: int) -> tuple[Array, Array, Array]:
     return time_s, product, square
 
 
-def _gives_way(ranges: LogRanges, moment: Moment) -> Family:
-    after = trials_after(ranges, moment)
+def _gives_way(moment: Moment, after: tuple[str, ...]) -> Family:
+    """The change; in trials `after` it, it stays."""
+    how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
     when, lasting = (replace(p, start=2 * p.start) for p in times_of(moment))
+    lasting = replace(lasting, high=_LONGEST_S)
     factor = Parameter(
         name="factor", unit="-", low=_LEAST, high=_MOST, start=_START, logarithmic=True, neutral=1.0
     )
     return Family(
         effect=Effect(
-            name="tissue that gives way",
-            title=f"tissue that gives way or grips, for good, from {moment.trial} on",
+            name=f"tissue that gives way, {how}",
+            title=f"tissue that gives way or grips, {how}, {where}",
             place=Place.TISSUE,
             parameters=(when, lasting, factor),
             apply=partial(_apply, moment.trial, after),
             differences=DIFFERENCES,
+            trial="" if after else moment.trial,
         ),
         places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
         says="event",
-        title=f"torque of the tissue from {moment.trial} on",
+        title=f"torque of the tissue {where}",
         curve=_changes,
         x_unit="s",
         unit="-",

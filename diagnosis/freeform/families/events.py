@@ -21,7 +21,8 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import TIP, TORQUE
 from diagnosis.freeform.family import FARTHEST, Family, Points, coordinates
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 from diagnosis.residuals.step_time import step_of

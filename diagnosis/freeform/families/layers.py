@@ -1,7 +1,7 @@
 """Free laws of a tissue in layers: what each mm of shaft meets depends on its depth below the surface.
 
 - dry friction that each layer has
-- damping of one layer, which is thin or thick, anywhere
+- damping, or dry friction, of one layer, which is thin or thick, anywhere
 - damping, or the stiffness of elastic tissue, of each layer; only where the inserted length varies: at
   one length these are laws of the place along the shaft (interface.py, tissue.py)
 """
@@ -26,7 +26,8 @@ SAYS = "position"
 FINE = 12  # layers of damping, down to the greatest depth: a thin one shows
 _EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _FRICTION = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
-_FROM = (0.2, 0.35, 0.5, 0.65, 0.8)  # of the greatest depth, where one layer is looked for
+_FROM = (0.05, 0.12, 0.2, 0.28, 0.36, 0.44, 0.52, 0.6, 0.7, 0.8, 0.9)
+"""Of the greatest depth, where one layer is looked for."""
 _THICK, _STEP_MM = 0.1, 1e-3  # of it, and from one layer to the next as it is drawn
 _TIMES = (2.0, 0.5)  # its damping / that of the rest
 
@@ -52,10 +53,10 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
     layers = _Layers(curve=smooth_curve(0.0, 1.0, PARTS), deepest_mm=deepest)
     fine = _Layers(curve=rough_curve(0.0, 1.0, FINE), deepest_mm=deepest)
-    friction = _friction(layers, ranges)
+    friction = (_friction(layers, ranges), _one_dry_layer(deepest, ranges))
     if Variable.DEPTH not in ranges.ends:
-        return (friction,)
-    return (friction, _damping(fine, ranges), _elastic(layers, ranges), _one_layer(deepest, ranges))
+        return friction
+    return (*friction, _damping(fine, ranges), _elastic(layers, ranges), _one_layer(deepest, ranges))
 
 
 def _friction(layers: _Layers, ranges: LogRanges) -> Family:
@@ -148,19 +149,54 @@ def _apply_elastic(
     return _with(elastic, along)
 
 
-def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
-    each = [(share * deepest_mm, times) for times in _TIMES for share in _FROM]
-    upper, factors = zip(*each, strict=True)
-    length = Parameter(
+def _where(deepest_mm: float, starts: int) -> tuple[Parameter, Parameter]:
+    """Depth and thickness of one layer, which are looked for anywhere, as often as there are starts."""
+    depth = Parameter(
         name="depth",
         unit="mm",
         low=1.0,
         high=deepest_mm,
-        start=upper,
+        start=starts * tuple(share * deepest_mm for share in _FROM),
         logarithmic=True,
         neutral=None,
     )
-    thickness = replace(length, name="thickness", start=(_THICK * deepest_mm,) * len(each))
+    thickness = replace(depth, name="thickness", start=(_THICK * deepest_mm,) * len(depth.start))
+    return depth, thickness
+
+
+def _one_dry_layer(deepest_mm: float, ranges: LogRanges) -> Family:
+    depth, thickness = _where(deepest_mm, 1)
+    level = ranges.library["coulomb_friction"].parameters[0]
+    usual = level.start[0] / _THICK
+    level = replace(level, high=level.high / _THICK, start=(usual,) * len(depth.start))
+    return Family(
+        effect=Effect(
+            name="dry friction over position, in one layer",
+            title="dry friction of one layer of tissue",
+            place=Place.INTERFACE,
+            parameters=(depth, thickness, level),
+            apply=_apply_one_dry_layer,
+            differences=(1e-1, 1e-2),
+        ),
+        places=_FRICTION,
+        says=SAYS,
+        title="dry friction along the shaft",
+        curve=partial(_box, 0.0),
+        x_unit="mm below the surface",
+        unit="N mm / mm",
+    )
+
+
+def _apply_one_dry_layer(
+    rig: RigParameters, depth: float, thickness: float, level: float
+) -> RigParameters:
+    dry = AlongDepth(friction_n_mm_per_mm=(0.0, level, 0.0), thicknesses_mm=(depth, thickness))
+    return _with(rig, dry)
+
+
+def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
+    depth, thickness = _where(deepest_mm, len(_TIMES))
+    factors = tuple(times for times in _TIMES for _ in _FROM)
     times = Parameter(
         name="times", unit="-", low=0.02, high=50.0, start=factors, logarithmic=True, neutral=1.0
     )
@@ -169,7 +205,7 @@ def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
             name="damping over position, in one layer",
             title="one layer of tissue whose damping is another",
             place=Place.TISSUE,
-            parameters=(length, thickness, times),
+            parameters=(depth, thickness, times),
             apply=_apply_one_layer,
             differences=(1e-1, 1e-2),
         ),
@@ -183,9 +219,13 @@ def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
 
 
 def _one_layers(beta: float, depth: float, thickness: float, times: float) -> Points:
+    return _box(beta, depth, thickness, beta * times)
+
+
+def _box(outside: float, depth: float, thickness: float, inside: float) -> Points:
     above, below = depth, depth + thickness
     ends = (0.0, above, above + _STEP_MM, below, below + _STEP_MM, below + depth)
-    return ends, [beta * factor for factor in (1.0, 1.0, times, times, 1.0, 1.0)]
+    return ends, (outside, outside, inside, inside, outside, outside)
 
 
 def _apply_one_layer(rig: RigParameters, depth: float, thickness: float, times: float) -> RigParameters:

@@ -11,7 +11,8 @@ from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, bent_curve, smooth_curve
-from diagnosis.replay.free_law import ActsOn, FreeLaw
+from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 

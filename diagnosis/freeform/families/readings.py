@@ -27,14 +27,16 @@ from diagnosis.freeform.smooth_curve import (
     three_values,
     two_values,
 )
-from diagnosis.replay.free_law import ActsOn, FreeLaw
+from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 
 TURN_DEG = 360.0
 RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
-PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 10, 5
+PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 12, 5
 TURNED_BY = np.geomspace(0.25, 8.0, 10)  # of the rms of what is missing
+DRAGGED_DEG = np.geomspace(0.5, 180.0, 10)  # turn of the drive over which its friction builds up
 SIGNED = (Variable.TORQUE, Variable.TORQUE_RATE, Variable.RATE, Variable.TIP_RATE, Variable.AXIAL_SPEED)
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 _OF_DIRECTION = {
@@ -108,9 +110,11 @@ ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.BASE_ANGLE, _V.DIRECTION),
     *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
+    *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_BEARING, DRIVE, _V.TURNED_BY),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
     *_added(*_TIP, SENSOR, _V.TRIAL_SHARE, _V.TURNED_BY),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
@@ -124,6 +128,7 @@ ADDED = (
     *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
     *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
+    *_added(*_TORQUE, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
 )
 
 
@@ -151,15 +156,22 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
     if added.variable is Variable.PAST:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:
-        return separate_values(_size(added, ranges) * TURNED_BY)
+        return _hysteresis(added, ranges)
     curve = bent_curve if added.bent else smooth_curve
     return curve(*ranges.ends[added.variable], PLACES)
+
+
+def _hysteresis(added: Added, ranges: LogRanges) -> SmoothCurve:
+    """Shares of what turns, or of the friction that turning back and forth builds up in the drive."""
+    if added.acts_on is ActsOn.DRIVE_TORQUE:
+        return SmoothCurve(places=DRAGGED_DEG, basis=np.diag(1.0 / DRAGGED_DEG), straight=0)
+    return separate_values(_size(added, ranges) * TURNED_BY)
 
 
 def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     """The family of one addition."""
     period = f", every {curve.period:.3g} deg" if curve.period else ""
-    scale = 1.0 if added.variable in (Variable.PAST, Variable.TURNED_BY) else _size(added, ranges)
+    scale = _scale(added, ranges)
     either = ", either side of 0" if added.bent and added.variable not in SIGNED else ""
     name = f"{added.acts_on.replace('_', ' ')} over {added.variable}{period}{either}"
 
@@ -180,6 +192,14 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
     )
 
 
+def _scale(added: Added, ranges: LogRanges) -> float:
+    """Of the coordinates of its curve."""
+    if added.variable is Variable.PAST and added.of_the_drive:
+        return ranges.deg_per_n_mm
+    shares = added.variable in (Variable.PAST, Variable.TURNED_BY)
+    return 1.0 if shares and added.acts_on is not ActsOn.DRIVE_TORQUE else _size(added, ranges)
+
+
 def _size(added: Added, ranges: LogRanges) -> float:
     """Of what is missing, in deg or N mm."""
     missing = ranges.missing[added.sensor]
@@ -187,8 +207,10 @@ def _size(added: Added, ranges: LogRanges) -> float:
 
 
 def _unit(added: Added) -> str:
+    if added.variable is Variable.PAST and added.of_the_drive:
+        return "deg / N mm"
     if added.variable in (Variable.PAST, Variable.TURNED_BY):
-        return "-"
+        return "N mm / deg" if added.acts_on is ActsOn.DRIVE_TORQUE else "-"
     if added.acts_on is ActsOn.DRIVE_SLIP:
         return "deg/s"
     return "N mm" if added.acts_on in (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING) else "deg"

@@ -19,7 +19,8 @@ from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable, of_inputs
 from models.tissue import Interface

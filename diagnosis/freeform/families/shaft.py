@@ -16,7 +16,8 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve, two_sided_curve
-from diagnosis.replay.free_law import ActsOn, FreeLaw
+from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.needle import STIFFNESS_POINTS
@@ -24,6 +25,7 @@ from models.needle import STIFFNESS_POINTS
 _YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
 _LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
 _BEYOND = 1.5  # torque that a curve spans / that of the nominal shaft: one that yields twists more
+_STIFFENS = 0.5  # of the logarithm of the stiffness, to start with
 _PARTS = 10  # of the longest shaft
 
 
@@ -43,7 +45,7 @@ def _stiffness(ranges: LogRanges) -> Family:
             name="stiffness over torque",
             title="a shaft whose stiffness changes with the torque that it carries",
             place=Place.NEEDLE,
-            parameters=coordinates_of(curve),
+            parameters=_either_way(coordinates_of(curve)),
             apply=partial(_apply_stiffness, curve, most_n_mm),
         ),
         places={Place.NEEDLE: 1.0},
@@ -53,6 +55,12 @@ def _stiffness(ranges: LogRanges) -> Family:
         x_unit="N mm",
         unit="-",
     )
+
+
+def _either_way(parameters: Sequence[Parameter]) -> tuple[Parameter, ...]:
+    """Parameters of a shaft that starts as one that is stiffer, or softer, under a large torque."""
+    level, size, *rest = (replace(p, start=(0.0, 0.0)) for p in parameters)
+    return (level, replace(size, start=(_STIFFENS, -_STIFFENS)), *rest)
 
 
 def _factors(curve: SmoothCurve, *c: float) -> Points:

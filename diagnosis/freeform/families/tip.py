@@ -24,7 +24,8 @@ from diagnosis.freeform.families.interface import (
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
-from diagnosis.replay.free_law import ActsOn, FreeLaw
+from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface

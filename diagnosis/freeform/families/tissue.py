@@ -15,7 +15,8 @@ from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.free_law import ActsOn, FreeLaw
+from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contact_places

@@ -22,6 +22,7 @@ from sim.kernel.stage.assemble import (
     is_linear,
 )
 from sim.kernel.stage.plasticity import add_sets
+from sim.kernel.stage.stiffening import add_stiffening, set_springs
 from sim.kernel.stage.tridiagonal import factorise, substitute
 from sim.kernel.stage.workspace import Frame, Workspace
 
@@ -61,6 +62,7 @@ class Search(NamedTuple):
 
 @inlined
 def newton(
+    head: Array,
     law: Array,
     w: Workspace,
     frame: Frame,
@@ -75,6 +77,7 @@ def newton(
     exact: the later stages use the factors of the first.
 
     Args:
+      head: numeric field of the model.
       law: (rows, columns).
       drive: angle at which the servo rests, rad, or a torque on the first node, N m.
       tip_torque: torque that resists at the tip, N m.
@@ -89,8 +92,13 @@ def newton(
     n = rhs.size
     recoverable, stored, convex = 0.0, 0.0, True
     search = Search(0.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+    stiffens = head[memory_map.H_STIFFNESS_TORQUE] > 0.0
     for iteration in range(_ITERATIONS):
+        if stiffens:
+            set_springs(head, w, frame.g)
         add_linear(w, frame.g, not factored)
+        if stiffens:
+            add_stiffening(head, w, frame.g)
         torque, slope = drive_torque(w, frame, drive)
         rhs[0] += torque
         rhs[n - 1] -= tip_torque

@@ -14,7 +14,8 @@ class Workspace(NamedTuple):
 
     x: np.ndarray  # node positions, m
     inertia: np.ndarray  # of the nodes over the length of a stage, N m s / rad
-    spring: np.ndarray  # of the elements, N m / rad
+    spring: np.ndarray  # of the elements, N m / rad: torque over twist
+    nominal: np.ndarray  # the same where the stiffness does not depend on the torque
     theta: np.ndarray  # theta* of the stage, rad
     rest: np.ndarray  # omega* of the stage, rad/s
     omega: np.ndarray  # the unknown rates, rad/s
@@ -58,7 +59,7 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
     The memory is the model's own (`userdata`), so that no step allocates.
     """
     m = n + 1
-    loads = 14 * m
+    loads = 15 * m
     point = loads + 4 * n * rows
     places = point + 2 * rows
     twist = places + 2 * n + 1
@@ -79,6 +80,7 @@ def divide(memory: Array, n: int, rows: int, end: Array) -> Workspace:
         view(memory, 11 * m, (m,)),
         view(memory, 12 * m, (m,)),
         view(memory, 13 * m, (m,)),
+        view(memory, 14 * m, (m,)),
         view(memory, loads, (rows, n, 4)),
         view(memory, point, (rows, 2)),
         view(memory, places, (2 * n + 1,)),

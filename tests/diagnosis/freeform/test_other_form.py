@@ -16,7 +16,8 @@ from diagnosis.freeform.ranges import ranges_of
 from diagnosis.freeform.search import with_family
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.variables import Variable
@@ -117,7 +118,7 @@ def test_dry_friction_beside_a_power_law_stands_though_a_curve_over_the_rate_has
 
 
 def test_a_curve_over_the_rate_begins_as_the_power_law_that_it_replaces():
-    """Straight lines between seven rates leave a little; without the law it is some hundred times."""
+    """Straight lines between twelve rates leave a little; without the law it is some hundred times."""
     nominal, best = fitted(RigParameters(rate_exponent=0.6), ("shear_thinning",))
     coarse = start_of_search(nominal.log, ()).coarse
     families = {f.name: f for f in families_of(ranges_of(coarse, replay(coarse.log)))}

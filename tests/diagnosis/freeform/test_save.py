@@ -11,7 +11,8 @@ from diagnosis.effects.effect import Place
 from diagnosis.effects.saved.effect_file import effect_as_text, read_effect
 from diagnosis.effects.saved.folder import OWN_FOLDER
 from diagnosis.freeform.save import as_file, file_of
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue

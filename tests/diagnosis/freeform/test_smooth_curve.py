@@ -13,7 +13,7 @@ from diagnosis.freeform.smooth_curve import (
     two_sided_curve,
     two_values,
 )
-from diagnosis.replay.free_law import ActsOn
+from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.variables import Variable
 
 COUNT = 8
@@ -139,7 +139,7 @@ def test_a_range_of_one_sign_has_one_side():
 def test_the_signs_of_a_two_sided_curve_differ_by_a_jump_and_a_slope_alone():
     curve = two_sided_curve(3.0, 7)
     assert (curve.places.size, curve.straight) == (14, 4)
-    np.testing.assert_allclose(curve.places[7:], np.linspace(0.0, 3.0, 7), atol=1e-5)
+    np.testing.assert_allclose(curve.places[7:], 3.0 * np.linspace(0.0, 1.0, 7) ** 2, atol=1e-5)
     np.testing.assert_allclose(curve.places, -curve.places[::-1])
     mirrored = curve.basis[::-1]
     signs = np.array([1.0, 1.0, -1.0, -1.0, *np.ones(curve.size - 4)])

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
-from models.tissue import Interface, Layer, Tissue
+from models.tissue import RATE_POINTS, Interface, Layer, Tissue
 from sim.schedule import Schedule
 
 TIME = np.arange(0, 10, 0.01)
@@ -28,56 +29,6 @@ def inputs():
         inserted_mm=np.full(TIME.size, 90.0),
         speed_mm_s=np.zeros(TIME.size),
     )
-
-
-def test_a_curve_goes_through_its_points_and_is_level_beyond_them():
-    own = curve()
-    np.testing.assert_allclose(own.at(np.array(PLACES)), VALUES)
-    np.testing.assert_allclose(own.at(np.array([-5.0, 50.0])), [1.0, 2.0])
-
-
-def test_between_its_points_a_curve_does_not_overshoot():
-    """Fritsch and Carlson: monotone between points, so that a factor stays positive."""
-    own = curve().at(np.linspace(0, 8, 400))
-    assert own.min() >= 1.0
-    assert own.max() <= 4.0
-    np.testing.assert_allclose(curve().at(np.linspace(0, 2, 50)), 1.0)
-
-
-def test_two_points_are_a_straight_line():
-    line = curve(places=(1.0, 3.0), values=(5.0, 9.0))
-    np.testing.assert_allclose(line.at(np.array([1.5, 2.0, 2.75])), [6.0, 7.0, 8.5])
-
-
-def test_a_sine_through_five_places_is_a_sine():
-    """The error of a cubic spline is of fourth order in the places: (2 pi / 5)^4 / 384 = 0.6 %."""
-    places = np.arange(5) * 36.0
-    own = curve(places=tuple(places), values=tuple(np.sin(np.radians(2 * places + 20))), period=180.0)
-    x = np.linspace(-300, 300, 400)
-    np.testing.assert_allclose(own.at(x), np.sin(np.radians(2 * x + 20)), rtol=0, atol=0.01)
-
-
-def test_a_periodic_curve_repeats_without_a_jump():
-    own = curve(places=(0.0, 30.0, 60.0), values=(1.0, -2.0, 0.5), period=90.0)
-    x = np.linspace(-400, 400, 333)
-    np.testing.assert_allclose(own.at(x + 90.0), own.at(x), atol=1e-9)
-    np.testing.assert_allclose(own.at(np.array([-90.0, 30.0, 150.0])), [1.0, -2.0, 0.5], atol=1e-9)
-    assert own.at(np.array([90.0 - 1e-6]))[0] == pytest.approx(1.0, abs=1e-4)
-
-
-def test_a_reading_of_the_past_alone_follows_a_step_as_a_filter_of_first_order():
-    own = curve(variable=Variable.PAST, places=(0.5, 1.0), values=(1.0, 0.0))
-    step = np.where(TIME > 2.0, 10.0, 0.0)
-    since_s = np.maximum(TIME - 2.0, 0.0)
-    expected = 10.0 * (1.0 - np.exp(-since_s / 0.5))
-    # The step takes one sample: half of it is a delay.
-    np.testing.assert_allclose(step + own.of_past(TIME, step), expected, atol=10.0 * 0.01 / 0.5)
-
-
-def test_a_ramp_lags_by_the_shares_of_the_past_times_their_time_constants():
-    own = curve(variable=Variable.PAST, places=(0.1, 0.3), values=(0.4, 0.5))
-    lag = -own.of_past(TIME, 7.0 * TIME)[-1] / 7.0
-    assert lag == pytest.approx(0.4 * 0.1 + 0.5 * 0.3, rel=0.01)
 
 
 def test_a_trial_sees_what_is_of_all_trials_and_of_itself():
@@ -143,7 +94,7 @@ def test_the_law_is_in_every_layer_and_further_laws_beside():
 
 
 def test_a_curve_over_the_rate_is_in_the_tissue():
-    factors = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
+    factors = tuple(1.0 - 0.05 * i for i in range(RATE_POINTS))
     law = FreeLaw(rate_curve=factors, rate_range_rad_s=(0.02, 3.0))
     (layer,) = law.tissue(Tissue(layers=(Layer(interface=LAYER),))).layers
     assert (layer.interface.rate_curve, layer.interface.rate_range_rad_s) == (factors, (0.02, 3.0))
@@ -155,3 +106,21 @@ def test_only_a_curve_of_the_needle_over_the_torque_follows_it(acts_on, variable
     law = FreeLaw(curves=(curve(acts_on, variable, values=(1.0, 2.0, 1.0, 2.0)),))
     of_needle = acts_on is not ActsOn.TIP_READING
     assert law.follows_torque == (of_needle and variable is Variable.TORQUE)
+
+
+def test_a_drive_that_creeps_lags_behind_by_what_the_torque_has_done_so_far():
+    own = curve(ActsOn.DRIVE_ANGLE, Variable.PAST, (0.5, 1.0), (-3.0, 0.0))
+    law = FreeLaw(curves=(own,))
+    assert law.follows_torque
+    held = np.full(TIME.size, 0.2)
+    held[0] = 0.0
+    found = law.driven(inputs(), 0.0, held).drive - inputs().drive
+    np.testing.assert_allclose(found, own.creep(TIME, held))
+    assert found[-1] == pytest.approx(-0.6)
+
+
+def test_friction_that_builds_up_in_the_drive_over_its_turn_is_read_as_torque():
+    own = curve(ActsOn.DRIVE_TORQUE, Variable.TURNED_BY, (50.0, 100.0), (0.01, 0.0))
+    tip, torque = FreeLaw(curves=(own,)).sensed(inputs(), 0.0, TIP, TORQUE)
+    np.testing.assert_array_equal(tip, 0.0)
+    np.testing.assert_allclose(torque, 0.01 * np.minimum(inputs().drive, 50.0), atol=1e-9)

@@ -101,6 +101,11 @@ def _is_enough(step: ResidualStep, one: Candidate) -> bool:
     return step.gain > JUMP_SHARE * (one.fit.cost - one.fit.prior - one.fit.samples)
 
 
+def rows_of(problem: FitProblem, sensor: str) -> list[slice]:
+    """Rows of a sensor in the residuals of a fit, one slice for each trial with all sensors."""
+    return [place.rows for place in _places(problem) if place.sensor == sensor]
+
+
 def _places(problem: FitProblem) -> Iterator[_Place]:
     """Where a jump may be: the sensors of trials that have all of them."""
     end = 0

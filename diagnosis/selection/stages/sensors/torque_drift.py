@@ -8,11 +8,13 @@ one that begins at zero in every trial, and beside one that does not; the least 
 than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more than
 DRIFT_ALIKE_SIGMA that is the same line in every trial. And it stands beside one effect at most: with two
 it takes the shape of what no library holds. (An offset does not count before it is told from a drift.)
-Nor does it follow the axial speed.
+Nor does it follow the axial speed. And where one jump of its readings is likelier than a drift, that is
+what is looked at next (reading_jumps).
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -24,12 +26,15 @@ from diagnosis.criteria import (
     DRIFT_RANGE_SIGMA,
     DRIFT_SHARE,
     DRIFT_START_SIGMA,
+    JUMP_LEAST_SAMPLES,
+    JUMP_PARAMETERS,
     NEAR_FLOOR,
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
 from diagnosis.replay.drift import drift_range_sigma, drifts_alike, follows_speed, least_start
 from diagnosis.replay.replay import Prediction, replay
+from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, RecordEntry, noted
@@ -40,6 +45,7 @@ from diagnosis.selection.scoring.drift_evidence import (
     score_beside_drift,
     widest_drift,
 )
+from diagnosis.selection.stages.sensors.reading_jumps import rows_of
 from diagnosis.selection.stages.stage import fitted_again, leading_on_the_log, leading_sets, screen_all
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -62,6 +68,8 @@ def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchSt
     again, explained = again.rechecked() if again.candidates else (again, False)
     if not explained:
         return state.noting(_dropped(STAGE, "no explanation reaches the noise with it"))
+    if _jumps_rather(state, again):
+        return state.noting(_dropped(STAGE, "one jump of its readings leaves less"))
     most = _range_sigma(again)
     if most > _allowed_sigma(again):
         return state.noting(
@@ -155,6 +163,19 @@ def _promises(state: SearchState, noise: Noise, one: Candidate) -> bool:
     """Whether a drift would take off most of what an explanation leaves beyond noise."""
     taken_off = one.fit.cost - in_noise(one, state.problem, noise).fit.cost
     return taken_off > DRIFT_SHARE * max(one.fit.cost - one.fit.prior - one.fit.samples, 0.0)
+
+
+def _jumps_rather(state: SearchState, drifting: SearchState) -> bool:
+    """Whether an explanation with one jump of the torque is likelier than the best with a drift."""
+    rows = rows_of(state.problem, TORQUE)
+    steps = [
+        (c, largest_step(c.fit.residual, c.fit.slopes, rows, JUMP_LEAST_SAMPLES))
+        for c in leading_on_the_log(state)
+    ]
+    jumped = [
+        c.score - step.gain + JUMP_PARAMETERS * math.log(c.fit.samples) for c, step in steps if step
+    ]
+    return min(jumped, default=math.inf) < score_beside_drift(drifting.best, drifting.problem)
 
 
 def _searched_again(state: SearchState, noise: Noise, workers: Workers) -> SearchState:

@@ -35,6 +35,21 @@ def test_the_moment_is_found_in_noise(at_s, number):
     assert found.time_s == pytest.approx(at_s, abs=0.3)  # what less damping changes swings within 3 s
 
 
+@pytest.mark.parametrize(("at_s", "number"), [(3.0, 0), (5.5, 1), (2.0, 2)])
+def test_a_change_that_ends_with_its_trial_is_found_there(at_s, number):
+    rng = np.random.default_rng(3)
+    there = [(i == number) & (at_s < TIME) for i in range(3)]
+    tips = [4.0 * CHANGE * own + rng.normal(0, 0.25, TIME.size) for own in there]
+    ranges = covered_by([(ANGLE, tip, (REST, REST)) for tip in tips], softer=[(CHANGE, REST)] * 3)
+    found = largest_change(ranges, stays=False)
+    assert found.trial == f"trial_{number + 1:02d}.csv"
+    assert found.time_s == pytest.approx(at_s, abs=0.3)
+    once = next(f for f in families(ranges) if f.name == "tissue that gives way, once")
+    assert once.effect.trial == found.trial
+    (only,) = once.effect.apply(NOMINAL, at_s, 0.1, 0.5).free.curves
+    assert only.trial == found.trial
+
+
 def test_a_trial_without_readings_tells_nothing():
     whole = log_with_a_change(3.0, 0)
     unread = replace(whole.problem.log.trials[1], readings={})
@@ -50,7 +65,7 @@ def test_without_a_rig_of_less_damping_there_is_none():
 
 
 def test_it_is_of_the_tissue_and_stays():
-    family, _ = families(log_with_a_change(5.0, 0))
+    family, *_ = families(log_with_a_change(5.0, 0))
     assert (family.place, family.says, family.effect.trial) == (Place.TISSUE, "event", "")
     changes, *stay = family.effect.apply(NOMINAL, 5.0, 0.1, 0.5).free.curves
     np.testing.assert_allclose(changes.at(np.array([0.0, 4.95, 5.05, 8.0])), [1.0, 1.0, 0.5, 0.5])
@@ -60,7 +75,7 @@ def test_it_is_of_the_tissue_and_stays():
 
 
 def test_trials_after_it_are_those_of_a_rig_with_less_damping_and_those_before_of_the_nominal_one():
-    family, _ = families(log_with_a_change(5.0, 1))
+    family, *_ = families(log_with_a_change(5.0, 1))
     gives_way = family.effect.apply(NOMINAL, 5.0, 0.1, 0.5)
     for name, rig in (("trial_01.csv", NOMINAL), ("trial_03.csv", RigParameters(damping_scale=0.5))):
         own = prepared(trial(ANGLE, name=name))

@@ -8,6 +8,7 @@ from free_forms import DAMPING, covered, same_readings
 from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.interface import SLOW_RAD_S, families
 from diagnosis.replay.rig_parameters import NOMINAL
+from models.tissue import RATE_POINTS
 
 ANGLE = turns(6.0)
 RANGES = covered(ANGLE, tip=ANGLE, speed=-1.0 * (np.arange(ANGLE.size) > ANGLE.size // 2))
@@ -72,7 +73,7 @@ def test_curves_are_told_in_the_units_of_the_needle():
     assert ways == (-1.0, 1.0)
     slow = DAMPING * SLOW_RAD_S
     assert both == pytest.approx([0.5 * LEVEL + 1.2 * slow, 1.5 * LEVEL + 0.8 * slow])
-    rates, torque = FAMILIES["friction over rate"].curve(LEVEL, *[0.0] * 7)
+    rates, torque = FAMILIES["friction over rate"].curve(LEVEL, *[0.0] * RATE_POINTS)
     np.testing.assert_allclose(torque, LEVEL + DAMPING * np.asarray(rates))
     place, damping = FAMILIES["damping over position"].curve(*[0.0] * 6)
     np.testing.assert_allclose(damping, DAMPING)

@@ -23,6 +23,7 @@ DRY, THICK, ELASTIC = (
 )
 FLAT_OF = {DRY: FLAT, THICK: [0.0] * (FINE - 1), ELASTIC: FLAT}
 ONE = "damping over position, in one layer"
+DRY_ONE = "dry friction over position, in one layer"
 MESH = 1e-3  # layers meet in places of their own: another mesh, second order in its elements
 PLAIN = {
     DRY: (
@@ -58,8 +59,19 @@ def test_the_curve_is_told_by_depth_below_the_surface():
 
 
 def test_at_one_inserted_length_only_friction_is_asked_for():
-    assert set(FAMILIES) == {*PLAIN, ONE}
-    assert [family.name for family in families(STILL)] == [DRY]
+    assert set(FAMILIES) == {*PLAIN, ONE, DRY_ONE}
+    assert [family.name for family in families(STILL)] == [DRY, DRY_ONE]
+
+
+def test_one_dry_layer_that_spans_all_is_even_friction():
+    """But for its first millimetre: 1 in 80 mm or more."""
+    nearly_all = FAMILIES[DRY_ONE].effect.apply(NOMINAL, 1.0, 500.0, 0.003)
+    even = LIBRARY["coulomb_friction"].apply(NOMINAL, 0.003)
+    assert same_readings(ANGLE, nearly_all, even, within=1.0 / 80)
+    assert not same_readings(ANGLE, nearly_all, NOMINAL, within=1.0 / 80)
+    depth, level = FAMILIES[DRY_ONE].curve(30.0, 8.0, 0.02)
+    np.testing.assert_allclose(depth, (0.0, 30.0, 30.0, 38.0, 38.0, 68.0), atol=2e-3)
+    np.testing.assert_allclose(level, (0.0, 0.0, 0.02, 0.02, 0.0, 0.0))
 
 
 def test_one_layer_like_the_others_is_none():

@@ -6,7 +6,8 @@ from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import covered, same_readings
 
 from diagnosis.freeform.families.shaft import families
-from diagnosis.replay.free_law import ActsOn, Curve, FreeLaw
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters

@@ -24,7 +24,7 @@ TISSUES = {
         viscous_n_mm_s_per_mm=0.02,
         kinetic_n_mm_per_mm=0.01,
         asymmetry=0.3,
-        rate_curve=(3.0, 2.0, 1.4, 1.0, 0.8, 0.7, 0.65),
+        rate_curve=(3.0, 2.5, 2.0, 1.7, 1.4, 1.2, 1.0, 0.9, 0.8, 0.75, 0.7, 0.65),
         orientation_n_mm_per_mm=0.003,
         orientation_cycles=2.0,
     ),

@@ -37,7 +37,9 @@ def setup(tissue):
 
 
 def solve(interpreted, stage, *, nonlinear, drive=0.5):
-    return interpreted.newton.newton(stage.law, stage.w, stage.frame, drive, 0.0, nonlinear, False)
+    return interpreted.newton.newton(
+        stage.head, stage.law, stage.w, stage.frame, drive, 0.0, nonlinear, False
+    )
 
 
 def out_of_balance(interpreted, stage, drive=0.5):

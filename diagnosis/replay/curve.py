@@ -1,0 +1,125 @@
+"""A curve of one variable, as a part of a free-form law.
+
+It is smooth through its values at some places of the variable, and constant beyond them. One with a
+period is a periodic cubic spline: a sine through 5 places is off by less than 1 %.
+
+A curve over the past gives the weights with which a reading shows past values instead of the present,
+as a filter of first order with each time constant does,
+
+    reading += sum over time constants of value (filtered value - present value),
+
+or with which the angle of the drive follows the torque, as an insert that creeps does,
+
+    angle += sum over time constants of value filtered torque.
+
+A curve over the turn since the last reversal adds hysteresis (Prandtl-Ishlinskii),
+
+    += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
+"""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
+
+from diagnosis.replay.sensing.bearing import stopped_at
+from diagnosis.replay.sensing.filters import first_order
+from diagnosis.replay.variables import Variable
+from models.errors import InvalidValue
+
+Array = NDArray[np.float64]
+
+
+class ActsOn(StrEnum):
+    """What a curve changes."""
+
+    TISSUE = "tissue"
+    STIFFNESS = "stiffness"
+    DRIVE_ANGLE = "drive_angle"
+    DRIVE_SLIP = "drive_slip"
+    INSERTED_LENGTH = "inserted_length"
+    DRIVE_TORQUE = "drive_torque"
+    TIP_READING = "tip_reading"
+    TORQUE_READING = "torque_reading"
+
+
+FACTORS = (ActsOn.TISSUE, ActsOn.STIFFNESS)  # a curve multiplies them; to others it is added
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curve:
+    """A curve of one variable.
+
+    Attributes:
+      places: values of the variable, increasing.
+      values: values of the curve at the places.
+      period: period of the variable; 0: none.
+      trial: the only trial that it applies to; empty: all.
+
+    Raises:
+      InvalidValue: places do not increase or span more than the period, there are not as many values,
+        or a factor is not positive.
+    """
+
+    acts_on: ActsOn
+    variable: Variable
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+    period: float = 0.0
+    trial: str = ""
+
+    def __post_init__(self) -> None:
+        places = np.asarray(self.places, float)
+        if places.size < 2 or not (np.diff(places) > 0).all() or not np.isfinite(places).all():
+            raise InvalidValue("places", self.places, "at least two finite numbers, increasing")
+        if len(self.values) != places.size or not np.isfinite(self.values).all():
+            raise InvalidValue(
+                "values", self.values, f"{places.size} finite numbers, one for each place"
+            )
+        if self.acts_on in FACTORS and min(self.values) <= 0:
+            raise InvalidValue(
+                "values",
+                self.values,
+                f"factors above 0, because the curve multiplies the {self.acts_on}",
+            )
+        if self.period and self.period <= places[-1] - places[0]:
+            raise InvalidValue("period", self.period, "0, or more than the places span")
+
+    def at(self, x: Array) -> Array:
+        """The curve at values of its variable, (N,)."""
+        through = _through(self.places, self.values, self.period)
+        if self.period:
+            return np.asarray(through(self.places[0] + np.mod(x - self.places[0], self.period)))
+        return np.asarray(through(np.clip(x, self.places[0], self.places[-1])))
+
+    def with_hysteresis(self, values: Array) -> Array:
+        """Hysteresis to add to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""
+        each = zip(self.places, self.values, strict=True)
+        return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
+
+    def times(self, strength: float) -> "Curve":
+        """The curve multiplied by a strength; factors are raised to that power."""
+        if self.acts_on in FACTORS:
+            return replace(self, values=tuple(value**strength for value in self.values))
+        return replace(self, values=tuple(value * strength for value in self.values))
+
+    def creep(self, time_s: Array, torque_n_mm: Array) -> Array:
+        """Angle by which something yields to a torque in time, at even times, (N,)."""
+        each = zip(self.places, self.values, strict=True)
+        return np.asarray(np.sum([own * first_order(time_s, torque_n_mm, s) for s, own in each], axis=0))
+
+    def of_past(self, time_s: Array, values: Array) -> Array:
+        """Contribution of past values to a reading at even times, (N,)."""
+        each = zip(self.places, self.values, strict=True)
+        shown = [share * (first_order(time_s, values, time) - values) for time, share in each]
+        return np.asarray(np.sum(shown, axis=0))
+
+
+@lru_cache(maxsize=64)  # trial after trial asks for the same curves
+def _through(places: tuple[float, ...], values: tuple[float, ...], period: float) -> PPoly:
+    if not period:
+        return PchipInterpolator(places, values)
+    return CubicSpline((*places, places[0] + period), (*values, values[0]), bc_type="periodic")
