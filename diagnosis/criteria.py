@@ -90,10 +90,11 @@ beyond. Under half a step samples keep their order."""
 
 FALSE_ALARM_CHANCE = 1e-9
 """Derived: of calling a run of equal readings frozen, per column; one false alarm in 10^9 columns."""
-FROZEN_LEAST_RUN = 20
+FROZEN_LEAST_RUN, FROZEN_LEAST_AGAIN = 20, 5
 FROZEN_LEAST_S = 0.5
 FROZEN_TIMES_USUAL_RUN = 5.0
-"""Shortest run that is frozen: samples, seconds, and times the median run of a slow sensor."""
+"""Shortest run that is frozen: samples, and beside a longer one; seconds, and times the median run of a
+slow sensor."""
 SATURATED_LEAST_RUN = 20
 SATURATED_SHARE = 0.5
 SATURATED_NEAR_SIGMA = 1.5

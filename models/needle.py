@@ -58,6 +58,10 @@ class Needle(Record):
     """Beyond which the shaft twists plastically, either way; None: it is elastic."""
     yield_stiffness_ratio: Annotated[float, Field(ge=0, lt=1)] = 0.0
     """Stiffness beyond it over the elastic one: linear kinematic hardening."""
+    creep_ratio: NonNegative = 0.0
+    """Twist that a torque adds in time, over the elastic one: a standard linear solid."""
+    creep_time_s: NonNegative = 0.0
+    """In which 63 % of it come."""
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Needle":
@@ -69,6 +73,10 @@ class Needle(Record):
             raise InvalidValue("stiffness_torque_n_mm", 0.0, "a torque above 0 where there is a curve")
         if self.stiffness_along and self.stiffness_along_mm == 0.0:
             raise InvalidValue("stiffness_along_mm", 0.0, "a length above 0 where there are factors")
+        if self.creep_ratio and self.creep_time_s == 0.0:
+            raise InvalidValue("creep_time_s", 0.0, "a time above 0 of a shaft that creeps")
+        if self.creep_ratio and self.yield_torque_n_mm is not None:
+            raise InvalidValue("creep_ratio", self.creep_ratio, "0 of a shaft that yields")
         return self
 
     @property

@@ -260,6 +260,8 @@ def header(setup: Setup, *, rows: int) -> Array:
         head[curve] = np.log(setup.needle.stiffness_curve)
     head[memory_map.H_YIELD] = (setup.needle.yield_torque_n_mm or 0.0) * units.N_MM
     head[memory_map.H_YIELD_SLOPE] = setup.needle.yield_stiffness_ratio
+    head[memory_map.H_CREEP] = setup.needle.creep_ratio
+    head[memory_map.H_CREEP_TIME] = setup.needle.creep_time_s
     head[memory_map.H_CHAIN] = setup.is_chain
     return head
 

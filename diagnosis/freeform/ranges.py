@@ -25,6 +25,7 @@ LEAST_RANGE = {
     Variable.TRIAL_SHARE: 0.5,
     Variable.BASE_ANGLE: 20.0,
     Variable.RATE: 0.05,
+    Variable.ACCELERATION: 0.5,
     Variable.DIRECTION: 1.5,
     Variable.SLID_DIRECTION: 1.5,
     Variable.AXIAL_SPEED: 0.3,

@@ -17,6 +17,7 @@ from scipy.ndimage import label
 from diagnosis.criteria import (
     BELIEVED_SCATTER,
     FALSE_ALARM_CHANCE,
+    FROZEN_LEAST_AGAIN,
     FROZEN_LEAST_RUN,
     FROZEN_LEAST_S,
     FROZEN_TIMES_USUAL_RUN,
@@ -197,7 +198,10 @@ def _frozen(time_s: Array, values: Array, claim: float) -> Mask:
     chance = math.log(FALSE_ALARM_CHANCE / finite.size) / math.log(max(repeat, 1e-12))
     # A slow sensor in a fast log holds every reading for a while: that is its habit.
     usual = float(np.median(lengths)) if lengths.size > 1 else 0.0
-    least = max(FROZEN_LEAST_RUN, chance + 1, FROZEN_TIMES_USUAL_RUN * usual)
+    least = max(FROZEN_LEAST_AGAIN, chance + 1, FROZEN_TIMES_USUAL_RUN * usual)
     lasted = time_s[finite[starts + lengths - 1]] - time_s[finite[starts]]
-    rows[finite[np.repeat((lengths >= least) & (lasted >= FROZEN_LEAST_S), lengths)]] = True
+    sure = (lengths >= max(least, FROZEN_LEAST_RUN)) & (lasted >= FROZEN_LEAST_S)
+    # A sensor that freezes for long does so for shorter times as well.
+    frozen = lengths >= least if sure.any() else sure
+    rows[finite[np.repeat(frozen, lengths)]] = True
     return rows

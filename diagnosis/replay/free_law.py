@@ -58,6 +58,8 @@ class FreeLaw:
       stiffness_along_mm: from the tip to the last of them.
       yield_torque_n_mm: torque beyond which the shaft twists plastically (models.needle); None: never.
       yield_stiffness_ratio: its stiffness beyond it over the elastic one.
+      creep_ratio: twist that a torque adds in time, over the elastic one (models.needle).
+      creep_time_s: in which it does.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       throughout, at_tip: additional laws (models.tissue).
@@ -79,6 +81,8 @@ class FreeLaw:
     stiffness_along_mm: float = 0.0
     yield_torque_n_mm: float | None = None
     yield_stiffness_ratio: float = 0.0
+    creep_ratio: float = 0.0
+    creep_time_s: float = 0.0
     contact: ContactCurve | None = None
     grip_torque_n_mm: float | None = None
     throughout: tuple[Interface, ...] = ()
@@ -116,6 +120,8 @@ class FreeLaw:
             contact=_raised(self.contact, strength) if self.contact else None,
             yield_torque_n_mm=_weaker(self.yield_torque_n_mm, strength),
             yield_stiffness_ratio=self.yield_stiffness_ratio,
+            creep_ratio=strength * self.creep_ratio,
+            creep_time_s=self.creep_time_s,
             grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
@@ -144,6 +150,8 @@ class FreeLaw:
             stiffness_along_mm=self.stiffness_along_mm,
             yield_torque_n_mm=self.yield_torque_n_mm,
             yield_stiffness_ratio=self.yield_stiffness_ratio,
+            creep_ratio=self.creep_ratio,
+            creep_time_s=self.creep_time_s,
         )
         return changed
 

@@ -4,6 +4,7 @@ time           since the trial began, s
 trial_share    the same over the duration of the trial
 base_angle     of the drive shaft, deg
 rate           at which the drive shaft turns, rad/s
+acceleration   of the drive shaft, rad/s^2
 direction      in which it last turned: 1 forwards, -1 backwards, straight between over a short time
 slid_direction in which dry friction in the drive slides: straight between while it sticks
 axial_speed    of the needle into the tissue, mm/s
@@ -43,6 +44,7 @@ class Variable(StrEnum):
     TRIAL_SHARE = "trial_share"
     BASE_ANGLE = "base_angle"
     RATE = "rate"
+    ACCELERATION = "acceleration"
     DIRECTION = "direction"
     SLID_DIRECTION = "slid_direction"
     AXIAL_SPEED = "axial_speed"
@@ -62,6 +64,7 @@ UNITS = {
     Variable.TRIAL_SHARE: "of the trial",
     Variable.BASE_ANGLE: "deg",
     Variable.RATE: "rad/s",
+    Variable.ACCELERATION: "rad/s^2",
     Variable.DIRECTION: "-",
     Variable.SLID_DIRECTION: "-",
     Variable.AXIAL_SPEED: "mm/s",
@@ -77,6 +80,7 @@ UNITS = {
 }
 SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
+    Variable.ACCELERATION: "rate",
     Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",
@@ -133,6 +137,10 @@ def _base_rate_deg_s(inputs: Schedule) -> Array:
     return rate_of(inputs.drive, inputs.time_s)
 
 
+def _acceleration(inputs: Schedule, _: float) -> Array:
+    return rate_of(np.radians(_base_rate_deg_s(inputs)), inputs.time_s)
+
+
 def _trial_share(inputs: Schedule, start_s: float) -> Array:
     return np.asarray((inputs.time_s - start_s) / (inputs.time_s[-1] - start_s))
 
@@ -163,6 +171,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.TRIAL_SHARE: _trial_share,
     Variable.BASE_ANGLE: lambda inputs, _: inputs.drive,
     Variable.RATE: lambda inputs, _: np.radians(_base_rate_deg_s(inputs)),
+    Variable.ACCELERATION: _acceleration,
     Variable.DIRECTION: _direction,
     Variable.SLID_DIRECTION: _slid_direction,
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,

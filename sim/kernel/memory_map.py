@@ -55,8 +55,10 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_STIFFNESS_23,
     H_YIELD,  # torque beyond which the shaft twists plastically, N m; 0: it is elastic
     H_YIELD_SLOPE,  # stiffness beyond it over the elastic one
+    H_CREEP,  # twist that a torque adds in time, over the elastic one; 0: none
+    H_CREEP_TIME,  # s
     HEADER,
-) = range(41)
+) = range(43)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 

@@ -77,7 +77,7 @@ def _prepare(
         rest[i] = omega[i] = rates[i]
         damp_lower[i] = damp_diagonal[i] = damp_upper[i] = 0.0
     nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0 or frame.yield_torque > 0.0
-    nonlinear |= head[memory_map.H_STIFFNESS_TORQUE] > 0.0
+    nonlinear |= head[memory_map.H_STIFFNESS_TORQUE] > 0.0 or frame.creep > 0.0
     for r in range(law.shape[0]):
         if is_idle(law[r]):
             continue
@@ -222,6 +222,8 @@ def advance(
         head[memory_map.H_GRIP] if shaft.servo > 0.0 else 0.0,
         head[memory_map.H_YIELD],
         head[memory_map.H_YIELD_SLOPE],
+        head[memory_map.H_CREEP],
+        head[memory_map.H_CREEP_TIME],
     )
     drive_was, drive_is = (
         drive_input(shaft, past[memory_map.U_DRIVE]),
@@ -270,7 +272,7 @@ def advance(
     for i in range(n + 1):
         end[i] = w.theta[i] + frame.g * w.omega[i]
         nxt[memory_map.B_ANGLES + n + 1 + i] = w.omega[i]
-    heat, kept_energy = keep_sets(w, frame, sets, sets_after)
+    heat, kept_energy = keep_sets(w, frame, h, sets, sets_after)
     for r in range(rows):
         if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
             continue

@@ -7,11 +7,12 @@ a multiple of the change takes most off the nominal residual,
 
     gain(t) = (sum of change * residual after t)^2 / sum of change^2 after t,  in units of the noise.
 
-Or its torque swells and falls with a period, as tissue that breathes or beats, from a phase that is
-another one in each trial. The starting value of the period is the one whose waves, times the change,
-take most off.
+Or its torque, or dry friction beside it, swells and falls with a period, as tissue that breathes or
+beats does, from a phase that is another one in each trial. The starting value of the period is the one
+whose waves, times the change, take most off.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -35,9 +36,11 @@ from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
+from models.tissue import Interface
 
 Array = NDArray[np.float64]
 
+_EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _LEAST_S = 1.0  # from either end of a trial
 _LEAST_WAVES, _FASTEST_HZ = 3.0, 2.0  # in the longest trial; hearts beat twice a second
 _WAVE_PLACES, _SWELLS = 12, 0.3
@@ -55,7 +58,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
             found.append(_gives_way(moment, trials_after(ranges, moment) if stays else ()))
     distinct = {family.name: family for family in reversed(found)}  # nothing follows the last trial
     rate_hz = strongest_wave_hz(ranges)
-    breathes = (_breathes(ranges, rate_hz),) if rate_hz else ()
+    breathes = (_breathes(ranges, rate_hz), _pulses(ranges, rate_hz)) if rate_hz else ()
     return (*reversed(distinct.values()), *breathes)
 
 
@@ -118,7 +121,7 @@ def _gives_way(moment: Moment, after: tuple[str, ...]) -> Family:
             differences=DIFFERENCES,
             trial="" if after else moment.trial,
         ),
-        places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
+        places=_EITHER,
         says="event",
         title=f"torque of the tissue {where}",
         curve=_changes,
@@ -163,7 +166,48 @@ def _taken_off(phase: Array, product: Array, square: Array) -> float:
 
 def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
     trials = tuple(trial.name for trial in ranges.problem.log.trials)
-    period = Parameter(
+    return Family(
+        effect=Effect(
+            name="damping over time, as a wave",
+            title="damping that swells and falls with a period",
+            place=Place.TISSUE,
+            parameters=(_period(rate_hz), *coordinates(0, 2 * len(trials), _SWELLS)),
+            apply=partial(_apply_breathing, trials),
+        ),
+        places=_EITHER,
+        says="time",
+        title=f"damping along the shaft in {trials[0]}",
+        curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
+        x_unit="s",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
+    trials = tuple(trial.name for trial in ranges.problem.log.trials)
+    level = ranges.library["coulomb_friction"].parameters[0]
+    shape = (_period(rate_hz), *coordinates(0, 2 * len(trials)))
+    return Family(
+        effect=Effect(
+            name="dry friction over time, as a wave",
+            title="dry friction that swells and falls with a period",
+            place=Place.TISSUE,
+            parameters=(level, *(replace(p, start=p.start * len(level.start)) for p in shape)),
+            apply=partial(_apply_pulses, trials),
+            differences=(1e-2,),
+        ),
+        places=_EITHER,
+        says="time",
+        title=f"dry friction along the shaft in {trials[0]}",
+        curve=_breath,
+        x_unit="s",
+        unit="N mm / mm",
+    )
+
+
+def _period(rate_hz: float) -> Parameter:
+    """Near where waves take most off."""
+    return Parameter(
         name="period",
         unit="s",
         low=0.9 / rate_hz,
@@ -171,21 +215,6 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
         start=(1.0 / rate_hz,),
         logarithmic=True,
         neutral=None,
-    )
-    return Family(
-        effect=Effect(
-            name="damping over time, as a wave",
-            title="damping that swells and falls with a period",
-            place=Place.TISSUE,
-            parameters=(period, *coordinates(0, 2 * len(trials), _SWELLS)),
-            apply=partial(_apply_breathing, trials),
-        ),
-        places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
-        says="time",
-        title=f"damping along the shaft in {trials[0]}",
-        curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
-        x_unit="s",
-        unit="N mm s / rad / mm",
     )
 
 
@@ -203,8 +232,20 @@ def _breath(beta: float, period_s: float, *c: float) -> Points:
 def _apply_breathing(
     trials: tuple[str, ...], rig: RigParameters, period_s: float, *c: float
 ) -> RigParameters:
+    return replace(rig, free=FreeLaw(tissue_varies=True, curves=_waves(trials, period_s, c)))
+
+
+def _apply_pulses(
+    trials: tuple[str, ...], rig: RigParameters, level: float, period_s: float, *c: float
+) -> RigParameters:
+    law = Interface(kinetic_n_mm_per_mm=level, varies=True)
+    return replace(rig, free=FreeLaw(throughout=(law,), curves=_waves(trials, period_s, c)))
+
+
+def _waves(trials: tuple[str, ...], period_s: float, c: Sequence[float]) -> tuple[Curve, ...]:
+    """Of each trial, factors over the time."""
     shares = np.arange(_WAVE_PLACES) / _WAVE_PLACES
-    curves = tuple(
+    return tuple(
         Curve(
             acts_on=ActsOn.TISSUE,
             variable=Variable.TIME,
@@ -215,4 +256,3 @@ def _apply_breathing(
         )
         for name, own in zip(trials, zip(c[::2], c[1::2], strict=True), strict=True)
     )
-    return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))

@@ -37,7 +37,14 @@ RIPPLE = -1.0  # a period that is looked for in what the nominal rig leaves
 PLACES, PAST_PLACES, RIPPLE_PLACES = 12, 12, 5
 TURNED_BY = np.geomspace(0.25, 8.0, 10)  # of the rms of what is missing
 DRAGGED_DEG = np.geomspace(0.5, 180.0, 10)  # turn of the drive over which its friction builds up
-SIGNED = (Variable.TORQUE, Variable.TORQUE_RATE, Variable.RATE, Variable.TIP_RATE, Variable.AXIAL_SPEED)
+SIGNED = (
+    Variable.TORQUE,
+    Variable.TORQUE_RATE,
+    Variable.RATE,
+    Variable.TIP_RATE,
+    Variable.ACCELERATION,
+    Variable.AXIAL_SPEED,
+)
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 _OF_DIRECTION = {
     Variable.DIRECTION: two_values,
@@ -112,7 +119,7 @@ ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
-    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.SLID_DIRECTION),
+    *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.ACCELERATION, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_BEARING, DRIVE, _V.TURNED_BY),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),

@@ -4,6 +4,7 @@
 - its stiffness as a curve of the place along it: a joint, a thinner or a hollow part
 - its stiffness as a curve of the time: a shaft that is warmed, or cracks
 - a shaft that twists plastically beyond a torque
+- a shaft that creeps: a torque twists it further in time
 """
 
 from collections.abc import Sequence
@@ -26,6 +27,7 @@ _YIELDS_AT = (0.85, 0.55, 0.3)  # of the largest torque, to start with
 _LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
 _BEYOND = 1.5  # torque that a curve spans / that of the nominal shaft: one that yields twists more
 _STIFFENS = 0.5  # of the logarithm of the stiffness, to start with
+_CREEPS_BY, _CREEPS_S, _CREEP_POINTS = 0.3, (0.3, 2.0, 10.0), 11
 _PARTS = 10  # of the longest shaft
 
 
@@ -34,7 +36,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.TORQUE not in ranges.ends:
         return ()
     of_time = (_over(v, ranges) for v in (Variable.TIME, Variable.TRIAL_SHARE) if v in ranges.ends)
-    return (_stiffness(ranges), _along(ranges), *of_time, _yielding(ranges))
+    return (_stiffness(ranges), _along(ranges), *of_time, _yielding(ranges), _creeping())
 
 
 def _stiffness(ranges: LogRanges) -> Family:
@@ -170,3 +172,48 @@ def _yields(torque: float, slope: float) -> Points:
 
 def _apply_yielding(rig: RigParameters, torque: float, slope: float) -> RigParameters:
     return replace(rig, free=FreeLaw(yield_torque_n_mm=torque, yield_stiffness_ratio=slope))
+
+
+def _creeping() -> Family:
+    time = Parameter(
+        name="time",
+        unit="s",
+        low=0.05,
+        high=60.0,
+        start=_CREEPS_S,
+        logarithmic=True,
+        neutral=None,
+    )
+    ratio = Parameter(
+        name="ratio",
+        unit="-",
+        low=1e-3,
+        high=10.0,
+        start=(_CREEPS_BY,) * len(_CREEPS_S),
+        logarithmic=True,
+    )
+    return Family(
+        effect=Effect(
+            name="creep of the shaft over past",
+            title="a shaft that creeps under a torque",
+            place=Place.NEEDLE,
+            parameters=(ratio, time),
+            apply=_apply_creep,
+            differences=(1e-2,),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="history",
+        title="twist of the shaft over the elastic one",
+        curve=_creep,
+        x_unit="s under a torque",
+        unit="-",
+    )
+
+
+def _creep(ratio: float, time_s: float) -> Points:
+    at_s = time_s * np.linspace(0.0, 5.0, _CREEP_POINTS)
+    return at_s, 1.0 - ratio * np.expm1(-at_s / time_s)
+
+
+def _apply_creep(rig: RigParameters, ratio: float, time_s: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(creep_ratio=ratio, creep_time_s=time_s))

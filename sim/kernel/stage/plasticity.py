@@ -1,9 +1,14 @@
-"""A shaft that yields: elements that keep a twist without a torque, with linear kinematic hardening.
+"""A shaft that yields or creeps: elements that keep a twist without a torque.
 
     torque = k (twist - set),    |torque - k q / (1 - q) set| <= yield torque,
 
-k being the stiffness of an element and q k that beyond yielding. In each stage the set at its end is
-that of the twist there (return mapping; Simo and Hughes, Computational Inelasticity, section 1.4).
+k being the stiffness of an element and q k that beyond yielding: linear kinematic hardening. In each
+stage the set at its end is that of the twist there (return mapping; Simo and Hughes, Computational
+Inelasticity, section 1.4). Or, as a standard linear solid,
+
+    d set / dt = (c torque / k - set) / tau,
+
+so that a torque twists the shaft 1 + c times as far in the end.
 """
 
 import math
@@ -30,18 +35,32 @@ def set_after(stiffness: float, frame: Frame, twist: float, before: float) -> fl
 
 
 @inlined
+def crept_after(frame: Frame, twist: float, before: float) -> tuple[float, float]:
+    """The set of an element that creeps at a twist, rad, from that before, and its slope."""
+    share = frame.g / frame.creep_time
+    slope = share * frame.creep / (1.0 + share * (1.0 + frame.creep))
+    return before / (1.0 + share * (1.0 + frame.creep)) + slope * twist, slope
+
+
+@inlined
 def add_sets(w: Workspace, frame: Frame) -> None:
     """What sets change of the linearised stage equation: torques of the elements, and their slopes."""
     rhs, lower, diagonal, upper = w.rhs, w.lower, w.diagonal, w.upper
     theta, omega, spring = w.theta, w.omega, w.spring
     for e in range(w.set.size):
         twist = theta[e + 1] - theta[e] + frame.g * (omega[e + 1] - omega[e])
-        w.set[e] = set_after(spring[e], frame, twist, w.set_before[e])
+        slope = 0.0
+        if frame.creep > 0.0:
+            w.set[e], slope = crept_after(frame, twist, w.set_before[e])
+        else:
+            w.set[e] = set_after(spring[e], frame, twist, w.set_before[e])
+            if w.set[e] != w.set_before[e]:
+                slope = 1.0 - frame.yield_slope
         torque = spring[e] * w.set[e]
         rhs[e] -= torque
         rhs[e + 1] += torque
-        if w.set[e] != w.set_before[e]:
-            softer = frame.g * spring[e] * (1.0 - frame.yield_slope)
+        if slope > 0.0:
+            softer = frame.g * spring[e] * slope
             diagonal[e] -= softer
             diagonal[e + 1] -= softer
             upper[e] += softer
@@ -64,11 +83,17 @@ def carry_sets(w: Workspace, sets: Array, kept: float, carried: float) -> None:
 
 
 @inlined
-def keep_sets(w: Workspace, frame: Frame, sets: Array, after: Array) -> tuple[float, float]:
-    """Write the sets at the end of the step; returns heat and energy stored in hardening, J."""
+def keep_sets(w: Workspace, frame: Frame, h: float, sets: Array, after: Array) -> tuple[float, float]:
+    """Write the sets at the end of the step; returns heat and energy stored beside the twist, J."""
     heat, stored = 0.0, 0.0
     for e in range(sets.size):
         after[e] = w.set[e]
-        heat += frame.yield_torque * abs(after[e] - sets[e])
-        stored += 0.5 * _hardening(w.spring[e], frame.yield_slope) * after[e] * after[e]
+        change = after[e] - sets[e]
+        rise = _hardening(w.spring[e], frame.yield_slope)
+        if frame.creep > 0.0:
+            rise = w.spring[e] / frame.creep
+            heat += rise * frame.creep_time * change * change / h
+        else:
+            heat += frame.yield_torque * abs(change)
+        stored += 0.5 * rise * after[e] * after[e]
     return heat, stored

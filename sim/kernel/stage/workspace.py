@@ -50,6 +50,8 @@ class Frame(NamedTuple):
     grip: float = 0.0  # torque at which the needle slips in the chuck, N m; 0: never
     yield_torque: float = 0.0  # beyond which elements twist plastically, N m; 0: never
     yield_slope: float = 0.0  # stiffness beyond it over the elastic one
+    creep: float = 0.0  # twist that a torque adds in time, over the elastic one; 0: none
+    creep_time: float = 0.0  # s
 
 
 @inlined

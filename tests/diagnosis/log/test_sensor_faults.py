@@ -50,6 +50,20 @@ def test_faulty_samples_of_a_sensor_are_set_aside_and_no_others(log):
     assert not np.isnan(trial["base_torque_n_mm"]).any()
 
 
+def test_beside_a_long_freeze_short_ones_count_as_well(log):
+    def freezes(t):
+        return frozen("tip_angle_deg", first=700, count=8)(frozen("tip_angle_deg")(t))
+
+    change_trial(log, freezes)
+    empty = np.flatnonzero(np.isnan(read_rig_log(log).trials[0]["tip_angle_deg"]))
+    np.testing.assert_array_equal(empty, [*range(300, 450), *range(700, 708)])
+
+
+def test_a_short_freeze_alone_may_be_chance(log):
+    change_trial(log, frozen("tip_angle_deg", first=700, count=8))
+    assert not np.isnan(read_rig_log(log).trials[0]["tip_angle_deg"]).any()
+
+
 def test_an_outlier_of_the_base_is_replaced_by_what_its_neighbours_say(log):
     change_trial(log, at("base_angle_deg", r150=80.0))
     base = read_rig_log(log).trials[0]["base_angle_deg"]

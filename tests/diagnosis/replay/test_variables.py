@@ -80,6 +80,11 @@ def test_dry_friction_reaches_a_direction_over_its_presliding_angle():
     np.testing.assert_allclose(values, turned_deg / PRESLIDING_DEG, atol=1e-9)
 
 
+def test_a_turn_that_gains_speed_evenly_has_one_acceleration():
+    values = of_inputs(Variable.ACCELERATION, inputs(angle=np.degrees(0.5 * 0.8 * TIME**2)), 0.0)
+    np.testing.assert_allclose(values[5:-5], 0.8, rtol=1e-6)
+
+
 def test_a_base_that_never_turns_has_no_direction():
     assert not of_inputs(Variable.DIRECTION, inputs(angle=np.zeros(TIME.size)), 0.0).any()
 

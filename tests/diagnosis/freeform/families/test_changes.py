@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import covered_by
 
+from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.changes import families, largest_change, strongest_wave_hz
 from diagnosis.replay.replay import predict
@@ -121,3 +122,18 @@ def test_tissue_that_does_not_breathe_is_the_nominal_one():
     found, other, expected = predict(RIG, own, [still, swells, NOMINAL])
     np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
     assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 0.1
+
+
+def test_dry_friction_that_does_not_pulse_is_even_friction():
+    pulses = next(
+        f for f in families(log_that_breathes(0.6)) if f.name == "dry friction over time, as a wave"
+    )
+    own = prepared(trial(ANGLE, name="trial_02.csv"))
+    still, swells = (pulses.effect.apply(NOMINAL, 0.003, 2.0, *[c] * 6) for c in (0.0, 0.5))
+    even = LIBRARY["coulomb_friction"].apply(NOMINAL, 0.003)
+    found, other = predict(RIG, own, [still, swells])
+    (expected,) = predict(RIG, own, [even])
+    np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
+    assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 0.1
+    _, level = pulses.curve(0.003, 2.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
+    assert level[0] == pytest.approx(0.003 * np.exp(0.5))

@@ -82,7 +82,41 @@ def test_sets_are_carried_kept_and_become_heat(interpreted, frame):
     w.set[:] = sets + 0.1
     plasticity.carry_sets(w, sets, 0.0, 2.0)
     np.testing.assert_allclose(w.set_before, sets + 0.2)
-    heat, stored = plasticity.keep_sets(w, frame, sets, after)
+    heat, stored = plasticity.keep_sets(w, frame, 0.01, sets, after)
     np.testing.assert_allclose(after, sets + 0.1)
     assert heat == pytest.approx(n * YIELD * 0.1)
     assert stored == pytest.approx(0.5 * HARDENING * np.sum(after**2))
+
+
+CREEP, CREEP_S = 0.4, 2.0
+
+
+@pytest.fixture
+def creeping(frame):
+    return frame._replace(yield_torque=0.0, creep=CREEP, creep_time=CREEP_S)
+
+
+def test_the_set_of_an_element_that_creeps_is_of_its_twist_with_that_slope(interpreted, creeping):
+    crept = interpreted.plasticity.crept_after
+    (low, slope), (high, _) = (crept(creeping, twist, 0.02) for twist in (0.1, 0.2))
+    assert (high - low) / 0.1 == pytest.approx(slope)
+    # Implicit: (set - before) / g = (c (twist - set) - set) / tau.
+    rate = (CREEP * (0.1 - low) - low) / CREEP_S
+    assert (low - 0.02) / creeping.g == pytest.approx(rate)
+
+
+def test_what_creep_takes_is_stored_and_becomes_heat(interpreted, creeping):
+    """Of a twist that is held: elastic energy at first, less at last, and the rest is heat."""
+    plasticity, n, step_s = interpreted.plasticity, 1, 0.01
+    memory = np.zeros(interpreted.memory_map.scratch(n, 1))
+    w = interpreted.workspace.divide(memory, n, 1, np.zeros((1, n, 2, interpreted.memory_map.SITE)))
+    w.spring[:n] = STIFFNESS
+    frame, twist, heat, stored = creeping._replace(g=step_s), 0.1, 0.0, 0.0
+    sets, after = np.zeros(n), np.zeros(n)
+    for _ in range(2000):
+        w.set[0], _ = plasticity.crept_after(frame, twist, sets[0])
+        more, stored = plasticity.keep_sets(w, frame, step_s, sets, after)
+        heat, sets[:] = heat + more, after
+    assert sets[0] == pytest.approx(twist * CREEP / (1.0 + CREEP), rel=1e-4)
+    first, last = 0.5 * STIFFNESS * twist**2, 0.5 * STIFFNESS * (twist - sets[0]) ** 2 + stored
+    assert first - last == pytest.approx(heat, rel=step_s / CREEP_S)
