@@ -95,6 +95,13 @@ FROZEN_LEAST_S = 0.5
 FROZEN_TIMES_USUAL_RUN = 5.0
 """Shortest run that is frozen: samples, and beside a longer one; seconds, and times the median run of a
 slow sensor."""
+LOST_COUNTS_BESIDE = 3
+LOST_COUNTS_SIGMA, LOST_COUNTS_LEAST_DEG = 10.0, 0.3
+"""Moves of the base on either side of a jump of its reading; least size of a jump that is looked at, in
+what usual moves are beyond those beside them, and in deg. Choices: the other sensors decide."""
+LOST_COUNTS_MOST, LOST_COUNTS_LEAVES = 3, 0.95
+"""Jumps of a log that are looked at, largest first; share of the gap of a trial that shifting readings
+back has to leave at most: far beyond chance, and not so little that friction would hide it."""
 SATURATED_LEAST_RUN = 20
 SATURATED_SHARE = 0.5
 SATURATED_NEAR_SIGMA = 1.5

@@ -16,6 +16,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
+from diagnosis.lost_counts import with_counts_restored
 from diagnosis.prepare.motion.averaging import averaged
 from diagnosis.prepare.noise.sensor_noise import estimate_noise
 from diagnosis.prepare.prepare import prepare
@@ -57,7 +58,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
-    log = averaged(log)
+    log = averaged(with_counts_restored(log, _nominal_gap))
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     told = far_claims(log.trials, log.rig.sensors.by_column())
@@ -73,6 +74,15 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     predictions = replay(begun, fit.parameterization.rig(fit.x))
     known = without_unused(log, begun)
     return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
+
+
+def _nominal_gap(log: RigLog) -> float:
+    """Root mean square of what the nominal rig leaves, in units of the claimed noise."""
+    prepared, _ = prepare(averaged(log))
+    claims = log.rig.sensors.by_column()
+    left = _residuals(prepared, replay(prepared))
+    each = [values / (claims[s] or 1.0) for s, parts in left.items() for _, values in parts]
+    return float(np.sqrt(np.nanmean(np.concatenate(each) ** 2))) if each else 0.0
 
 
 def _residuals(
