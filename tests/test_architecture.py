@@ -25,6 +25,7 @@ ROOMS = (
     "residuals",
     "effects",
     "fitting",
+    "lost_counts",
     "nominal_replay",
     "selection",
     "assessment",
