@@ -107,9 +107,15 @@ def _still(one: Screened, floor: float, inner: set[str]) -> bool:
 
 
 def _found(one: Screened, found: Sequence[Candidate]) -> bool:
-    """Whether its set was fitted, within its range, and leaves no more than this start promises."""
-    own = [c.fit for c in found if {*c.names} == {*one.names} and not c.fit.status.at_bound]
-    return any(fit.cost <= one.cost for fit in own)
+    """Whether its set was fitted, within its range, and leaves no more than this start promises.
+
+    The set that leaves least is not, where it ended far above the noise: it may have ended elsewhere.
+    """
+    own = [c for c in found if {*c.names} == {*one.names}]
+    least = min(found, key=lambda c: c.fit.cost, default=None)
+    if least in own and not least.floor.small and least.fit.status.ended_early:
+        return False
+    return any(c.fit.cost <= one.cost for c in own if not c.fit.status.at_bound)
 
 
 def _first_starts_first(ranked: Sequence[Screened]) -> list[Screened]:

@@ -11,6 +11,7 @@ from diagnosis.criteria import (
     NEAR_FLOOR,
     PROMISE_BROKEN,
 )
+from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection import fitting, screened_fits
 from diagnosis.selection.record import Decision
 from diagnosis.selection.screened_fits import fit_screened
@@ -120,6 +121,31 @@ def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made,
     _, record = fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
     assert len(made) == 1 + fitted
     assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
+
+
+@pytest.mark.parametrize(
+    ("left", "termination", "fitted"),
+    [
+        (2.0, Termination.FAR, True),
+        (1.0, Termination.FAR, False),  # at the floor
+        (2.0, Termination.STEP, False),
+    ],
+)
+def test_other_starts_of_what_leaves_least_are_fitted_where_it_ended_far_above_the_noise(
+    left, termination, fitted, made, monkeypatch
+):
+    inner = fitting.fit_in_turn
+
+    def fit_in_turn(*arguments, **keywords):
+        fit = inner(*arguments, **keywords)
+        return replace(fit, status=replace(fit.status, termination=termination))
+
+    monkeypatch.setattr(fitting, "fit_in_turn", fit_in_turn)
+    monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+    first = start_of(("stiction",), 0.9 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
+    again = start_of(("stiction",), 1.1 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
+    fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
+    assert len(made) == 1 + fitted
 
 
 @pytest.mark.parametrize("at_bound", [(), ("stiction.static",)])
