@@ -44,9 +44,16 @@ class ActsOn(StrEnum):
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"
     TORQUE_READING = "torque_reading"
+    TIP_GAIN = "tip_gain"
+    TORQUE_GAIN = "torque_gain"
 
 
-FACTORS = (ActsOn.TISSUE, ActsOn.STIFFNESS)  # a curve multiplies them; to others it is added
+FACTORS = (
+    ActsOn.TISSUE,
+    ActsOn.STIFFNESS,
+    ActsOn.TIP_GAIN,
+    ActsOn.TORQUE_GAIN,
+)  # a curve multiplies them; to others it is added
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,6 +11,8 @@ What its curves act on:
     drive_torque    the torque sensor reads the needle's torque + the curve, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
+    tip_gain        the tip sensor reads the tip's angle times the curve
+    torque_gain     the torque sensor reads the torque times the curve
 
 Dependence on the rate, angle or place of each piece of the shaft is a law of the tissue.
 """
@@ -37,7 +39,9 @@ _LEAST_FACTOR = 1e-3
 _MOST_SIDED = 0.99  # asymmetry
 _TORQUES = ("viscous_n_mm_s_per_mm", "kinetic_n_mm_per_mm", "orientation_n_mm_per_mm")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
-_SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
+_OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
+_GAINS = (ActsOn.TIP_GAIN, ActsOn.TORQUE_GAIN)
+_SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING, *_OF_TIP, ActsOn.TORQUE_GAIN)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -229,9 +233,11 @@ class FreeLaw:
                 more = torque_n_mm * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
                 read[False] = read[False] + more
             if curve.acts_on in _SENSORS:
-                of_tip = curve.acts_on is ActsOn.TIP_READING
+                of_tip = curve.acts_on in _OF_TIP
                 own = tip_deg if of_tip else torque_n_mm
-                if curve.variable is Variable.PAST:
+                if curve.acts_on in _GAINS:
+                    more = own * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
+                elif curve.variable is Variable.PAST:
                     more = curve.of_past(inputs.time_s, own)
                 elif curve.variable is Variable.TURNED_BY:
                     of_drive = curve.acts_on is ActsOn.DRIVE_TORQUE

@@ -2,7 +2,8 @@
 
     drive angle    needle at the chuck = drive shaft + a curve of time, angle, orientation or direction
     drive torque   the torque sensor also reads a curve of the drive's angle, rate or direction
-    sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal
+    sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal,
+                   or true value times a curve of time
 
 An offset of the tip that depends on the torque is a twist in addition to that of the nominal stiffness:
 it is more likely due to the needle than to the sensor.
@@ -27,7 +28,7 @@ from diagnosis.freeform.smooth_curve import (
     three_values,
     two_values,
 )
-from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.curve import FACTORS, ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
@@ -136,6 +137,8 @@ ADDED = (
     *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
     *_added(*_TORQUE, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
+    *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME),
+    *_added(ActsOn.TORQUE_GAIN, TORQUE, "gain of the torque sensor", SENSOR, _V.TIME),
 )
 
 
@@ -193,7 +196,7 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
         places=added.places,
         says=added.says,
         title=added.title,
-        curve=partial(_points, curve),
+        curve=partial(_factors if added.acts_on in FACTORS else _points, curve),
         x_unit=UNITS[added.variable],
         unit=_unit(added),
     )
@@ -203,7 +206,7 @@ def _scale(added: Added, ranges: LogRanges) -> float:
     """Of the coordinates of its curve."""
     if added.variable is Variable.PAST and added.of_the_drive:
         return ranges.deg_per_n_mm
-    shares = added.variable in (Variable.PAST, Variable.TURNED_BY)
+    shares = added.variable in (Variable.PAST, Variable.TURNED_BY) or added.acts_on in FACTORS
     return 1.0 if shares and added.acts_on is not ActsOn.DRIVE_TORQUE else _size(added, ranges)
 
 
@@ -218,9 +221,15 @@ def _unit(added: Added) -> str:
         return "deg / N mm"
     if added.variable in (Variable.PAST, Variable.TURNED_BY):
         return "N mm / deg" if added.acts_on is ActsOn.DRIVE_TORQUE else "-"
+    if added.acts_on in FACTORS:
+        return "-"
     if added.acts_on is ActsOn.DRIVE_SLIP:
         return "deg/s"
     return "N mm" if added.acts_on in (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING) else "deg"
+
+
+def _factors(curve: SmoothCurve, *c: float) -> Points:
+    return curve.places, curve.factors(c)
 
 
 def _points(curve: SmoothCurve, *c: float) -> Points:

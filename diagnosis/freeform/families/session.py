@@ -2,6 +2,7 @@
 
 - damping, dry friction, or the stiffness of the shaft, times a curve of the time since the first trial
   began: tissue that is warmed or dried, a needle that is
+- the gain of a sensor, likewise: an amplifier that warms up
 - damping times a curve of the turns since then: tissue that wears
 
 The log does not tell how long the pauses between trials were: they are fitted, one length for all.
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
@@ -30,6 +32,7 @@ Array = NDArray[np.float64]
 FEWEST_TRIALS = 3
 _PLACES = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _WORN = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
+_GAINS = {TIP: (ActsOn.TIP_GAIN, "tip"), TORQUE: (ActsOn.TORQUE_GAIN, "torque")}
 _LEAST_SPAN = 1e-6  # of a trial that does not turn
 _SHORTEST, _USUAL, _LONGEST = 0.01, 0.3, 10.0  # pause between trials, in their mean duration
 
@@ -114,6 +117,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
         *(_damping(session, ranges) for session in (of_time, *of_turns)),
         _friction(of_time, ranges),
         _stiffness(of_time),
+        *(_gain(of_time, sensor) for sensor in _GAINS if sensor in ranges.missing),
     )
 
 
@@ -200,6 +204,29 @@ def _stiffness(session: Session) -> Family:
 def _apply_stiffness(session: Session, rig: RigParameters, *c: float) -> RigParameters:
     curves = session.curves(c, ActsOn.STIFFNESS)
     return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))
+
+
+def _gain(session: Session, sensor: str) -> Family:
+    acts_on, what = _GAINS[sensor]
+    return Family(
+        effect=Effect(
+            name=f"{what} gain over time, of the session",
+            title=f"gain of the {what} sensor that changes with the time of all trials",
+            place=Place.SENSOR,
+            parameters=session.parameters,
+            apply=partial(_apply_gain, session, acts_on),
+        ),
+        places=SENSOR,
+        says="time",
+        title=f"gain of the {what} sensor",
+        curve=partial(_points, session, 1.0),
+        x_unit="s of the session",
+        unit="-",
+    )
+
+
+def _apply_gain(session: Session, acts_on: ActsOn, rig: RigParameters, *c: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(curves=session.curves(c, acts_on)))
 
 
 def _points(session: Session, size: float, *values: float) -> Points:

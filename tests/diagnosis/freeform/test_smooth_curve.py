@@ -149,12 +149,22 @@ def test_the_signs_of_a_two_sided_curve_differ_by_a_jump_and_a_slope_alone():
     assert (values[6], values[7]) == (pytest.approx(0.3), pytest.approx(0.7))
 
 
+ADDED = {
+    ActsOn.DRIVE_ANGLE,
+    ActsOn.DRIVE_SLIP,
+    ActsOn.INSERTED_LENGTH,
+    ActsOn.DRIVE_TORQUE,
+    ActsOn.TIP_READING,
+    ActsOn.TORQUE_READING,
+}
+
+
 @pytest.mark.parametrize("acts_on", ActsOn)
 def test_in_a_law_a_curve_is_of_factors_where_it_multiplies_and_else_of_values(acts_on):
     curve, c = periodic_curve(360.0), (0.4, -0.2, 0.1)
     c = (*c, *[0.0] * (curve.size - len(c)))
     own = curve.acting_on(acts_on, Variable.BASE_ANGLE, c)
-    multiplies = acts_on in (ActsOn.TISSUE, ActsOn.STIFFNESS)
+    multiplies = acts_on not in ADDED
     expected = np.exp(curve.values(c)) if multiplies else curve.values(c)
     np.testing.assert_allclose(own.values, expected)
     assert own.places == tuple(curve.places)

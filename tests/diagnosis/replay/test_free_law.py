@@ -13,7 +13,13 @@ from sim.schedule import Schedule
 TIME = np.arange(0, 10, 0.01)
 TIP, TORQUE = 20.0 * np.sin(TIME), 0.1 * np.cos(TIME)
 PLACES, VALUES = (0.0, 2.0, 3.0, 8.0), (1.0, 1.0, 4.0, 2.0)
-READ = (ActsOn.DRIVE_TORQUE, ActsOn.TIP_READING, ActsOn.TORQUE_READING)
+READ = (
+    ActsOn.DRIVE_TORQUE,
+    ActsOn.TIP_READING,
+    ActsOn.TORQUE_READING,
+    ActsOn.TIP_GAIN,
+    ActsOn.TORQUE_GAIN,
+)
 LAYER = Interface(viscous_n_mm_s_per_mm=0.02, kinetic_n_mm_per_mm=0.001)
 
 

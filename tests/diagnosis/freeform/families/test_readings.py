@@ -123,3 +123,11 @@ def test_an_offset_over_the_torque_is_more_likely_a_twist_of_the_needle():
     assert units["tip reading over past"] == "-"
     over_time = FAMILIES["tip reading over time"]
     assert np.isfinite(over_time.curve(*[0.0] * len(over_time.effect.parameters))[1]).all()
+
+
+def test_a_gain_that_does_not_change_is_a_wrong_gain():
+    for name, scale in (("tip", "tip_angle_scale"), ("torque", "torque_scale")):
+        gained = LIBRARY[scale].apply(NOMINAL, 1.1)
+        assert same_readings(ANGLE, rig_of(f"{name} gain over time", np.log(1.1)), gained)
+        _, factors = FAMILIES[f"{name} gain over time"].curve(np.log(1.1), *[0.0] * 11)
+        np.testing.assert_allclose(factors, 1.1)

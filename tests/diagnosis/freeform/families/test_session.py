@@ -8,7 +8,9 @@ import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import DAMPING, covered_by
 
+from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.families.readings import TIP, TORQUE
 from diagnosis.freeform.families.session import FEWEST_TRIALS, families
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import predict
@@ -18,13 +20,16 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 ANGLE = turns(6.0)
 REST = np.zeros(ANGLE.size)
 LASTS_S = 0.01 * (ANGLE.size - 1)
-FAMILIES = {f.name: f for f in families(covered_by([(ANGLE, ANGLE, (REST, REST))] * 3))}
+RANGES = covered_by([(ANGLE, ANGLE, (REST, REST))] * 3)
+BOTH = replace(RANGES, missing={TIP: 2.0, TORQUE: 0.3})
+FAMILIES = {f.name: f for f in families(BOTH)}
 TIME, TURNS, DRY, STIFF = (
     "damping over time, of the session",
     "damping over history, of the session",
     "dry friction over time, of the session",
     "stiffness over time, of the session",
 )
+GAINS = ("tip gain over time, of the session", "torque gain over time, of the session")
 
 
 def reads(rig, number):
@@ -50,7 +55,30 @@ def law_of(name, *c, pause_s=PAUSE_S):
 
 def test_of_two_trials_no_session_is_told():
     assert families(covered_by([(ANGLE, ANGLE, (REST, REST))] * (FEWEST_TRIALS - 1))) == ()
-    assert set(FAMILIES) == {TIME, TURNS, DRY, STIFF}
+    assert set(FAMILIES) == {TIME, TURNS, DRY, STIFF, *GAINS}
+
+
+@pytest.mark.parametrize("name", ["tip", "torque"])
+def test_a_gain_that_is_the_same_in_all_trials_is_a_wrong_gain(name):
+    family = FAMILIES[f"{name} gain over time, of the session"]
+    rig = family.effect.apply(NOMINAL, *law_of(family.name, np.log(1.1)))
+    scale = "tip_angle_scale" if name == "tip" else "torque_scale"
+    for number in (1, 3):
+        assert same(rig, LIBRARY[scale].apply(NOMINAL, 1.1), number)
+    assert family.place is Place.SENSOR
+
+
+def test_a_gain_that_grows_does_so_from_trial_to_trial():
+    """A straight line of the logarithm over the session, from -0.1 to 0.1."""
+    name = GAINS[0]
+    session_s = 3 * LASTS_S + 2 * PAUSE_S
+    growing = FAMILIES[name].effect.apply(NOMINAL, *law_of(name, 0.0, 0.1))
+    for number in (1, 2, 3):
+        found, plain = reads(growing, number), reads(NOMINAL, number)
+        end_s = number * LASTS_S + (number - 1) * PAUSE_S
+        factor = np.exp(0.1 * (2.0 * end_s / session_s - 1.0))
+        assert found.tip_angle_deg[-1] == pytest.approx(factor * plain.tip_angle_deg[-1], rel=2e-3)
+        np.testing.assert_array_equal(found.base_torque_n_mm, plain.base_torque_n_mm)
 
 
 @pytest.mark.parametrize("name", [TIME, TURNS])
@@ -98,7 +126,12 @@ def test_what_wears_is_the_interface_and_what_dries_the_tissue():
         TURNS: (Place.INTERFACE, "history"),
         DRY: (Place.TISSUE, "time"),
         STIFF: (Place.PARAMETERS, "time"),
+        **dict.fromkeys(GAINS, (Place.SENSOR, "time")),
     }
+
+
+def test_a_sensor_that_was_not_read_has_no_gain():
+    assert {f.name for f in families(replace(BOTH, missing={TIP: 2.0}))} == {*FAMILIES} - {GAINS[1]}
 
 
 def test_a_weaker_law_changes_the_stiffness_less():
