@@ -99,7 +99,10 @@ LOST_COUNTS_BESIDE = 3
 LOST_COUNTS_SIGMA, LOST_COUNTS_LEAST_DEG = 10.0, 0.3
 """Moves of the base on either side of a jump of its reading; least size of a jump that is looked at, in
 what usual moves are beyond those beside them, and in deg. Choices: the other sensors decide."""
-LOST_COUNTS_MOST, LOST_COUNTS_LEAVES = 3, 0.95
+LOST_COUNTS_STEADY, LOST_COUNTS_STEP = 0.3, 1.5
+"""Range of the moves on either side of a jump, in its size: more is a turn that gains speed; time from
+one sample to the next, in the median: more is a gap."""
+LOST_COUNTS_MOST, LOST_COUNTS_LEAVES = 3, 0.9
 """Jumps of a log that are looked at, largest first; share of the gap of a trial that shifting readings
 back has to leave at most: far beyond chance, and not so little that friction would hide it."""
 SATURATED_LEAST_RUN = 20

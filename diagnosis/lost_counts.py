@@ -4,9 +4,10 @@ Between two samples the reading moves by more than on either side,
 
     jump = move - move clipped to what lies between the medians of a few moves before and after it,
 
-far beyond its scatter. Whether the shaft has moved so is for the other sensors to say: where the nominal
-rig leaves clearly less of them once the readings after the jump are shifted back, counts were lost.
-A fast turn of the shaft would leave far more.
+far beyond its scatter, while moves on either side are steady: a shaft gains speed over several. Across
+a gap in the time nothing is told. Whether the shaft has moved so is for the other sensors to say: where
+the nominal rig leaves clearly less of them once the readings after the jump are shifted back, counts
+were lost. A fast turn of the shaft would leave far more.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,6 +23,8 @@ from diagnosis.criteria import (
     LOST_COUNTS_LEAVES,
     LOST_COUNTS_MOST,
     LOST_COUNTS_SIGMA,
+    LOST_COUNTS_STEADY,
+    LOST_COUNTS_STEP,
 )
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
@@ -68,12 +71,12 @@ def _jumps(log: RigLog) -> list[_Jump]:
     found = [
         jump
         for number, trial in enumerate(log.trials)
-        for jump in _jumps_of(trial[_BASE], number, sigma_deg)
+        for jump in _jumps_of(trial["time_s"], trial[_BASE], number, sigma_deg)
     ]
     return sorted(found, key=lambda jump: -abs(jump.size_deg))[:LOST_COUNTS_MOST]
 
 
-def _jumps_of(base_deg: Array, number: int, sigma_deg: float) -> Iterator[_Jump]:
+def _jumps_of(time_s: Array, base_deg: Array, number: int, sigma_deg: float) -> Iterator[_Jump]:
     moves, beside = np.diff(base_deg), LOST_COUNTS_BESIDE
     if moves.size < 4 * beside:
         return
@@ -83,8 +86,17 @@ def _jumps_of(base_deg: Array, number: int, sigma_deg: float) -> Iterator[_Jump]
     jumps = moves[here] - np.clip(moves[here], np.minimum(before, after), np.maximum(before, after))
     scatter = max(float(np.median(np.abs(jumps[jumps != 0.0]))) if jumps.any() else 0.0, sigma_deg)
     least = max(LOST_COUNTS_SIGMA * scatter, LOST_COUNTS_LEAST_DEG)
-    for i in np.flatnonzero(np.abs(jumps) > least):
+    steady = np.maximum(_range_of(moves, here - beside), _range_of(moves, here + 1))
+    steps_s = np.diff(time_s)
+    even = steps_s[here] < LOST_COUNTS_STEP * np.median(steps_s)
+    sure = even & (np.abs(jumps) > least) & (steady < LOST_COUNTS_STEADY * np.abs(jumps))
+    for i in np.flatnonzero(sure):
         yield _Jump(number=number, sample=int(here[i]) + 1, size_deg=float(jumps[i]))
+
+
+def _range_of(moves: Array, first: NDArray[np.intp]) -> Array:
+    """Largest less smallest of a few moves from each of the first ones on, (N,)."""
+    return np.asarray(np.ptp(sliding_window_view(moves, LOST_COUNTS_BESIDE)[first], axis=1))
 
 
 def _shifted(trial: Trial, jump: _Jump) -> Trial:

@@ -61,3 +61,12 @@ def test_what_takes_off_little_decides_nothing(exact):
 
 def test_a_smooth_log_asks_for_no_simulation(exact):
     assert with_counts_restored(exact, pytest.fail) is exact
+
+
+def test_across_a_gap_in_the_time_nothing_is_told(exact):
+    """A shaft that turns evenly moves by more across rows that are missing."""
+    trial = exact.trials[0]
+    turning = trial.table.assign(base_angle_deg=40.0 * trial["time_s"])
+    gap = turning.drop(index=range(AT, AT + 8)).reset_index(drop=True)
+    log = replace(exact, trials=(replace(trial, table=gap),))
+    assert with_counts_restored(log, pytest.fail) is log
