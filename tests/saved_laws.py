@@ -32,6 +32,8 @@ EVERYTHING = replace(
     along_depth=AlongDepth(damping=(1.0, 2.0), thicknesses_mm=(30.0,)),
     stiffness_along=(1.0, 0.8, 1.0),
     stiffness_along_mm=150.0,
+    creep_ratio=0.3,
+    creep_time_s=2.0,
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""

@@ -1,6 +1,7 @@
 """From a log to a diagnosis."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -18,9 +19,10 @@ from diagnosis.nominal_replay import replay_nominal
 from diagnosis.pipeline import diagnose
 from diagnosis.replay import replay as replaying
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import search
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdict import VerdictKind, verdict_on
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 
@@ -30,6 +32,28 @@ DRY = RigParameters(kinetic_n_mm_per_mm=0.001)
 def test_dry_friction_is_found_where_others_would_see_damping(dry):
     verdict = dry.found.verdict
     assert (verdict.kind, verdict.effects) == (VerdictKind.EXPLAINED, ("coulomb_friction",))
+
+
+def test_what_is_missing_of_a_refuted_explanation_is_looked_for_without_drift(monkeypatch):
+    """A drift would hide a part of it; the explanation is told as it is without."""
+    nominal = replay_nominal(log_of(DRY, speed=-1.0, seconds=8.0))
+    drifting = replace(nominal.problem.noise, torque_drift_n_mm=0.05)
+    fine = replace(nominal.problem, noise=drifting)
+    coarse = replace(start_of_search(nominal.log, ()).coarse, noise=drifting)
+    fit = fit_effects(fine, ("coulomb_friction",))
+    verdict = replace(verdict_on([candidate(fit)]), kind=VerdictKind.EXPLAINED)
+    form = SimpleNamespace(title="dry friction along the shaft", says="rate")
+    monkeypatch.setattr(pipeline, "other_form", lambda *_: form)
+    judged = pipeline.Judged(problem=fine, coarse=coarse, verdict=verdict, record=())
+    found = pipeline._of_another_form(judged, nominal, Workers())
+    assert found.verdict.kind is VerdictKind.UNKNOWN
+    assert found.verdict.other_form == "dry friction along the shaft that depends on the rate of turning"
+    for problem in (found.problem, found.coarse):
+        assert problem.noise.torque_drift_n_mm == 0.0
+    left = found.problem.residuals([fit.parameterization.rig(fit.x)])
+    cost = fit.prior + sum(float(own[0] @ own[0]) for own in left)
+    assert found.verdict.best.fit.cost == pytest.approx(cost, rel=1e-6)
+    assert fit.cost < 0.999 * cost
 
 
 def test_the_nominal_rig_is_replayed_once(dry):

@@ -15,7 +15,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
-from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.ranges import LEAST_PAST_S, LONGEST_PAST_S, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve, two_sided_curve
 from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
@@ -178,8 +178,8 @@ def _creeping() -> Family:
     time = Parameter(
         name="time",
         unit="s",
-        low=0.05,
-        high=60.0,
+        low=LEAST_PAST_S,
+        high=LONGEST_PAST_S,
         start=_CREEPS_S,
         logarithmic=True,
         neutral=None,

@@ -69,10 +69,6 @@ def _of_size(x: Array, a: float, b: float) -> Array:
     return a + b * np.abs(x)
 
 
-def _bent_line(x: Array, a: float, below: float, above: float) -> Array:
-    return np.asarray(a + np.where(x < 0, below, above) * x)
-
-
 def _hyperbola(x: Array, a: float, half: float) -> Array:
     return np.asarray(a / (1.0 + np.abs(x / half)))
 
@@ -91,12 +87,6 @@ def _stribeck(x: Array, kinetic: float, excess: float, rate: float, damping: flo
 
 def _slope(x: Array, y: Array) -> float:
     return float((y[-1] - y[0]) / (x[-1] - x[0]))
-
-
-def _slopes_either_way(x: Array, y: Array) -> tuple[float, ...]:
-    """Value at 0, and the slopes below and above, by least squares."""
-    columns = np.stack([np.ones(x.size), np.minimum(x, 0.0), np.maximum(x, 0.0)], axis=1)
-    return tuple(float(value) for value in np.linalg.lstsq(columns, y)[0])
 
 
 def _largest_jump(x: Array, y: Array) -> float:
@@ -184,12 +174,6 @@ OF_BOTH_SIGNS = (
         says="{0:.3g} at 0, changing by {1:+.3g} per unit either way",
         law=_of_size,
         start=lambda x, y: (float(y[np.argmin(np.abs(x))]), float(np.polyfit(np.abs(x), y, 1)[0])),
-    ),
-    Shape(
-        name="line with another slope either way",
-        says="{0:.3g} at 0, changing by {1:+.3g} per unit below and {2:+.3g} above",
-        law=_bent_line,
-        start=_slopes_either_way,
     ),
 )
 _WAVE = Shape(

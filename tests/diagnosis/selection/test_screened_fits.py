@@ -123,6 +123,18 @@ def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made,
     assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
 
 
+def one_by_one(monkeypatch, **ending):
+    """Fits are made one after the other, and end as stated."""
+    inner = fitting.fit_in_turn
+
+    def fit_in_turn(*arguments, **keywords):
+        fit = inner(*arguments, **keywords)
+        return replace(fit, status=replace(fit.status, **ending))
+
+    monkeypatch.setattr(fitting, "fit_in_turn", fit_in_turn)
+    monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+
+
 @pytest.mark.parametrize(
     ("left", "termination", "fitted"),
     [
@@ -134,14 +146,7 @@ def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made,
 def test_other_starts_of_what_leaves_least_are_fitted_where_it_ended_far_above_the_noise(
     left, termination, fitted, made, monkeypatch
 ):
-    inner = fitting.fit_in_turn
-
-    def fit_in_turn(*arguments, **keywords):
-        fit = inner(*arguments, **keywords)
-        return replace(fit, status=replace(fit.status, termination=termination))
-
-    monkeypatch.setattr(fitting, "fit_in_turn", fit_in_turn)
-    monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+    one_by_one(monkeypatch, termination=termination)
     first = start_of(("stiction",), 0.9 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
     again = start_of(("stiction",), 1.1 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
     fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
@@ -150,14 +155,7 @@ def test_other_starts_of_what_leaves_least_are_fitted_where_it_ended_far_above_t
 
 @pytest.mark.parametrize("at_bound", [(), ("stiction.static",)])
 def test_other_starts_of_what_came_to_the_floor_at_a_bound_are_fitted(at_bound, made, monkeypatch):
-    inner = fitting.fit_in_turn
-
-    def fit_in_turn(*arguments, **keywords):
-        fit = inner(*arguments, **keywords)
-        return replace(fit, status=replace(fit.status, at_bound=at_bound))
-
-    monkeypatch.setattr(fitting, "fit_in_turn", fit_in_turn)
-    monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+    one_by_one(monkeypatch, at_bound=at_bound)
     first = start_of(("stiction",), 0.9 * FITTED_SAMPLES, FITTED_SAMPLES)
     again = start_of(("stiction",), 2 * NEAR_FLOOR * FITTED_SAMPLES, 0.9 * FITTED_SAMPLES)
     fit_screened("single effects", NO_LOG, [first, again], 9, Workers())

@@ -84,13 +84,10 @@ def test_a_plain_law_is_recognised_with_its_parameters(shape, variable, x, law, 
         noise = np.random.default_rng(seed).normal(0, sigma, x.size)
         like = likeness_of(curve(x, clean + noise, half, variable=variable))
         assert like is not None
-        if like.shape != shape:
-            continue
+        assert like.shape == shape
         says = re.sub("37 %|at 0,|1 rad", "", like.says)  # numbers of the words
         numbers = re.findall(r"[-+]?\d+\.?\d*(?:e[-+]\d+)?", says)
         told.append([float(n) for n in numbers[: len(parameters)]])
-    # A law with one parameter more leaves so much less by chance in 0.5 % of curves: two of ten, hardly.
-    assert len(told) >= len(SEEDS) - 1
     # Three digits are told; Stribeck's damping is fitted too, so that the others are less certain.
     away = np.abs(np.array(told) - parameters) - 0.005 * np.abs(parameters)
     assert (away < 5 * errors).all()

@@ -14,7 +14,6 @@ SAMPLE = {  # by name: parameters of a curve of that law
     "Stribeck friction": (0.4, 0.3, 0.5, 0.1),
     "constant": (0.3,),
     "line in the size of the variable": (0.3, -0.1),
-    "line with another slope either way": (0.3, -0.1, 0.4),
     "parabola": (0.3, -0.1, 0.2),
     "cubic": (0.3, -0.1, 0.2),
     "hyperbola": (0.3, 0.8),
@@ -50,14 +49,6 @@ def test_a_step_starts_where_the_curve_jumps():
     assert start[0] == pytest.approx(level, abs=1e-6)
     assert start[1] == pytest.approx(height, abs=1e-6)
     assert abs(start[2] - at) <= X[1] - X[0]
-
-
-def test_a_line_with_another_slope_either_way_starts_from_both_slopes():
-    shape = next(s for s in OF_BOTH_SIGNS if s.name.startswith("line with another"))
-    x = np.linspace(-2.0, 3.0, 11)
-    values = SAMPLE[shape.name]
-    np.testing.assert_allclose(shape.start(x, shape.law(x, *values)), values)
-    assert shape.law(np.array([-1.0, 1.0]), *values) == pytest.approx([0.4, 0.7])
 
 
 @pytest.mark.parametrize("cycles", [1, 2, 3, 4])

@@ -54,6 +54,25 @@ def test_a_drift_that_a_sensor_may_have_explains_a_log():
     assert Decision.KEPT in [e.decision for e in after.record if e.stage == STAGE]
 
 
+def jumped(size_sigma):
+    """The same with a torque that jumps by so many sigma in the middle, and stays off."""
+    log = log_of(NOMINAL, seconds=14.0)
+    (one,) = log.trials
+    table = one.table.copy()
+    table.loc[len(table) // 2 :, "base_torque_n_mm"] += size_sigma * 0.015
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+@pytest.mark.parametrize("size_sigma", [0.6, 2.0])
+def test_one_jump_is_no_drift(size_sigma):
+    """A drift would bring it to the noise; of one that is a line it is the other way round."""
+    before, after = searched(jumped(size_sigma))
+    assert not before.best.floor.reached
+    assert after.problem is before.problem
+    (entry,) = [e for e in after.record if e.stage == STAGE]
+    assert (entry.decision, "jump" in entry.reason) == (Decision.DROPPED, True)
+
+
 @pytest.mark.parametrize(
     ("names", "decision"),
     [
