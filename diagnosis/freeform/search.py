@@ -37,9 +37,9 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "finalists, free-form laws",
 )
 FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
-WORTH_MORE = 15  # families that get more than the first iteration
-IN_REACH = 3.0  # times the least gap that one promises
-CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 10, 3, 2, 4
+WORTH_MORE = 10  # families that get more than the first iteration
+IN_REACH = 2.5  # times the least gap that one promises
+CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 6, 3, 2, 4
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
 FINAL_SIGMA = 0.1  # tolerance: a curve has a band of two of these
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2

@@ -62,4 +62,4 @@ def _fits(
         fits = free_form_fits(problem, coarse, companions, workers)
     except (SimulationFailed, StoppedEarly):
         return ()
-    return fits if workers.stop.due else with_plain_laws(problem, fits, workers)
+    return fits if workers.stop.due else with_plain_laws(problem, coarse, fits, workers)

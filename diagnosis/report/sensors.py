@@ -3,6 +3,7 @@
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.result import Diagnosis
 
@@ -22,9 +23,10 @@ def imperfections(found: Diagnosis) -> str:
 
 
 def _jumped(jump: ReadingJump) -> str:
+    why = "its zero had shifted" if jump.sensor == TORQUE else "counts were lost"
     return (
         f"a jump of {jump.sensor} by {jump.size:+.3g} {jump.unit} at {jump.time_s:g} s in {jump.trial}, "
-        "which stays, as if counts were lost"
+        f"which stays, as if {why}"
     )
 
 

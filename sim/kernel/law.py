@@ -187,7 +187,7 @@ def _slip_tolerance(row: Array, extra: float) -> tuple[float, float]:
     if dry > 0.0 or 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
         return 1e-13, 1.0
     if row[memory_map.L_CONTACT] != 0.0 or row[memory_map.L_RATE_STEP] > 0.0:
-        return 1e-11, 1.0
+        return 1e-6, 1.0
     if row[memory_map.L_EXPONENT] != 1.0:
         return 1e-7, row[memory_map.L_PLATEAU]
     return math.inf, 1.0

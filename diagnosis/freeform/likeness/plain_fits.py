@@ -1,8 +1,9 @@
 """Plain laws in place of the free-form curves that resemble them, fitted through the simulation.
 
 A plain law has few parameters, so it also tells what happens where no other trial has been. The curves
-of the likeliest fits are looked at; where one resembles plain laws, the best of these is fitted in its
-place. It is dropped if it leaves more than its fewer parameters are worth.
+of the likeliest fits are looked at; where one resembles plain laws, these are fitted to the decimated log,
+and the best of them to the log in its place. It is dropped if it leaves more than its fewer parameters are
+worth.
 
 A trial is predicted by the plain law if the other trials determine that; if they do not, by the curve,
 whose prior knows how little they tell.
@@ -14,7 +15,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import FAR_GAP
+from diagnosis.criteria import PLAIN_GAP
+from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.likeness.likeness import recognised
@@ -28,40 +30,50 @@ Array = NDArray[np.float64]
 
 STAGE = "plain laws"
 MOST, SHAPES = 2, 4  # fits that are looked at, and plain laws that are tried of each, likeliest first
+ITERATIONS = 10  # on the decimated log
 DETERMINED = 100.0  # variance of a prediction, in that of the noise, mean over a trial
 
 
 def with_plain_laws(
-    problem: FitProblem, fits: Sequence[FreeFit], workers: Workers
+    problem: FitProblem, coarse: FitProblem, fits: Sequence[FreeFit], workers: Workers
 ) -> tuple[FreeFit, ...]:
-    """The fits, with plain laws in place of the curves that leave no less on unseen trials."""
-    near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= FAR_GAP][:MOST]
-    tasks = [Task(effects=f.fit.names, arguments=(problem, f)) for f in near]
+    """The fits, with plain laws in place of the curves that leave no less on unseen trials.
+
+    Args:
+      problem, coarse: the log itself, and decimated.
+    """
+    near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= PLAIN_GAP][:MOST]
+    tasks = [Task(effects=f.fit.names, arguments=(problem, coarse, f)) for f in near]
     found = zip(near, workers.each(STAGE, _as_plain, tasks), strict=True)
     plain = [(curve, f) for curve, f in found if isinstance(f, FreeFit)]
     replaced = [id(curve) for curve, f in plain if f.gap_after <= curve.gap_after]
     return (*(f for _, f in plain), *(f for f in fits if id(f) not in replaced))
 
 
-def _as_plain(problem: FitProblem, curve: FreeFit) -> FreeFit | None:
+def _as_plain(problem: FitProblem, coarse: FitProblem, curve: FreeFit) -> FreeFit | None:
     """The best fit of a plain law; None: the curve resembles none, or that leaves more."""
     law = law_of(curve)
     parameterization = curve.fit.parameterization
     own = np.array([owner == curve.family.name for owner in parameterization.owners])
     values = np.array(parameterization.values(curve.fit.x))[own]
     families = [plain_family(curve.family, values, law, shape) for shape in recognised(law)[:SHAPES]]
-    fits = [_fitted(problem, curve, family) for family in families if family]
-    best = min(fits, key=lambda f: f.score, default=curve)
-    if best.score >= curve.score or best.family.shape == LEVEL:
+    near = [fitted_near(coarse, curve, family) for family in families if family]
+    nearest = min(near, key=lambda f: f.score, default=None)
+    if nearest is None or nearest.family.shape == LEVEL:
         return None  # what is level does not depend on the variable
+    best = fitted_and_checked(problem, nearest, nearest.fit.x)
+    if best.score >= curve.score:
+        return None
     return replace(best, held_out=_each_by_what_is_determined(best, curve))
 
 
-def _fitted(problem: FitProblem, curve: FreeFit, family: Family) -> FreeFit:
-    vector = with_family(problem, family).parameterization((family.name, *curve.beside))
+def fitted_near(coarse: FitProblem, curve: FreeFit, family: Family) -> FreeFit:
+    """A plain law in place of the curve, fitted to the decimated log."""
+    own, names = with_family(coarse, family), (family.name, *curve.beside)
     begun = np.array([p.to_fit(p.start[0]) for p in family.effect.parameters])
-    start = vector.joined({**curve.fit.parts, family.name: begun})
-    return fitted_and_checked(problem, replace(curve, family=family), start)
+    start = own.parameterization(names).joined({**curve.fit.parts, family.name: begun})
+    fit = fit_effects(own, names, start, most_iterations=ITERATIONS)
+    return replace(curve, family=family, fit=fit, final=False)
 
 
 def _each_by_what_is_determined(plain: FreeFit, curve: FreeFit) -> tuple[Array, ...] | None:

@@ -42,9 +42,12 @@ def refitted(monkeypatch):
     """Plain fits that leave so many times the gap of the curve: `refitted.times`."""
     given = SimpleNamespace(times=1.0, shapes=[])
 
-    def fitted(_, contender, start):
-        given.shapes.append(contender.family.shape)
-        x = start[: len(contender.family.effect.parameters)]
+    def near(_, curve, family):
+        given.shapes.append(family.shape)
+        x = np.array([p.to_fit(p.start[0]) for p in family.effect.parameters])
+        return fitted(_, replace(curve, family=family), x)
+
+    def fitted(_, contender, x):
         rows = [np.eye(SAMPLES, x.size)] * TRIALS
         left = [np.full(SAMPLES, given.times * contender.fit.gap)] * TRIALS
         readings = [j @ x - r for j, r in zip(rows, left, strict=True)]
@@ -52,8 +55,9 @@ def refitted(monkeypatch):
         return replace(contender, fit=fit, held_out=tuple(left), gap_after=1.0, final=True)
 
     problem, _ = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
+    monkeypatch.setattr(plain_fits, "fitted_near", near)
     monkeypatch.setattr(plain_fits, "fitted_and_checked", fitted)
-    given.of = lambda *fits: with_plain_laws(problem, fits, Workers())
+    given.of = lambda *fits: with_plain_laws(problem, problem, fits, Workers())
     return given
 
 
@@ -128,7 +132,7 @@ def test_cogging_of_the_drive_is_fitted_as_the_wave_that_it_is():
     nominal = replay_nominal(log_outside({"torque_ripple": ripple}))
     coarse = decimated(nominal.problem, nominal.predictions)
     curves = free_form_fits(nominal.problem, coarse, (), Workers())
-    best, *_ = with_plain_laws(nominal.problem, curves, Workers())
+    best, *_ = with_plain_laws(nominal.problem, coarse, curves, Workers())
     assert best.family.shape == "sine wave"
     _, amplitude, *_ = best.fit.parameterization.values(best.fit.x)
     spread = np.sqrt(np.diag(np.linalg.inv(best.fit.slopes.T @ best.fit.slopes)))
