@@ -100,20 +100,25 @@ def rough_curve(low: float, high: float, count: int) -> SmoothCurve:
     return SmoothCurve(places=np.linspace(low, high, count), basis=_beside(line, covariance), straight=2)
 
 
-def bent_curve(low: float, high: float, count: int = 8) -> SmoothCurve:
+def bent_curve(low: float, high: float, count: int = 8, *, close: bool = False) -> SmoothCurve:
     """A smooth curve that may bend at zero, where both signs of a variable may differ.
 
     Its straight part has one slope on each side. If the range has one sign only, it is a smooth curve.
+
+    Args:
+      close: changes near zero may be faster: places are closer there, as squares.
     """
     if not low < 0 < high:
         return smooth_curve(low, high, count)
-    places = np.linspace(low, high, count)
-    inner = places[1:-1]
+    most, power = max(-low, high), 2.0 if close else 1.0
+    ends = np.copysign(np.abs([low / most, high / most]) ** (1.0 / power), [low, high])
+    at = np.linspace(*ends, count)
+    inner = at[1:-1]
     inner[np.argmin(np.abs(inner))] = 0.0
-    u = places / max(-low, high)
-    covariance = np.exp(-((u[:, None] - u) ** 2) / (2 * _LENGTH**2))
+    u = np.copysign(np.abs(at) ** power, at)
+    covariance = np.exp(-((at[:, None] - at) ** 2) / (2 * _LENGTH**2))
     line = np.stack([np.ones(count), u, np.abs(u)], axis=1)
-    return SmoothCurve(places=places, basis=_beside(line, covariance), straight=3)
+    return SmoothCurve(places=most * u, basis=_beside(line, covariance), straight=3)
 
 
 def jumping_curve(low: float, high: float, count: int = 9) -> SmoothCurve:

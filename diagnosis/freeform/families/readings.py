@@ -22,6 +22,7 @@ from diagnosis.freeform.ripple import waves_in_a_turn
 from diagnosis.freeform.smooth_curve import (
     SmoothCurve,
     bent_curve,
+    jumping_curve,
     periodic_curve,
     separate_values,
     smooth_curve,
@@ -47,6 +48,7 @@ SIGNED = (
     Variable.AXIAL_SPEED,
 )
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
+_RATES = (Variable.RATE, Variable.TIP_RATE)  # friction changes fastest where these are small
 _OF_DIRECTION = {
     Variable.DIRECTION: two_values,
     Variable.TIP_DIRECTION: two_values,
@@ -167,8 +169,12 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:
         return _hysteresis(added, ranges)
-    curve = bent_curve if added.bent else smooth_curve
-    return curve(*ranges.ends[added.variable], PLACES)
+    ends = ranges.ends[added.variable]
+    if added.variable is Variable.AXIAL_SPEED:
+        return jumping_curve(*ends, PLACES)
+    if added.bent:
+        return bent_curve(*ends, PLACES, close=added.variable in _RATES)
+    return smooth_curve(*ends, PLACES)
 
 
 def _hysteresis(added: Added, ranges: LogRanges) -> SmoothCurve:
