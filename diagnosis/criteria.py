@@ -593,8 +593,8 @@ FAR_GAP = 4.0
 """Gap on the decimated log above which free-form laws are not fitted to their end on the log itself. Its
 samples are means, so that this is about 2 on the log. A choice: no verdict rests on it."""
 PLAIN_GAP = 2.0
-"""Gap on the log up to which plain laws are looked for in place of a free-form curve. A choice: no verdict
-rests on it."""
+"""Gap on the log up to which plain laws are looked for in place of a free-form curve. A choice: no
+verdict rests on it."""
 FAR_STEP = 1.5
 """Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and what
 comes nearest, or a free-form law, is fitted to the other trials instead. A choice: no verdict rests on

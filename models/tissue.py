@@ -11,9 +11,10 @@ stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
 
 Four more factors may shape a law: a curve of |s| on the viscous torque, a different strength in
 either direction, a factor that varies in time, and one of what the contact has been through. A
-torque may also depend on the shaft's angle,
+torque may also depend on the shaft's angle: of a bent shaft, and of one that is not round,
 
-    orientation sin(cycles theta - phase).
+    orientation sin(cycles theta - phase)
+    orientation_viscous s cos(cycles theta - phase).
 """
 
 import numpy as np
@@ -50,6 +51,8 @@ class Interface(Record):
     """None: tissue that does not yield."""
     time_constant_s: NonNegative = 0.0
     orientation_n_mm_per_mm: NonNegative = 0.0
+    orientation_viscous_n_mm_s_per_mm: NonNegative = 0.0
+    """At 1 rad/s, N mm s / rad per mm; beside at least as much viscous torque, it damps at any angle."""
     orientation_phase_deg: float = 0.0
     orientation_cycles: Positive = 1.0
     """In one turn of the shaft."""

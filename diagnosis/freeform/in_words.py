@@ -145,6 +145,8 @@ def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
 def period_deg(missing: Missing) -> float:
     """The angle after which the law repeats itself, deg; 0: it does not."""
     family, fit = missing.best.family, missing.best.fit
+    if family.x_unit != "deg":
+        return 0.0
     own = zip(fit.parameterization.values(fit.x), fit.parameterization.owners, strict=True)
     values = [float(value) for value, owner in own if owner == family.name]
     free = family.effect.apply(RigParameters(), *values).free or FreeLaw()

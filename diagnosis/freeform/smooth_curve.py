@@ -111,8 +111,7 @@ def bent_curve(low: float, high: float, count: int = 8, *, close: bool = False) 
     if not low < 0 < high:
         return smooth_curve(low, high, count)
     most, power = max(-low, high), 2.0 if close else 1.0
-    ends = np.copysign(np.abs([low / most, high / most]) ** (1.0 / power), [low, high])
-    at = np.linspace(*ends, count)
+    at = np.linspace(-((-low / most) ** (1.0 / power)), (high / most) ** (1.0 / power), count)
     inner = at[1:-1]
     inner[np.argmin(np.abs(inner))] = 0.0
     u = np.copysign(np.abs(at) ** power, at)

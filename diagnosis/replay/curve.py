@@ -37,6 +37,7 @@ class ActsOn(StrEnum):
     """What a curve changes."""
 
     TISSUE = "tissue"
+    ORIENTATION = "orientation"
     STIFFNESS = "stiffness"
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
@@ -108,7 +109,12 @@ class Curve:
         return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
 
     def times(self, strength: float) -> "Curve":
-        """The curve multiplied by a strength; factors are raised to that power."""
+        """The curve multiplied by a strength; factors are raised to that power.
+
+        One of the orientation stays: the law that it multiplies is multiplied.
+        """
+        if self.acts_on is ActsOn.ORIENTATION:
+            return self
         if self.acts_on in FACTORS:
             return replace(self, values=tuple(value**strength for value in self.values))
         return replace(self, values=tuple(value * strength for value in self.values))

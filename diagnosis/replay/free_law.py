@@ -3,6 +3,7 @@
 What its curves act on:
 
     tissue          the torque of tissue that varies is multiplied by the curve
+    orientation     so is that of laws of the shaft's angle which vary; the curve may be negative
     stiffness       so is the stiffness of the shaft: tissue that varies resists by so much less, and the
                     needle's torque is so much larger; exact without other torques and inertia
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
@@ -37,7 +38,12 @@ Array = NDArray[np.float64]
 
 _LEAST_FACTOR = 1e-3
 _MOST_SIDED = 0.99  # asymmetry
-_TORQUES = ("viscous_n_mm_s_per_mm", "kinetic_n_mm_per_mm", "orientation_n_mm_per_mm")
+_TORQUES = (
+    "viscous_n_mm_s_per_mm",
+    "kinetic_n_mm_per_mm",
+    "orientation_n_mm_per_mm",
+    "orientation_viscous_n_mm_s_per_mm",
+)
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
 _GAINS = (ActsOn.TIP_GAIN, ActsOn.TORQUE_GAIN)
@@ -198,7 +204,8 @@ class FreeLaw:
         curves = self._of_the_needle()
         if not curves:
             return inputs
-        factor, drive, deeper = np.ones(inputs.time_s.size), inputs.drive, np.zeros(inputs.time_s.size)
+        size = inputs.time_s.size
+        factor, wave, drive, deeper = np.ones(size), np.ones(size), inputs.drive, np.zeros(size)
         for curve in curves:
             if curve.variable is Variable.TURNED_BY:
                 drive = drive + curve.with_hysteresis(inputs.drive)
@@ -210,6 +217,8 @@ class FreeLaw:
             own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on is ActsOn.TISSUE:
                 factor = factor * own
+            elif curve.acts_on is ActsOn.ORIENTATION:
+                wave = wave * own
             elif curve.acts_on is ActsOn.STIFFNESS:
                 factor = factor / own
             elif curve.acts_on is ActsOn.INSERTED_LENGTH:
@@ -218,7 +227,7 @@ class FreeLaw:
                 drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
             else:
                 drive = drive + own
-        factor = np.maximum(factor, _LEAST_FACTOR)
+        factor = np.maximum(factor, _LEAST_FACTOR) * wave
         deeper = np.clip(deeper, -inputs.inserted_mm, inputs.free_mm)
         lengths = {"inserted_mm": inputs.inserted_mm + deeper, "free_mm": inputs.free_mm - deeper}
         return replace(inputs, drive=drive, tissue_factor=factor, **lengths)

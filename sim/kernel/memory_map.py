@@ -84,8 +84,9 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_STIFFNESS,  # tissue in series, N m / rad / m; 0: rigid
     L_TIME,  # its time constant, s
     L_CURVATURE,  # N m / m
+    L_WAVE,  # viscous torque times a wave over the angle, N m s / rad / m
     L_PHASE,  # rad
-    L_CYCLES,  # of the curvature's torque in one turn
+    L_CYCLES,  # of both in one turn
     L_LOAD,  # dry level over the torque that the shaft carries there
     L_SHAPED,  # 1: one of the following is not neutral
     L_VARIES,  # which part of it is times the input's factor; 0: none
@@ -118,7 +119,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(51)
+) = range(52)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, TWIST = 1.0, 2.0, 3.0  # what the curve is over; of the last PHI is the memory

@@ -57,7 +57,7 @@ def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
 
 
 def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
-    words = {4: "four", 10: "ten"}
+    words = {4: "four", 6: "six"}
     for said in (
         f"[(g² − {1 - FLOOR:g}) (r² − {1 - FLOOR:g})]^(−{1 / PATIENCE:g}) e^(−freedom / {FREEDOM:g})",
         f"the best {words[CONTENDERS]} to their",

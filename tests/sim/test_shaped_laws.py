@@ -134,6 +134,33 @@ def test_a_torque_that_depends_on_the_angle_twice_a_turn() -> None:
     assert steady_n_mm(run) == pytest.approx(0.05 * math.sin(angle), rel=1e-4)
 
 
+def test_a_torque_over_the_angle_varies_with_the_schedule_as_any_other() -> None:
+    law = Interface(orientation_n_mm_per_mm=0.05, varies=True)
+    damped = Interface(viscous_n_mm_s_per_mm=0.5)
+    tissue = Tissue(layers=(Layer(interface=Interface()),), at_tip=(law, damped))
+    time_s = np.linspace(0.0, 10.0, 1001)
+    for factor in (3.0, -2.0):
+        run = run_of(tissue, time_s, np.minimum(40.0 * time_s, 40.0), np.full(time_s.shape, factor))
+        torque = factor * 0.05 * math.sin(math.radians(run.tip_deg[-1]))
+        assert steady_n_mm(run) == pytest.approx(torque, rel=1e-4)
+
+
+def test_damping_may_depend_on_the_angle() -> None:
+    """At the tip alone, where the angle is that of the tip: (c + w cos(2 theta - phase)) omega."""
+    law = Interface(
+        viscous_n_mm_s_per_mm=0.5,
+        orientation_viscous_n_mm_s_per_mm=0.3,
+        orientation_cycles=2.0,
+        orientation_phase_deg=20.0,
+    )
+    run = turned(Tissue(layers=(Layer(interface=Interface()),), at_tip=(law,)))
+    rate = np.gradient(np.radians(run.tip_deg), run.time_s)
+    expected = (0.5 + 0.3 * np.cos(2 * np.radians(run.tip_deg) - math.radians(20.0))) * rate
+    later = run.time_s > 0.5 * run.time_s[-1]  # inertia has long settled
+    assert np.ptp(expected[later]) > 0.1 * np.max(expected)
+    np.testing.assert_allclose(run.base_torque_n_mm[later][:-1], expected[later][:-1], rtol=1e-2)
+
+
 def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
     assert RATE_POINTS == memory_map.CURVE_POINTS
     with pytest.raises(InvalidValue, match=r"rate_curve.*12 factors"):

@@ -165,16 +165,19 @@ def curve_of(added: Added, ranges: LogRanges) -> SmoothCurve:
         return periodic_curve(added.period_deg)
     if added.variable in _OF_DIRECTION:
         return _OF_DIRECTION[added.variable]()
-    if added.variable is Variable.PAST:
-        return separate_values(np.geomspace(*ranges.ends[Variable.PAST], PAST_PLACES))
     if added.variable is Variable.TURNED_BY:
         return _hysteresis(added, ranges)
-    ends = ranges.ends[added.variable]
+    return _over_the_range(added, *ranges.ends[added.variable])
+
+
+def _over_the_range(added: Added, low: float, high: float) -> SmoothCurve:
+    if added.variable is Variable.PAST:
+        return separate_values(np.geomspace(low, high, PAST_PLACES))
     if added.variable is Variable.AXIAL_SPEED:
-        return jumping_curve(*ends, PLACES)
+        return jumping_curve(low, high, PLACES)
     if added.bent:
-        return bent_curve(*ends, PLACES, close=added.variable in _RATES)
-    return smooth_curve(*ends, PLACES)
+        return bent_curve(low, high, PLACES, close=added.variable in _RATES)
+    return smooth_curve(low, high, PLACES)
 
 
 def _hysteresis(added: Added, ranges: LogRanges) -> SmoothCurve:

@@ -1,9 +1,9 @@
 """Plain laws in place of the free-form curves that resemble them, fitted through the simulation.
 
 A plain law has few parameters, so it also tells what happens where no other trial has been. The curves
-of the likeliest fits are looked at; where one resembles plain laws, these are fitted to the decimated log,
-and the best of them to the log in its place. It is dropped if it leaves more than its fewer parameters are
-worth.
+of the likeliest fits are looked at; where one resembles plain laws, these are fitted to the decimated
+log, and the best of them to the log in its place. It is dropped if it leaves more than its fewer
+parameters are worth.
 
 A trial is predicted by the plain law if the other trials determine that; if they do not, by the curve,
 whose prior knows how little they tell.

@@ -29,6 +29,7 @@ def is_linear(row: Array) -> bool:
         and row[memory_map.L_SHARED] == 0.0
         and row[memory_map.L_STIFFNESS] == 0.0
         and row[memory_map.L_CURVATURE] == 0.0
+        and row[memory_map.L_WAVE] == 0.0
         and row[memory_map.L_LOAD] == 0.0
         and row[memory_map.L_POINT] == 0.0
         and row[memory_map.L_SHAPED] == 0.0
@@ -153,9 +154,11 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
     stage = Stage(frame.g, frame.axial, frame.yield_angle, frame.factor)
     g, n = frame.g, omega.size - 1
     is_point, place, fraction = row[memory_map.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
-    load, curvature, phase = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_PHASE]
-    cycles = row[memory_map.L_CYCLES]
+    load, curvature, wave = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_WAVE]
+    cycles, phase = row[memory_map.L_CYCLES], row[memory_map.L_PHASE]
     factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
+    if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES:
+        curvature, wave = factor * curvature, factor * wave
     recoverable, stored = 0.0, 0.0
     for site in range(1 if is_point else 2 * n):
         e, k = (place, 0) if is_point else (site // 2, site % 2)
@@ -191,11 +194,12 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         stiffness = factor * weight * row[memory_map.L_STIFFNESS]
         stored += 0.5 * stiffness * new.phi * new.phi
         recoverable += stiffness * new.phi * (rate + advected - slip)
-        if curvature != 0.0:
+        if curvature != 0.0 or wave != 0.0:
             angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
-            torque += curvature * math.sin(angle)
-            slope += g * curvature * cycles * math.cos(angle)
-            recoverable += weight * curvature * math.sin(angle) * rate
+            sine, cosine, turning = math.sin(angle), math.cos(angle), rate + advected
+            torque += curvature * sine + wave * cosine * turning
+            slope += g * cycles * (curvature * cosine - wave * sine * turning) + wave * cosine
+            recoverable += weight * curvature * sine * rate
         tilt = g * per_length
         rhs[e] -= to_left * torque
         rhs[e + 1] -= to_right * torque

@@ -26,6 +26,7 @@ TISSUES = {
         asymmetry=0.3,
         rate_curve=(3.0, 2.5, 2.0, 1.7, 1.4, 1.2, 1.0, 0.9, 0.8, 0.75, 0.7, 0.65),
         orientation_n_mm_per_mm=0.003,
+        orientation_viscous_n_mm_s_per_mm=0.01,
         orientation_cycles=2.0,
     ),
     "entry": Tissue.uniform(viscous_n_mm_s_per_mm=0.02, entry_friction_n_mm=0.1),
