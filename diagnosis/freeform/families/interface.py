@@ -132,9 +132,14 @@ def _apply_friction(
     )
 
 
-def _rate(ranges: LogRanges) -> Family:
+def rates_of(ranges: LogRanges) -> tuple[float, float]:
+    """Lowest and highest rate of a curve over the rate of each piece of shaft, rad/s."""
     fastest = max(ranges.fastest_slip_rad_s, LEAST_RANGE[Variable.RATE])
-    rates = (SLOWEST * fastest, FASTEST * fastest)
+    return SLOWEST * fastest, FASTEST * fastest
+
+
+def _rate(ranges: LogRanges) -> Family:
+    rates = rates_of(ranges)
     curve = smooth_curve(0.0, 1.0, RATE_POINTS)
     beta = ranges.damping_n_mm_s_per_mm
 

@@ -1,6 +1,6 @@
 """Free laws of the tip, and of the angle of each piece of the shaft.
 
-- at the tip: drag and dry friction, which may differ between the directions
+- at the tip: drag times a curve of the rate, and dry friction, which may differ between the directions
 - at the tip: the same times a curve of the axial speed or the inserted length, as of a bevel that cuts,
   or of the angle, once a turn
 - at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
@@ -22,15 +22,16 @@ from diagnosis.freeform.families.interface import (
     TURN_DEG,
     WAVES,
     curve_over,
+    rates_of,
 )
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve
+from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve, smooth_curve
 from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
-from models.tissue import Interface
+from models.tissue import RATE_POINTS, Interface
 
 AT_TIP, ALONG = (1, 2, 3, 4), (1, 2)  # waves in a turn
 TORQUE_OVER = (Variable.AXIAL_SPEED, Variable.DEPTH)
@@ -57,34 +58,43 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _tip_rate(ranges: LogRanges) -> Family:
-    dry = _dry(ranges)
-
+    dry, rates = _dry(ranges), rates_of(ranges)
+    curve, drag = smooth_curve(0.0, 1.0, RATE_POINTS), _drag(ranges, len(dry.start))
+    neutral = (0.0,) * len(dry.start)
     return Family(
         effect=Effect(
             name="tip torque over rate",
             title="drag and dry friction in one place, at the tip",
             place=Place.NEEDLE,
             parameters=(
-                _drag(ranges, len(dry.start)),
+                replace(drag, start=(drag.scale,) * len(dry.start)),  # of no drag a curve tells nothing
                 dry,
-                Parameter(
-                    name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0,) * len(dry.start)
-                ),
+                Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=neutral),
+                *(replace(p, start=neutral) for p in coordinates_of(curve)),
             ),
-            apply=_apply_tip_rate,
+            apply=partial(_apply_tip_rate, curve, rates),
             differences=(1e-2,),
         ),
         places={Place.NEEDLE: 1.0},
         says="rate",
         title="torque at the tip",
-        curve=_at_rates,
+        curve=partial(_at_rates, curve, rates),
         x_unit="rad/s",
         unit="N mm",
     )
 
 
-def _at_rates(damping: float, level: float, side: float) -> Points:
-    own = damping * _SHOWN_RAD_S + level * np.sign(_SHOWN_RAD_S)
+def _at_rates(
+    curve: SmoothCurve,
+    rates: tuple[float, float],
+    damping: float,
+    level: float,
+    side: float,
+    *c: float,
+) -> Points:
+    places = np.log(np.geomspace(*rates, RATE_POINTS))
+    at = np.interp(np.log(np.abs(_SHOWN_RAD_S)), places, curve.values(c))
+    own = damping * np.exp(at) * _SHOWN_RAD_S + level * np.sign(_SHOWN_RAD_S)
     return _SHOWN_RAD_S, own * (1 + side * np.sign(_SHOWN_RAD_S))
 
 
@@ -104,8 +114,22 @@ def _dry(ranges: LogRanges) -> Parameter:
     return replace(along, unit="N mm", start=start, **each)
 
 
-def _apply_tip_rate(rig: RigParameters, damping: float, level: float, asymmetry: float) -> RigParameters:
-    law = Interface(viscous_n_mm_s_per_mm=damping, kinetic_n_mm_per_mm=level, asymmetry=asymmetry)
+def _apply_tip_rate(
+    curve: SmoothCurve,
+    rates: tuple[float, float],
+    rig: RigParameters,
+    damping: float,
+    level: float,
+    asymmetry: float,
+    *c: float,
+) -> RigParameters:
+    law = Interface(
+        viscous_n_mm_s_per_mm=damping,
+        kinetic_n_mm_per_mm=level,
+        asymmetry=asymmetry,
+        rate_curve=curve.factors(c),
+        rate_range_rad_s=rates,
+    )
     return replace(rig, free=FreeLaw(at_tip=(law,)))
 
 

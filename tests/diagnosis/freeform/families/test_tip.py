@@ -8,6 +8,7 @@ from free_forms import covered, same_readings
 from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.tip import families
 from diagnosis.replay.rig_parameters import NOMINAL
+from models.tissue import RATE_POINTS
 
 ANGLE = turns(6.0)
 FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
@@ -19,14 +20,17 @@ RATE, TIP_ANGLE, ALONG, UNEVEN = (
 )
 
 
+FLAT = (0.0,) * RATE_POINTS
+
+
 def rig_of(name, *values):
     return FAMILIES[name].effect.apply(NOMINAL, *values)
 
 
 def test_drag_in_one_place_at_the_tip_is_that_of_the_library():
     drag = LIBRARY["tip_drag"].apply(NOMINAL, 0.05)
-    assert same_readings(ANGLE, rig_of(RATE, 0.05, 1e-12, 0.0), drag)
-    assert not same_readings(ANGLE, rig_of(RATE, 0.05, 0.1, 0.0), drag)
+    assert same_readings(ANGLE, rig_of(RATE, 0.05, 1e-12, 0.0, *FLAT), drag)
+    assert not same_readings(ANGLE, rig_of(RATE, 0.05, 0.1, 0.0, *FLAT), drag)
 
 
 def test_once_a_turn_along_the_shaft_is_a_bent_needle():
@@ -52,13 +56,27 @@ def test_no_waves_are_the_rig_without(name, waves, without):
 
 
 def test_curves_are_told_as_torques():
-    rates, torque = FAMILIES[RATE].curve(0.2, 0.1, 0.5)
+    rates, torque = FAMILIES[RATE].curve(0.2, 0.1, 0.5, *FLAT)
     np.testing.assert_allclose(torque[-1], (0.2 * rates[-1] + 0.1) * 1.5)
     np.testing.assert_allclose(torque[0], -(0.2 * -rates[0] + 0.1) * 0.5)
     angles, waves = FAMILIES[ALONG].curve(1.0, 2.0, 3.0, 4.0)
     x = np.radians(angles)
     exact = np.sin(x) + 2 * np.cos(x) + 3 * np.sin(2 * x) + 4 * np.cos(2 * x)
     np.testing.assert_allclose(waves, exact)
+
+
+def test_drag_at_the_tip_may_depend_on_the_rate():
+    """With a curve that is straight over log rate: a power of the rate."""
+    family = FAMILIES[RATE]
+    law = family.effect.apply(NOMINAL, 0.2, 1e-12, 0.0, 0.0, 0.7, *FLAT[2:]).free.at_tip[0]
+    places = np.geomspace(*law.rate_range_rad_s, RATE_POINTS)
+    power = 1.4 / np.log(places[-1] / places[0])
+    middle = np.sqrt(places[0] * places[-1])
+    np.testing.assert_allclose(law.rate_curve, (places / middle) ** power)
+    rates, torque = family.curve(0.2, 0.0, 0.0, 0.0, 0.7, *FLAT[2:])
+    inside = (np.abs(rates) > places[0]) & (np.abs(rates) < places[-1])
+    expected = 0.2 * rates * (np.abs(rates) / middle) ** power
+    np.testing.assert_allclose(np.array(torque)[inside], expected[inside])
 
 
 def test_a_needle_that_hardly_turns_has_no_law_of_its_angle():
@@ -73,7 +91,7 @@ CUTTING = next(f for f in families(SLIDING) if f.name == "tip torque over axial_
 def test_a_torque_that_is_the_same_at_every_speed_is_the_one_that_does_not_change():
     flat = [0.0] * (len(CUTTING.effect.parameters) - 2)
     own, twice = (CUTTING.effect.apply(NOMINAL, 0.05, 0.1, *c) for c in (flat, [0.7] * len(flat)))
-    assert same_readings(ANGLE, own, rig_of(RATE, 0.05, 0.1, 0.0))
+    assert same_readings(ANGLE, own, rig_of(RATE, 0.05, 0.1, 0.0, *FLAT))
     assert not same_readings(ANGLE, twice, own)
 
 
