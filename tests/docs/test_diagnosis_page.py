@@ -18,7 +18,7 @@ from diagnosis.replay.variables import Variable
 
 PAGE = (Path(__file__).parents[2] / "docs" / "diagnosis.md").read_text()
 SECTION = PAGE.split("## When nothing explains the log")[1].split("\n## ")[0]
-FILES = sorted(path.stem for path in Path(folder.__file__).parent.glob("[a-z]*.py"))
+FILES = [name.removeprefix(f"{folder.__name__}.").replace(".", "/") for name in folder.files()]
 
 
 def told():
@@ -50,7 +50,7 @@ def test_the_variables_of_its_families_are_in_the_row_and_no_other(file):
     one = covered(angle, tip=angle + 1.0, torque=0.01 * angle, seen=(angle, np.zeros(angle.size)))
     softer = [Prediction(tip_angle_deg=0.9 * angle, base_torque_n_mm=0.01 * angle)]
     every = replace(three_times(one), ends=dict.fromkeys(Variable, (0.1, 1.0)), softer=3 * softer)
-    own = import_module(f"diagnosis.freeform.families.{file}").families(every)
+    own = import_module(f"{folder.__name__}.{file.replace('/', '.')}").families(every)
     assert own
     found = {match[1] for f in own if (match := re.search(r" over ([a-z_]+)", f.name))}
     assert found == told()[file]

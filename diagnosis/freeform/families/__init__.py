@@ -1,4 +1,4 @@
-"""Families of free-form laws: one file per place, found in this folder."""
+"""Families of free-form laws: one file per place, found in this folder and those in it."""
 
 import pkgutil
 from importlib import import_module
@@ -7,8 +7,13 @@ from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
 
 
+def files() -> list[str]:
+    """Modules that hold families."""
+    found = pkgutil.walk_packages(__path__, prefix=f"{__name__}.")
+    return sorted(m.name for m in found if not m.ispkg)
+
+
 def families_of(ranges: LogRanges) -> tuple[Family, ...]:
     """All families that the variables of a log allow."""
-    files = sorted(m.name for m in pkgutil.iter_modules(__path__))
-    modules = [import_module(f"{__name__}.{file}") for file in files]
+    modules = map(import_module, files())
     return tuple(family for module in modules for family in module.families(ranges))

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.events import (
+from diagnosis.freeform.families.in_time.events import (
     DIFFERENCES,
     Moment,
     around,

@@ -9,7 +9,7 @@ from free_forms import covered_by
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.changes import families, largest_change, strongest_wave_hz
+from diagnosis.freeform.families.in_time.changes import families, largest_change, strongest_wave_hz
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 

@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered, covered_by
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.events import around, events, families
+from diagnosis.freeform.families.in_time.events import around, events, families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(8.0)

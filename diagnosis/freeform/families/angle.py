@@ -1,0 +1,186 @@
+"""Free laws of the angle of each piece of the shaft.
+
+- at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
+  one and two waves per turn
+- at the tip: a torque towards one angle that depends on the axial speed, as of a bevel that is pushed
+- along the inserted shaft: damping that depends on the angle, as of a shaft that is not round
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.tip import AT_TIP_MM
+from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve
+from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import UNITS, Variable
+from models.tissue import Interface
+
+AT_TIP, ALONG = (1, 2, 3, 4), (1, 2)  # waves in a turn
+_SHOWN_DEG = np.linspace(-180.0, 180.0, 49)
+_MOST_UNEVEN = 0.95  # of the damping, that it changes over a turn
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """Families of laws that depend on the angle of the shaft; none if it hardly turns."""
+    if Variable.BASE_ANGLE not in ranges.ends:
+        return ()
+    found = [_angle(ranges, tip=True), _angle(ranges, tip=False), _uneven_damping(ranges)]
+    if Variable.AXIAL_SPEED in ranges.ends:
+        found.append(_pushed(ranges))
+    return tuple(found)
+
+
+def _angle(ranges: LogRanges, *, tip: bool) -> Family:
+    """A torque over the angle, with sine and cosine of each wave as coordinates."""
+    size = _level(ranges) * (AT_TIP_MM if tip else 1.0)
+    where, waves = ("tip torque", AT_TIP) if tip else ("torque along the shaft", ALONG)
+
+    return Family(
+        effect=Effect(
+            name=f"{where} over tip_angle",
+            title=f"{where} that depends on its angle",
+            place=Place.NEEDLE,
+            parameters=coordinates(2 * len(waves), 0, size),
+            apply=partial(_apply_angle, waves, tip),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="tip_angle",
+        title=where,
+        curve=partial(_over_a_turn, waves),
+        x_unit="deg",
+        unit="N mm" if tip else "N mm / mm",
+    )
+
+
+def _level(ranges: LogRanges) -> float:
+    """Of strong friction, N mm / mm."""
+    return ranges.library["coulomb_friction"].parameters[0].start[-1]
+
+
+def _pushed(ranges: LogRanges) -> Family:
+    """A torque towards one angle, which is proportional to the axial speed to start with."""
+    curve = jumping_curve(*ranges.ends[Variable.AXIAL_SPEED])
+    proportional = curve.coordinates(curve.places / np.abs(curve.places).max())
+    return Family(
+        effect=Effect(
+            name="tip torque towards one angle over axial_speed",
+            title="torque that turns the tip towards one angle while the needle slides",
+            place=Place.NEEDLE,
+            parameters=(
+                *_amplitudes(ranges),
+                *coordinates_of(curve),
+            ),
+            apply=partial(_apply_pushed, curve, proportional),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says=Variable.AXIAL_SPEED,
+        title="torque that turns the tip towards one angle",
+        curve=partial(_over_speed, curve, proportional),
+        x_unit=UNITS[Variable.AXIAL_SPEED],
+        unit="N mm",
+    )
+
+
+def _amplitudes(ranges: LogRanges) -> tuple[Parameter, ...]:
+    """Of a sine and a cosine, N mm."""
+    each = coordinates(2, 0, _level(ranges) * AT_TIP_MM)
+    return tuple(replace(p, name=f"{p.name} of the wave") for p in each)
+
+
+def _over_speed(
+    curve: SmoothCurve, proportional: Sequence[float], sine: float, cosine: float, *c: float
+) -> Points:
+    speeds = curve.values([a + b for a, b in zip(proportional, c, strict=True)])
+    return curve.places, math.hypot(sine, cosine) * np.array(speeds)
+
+
+def _apply_pushed(
+    curve: SmoothCurve,
+    proportional: Sequence[float],
+    rig: RigParameters,
+    sine: float,
+    cosine: float,
+    *c: float,
+) -> RigParameters:
+    law = _wave(1, sine, cosine).but(varies=True)
+    whole = [a + b for a, b in zip(proportional, c, strict=True)]
+    own = curve.acting_on(ActsOn.ORIENTATION, Variable.AXIAL_SPEED, whole)
+    return replace(rig, free=FreeLaw(at_tip=(law,), curves=(own,)))
+
+
+def _uneven_damping(ranges: LogRanges) -> Family:
+    """Damping of each piece of the shaft over its own angle."""
+    beta = ranges.damping_n_mm_s_per_mm
+    return Family(
+        effect=Effect(
+            name="damping along the shaft over tip_angle",
+            title="damping that depends on the angle of the shaft",
+            place=Place.INTERFACE,
+            parameters=coordinates(2 * len(ALONG), 0, beta),
+            apply=partial(_apply_uneven, beta),
+        ),
+        places={Place.INTERFACE: 0.6, Place.NEEDLE: 0.4},
+        says="tip_angle",
+        title="damping along the shaft",
+        curve=partial(_damping_over_a_turn, beta),
+        x_unit="deg",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _damping_over_a_turn(beta: float, *c: float) -> Points:
+    angle, waves = _over_a_turn(ALONG, *_kept_below(beta, c))
+    return angle, beta + np.asarray(waves)
+
+
+def _apply_uneven(beta: float, rig: RigParameters, *c: float) -> RigParameters:
+    kept = _kept_below(beta, c)
+    waves = zip(ALONG, kept[::2], kept[1::2], strict=True)
+    return replace(rig, free=FreeLaw(throughout=tuple(_damping_wave(*own) for own in waves)))
+
+
+def _damping_wave(cycles: int, sine: float, cosine: float) -> Interface:
+    """One wave: a sin x + b cos x = hypot(a, b) cos(x - atan2(a, b))."""
+    return Interface(
+        orientation_viscous_n_mm_s_per_mm=math.hypot(sine, cosine),
+        orientation_phase_deg=math.degrees(math.atan2(sine, cosine)),
+        orientation_cycles=float(cycles),
+    )
+
+
+def _kept_below(beta: float, c: Sequence[float]) -> list[float]:
+    """Waves that leave some damping at any angle."""
+    most = sum(math.hypot(a, b) for a, b in zip(c[::2], c[1::2], strict=True))
+    share = min(1.0, _MOST_UNEVEN * beta / most) if most > 0.0 else 1.0
+    return [share * own for own in c]
+
+
+def _over_a_turn(waves: Sequence[int], *c: float) -> Points:
+    angle = np.radians(_SHOWN_DEG)
+    each = zip(waves, c[::2], c[1::2], strict=True)
+    waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each]
+    return _SHOWN_DEG, np.sum(waves, axis=0)
+
+
+def _apply_angle(waves: Sequence[int], tip: bool, rig: RigParameters, *c: float) -> RigParameters:
+    laws = tuple(_wave(n, a, b) for n, a, b in zip(waves, c[::2], c[1::2], strict=True))
+    free = FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws)
+    return replace(rig, free=free)
+
+
+def _wave(cycles: int, sine: float, cosine: float) -> Interface:
+    """The law of one wave: a sin x + b cos x = hypot(a, b) sin(x + atan2(b, a))."""
+    return Interface(
+        orientation_n_mm_per_mm=math.hypot(sine, cosine),
+        orientation_phase_deg=-math.degrees(math.atan2(cosine, sine)),
+        orientation_cycles=float(cycles),
+    )
