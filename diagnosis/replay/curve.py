@@ -39,6 +39,7 @@ class ActsOn(StrEnum):
     TISSUE = "tissue"
     ORIENTATION = "orientation"
     STIFFNESS = "stiffness"
+    TISSUE_ANGLE = "tissue_angle"
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
     INSERTED_LENGTH = "inserted_length"

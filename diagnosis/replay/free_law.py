@@ -6,6 +6,8 @@ What its curves act on:
     orientation     so is that of laws of the shaft's angle which vary; the curve may be negative
     stiffness       so is the stiffness of the shaft: tissue that varies resists by so much less, and the
                     needle's torque is so much larger; exact without other torques and inertia
+    tissue_angle    the tissue turns by the curve, deg, and takes the needle with it: as seen from the
+                    tissue, the drive shaft turns by so much less; exact without friction elsewhere
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
     inserted_length as much more of the shaft is inserted as the curve says, mm, and less is free
@@ -223,6 +225,8 @@ class FreeLaw:
                 factor = factor / own
             elif curve.acts_on is ActsOn.INSERTED_LENGTH:
                 deeper = deeper + own
+            elif curve.acts_on is ActsOn.TISSUE_ANGLE:
+                drive = drive - own
             elif curve.acts_on is ActsOn.DRIVE_SLIP:
                 drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
             else:
@@ -241,6 +245,8 @@ class FreeLaw:
             if curve.acts_on is ActsOn.STIFFNESS:
                 more = torque_n_mm * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
                 read[False] = read[False] + more
+            if curve.acts_on is ActsOn.TISSUE_ANGLE:
+                read[True] = read[True] + curve.at(of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on in _SENSORS:
                 of_tip = curve.acts_on in _OF_TIP
                 own = tip_deg if of_tip else torque_n_mm

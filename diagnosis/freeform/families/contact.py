@@ -2,8 +2,11 @@
 
 - damping, or dry friction, times a curve of the slip so far: lubrication and wear
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
+- dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
+  Automatic Control 40 (1995))
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -29,13 +32,21 @@ _WORDS = {ContactVariable.SLIP: "the slip so far", ContactVariable.AGE: "the age
 _RENEWAL = Parameter(
     name="renewal", unit="deg", low=0.05, high=90.0, start=(3.0,), logarithmic=True, neutral=None
 )
+_BRISTLES = (
+    Parameter(
+        name="twist", unit="deg", low=0.5, high=90.0, start=(5.0, 15.0), logarithmic=True, neutral=None
+    ),
+    Parameter(
+        name="time", unit="s", low=0.001, high=3.0, start=(0.05, 0.05), logarithmic=True, neutral=None
+    ),
+)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that depend on the past of a contact."""
     found: list[Family] = []
     if Variable.HISTORY in ranges.ends:
-        found += [_damping_over_slip(ranges), _friction_over(_slip(ranges), ranges)]
+        found += [_damping_over_slip(ranges), _friction_over(_slip(ranges), ranges), _bristles(ranges)]
     if Variable.TIME in ranges.ends:
         found.append(_friction_over(_age(ranges), ranges))
     return tuple(found)
@@ -127,3 +138,49 @@ def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -
         neutral, shape = neutral.but(renewal_deg=shape[0]), shape[1:]
     changed: ContactCurve = neutral.but(factors=curve.factors(shape))
     return changed
+
+
+def _bristles(ranges: LogRanges) -> Family:
+    kinetic, static, stribeck = (
+        replace(p, start=p.start[:2]) for p in ranges.library["stiction"].parameters
+    )
+    return Family(
+        effect=Effect(
+            name="bristle friction over turned_by",
+            title="dry friction of bristles that twist before they slip",
+            place=Place.INTERFACE,
+            parameters=(kinetic, replace(static, name="excess"), stribeck, *_BRISTLES),
+            apply=_apply_bristles,
+            differences=(1e-1, 1e-2),
+        ),
+        places=_PLACES,
+        says="history",
+        title="dry friction along the shaft after it has turned back",
+        curve=_twisted,
+        x_unit="deg",
+        unit="N mm / mm",
+    )
+
+
+def _twisted(kinetic: float, excess: float, _: float, twist_deg: float, __: float) -> Points:
+    """Bristles that are twisted slowly slip at the static level."""
+    return (0.0, twist_deg, 2.0 * twist_deg), (0.0, kinetic + excess, kinetic + excess)
+
+
+def _apply_bristles(
+    rig: RigParameters,
+    kinetic: float,
+    excess: float,
+    stribeck_rad_s: float,
+    twist_deg: float,
+    time_s: float,
+) -> RigParameters:
+    static = kinetic + excess
+    law = Interface(
+        kinetic_n_mm_per_mm=kinetic,
+        static_n_mm_per_mm=static,
+        stribeck_rad_s=stribeck_rad_s,
+        stiffness_n_mm_per_rad_per_mm=static / math.radians(twist_deg),
+        time_constant_s=time_s,
+    )
+    return replace(rig, free=FreeLaw(throughout=(law,)))

@@ -1,6 +1,7 @@
-"""Free laws that are added to an angle or a reading: of the drive, and of both sensors.
+"""Free laws that are added to an angle or a reading: of the drive, the tissue and both sensors.
 
     drive angle    needle at the chuck = drive shaft + a curve of time, angle, orientation or direction
+    tissue angle   the tissue turns by a curve of time, and takes the needle with it
     drive torque   the torque sensor also reads a curve of the drive's angle, rate or direction
     sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal,
                    or true value times a curve of time
@@ -79,8 +80,8 @@ class Added:
 
     @property
     def of_the_drive(self) -> bool:
-        """Whether it is an angle of the drive, or its rate."""
-        return self.acts_on in (ActsOn.DRIVE_ANGLE, ActsOn.DRIVE_SLIP)
+        """Whether it is an angle of the drive, or its rate, or one that is as good as that."""
+        return self.acts_on in (ActsOn.DRIVE_ANGLE, ActsOn.DRIVE_SLIP, ActsOn.TISSUE_ANGLE)
 
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
@@ -111,6 +112,7 @@ def _added(
 
 
 _SHAFT = (ActsOn.DRIVE_ANGLE, TIP, "error of the drive's angle")
+_TISSUE = (ActsOn.TISSUE_ANGLE, TIP, "angle by which the tissue turns", {Place.TISSUE: 1.0})
 _SLIP = (ActsOn.DRIVE_SLIP, TIP, "slip of the needle in its chuck")
 _BEARING = (ActsOn.DRIVE_TORQUE, TORQUE, "torque of the drive that the needle does not feel")
 _TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
@@ -122,6 +124,7 @@ ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
+    *_added(*_TISSUE, _V.TIME, _V.TRIAL_SHARE),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.ACCELERATION, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_BEARING, DRIVE, _V.TURNED_BY),

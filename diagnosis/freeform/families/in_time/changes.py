@@ -6,13 +6,8 @@ torque is multiplied by a factor from then on. The starting value of the time is
 a multiple of the change takes most off the nominal residual,
 
     gain(t) = (sum of change * residual after t)^2 / sum of change^2 after t,  in units of the noise.
-
-Or its torque, or dry friction beside it, swells and falls with a period, as tissue that breathes or
-beats does, from a phase that is another one in each trial. The starting value of the period is the one
-whose waves, times the change, take most off.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -29,27 +24,24 @@ from diagnosis.freeform.families.in_time.events import (
     times_of,
     trials_after,
 )
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.families.readings import TIP
+from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.log.trial import SENSORS
-from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.replay.variables import Variable
-from models.tissue import Interface
 
 Array = NDArray[np.float64]
 
 _EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _LEAST_S = 1.0  # from either end of a trial
-_LEAST_WAVES, _FASTEST_HZ = 3.0, 2.0  # in the longest trial; hearts beat twice a second
-_WAVE_PLACES, _SWELLS = 12, 0.3
 _START, _LEAST, _MOST = (0.6, 1.6), 0.01, 100.0  # factor
 _LONGEST_S = 5.0  # that it takes to change
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """All changes, if the log is long enough and less damping was simulated."""
+    """Both changes, if the log is long enough and less damping was simulated."""
     if not ranges.softer:
         return ()
     found = []
@@ -57,9 +49,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
         if moment := largest_change(ranges, stays=stays):
             found.append(_gives_way(moment, trials_after(ranges, moment) if stays else ()))
     distinct = {family.name: family for family in reversed(found)}  # nothing follows the last trial
-    rate_hz = strongest_wave_hz(ranges)
-    breathes = (_breathes(ranges, rate_hz), _pulses(ranges, rate_hz)) if rate_hz else ()
-    return (*reversed(distinct.values()), *breathes)
+    return tuple(reversed(distinct.values()))
 
 
 def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
@@ -71,7 +61,7 @@ def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
     best, found, along, size = 0.0, None, 0.0, 0.0
     trials = ranges.problem.log.trials
     for number in reversed(range(len(trials))):
-        time_s, product, square = _in_time(ranges, number)
+        time_s, product, square = in_time(ranges, number)
         after = along + np.cumsum(product[::-1])[::-1]
         squares = size + np.cumsum(square[::-1])[::-1]
         gain = np.where(squares > 0, after**2 / np.maximum(squares, 1e-300), 0.0)
@@ -87,13 +77,19 @@ def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
     return found
 
 
-def _in_time(ranges: LogRanges, number: int) -> tuple[Array, Array, Array]:
-    """Of a trial, in the order of time: s after its start, change * residual, and change^2."""
+def in_time(ranges: LogRanges, number: int, *, of_damping: bool = True) -> tuple[Array, Array, Array]:
+    """Of a trial, in the order of time: s after its start, change * residual, and change^2, (N,) each.
+
+    Args:
+      of_damping: whether the change is that of less damping; else it is that of the tip's angle.
+    """
     problem = ranges.problem
     trial, each = problem.log.trials[number], [np.zeros((3, 0))]  # where nothing was read
     for sensor in filter(trial.has, SENSORS):
         nominal, noise = ranges.nominal[number][sensor], problem.noise[sensor]
         change = (ranges.softer[number][sensor] - nominal) / noise
+        if not of_damping:
+            change = np.full(change.size, 1.0 / noise if sensor == TIP else 0.0)
         left = (trial.readings[sensor] - nominal) / noise
         read = np.isfinite(left)
         after_s = trial.time_s[read] - trial.time_s[0]
@@ -144,115 +140,3 @@ def _apply(
 ) -> RigParameters:
     curves = curves_of(ActsOn.TISSUE, trial, after, around(time_s, duration_s), (1.0, factor))
     return replace(rig, free=FreeLaw(tissue_varies=True, curves=curves))
-
-
-def strongest_wave_hz(ranges: LogRanges) -> float:
-    """Waves per second, times what less damping changes, that take most off; 0: trials are too short."""
-    longest_s = max(float(t.time_s[-1] - t.time_s[0]) for t in ranges.problem.log.trials)
-    rates = np.arange(_LEAST_WAVES / longest_s, _FASTEST_HZ, 0.5 / longest_s)
-    taken = np.zeros(rates.size)
-    for number in range(len(ranges.problem.log.trials)):
-        time_s, product, square = _in_time(ranges, number)
-        taken += [_taken_off(2 * np.pi * rate * time_s, product, square) for rate in rates]
-    return float(rates[np.argmax(taken)]) if taken.any() else 0.0
-
-
-def _taken_off(phase: Array, product: Array, square: Array) -> float:
-    """By a wave with a phase of its own, by linear least squares."""
-    waves = np.stack([np.cos(phase), np.sin(phase)])
-    right = waves @ product
-    return float(right @ np.linalg.pinv((waves * square) @ waves.T) @ right)
-
-
-def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
-    trials = tuple(trial.name for trial in ranges.problem.log.trials)
-    return Family(
-        effect=Effect(
-            name="damping over time, as a wave",
-            title="damping that swells and falls with a period",
-            place=Place.TISSUE,
-            parameters=(_period(rate_hz), *coordinates(0, 2 * len(trials), _SWELLS)),
-            apply=partial(_apply_breathing, trials),
-        ),
-        places=_EITHER,
-        says="time",
-        title=f"damping along the shaft in {trials[0]}",
-        curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
-        x_unit="s",
-        unit="N mm s / rad / mm",
-    )
-
-
-def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
-    trials = tuple(trial.name for trial in ranges.problem.log.trials)
-    level = ranges.library["coulomb_friction"].parameters[0]
-    shape = (_period(rate_hz), *coordinates(0, 2 * len(trials)))
-    return Family(
-        effect=Effect(
-            name="dry friction over time, as a wave",
-            title="dry friction that swells and falls with a period",
-            place=Place.TISSUE,
-            parameters=(level, *(replace(p, start=p.start * len(level.start)) for p in shape)),
-            apply=partial(_apply_pulses, trials),
-            differences=(1e-2,),
-        ),
-        places=_EITHER,
-        says="time",
-        title=f"dry friction along the shaft in {trials[0]}",
-        curve=_breath,
-        x_unit="s",
-        unit="N mm / mm",
-    )
-
-
-def _period(rate_hz: float) -> Parameter:
-    """Near where waves take most off."""
-    return Parameter(
-        name="period",
-        unit="s",
-        low=0.9 / rate_hz,
-        high=1.1 / rate_hz,
-        start=(1.0 / rate_hz,),
-        logarithmic=True,
-        neutral=None,
-    )
-
-
-def _wave(shares: Array, cosine: float, sine: float) -> Array:
-    """Factors at shares of a period."""
-    phase = 2 * np.pi * shares
-    return np.asarray(np.exp(cosine * np.cos(phase) + sine * np.sin(phase)))
-
-
-def _breath(beta: float, period_s: float, *c: float) -> Points:
-    shares = np.linspace(0.0, 1.0, _WAVE_PLACES + 1)
-    return period_s * shares, beta * _wave(shares, *c[:2])
-
-
-def _apply_breathing(
-    trials: tuple[str, ...], rig: RigParameters, period_s: float, *c: float
-) -> RigParameters:
-    return replace(rig, free=FreeLaw(tissue_varies=True, curves=_waves(trials, period_s, c)))
-
-
-def _apply_pulses(
-    trials: tuple[str, ...], rig: RigParameters, level: float, period_s: float, *c: float
-) -> RigParameters:
-    law = Interface(kinetic_n_mm_per_mm=level, varies=True)
-    return replace(rig, free=FreeLaw(throughout=(law,), curves=_waves(trials, period_s, c)))
-
-
-def _waves(trials: tuple[str, ...], period_s: float, c: Sequence[float]) -> tuple[Curve, ...]:
-    """Of each trial, factors over the time."""
-    shares = np.arange(_WAVE_PLACES) / _WAVE_PLACES
-    return tuple(
-        Curve(
-            acts_on=ActsOn.TISSUE,
-            variable=Variable.TIME,
-            places=tuple(float(x) for x in period_s * shares),
-            values=tuple(float(v) for v in _wave(shares, *own)),
-            period=period_s,
-            trial=name,
-        )
-        for name, own in zip(trials, zip(c[::2], c[1::2], strict=True), strict=True)
-    )

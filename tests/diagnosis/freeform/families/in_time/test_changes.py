@@ -1,4 +1,4 @@
-"""Tissue that gives way once, or breathes."""
+"""Tissue that gives way once."""
 
 from dataclasses import replace
 
@@ -7,9 +7,8 @@ import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import covered_by
 
-from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.families.in_time.changes import families, largest_change, strongest_wave_hz
+from diagnosis.freeform.families.in_time.changes import families, largest_change
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
@@ -82,58 +81,3 @@ def test_trials_after_it_are_those_of_a_rig_with_less_damping_and_those_before_o
         own = prepared(trial(ANGLE, name=name))
         found, expected = predict(RIG, own, [gives_way, rig])
         np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
-
-
-def log_that_breathes(rate_hz, size=4.0, count=3):
-    """Ranges of trials whose residual is that change times a wave, from another phase in each."""
-    rng = np.random.default_rng(5)
-    waves = [np.cos(2 * np.pi * rate_hz * TIME + 2.0 * i) for i in range(count)]
-    tips = [size * CHANGE * wave + rng.normal(0, 0.25, TIME.size) for wave in waves]
-    seen = [(ANGLE, tip, (REST, REST)) for tip in tips]
-    return covered_by(seen, softer=[(CHANGE, REST)] * count)
-
-
-@pytest.mark.parametrize("rate_hz", [0.6, 1.1, 1.7])
-def test_the_rate_of_a_breath_is_found_in_noise(rate_hz):
-    """To half of the step between rates, 0.5 / 8 s."""
-    assert strongest_wave_hz(log_that_breathes(rate_hz)) == pytest.approx(rate_hz, abs=0.5 / 8)
-
-
-def breathing():
-    return next(f for f in families(log_that_breathes(0.6)) if f.name == "damping over time, as a wave")
-
-
-def test_a_breath_has_a_phase_of_its_own_in_each_trial():
-    family = breathing()
-    assert (family.place, family.says, family.effect.trial) == (Place.TISSUE, "time", "")
-    first, second, _ = family.effect.apply(NOMINAL, 2.0, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0).free.curves
-    at = np.array([0.0, 0.5, 1.0, 2.0, 2.5])
-    # A sine through 12 places is off by (2 pi / 12)^4 / 384 = 0.02 %; its exponential by little more.
-    np.testing.assert_allclose(first.at(at), np.exp(0.3 * np.cos(np.pi * at)), rtol=1e-3)
-    np.testing.assert_allclose(second.at(at), np.exp(0.2 * np.sin(np.pi * at)), rtol=1e-3)
-    x, y = family.curve(2.0, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0)
-    assert (x[0], x[-1]) == (0.0, 2.0)
-    assert y[0] == pytest.approx(y[-1])
-
-
-def test_tissue_that_does_not_breathe_is_the_nominal_one():
-    own = prepared(trial(ANGLE, name="trial_02.csv"))
-    still, swells = (breathing().effect.apply(NOMINAL, 2.0, *[c] * 6) for c in (0.0, 0.3))
-    found, other, expected = predict(RIG, own, [still, swells, NOMINAL])
-    np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
-    assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 0.1
-
-
-def test_dry_friction_that_does_not_pulse_is_even_friction():
-    pulses = next(
-        f for f in families(log_that_breathes(0.6)) if f.name == "dry friction over time, as a wave"
-    )
-    own = prepared(trial(ANGLE, name="trial_02.csv"))
-    still, swells = (pulses.effect.apply(NOMINAL, 0.003, 2.0, *[c] * 6) for c in (0.0, 0.5))
-    even = LIBRARY["coulomb_friction"].apply(NOMINAL, 0.003)
-    found, other = predict(RIG, own, [still, swells])
-    (expected,) = predict(RIG, own, [even])
-    np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
-    assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 0.1
-    _, level = pulses.curve(0.003, 2.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
-    assert level[0] == pytest.approx(0.003 * np.exp(0.5))
