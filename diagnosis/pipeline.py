@@ -108,7 +108,7 @@ def diagnose(
             nominal.predictions,
             last.verdict,
             assessment,
-            [name for single in found.singles for name in single.names],
+            found.effects,
             pool,
         )
     return Diagnosis(

@@ -80,6 +80,9 @@ STAGES = {
     "detection limits": _coarse("computing detection limits", 0.12, 20, 20),
     "screening free-form laws": _coarse("screening free-form laws", 0.2, 0, 50),
     "free-form laws": _coarse("fitting free-form laws", 0.3, 0, 10),
+    "screening effects beside a free-form law": _coarse(
+        "screening effects beside a free-form law", 0.03, 0, 0
+    ),
     "free-form laws beside an effect": _coarse("fitting free-form laws beside an effect", 0.3, 0, 0),
     "finalists, free-form laws": _whole("fitting the best free-form laws to the whole log", 1.5, 0, 4),
     "plain laws": _whole("fitting plain laws like the free-form ones", 1.0, 0, 2),

@@ -2,9 +2,10 @@
 
 Every family is fitted through the simulation: for one iteration on the decimated log, the most
 promising for a few more; the best to their end there, the strength of their prior estimated,
-alone and beside the library's effects that came nearest; the best of these on the log itself, and
-checked on trials that the fit has not seen. Those that promise far more than the least gap do not go on.
-Where all leave far more than noise, fewer go to the log itself, and not to their end.
+alone and, if none closes the gap, beside the effects of the library that promise most there; the best
+of these on the log itself, and checked on trials that the fit has not seen. Those that promise far
+more than the least gap do not go on. Where all leave far more than noise, fewer go to the log itself,
+and not to their end.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,22 +25,24 @@ from diagnosis.freeform.prior import free_covariance, well_determined, with_esti
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection.screening import screen
+from diagnosis.selection.screening import Screened, screen
 from diagnosis.workers import Failure, Task, Workers
 from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 
-SCREENING, FITTING, BESIDE, FINALS = (
+SCREENING, FITTING, SCREENING_BESIDE, BESIDE, FINALS = (
     "screening free-form laws",
     "free-form laws",
+    "screening effects beside a free-form law",
     "free-form laws beside an effect",
     "finalists, free-form laws",
 )
 FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
 WORTH_MORE = 10  # families that get more than the first iteration
 IN_REACH = 2.5  # times the least gap that one promises
-CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 6, 3, 2, 4
+CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 6, 6, 2, 4
+STARTS_BESIDE = 2  # of an effect that is screened beside a law
 FINAL_ITERATIONS = 5  # from the end on the decimated log: what is right gets there in three
 FINAL_SIGMA = 0.1  # tolerance: a curve has a band of two of these
 FAR_ITERATIONS, FAR_FINALISTS = 3, 2
@@ -91,14 +94,14 @@ class FreeFit:
 def free_form_fits(
     problem: FitProblem,
     coarse: FitProblem,
-    companions: Sequence[str],
+    effects: Sequence[str],
     workers: Workers,
 ) -> tuple[FreeFit, ...]:
     """The best fit of every family; those of the log itself before the others.
 
     Args:
       problem, coarse: the log itself, and decimated.
-      companions: effects of the library that came nearest, best first.
+      effects: of the library, which may stand beside a law.
     """
     nominal = replay(coarse.log, resolution=coarse.resolution)
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
@@ -110,10 +113,10 @@ def free_form_fits(
     near, _ = _promising(first, CONTENDERS)
     fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
     if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
-        best = sorted(fitted, key=lambda f: f.score)[:ACCOMPANIED]
         enough = WORTH_A_FINAL**2 * min(f.fit.cost for f in fitted)
-        pairs = [(coarse, f, (name,), enough) for f in best for name in companions[:COMPANIONS]]
-        fitted += _each(BESIDE, _to_its_end, pairs, workers)
+        pairs = _most_promising_pairs(coarse, fitted, effects, workers)
+        calls = [(coarse, f, s.names[-1:], enough, s.start) for f, s in pairs]
+        fitted += _each(BESIDE, _to_its_end, calls, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
     far = least > FAR_GAP
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
@@ -139,6 +142,27 @@ def _each(
     return [f for f in workers.each(stage, function, tasks) if not isinstance(f, Failure)]
 
 
+def _most_promising_pairs(
+    coarse: FitProblem, laws: Sequence[FreeFit], effects: Sequence[str], workers: Workers
+) -> list[tuple[FreeFit, Screened]]:
+    """Laws with effects beside them that could leave least, of each law at most `COMPANIONS`."""
+    pairs = [(law, name) for law in laws for name in effects]
+    tasks = [Task(effects=(name,), arguments=(coarse, law, name)) for law, name in pairs]
+    each = workers.each(SCREENING_BESIDE, _screened_beside, tasks)
+    screened = zip((law for law, _ in pairs), each, strict=True)
+    found = [(law, s) for law, s in screened if not isinstance(s, Failure)]
+    chosen: dict[str, list[tuple[FreeFit, Screened]]] = {}
+    for law, s in sorted(found, key=lambda pair: pair[1].cost):
+        own = chosen.setdefault(law.family.name, [])
+        if len(own) < COMPANIONS and sum(map(len, chosen.values())) < ACCOMPANIED:
+            own.append((law, s))
+    return [pair for own in chosen.values() for pair in own]
+
+
+def _screened_beside(coarse: FitProblem, law: FreeFit, name: str) -> Screened:
+    return screen(with_family(coarse, law.family), law.fit, name, STARTS_BESIDE)[0]
+
+
 def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
     problem = with_family(coarse, family)
     start = screen(problem, base, family.name)[0].start
@@ -153,17 +177,20 @@ def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
 
 
 def _to_its_end(
-    coarse: FitProblem, first: FreeFit, beside: tuple[str, ...], enough: float = np.inf
+    coarse: FitProblem,
+    first: FreeFit,
+    beside: tuple[str, ...],
+    enough: float = np.inf,
+    start: Array | None = None,
 ) -> FreeFit:
     """Fitted twice: the second time with the strength of the prior that the first one speaks for.
 
     Args:
       enough: cost below which it is of use.
+      start: the vector to start from; None: where the first fit ended.
     """
     family, problem = first.family, with_family(coarse, first.family)
-    start, names = first.fit.x, (family.name, *beside)
-    if beside:
-        start = screen(problem, first.fit, beside[0])[0].start
+    start, names = first.fit.x if start is None else start, (family.name, *beside)
     fit = fit_effects(problem, names, start, enough, most_iterations=ITERATIONS)
     family = with_estimated_prior(family, fit)
     own = with_family(coarse, family)

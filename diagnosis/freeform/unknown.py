@@ -28,19 +28,19 @@ def with_what_is_missing(
     nominal: Sequence[Prediction],
     verdict: Verdict,
     told: Assessment,
-    companions: Sequence[str],
+    effects: Sequence[str],
     workers: Workers,
 ) -> tuple[Missing | None, Assessment]:
     """What is missing, and the assessment with its law; None and `told` if the log is not unknown.
 
     Args:
       nominal: readings of the nominal rig by trial of the problem.
-      companions: effects of the library that came nearest, best first.
+      effects: of the library, which may stand beside a law.
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
         return None, told
     stop = workers.stop
-    fits = () if stop.due else _fits(problem, coarse, companions, workers)
+    fits = () if stop.due else _fits(problem, coarse, effects, workers)
     if stop.due:
         stop.leave_out(FREE_FORM)  # those that are done tell something all the same
     if not any(fit.final for fit in fits):
@@ -55,11 +55,11 @@ def with_what_is_missing(
 
 
 def _fits(
-    problem: FitProblem, coarse: FitProblem, companions: Sequence[str], workers: Workers
+    problem: FitProblem, coarse: FitProblem, effects: Sequence[str], workers: Workers
 ) -> tuple[FreeFit, ...]:
     """Free-form fits; empty if the nominal rig cannot be simulated, or there was no time."""
     try:
-        fits = free_form_fits(problem, coarse, companions, workers)
+        fits = free_form_fits(problem, coarse, effects, workers)
     except (SimulationFailed, StoppedEarly):
         return ()
     return fits if workers.stop.due else with_plain_laws(problem, coarse, fits, workers)

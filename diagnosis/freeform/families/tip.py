@@ -44,7 +44,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def _tip_rate(ranges: LogRanges) -> Family:
     dry, rates = _dry(ranges), rates_of(ranges)
-    curve, drag = smooth_curve(0.0, 1.0, RATE_POINTS), _drag(ranges, len(dry.start))
+    curve = smooth_curve(0.0, 1.0, RATE_POINTS)
     neutral = (0.0,) * len(dry.start)
     return Family(
         effect=Effect(
@@ -52,7 +52,7 @@ def _tip_rate(ranges: LogRanges) -> Family:
             title="drag and dry friction in one place, at the tip",
             place=Place.NEEDLE,
             parameters=(
-                replace(drag, start=(drag.scale,) * len(dry.start)),  # of no drag a curve tells nothing
+                _drag(ranges, len(dry.start)),
                 dry,
                 Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=neutral),
                 *(replace(p, start=neutral) for p in coordinates_of(curve)),
@@ -84,10 +84,11 @@ def _at_rates(
 
 
 def _drag(ranges: LogRanges, starts: int) -> Parameter:
-    """Drag at the tip, which may be 0."""
+    """Drag at the tip, which may be 0, but does not start there: of none, a curve changes nothing."""
     own = ranges.library["tip_drag"].parameters[0]
+    usual = own.start[0]
     return Parameter(
-        name=own.name, unit=own.unit, low=0.0, high=own.high, start=(0.0,) * starts, scale=own.start[0]
+        name=own.name, unit=own.unit, low=0.0, high=own.high, start=(usual,) * starts, scale=usual
     )
 
 

@@ -10,6 +10,7 @@ from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
 from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
+from diagnosis.selection.screening import Screened
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 
@@ -95,13 +96,13 @@ def fitted(monkeypatch):
     problem, nominal = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
     seen = []
 
-    def run(first, ended, final=None, companions=()):
+    def run(first, ended, final=None, effects=()):
         run.enough = []
         final = ended if final is None else final
 
         def made(gaps, family, beside=(), *enough, **known):
             seen.append((family.name, beside, known.get("final", False)))
-            run.enough += enough
+            run.enough += enough[:1]
             gap = gaps[f"{family.name} + {beside[0]}" if beside else family.name]
             if gap is None:
                 raise SimulationFailed("lost")
@@ -114,12 +115,18 @@ def fitted(monkeypatch):
             "fit_effects": lambda *_, **__: None,
             "_first_fit": lambda _, __, family: made(first, family),
             "_to_its_end": lambda _, one, beside, *enough: made(ended, one.family, beside, *enough),
+            "_screened_beside": lambda _, law, name: Screened(
+                names=(law.family.name, name),
+                start=np.zeros(2),
+                cost=100 * ended[f"{law.family.name} + {name}"] ** 2,
+                gain=0.0,
+            ),
             "_some_more": lambda _, one: one,
             "_on_the_log": lambda _, one, far: made(final, one.family, one.beside, final=True),
         }
         for name, function in given.items():
             monkeypatch.setattr(search, name, function)
-        return free_form_fits(problem, problem, companions, Workers())
+        return free_form_fits(problem, problem, effects, Workers())
 
     return run, seen
 
@@ -153,7 +160,7 @@ def test_only_laws_that_promise_no_more_than_a_few_times_the_least_gap_go_on(lea
 def test_beside_an_effect_a_law_has_to_come_near_the_best_alone(fitted):
     run, _ = fitted
     gaps = {"a": 2.0, "b": 2.5, "a + stiction": 2.1, "b + stiction": 2.6}
-    run({"a": 2.0, "b": 2.5}, gaps, companions=("stiction",))
+    run({"a": 2.0, "b": 2.5}, gaps, effects=("stiction",))
     assert run.enough == [pytest.approx(100 * (search.WORTH_A_FINAL * 2.0) ** 2)] * 2
 
 
@@ -189,15 +196,23 @@ def test_laws_far_behind_the_best_do_not_go_to_the_log_itself(least, reach, fitt
 
 def test_where_one_law_closes_the_gap_no_effect_is_tried_beside_it(fitted):
     run, seen = fitted
-    run({"a": 2.0, "b": 3.0}, {"a": 1.05, "b": 3.0}, companions=("tip_drag",))
+    run({"a": 2.0, "b": 3.0}, {"a": 1.05, "b": 3.0}, effects=("tip_drag",))
     assert not any(beside for _, beside, _ in seen)
 
 
 def test_where_none_does_the_nearest_effects_of_the_library_stand_beside_the_best(fitted):
     run, _ = fitted
     ended = {"a": 2.0, "b": 3.0, "a + tip_drag": 1.0, "b + tip_drag": 2.9}
-    found = run({"a": 2.0, "b": 3.0}, ended, companions=("tip_drag",))
+    found = run({"a": 2.0, "b": 3.0}, ended, effects=("tip_drag",))
     assert [(f.family.name, f.beside) for f in found] == [("a", ("tip_drag",)), ("b", ())]
+
+
+def test_beside_a_law_go_the_effects_that_promise_most_there(fitted):
+    run, seen = fitted
+    gaps = {"tip_drag": 1.9, "stiction": 1.2, "torque_bias": 1.05}
+    run({"a": 2.0}, {"a": 2.0} | {f"a + {name}": gap for name, gap in gaps.items()}, effects=(*gaps,))
+    tried = [beside for _, beside, final in seen if beside and not final]
+    assert tried == [("torque_bias",), ("stiction",)]
 
 
 def test_what_cannot_be_simulated_is_left_out(fitted):
