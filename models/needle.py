@@ -62,6 +62,8 @@ class Needle(Record):
     """Twist that a torque adds in time, over the elastic one: a standard linear solid."""
     creep_time_s: NonNegative = 0.0
     """In which 63 % of it come."""
+    damping_time_s: NonNegative = 0.0
+    """Damping of its material over its stiffness: a Kelvin-Voigt solid."""
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Needle":

@@ -262,6 +262,7 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_YIELD_SLOPE] = setup.needle.yield_stiffness_ratio
     head[memory_map.H_CREEP] = setup.needle.creep_ratio
     head[memory_map.H_CREEP_TIME] = setup.needle.creep_time_s
+    head[memory_map.H_SHAFT_DAMPING] = setup.needle.damping_time_s
     head[memory_map.H_CHAIN] = setup.is_chain
     return head
 

@@ -34,6 +34,7 @@ EVERYTHING = replace(
     stiffness_along_mm=150.0,
     creep_ratio=0.3,
     creep_time_s=2.0,
+    shaft_damping_s=0.1,
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""

@@ -72,6 +72,7 @@ class FreeLaw:
       yield_stiffness_ratio: its stiffness beyond it over the elastic one.
       creep_ratio: twist that a torque adds in time, over the elastic one (models.needle).
       creep_time_s: in which it does.
+      shaft_damping_s: damping of the shaft's material over its stiffness (models.needle).
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       throughout, at_tip: additional laws (models.tissue).
@@ -95,6 +96,7 @@ class FreeLaw:
     yield_stiffness_ratio: float = 0.0
     creep_ratio: float = 0.0
     creep_time_s: float = 0.0
+    shaft_damping_s: float = 0.0
     contact: ContactCurve | None = None
     grip_torque_n_mm: float | None = None
     throughout: tuple[Interface, ...] = ()
@@ -134,6 +136,7 @@ class FreeLaw:
             yield_stiffness_ratio=self.yield_stiffness_ratio,
             creep_ratio=strength * self.creep_ratio,
             creep_time_s=self.creep_time_s,
+            shaft_damping_s=strength * self.shaft_damping_s,
             grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
@@ -164,6 +167,7 @@ class FreeLaw:
             yield_stiffness_ratio=self.yield_stiffness_ratio,
             creep_ratio=self.creep_ratio,
             creep_time_s=self.creep_time_s,
+            damping_time_s=self.shaft_damping_s,
         )
         return changed
 

@@ -57,8 +57,9 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_YIELD_SLOPE,  # stiffness beyond it over the elastic one
     H_CREEP,  # twist that a torque adds in time, over the elastic one; 0: none
     H_CREEP_TIME,  # s
+    H_SHAFT_DAMPING,  # of a twisted element, over its stiffness, s
     HEADER,
-) = range(43)
+) = range(44)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 

@@ -19,6 +19,7 @@ from sim.kernel.mesh import cover, place_nodes
 from sim.kernel.method import CARRIED, GAMMAS, KEPT, REACH, SHARE, STAGES
 from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
+    add_shaft_damping,
     add_viscous,
     drive_torque,
     hardening_energy,
@@ -76,6 +77,8 @@ def _prepare(
         angles[i] = theta[i]
         rest[i] = omega[i] = rates[i]
         damp_lower[i] = damp_diagonal[i] = damp_upper[i] = 0.0
+    if head[memory_map.H_SHAFT_DAMPING] > 0.0:
+        add_shaft_damping(w, head[memory_map.H_SHAFT_DAMPING])
     nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0 or frame.yield_torque > 0.0
     nonlinear |= head[memory_map.H_STIFFNESS_TORQUE] > 0.0 or frame.creep > 0.0
     for r in range(law.shape[0]):

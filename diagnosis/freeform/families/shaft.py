@@ -5,6 +5,7 @@
 - its stiffness as a curve of the time: a shaft that is warmed, or cracks
 - a shaft that twists plastically beyond a torque
 - a shaft that creeps: a torque twists it further in time
+- a shaft whose material damps: it resists the rate at which it twists
 """
 
 from collections.abc import Sequence
@@ -28,6 +29,7 @@ _LEAST_YIELD, _YIELD_SLOPE = 0.02, 0.4
 _BEYOND = 1.5  # torque that a curve spans / that of the nominal shaft: one that yields twists more
 _STIFFENS = 0.5  # of the logarithm of the stiffness, to start with
 _CREEPS_BY, _CREEPS_S, _CREEP_POINTS = 0.3, (0.3, 2.0, 10.0), 11
+_DAMPS_S, _SHOWN_PER_S = (0.02, 0.3), 2.0
 _PARTS = 10  # of the longest shaft
 
 
@@ -36,7 +38,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.TORQUE not in ranges.ends:
         return ()
     of_time = (_over(v, ranges) for v in (Variable.TIME, Variable.TRIAL_SHARE) if v in ranges.ends)
-    return (_stiffness(ranges), _along(ranges), *of_time, _yielding(ranges), _creeping())
+    return (_stiffness(ranges), _along(ranges), *of_time, _yielding(ranges), _creeping(), _damping())
 
 
 def _stiffness(ranges: LogRanges) -> Family:
@@ -217,3 +219,39 @@ def _creep(ratio: float, time_s: float) -> Points:
 
 def _apply_creep(rig: RigParameters, ratio: float, time_s: float) -> RigParameters:
     return replace(rig, free=FreeLaw(creep_ratio=ratio, creep_time_s=time_s))
+
+
+def _damping() -> Family:
+    time = Parameter(
+        name="time",
+        unit="s",
+        low=1e-3,
+        high=10.0,
+        start=_DAMPS_S,
+        logarithmic=True,
+    )
+    return Family(
+        effect=Effect(
+            name="damping of the shaft over rate",
+            title="a shaft whose material resists the rate at which it twists",
+            place=Place.NEEDLE,
+            parameters=(time,),
+            apply=_apply_damping,
+            differences=(1e-2,),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="rate",
+        title="torque of the shaft over the elastic one",
+        curve=_damped,
+        x_unit="rate over twist, 1/s",
+        unit="-",
+    )
+
+
+def _damped(time_s: float) -> Points:
+    per_s = np.linspace(0.0, _SHOWN_PER_S, 3)
+    return per_s, 1.0 + time_s * per_s
+
+
+def _apply_damping(rig: RigParameters, time_s: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(shaft_damping_s=time_s))

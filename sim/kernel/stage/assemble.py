@@ -55,6 +55,17 @@ def add_viscous(w: Workspace, loads: Array, beta: float) -> None:
 
 
 @inlined
+def add_shaft_damping(w: Workspace, time: float) -> None:
+    """Damping of the material: torque of an element = stiffness (twist + time * its rate)."""
+    for e in range(w.nominal.size):
+        damping = time * w.nominal[e]
+        w.damp_diagonal[e] += damping
+        w.damp_upper[e] -= damping
+        w.damp_lower[e + 1] -= damping
+        w.damp_diagonal[e + 1] += damping
+
+
+@inlined
 def add_viscous_advection(w: Workspace, loads: Array, beta: float, frame: Frame) -> None:
     """Slip of a viscous row because a twisted shaft slides against the mesh: advection.
 

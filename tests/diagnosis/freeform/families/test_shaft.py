@@ -67,3 +67,14 @@ def test_a_shaft_that_softens_while_it_relaxes_carries_less_and_relaxes_slower()
     assert before == pytest.approx(nominal, abs=1e-9)
     assert (first - after) / 1.9 == pytest.approx(0.6 * rate, rel=0.01)
     assert first - last == pytest.approx(np.log(0.6) - rate * (0.1 + 0.06), abs=0.01)
+
+
+def test_damping_of_the_material_is_that_of_the_needle_and_hardly_any_is_none():
+    damps = FAMILIES["damping of the shaft over rate"]
+    rig = damps.effect.apply(NOMINAL, 0.2)
+    assert rig.free.needle(RIG).damping_time_s == 0.2
+    assert rig.free.times(0.5).shaft_damping_s == 0.1
+    per_s, torque = damps.curve(0.2)
+    np.testing.assert_allclose(torque, 1.0 + 0.2 * per_s)
+    assert same_readings(ANGLE, damps.effect.apply(NOMINAL, 1e-9), NOMINAL)
+    assert not same_readings(ANGLE, rig, NOMINAL)
