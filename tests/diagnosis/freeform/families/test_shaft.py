@@ -12,6 +12,7 @@ from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.variables import Variable
+from models.needle import NITINOL
 
 ANGLE = turns(6.0)
 READS = 0.02 * ANGLE
@@ -72,7 +73,7 @@ def test_a_shaft_that_softens_while_it_relaxes_carries_less_and_relaxes_slower()
 def test_damping_of_the_material_is_that_of_the_needle_and_hardly_any_is_none():
     damps = FAMILIES["damping of the shaft over rate"]
     rig = damps.effect.apply(NOMINAL, 0.2)
-    assert rig.free.needle(RIG).damping_time_s == 0.2
+    assert rig.free.needle(NITINOL).damping_time_s == 0.2
     assert rig.free.times(0.5).shaft_damping_s == 0.1
     per_s, torque = damps.curve(0.2)
     np.testing.assert_allclose(torque, 1.0 + 0.2 * per_s)
