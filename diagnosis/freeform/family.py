@@ -28,6 +28,7 @@ class Family:
         effect, by its name.
       contains: effects of the library that it may have for a part.
       shape: name of the plain law that its curve has; empty: a curve of any form.
+      of_each_trial: whether each trial has coordinates of its own, of which no other trial tells.
     """
 
     effect: Effect
@@ -40,6 +41,7 @@ class Family:
     as_effect: Mapping[str, Callable[..., tuple[float, ...]]] = field(default_factory=dict)
     contains: tuple[str, ...] = ()
     shape: str = ""
+    of_each_trial: bool = False
 
     @property
     def name(self) -> str:

@@ -72,8 +72,9 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     law, first = missing.law, missing.depends_on[0]
     probability = missing.place[law.place]
     beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
-    once = bool(missing.best.family.effect.trial)  # in one trial, which no other tells of
-    where = UNSEEN if missing.best.held_out and not once else SEEN
+    family = missing.best.family
+    alone = family.of_each_trial or bool(family.effect.trial)  # of a trial that no other tells of
+    where = UNSEEN if missing.best.held_out and not alone else SEEN
     course = f"{course_of(law)}{repeating(period_deg(missing))}"
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "

@@ -143,6 +143,13 @@ def test_of_what_happened_once_nothing_is_called_unseen():
     assert "not seen" not in what_is_missing(missing_with(best=once), 8.9)
 
 
+def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen():
+    best = seen_fit()
+    assert "not seen" in what_is_missing(missing_with(best=best), 8.9)
+    waves = replace(best, family=replace(best.family, of_each_trial=True))
+    assert "not seen" not in what_is_missing(missing_with(best=waves), 8.9)
+
+
 def test_where_no_law_helps_the_sentence_says_what_to_doubt():
     said = what_is_missing(missing_with(law=None), 8.9)
     assert said.startswith("No free-form law that was tried does better than the library.")

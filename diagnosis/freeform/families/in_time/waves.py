@@ -79,6 +79,7 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"damping along the shaft in {trials[0]}",
         curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
         x_unit="s",
+        of_each_trial=True,
         unit="N mm s / rad / mm",
     )
 
@@ -101,6 +102,7 @@ def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"dry friction along the shaft in {trials[0]}",
         curve=_breath,
         x_unit="s",
+        of_each_trial=True,
         unit="N mm / mm",
     )
 
@@ -121,6 +123,7 @@ def _turns(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"angle by which the tissue turns in {trials[0]}",
         curve=_to_and_fro,
         x_unit="s",
+        of_each_trial=True,
         unit="deg",
     )
 

@@ -40,6 +40,7 @@ def breathing():
 def test_a_breath_has_a_phase_of_its_own_in_each_trial():
     family = breathing()
     assert (family.place, family.says, family.effect.trial) == (Place.TISSUE, "time", "")
+    assert family.of_each_trial
     first, second, _ = family.effect.apply(NOMINAL, 2.0, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0).free.curves
     at = np.array([0.0, 0.5, 1.0, 2.0, 2.5])
     # A sine through 12 places is off by (2 pi / 12)^4 / 384 = 0.02 %; its exponential by little more.
