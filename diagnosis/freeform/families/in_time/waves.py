@@ -31,7 +31,7 @@ _WAVE_PLACES, _SWELLS = 12, 0.3
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """All waves, if trials are long enough and less damping was simulated."""
+    """All waves, if trials are long enough and less damping was simulated (`in_time` asks for it)."""
     if not ranges.softer:
         return ()
     found: list[Family] = []
@@ -79,8 +79,8 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"damping along the shaft in {trials[0]}",
         curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
         x_unit="s",
-        of_each_trial=True,
         unit="N mm s / rad / mm",
+        of_each_trial=True,
     )
 
 
@@ -102,8 +102,8 @@ def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"dry friction along the shaft in {trials[0]}",
         curve=_breath,
         x_unit="s",
-        of_each_trial=True,
         unit="N mm / mm",
+        of_each_trial=True,
     )
 
 
@@ -123,8 +123,8 @@ def _turns(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"angle by which the tissue turns in {trials[0]}",
         curve=_to_and_fro,
         x_unit="s",
-        of_each_trial=True,
         unit="deg",
+        of_each_trial=True,
     )
 
 
