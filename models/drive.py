@@ -26,6 +26,10 @@ class Drive(Record):
     """Total play between drive shaft and needle."""
     grip_torque_n_mm: Positive | None = None
     """At which the needle slips in the chuck of a servo, either way; None: never."""
+    grip_play_deg: Positive | None = None
+    """Between the stops of that slip; None: there are none."""
+    grip_stiffness_n_mm_per_rad: NonNegative = 0.0
+    """Of a spring that brings back what has slipped."""
     sheath_friction_n_mm_per_mm: NonNegative = 0.0
     """Dry torque per mm of free shaft."""
     rotor_inertia_kg_m2: NonNegative = 0.0
@@ -53,4 +57,17 @@ class Drive(Record):
                 "nothing, because drive.kind is torque: the motor turns the needle itself",
                 "take drive.kind: angle, or drive.torque_limit_n_mm",
             )
+        return self
+
+    @model_validator(mode="after")
+    def _stops_have_a_grip(self) -> "Drive":
+        grips = self.grip_torque_n_mm is not None
+        for field in ("grip_play_deg", "grip_stiffness_n_mm_per_rad"):
+            if getattr(self, field) and not grips:
+                raise InvalidValue(
+                    f"drive.{field}",
+                    getattr(self, field),
+                    "nothing, because the chuck does not slip",
+                    "give drive.grip_torque_n_mm, too",
+                )
         return self

@@ -34,6 +34,7 @@ Array = NDArray[np.float64]
 
 # A rigid servo is this much stiffer than the needle: its error is 1e-6 of the lag.
 _RIGID = 1e6
+_NEVER_RAD = 1e6  # a stop that no slip comes to
 _RAIL_RATE = 1e3  # rad/s, natural frequency of the carriage's servo
 _CARRIAGE_MASS = 0.1  # kg
 _CARRIAGE_INERTIA = 1e-5  # kg m^2; the carriage does not turn
@@ -248,6 +249,9 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_ORDER] = setup.discretisation.order
     head[memory_map.H_BACKLASH] = 0.5 * setup.drive.backlash_deg * units.DEG
     head[memory_map.H_GRIP] = (setup.drive.grip_torque_n_mm or 0.0) * units.N_MM
+    stop_deg = setup.drive.grip_play_deg
+    head[memory_map.H_STOP] = _NEVER_RAD if stop_deg is None else 0.5 * stop_deg * units.DEG
+    head[memory_map.H_SPRING] = setup.drive.grip_stiffness_n_mm_per_rad * units.N_MM
     head[memory_map.H_PRESLIDING] = setup.discretisation.presliding_deg * units.DEG
     head[memory_map.H_RADIUS] = setup.needle.radius_mm * units.MM
     head[memory_map.H_ADVECTION] = _advection_coefficient(setup)

@@ -75,6 +75,8 @@ class FreeLaw:
       shaft_damping_s: damping of the shaft's material over its stiffness (models.needle).
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
+      grip_play_deg: between the stops of that slip; None: there are none.
+      grip_stiffness_n_mm_per_rad: of a spring that brings it back.
       throughout, at_tip: additional laws (models.tissue).
 
     Raises:
@@ -99,6 +101,8 @@ class FreeLaw:
     shaft_damping_s: float = 0.0
     contact: ContactCurve | None = None
     grip_torque_n_mm: float | None = None
+    grip_play_deg: float | None = None
+    grip_stiffness_n_mm_per_rad: float = 0.0
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
 
@@ -138,6 +142,8 @@ class FreeLaw:
             creep_time_s=self.creep_time_s,
             shaft_damping_s=strength * self.shaft_damping_s,
             grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
+            grip_play_deg=None if self.grip_play_deg is None else strength * self.grip_play_deg,
+            grip_stiffness_n_mm_per_rad=_weaker(self.grip_stiffness_n_mm_per_rad, strength) or 0.0,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
         )
@@ -173,7 +179,12 @@ class FreeLaw:
 
     def drive(self, drive: Drive) -> Drive:
         """The drive with the law in it."""
-        changed: Drive = drive.but(grip_torque_n_mm=self.grip_torque_n_mm)
+        grips = self.grip_torque_n_mm is not None
+        changed: Drive = drive.but(
+            grip_torque_n_mm=self.grip_torque_n_mm,
+            grip_play_deg=self.grip_play_deg if grips else None,
+            grip_stiffness_n_mm_per_rad=self.grip_stiffness_n_mm_per_rad if grips else 0.0,
+        )
         return changed
 
     def tissue(self, tissue: Tissue) -> Tissue:

@@ -58,8 +58,10 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_CREEP,  # twist that a torque adds in time, over the elastic one; 0: none
     H_CREEP_TIME,  # s
     H_SHAFT_DAMPING,  # of a twisted element, over its stiffness, s
+    H_STOP,  # angle by which the needle slips in the chuck at most, either way, rad
+    H_SPRING,  # that brings it back, N m / rad
     HEADER,
-) = range(44)
+) = range(46)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 
@@ -147,7 +149,7 @@ Z_DRY, Z_TURN, Z_AXIAL, PHI, PAST, SLIP, SITE = range(7)
     O_WORK,  # done by the drive so far, J
     O_DISSIPATED,  # by friction so far, J
     O_TISSUE_ENERGY,  # stored in twisted tissue, J
-    O_SHAFT_ENERGY,  # stored in the twisted shaft, J
+    O_SHAFT_ENERGY,  # stored in the twisted shaft, and in a chuck that slips, J
     O_SHAFT_TORQUE,  # largest that an element of the shaft carries, N m
     O_CHUCK_SLIP,  # by which the needle has slipped in the chuck so far, rad
     O_CORRECTION,  # largest torque that lifts MuJoCo's step to a higher order, N m

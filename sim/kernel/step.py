@@ -21,15 +21,13 @@ from sim.kernel.shaft import Shaft, drive_input, motor_force
 from sim.kernel.stage.assemble import (
     add_shaft_damping,
     add_viscous,
-    drive_torque,
     hardening_energy,
     hardening_power,
     is_idle,
     is_linear,
-    slack,
-    slipped,
     twist_of,
 )
+from sim.kernel.stage.chuck import drive_torque, slack, slipped
 from sim.kernel.stage.newton import newton
 from sim.kernel.stage.plasticity import carry_sets, hold_sets, keep_sets
 from sim.kernel.stage.workspace import Frame, Workspace, divide
@@ -148,7 +146,13 @@ def _carry_sites(
 
 @inlined
 def _friction(
-    w: Workspace, frame: Frame, drive: float, tip_torque: float, weight: float, tissue: Array
+    w: Workspace,
+    frame: Frame,
+    drive: float,
+    slip: float,
+    tip_torque: float,
+    weight: float,
+    tissue: Array,
 ) -> tuple[float, float, float]:
     """Torque of all friction on the shaft, its power, and the drive's torque.
 
@@ -158,7 +162,7 @@ def _friction(
     """
     theta, omega, rest, spring, inertia = w.theta, w.omega, w.rest, w.spring, w.inertia
     n = omega.size - 1
-    torque, _ = drive_torque(w, frame, drive)
+    torque, _ = drive_torque(w, frame, drive, slip)
     friction, power, arriving = 0.0, 0.0, torque
     for i in range(n + 1):
         leaving = tip_torque
@@ -227,6 +231,8 @@ def advance(
         head[memory_map.H_YIELD_SLOPE],
         head[memory_map.H_CREEP],
         head[memory_map.H_CREEP_TIME],
+        head[memory_map.H_STOP],
+        head[memory_map.H_SPRING],
     )
     drive_was, drive_is = (
         drive_input(shaft, past[memory_map.U_DRIVE]),
@@ -257,15 +263,18 @@ def advance(
             kept, carried = stages[stage - 1, KEPT], stages[stage - 1, CARRIED]
             _next_stage(law, theta, rates, before, w, frame, kept, carried)
             slip_from = slip_was + kept * (slip_from - slip_was) + carried * (slip - slip_from)
+            slip_from = slack(slip_from, frame.stop)
             carry_sets(w, sets, kept, carried)
         again = stage > 0 and not nonlinear and frame.drift == 0.0
         solved, count, recoverable, stored = newton(
-            head, law, w, frame, drive - slip_from, tip_torque, nonlinear, again
+            head, law, w, frame, drive - slip_from, tip_torque, nonlinear, again, slip_from
         )
         for r in range(rows):
             recoverable += hardening_power(w, r, law[r], frame)
-        torque, friction, power = _friction(w, frame, drive - slip_from, tip_torque, share, tissue)
-        slip = slip_from + slipped(w, frame, drive - slip_from, torque)
+        torque, friction, power = _friction(
+            w, frame, drive - slip_from, slip_from, tip_torque, share, tissue
+        )
+        slip = slip_from + slipped(w, frame, drive - slip_from, torque, slip_from)
         turning = (drive_is - drive_was) / h if shaft.servo > 0.0 else w.omega[0]
         work += h * share * (torque * turning - tip_torque * w.omega[n])
         dissipated += h * share * (power - recoverable)
@@ -306,7 +315,7 @@ def advance(
     nxt[memory_map.O_FAILED] = now[memory_map.O_FAILED] + failed
     nxt[memory_map.O_ITERATIONS] = iterations
     _show_shaft(w, end, nxt)
-    nxt[memory_map.O_SHAFT_ENERGY] += kept_energy
+    nxt[memory_map.O_SHAFT_ENERGY] += kept_energy + 0.5 * frame.spring * slip * slip
 
 
 @inlined

@@ -13,6 +13,8 @@ from models.errors import InvalidValue
         ("stiffness_n_mm_per_rad", 0),
         ("sheath_friction_n_mm_per_mm", -1e-3),
         ("grip_torque_n_mm", 0),
+        ("grip_play_deg", 0),
+        ("grip_stiffness_n_mm_per_rad", -1),
     ],
 )
 def test_an_impossible_drive_is_refused_by_the_name_of_its_field(field, bad):
@@ -29,6 +31,13 @@ def test_only_a_servo_has_a_chuck_that_slips():
     assert Drive(grip_torque_n_mm=2.0).grip_torque_n_mm == 2.0
     with pytest.raises(InvalidValue, match=r"grip_torque_n_mm.*torque_limit_n_mm"):
         Drive(kind="torque", grip_torque_n_mm=2.0)
+
+
+@pytest.mark.parametrize("field", ["grip_play_deg", "grip_stiffness_n_mm_per_rad"])
+def test_stops_and_springs_are_those_of_a_chuck_that_slips(field):
+    assert getattr(Drive(grip_torque_n_mm=1.0, **{field: 5.0}), field) == 5.0
+    with pytest.raises(InvalidValue, match=rf"{field}.*does not slip.*grip_torque_n_mm"):
+        Drive(**{field: 5.0})
 
 
 def test_an_unknown_kind_is_answered_with_the_known_ones():

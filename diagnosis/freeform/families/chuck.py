@@ -1,8 +1,14 @@
-"""A free law of the chuck: the needle slips in it where it carries more than a torque.
+"""Free laws of the chuck, in which the needle turns where it carries more than a torque.
 
-The torque at which it first slips is looked for below the largest that the nominal rig asks for.
+- it slips
+- it slips between stops, and a spring brings it back: play that rubs, a coupling that is soft, then
+  stiff, one with hysteresis
+
+The torque at which it first gives way is looked for below the largest that the nominal rig asks for.
 """
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.effects.effect import Effect, Parameter, Place
@@ -14,34 +20,46 @@ from diagnosis.replay.variables import Variable
 
 _STARTS = (0.9, 0.6, 0.35)  # of the largest torque
 _LEAST = 0.02
+_LEAST_RUB, _MOST_SOFT = 1e-3, 30.0  # of the largest torque; per rad
+_COUPLINGS = tuple(
+    (rub, play_deg, soft)
+    for play_deg in (2.0, 6.0, 20.0)
+    for rub, soft in ((0.02, 0.0), (0.1, 0.0), (0.25, 0.0), (0.5, 0.0), (0.01, 3.0), (0.3, 1.0))
+)  # to start with: friction and spring in these units, and play
+_PLACES = {Place.DRIVE: 1.0}
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """The chuck, if the torque of a log has ends."""
-    return (_grip(ranges),) if Variable.TORQUE in ranges.ends else ()
-
-
-def _grip(ranges: LogRanges) -> Family:
+    if Variable.TORQUE not in ranges.ends:
+        return ()
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    torque = Parameter(
+    return _grip(most_n_mm), _coupling(most_n_mm)
+
+
+def _torque(most_n_mm: float, least: float, starts: Sequence[float]) -> Parameter:
+    return Parameter(
         name="torque",
         unit="N mm",
-        low=_LEAST * most_n_mm,
+        low=least * most_n_mm,
         high=2.0 * most_n_mm,
-        start=tuple(share * most_n_mm for share in _STARTS),
+        start=tuple(share * most_n_mm for share in starts),
         logarithmic=True,
         neutral=None,
     )
+
+
+def _grip(most_n_mm: float) -> Family:
     return Family(
         effect=Effect(
             name="slip in the chuck over torque",
             title="a needle that slips in its chuck beyond a torque",
             place=Place.DRIVE,
-            parameters=(torque,),
+            parameters=(_torque(most_n_mm, _LEAST, _STARTS),),
             apply=_apply,
             differences=(1e-2, 1e-3),
         ),
-        places={Place.DRIVE: 1.0},
+        places=_PLACES,
         says="torque",
         title="torque that the chuck holds",
         curve=_held,
@@ -56,3 +74,46 @@ def _held(torque: float) -> Points:
 
 def _apply(rig: RigParameters, torque: float) -> RigParameters:
     return replace(rig, free=FreeLaw(grip_torque_n_mm=torque))
+
+
+def _coupling(most_n_mm: float) -> Family:
+    rubs, plays_deg, soft = zip(*_COUPLINGS, strict=True)
+    play = Parameter(
+        name="play", unit="deg", low=0.2, high=360.0, start=plays_deg, logarithmic=True, neutral=None
+    )
+    spring = Parameter(
+        name="stiffness",
+        unit="N mm / rad",
+        low=0.0,
+        high=_MOST_SOFT * most_n_mm,
+        start=tuple(share * most_n_mm for share in soft),
+        scale=most_n_mm,
+    )
+    return Family(
+        effect=Effect(
+            name="slip between stops over torque",
+            title="a chuck that gives way between stops, with friction and a spring",
+            place=Place.DRIVE,
+            parameters=(_torque(most_n_mm, _LEAST_RUB, rubs), play, spring),
+            apply=_apply_coupling,
+            differences=(1e-2, 1e-3),
+        ),
+        places=_PLACES,
+        says="torque",
+        title="torque that turns the needle in its chuck, from the middle to a stop",
+        curve=_taken,
+        x_unit="deg",
+        unit="N mm",
+    )
+
+
+def _taken(torque: float, play_deg: float, stiffness: float) -> Points:
+    stop_deg = 0.5 * play_deg
+    return (0.0, stop_deg), (torque, torque + stiffness * math.radians(stop_deg))
+
+
+def _apply_coupling(
+    rig: RigParameters, torque: float, play_deg: float, stiffness: float
+) -> RigParameters:
+    law = FreeLaw(grip_torque_n_mm=torque, grip_play_deg=play_deg, grip_stiffness_n_mm_per_rad=stiffness)
+    return replace(rig, free=law)

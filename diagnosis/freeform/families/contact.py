@@ -4,6 +4,7 @@
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
 - dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
   Automatic Control 40 (1995))
+- the same of bristles that have slipped: bonds that break, tissue that tears
 """
 
 import math
@@ -40,13 +41,32 @@ _BRISTLES = (
         name="time", unit="s", low=0.001, high=3.0, start=(0.05, 0.05), logarithmic=True, neutral=None
     ),
 )
+_BROKEN = 6.0  # times the slip of a factor e, after which nothing more breaks
+_BONDS = (
+    replace(_BRISTLES[0], high=180.0, start=(5.0, 5.0, 20.0, 20.0, 60.0, 60.0)),
+    Parameter(
+        name="slip",
+        unit="deg",
+        low=0.1,
+        high=360.0,
+        start=(0.5, 8.0) * 3,
+        logarithmic=True,
+        neutral=None,
+    ),
+    Parameter(name="left", unit="-", low=0.01, high=1.0, start=(0.05,) * 6, neutral=None),
+)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that depend on the past of a contact."""
     found: list[Family] = []
     if Variable.HISTORY in ranges.ends:
-        found += [_damping_over_slip(ranges), _friction_over(_slip(ranges), ranges), _bristles(ranges)]
+        found += [
+            _damping_over_slip(ranges),
+            _friction_over(_slip(ranges), ranges),
+            _bristles(ranges),
+            _bonds(ranges),
+        ]
     if Variable.TIME in ranges.ends:
         found.append(_friction_over(_age(ranges), ranges))
     return tuple(found)
@@ -182,5 +202,51 @@ def _apply_bristles(
         stribeck_rad_s=stribeck_rad_s,
         stiffness_n_mm_per_rad_per_mm=static / math.radians(twist_deg),
         time_constant_s=time_s,
+    )
+    return replace(rig, free=FreeLaw(throughout=(law,)))
+
+
+def _bonds(ranges: LogRanges) -> Family:
+    """Bristles whose level fades with the slip so far, to a part that stays."""
+    level = ranges.library["coulomb_friction"].parameters[0]
+    starts = len(_BONDS[0].start)
+    return Family(
+        effect=Effect(
+            name="breaking bonds over slip",
+            title="bonds between shaft and tissue that twist, and break where they slip",
+            place=Place.INTERFACE,
+            parameters=(replace(level, start=level.start[-1:] * starts), *_BONDS),
+            apply=_apply_bonds,
+            differences=(1e-1, 1e-2),
+        ),
+        places={Place.INTERFACE: 0.5, Place.TISSUE: 0.5},
+        says="history",
+        title="friction of the bonds along the shaft",
+        curve=_broken,
+        x_unit="deg of slip",
+        unit="N mm / mm",
+    )
+
+
+def _fading(slip_deg: float, left: float) -> ContactCurve:
+    """From 1 to what is left, by a factor e within each `slip_deg`."""
+    curve = _neutral(ContactVariable.SLIP, slip_deg, _BROKEN * slip_deg)
+    factors = left + (1.0 - left) * np.exp(-curve.places / slip_deg)
+    faded: ContactCurve = curve.but(factors=tuple(factors))
+    return faded
+
+
+def _broken(level: float, _: float, slip_deg: float, left: float) -> Points:
+    curve = _fading(slip_deg, left)
+    return curve.places, level * np.array(curve.factors)
+
+
+def _apply_bonds(
+    rig: RigParameters, level: float, twist_deg: float, slip_deg: float, left: float
+) -> RigParameters:
+    law = Interface(
+        kinetic_n_mm_per_mm=level,
+        stiffness_n_mm_per_rad_per_mm=level / math.radians(twist_deg),
+        contact=_fading(slip_deg, left),
     )
     return replace(rig, free=FreeLaw(throughout=(law,)))

@@ -120,38 +120,6 @@ def add_linear(w: Workspace, g: float, with_matrix: bool) -> None:
         diagonal[n] = damp_diagonal[n] + inertia[n] + before
 
 
-@inlined
-def drive_torque(w: Workspace, frame: Frame, drive: float) -> tuple[float, float]:
-    """Torque of the drive on the first node, N m, and minus its slope.
-
-    Args:
-      drive: angle at which the servo rests, less what has slipped, rad; or a torque, N m.
-    """
-    if frame.servo == 0.0:
-        return drive, 0.0
-    miss = drive - w.theta[0] - frame.g * w.omega[0]
-    engaged = abs(miss) >= frame.backlash
-    torque = frame.servo * (miss - slack(miss, frame.backlash))
-    if 0.0 < frame.grip < abs(torque):
-        return math.copysign(frame.grip, torque), 0.0
-    return torque, frame.g * frame.servo if engaged else 0.0
-
-
-@inlined
-def slipped(w: Workspace, frame: Frame, drive: float, torque: float) -> float:
-    """By how much the needle slips in the chuck within a stage, rad, where its torque is that."""
-    if frame.grip == 0.0 or abs(torque) < frame.grip:
-        return 0.0
-    miss = drive - w.theta[0] - frame.g * w.omega[0]
-    return miss - slack(miss, frame.backlash) - torque / frame.servo
-
-
-@inlined
-def slack(miss: float, backlash: float) -> float:
-    """How much of the play is taken up, rad, where the drive is ahead of the needle by `miss`."""
-    return min(max(miss, -backlash), backlash)
-
-
 @embedded
 def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -> tuple[float, float]:
     """Every covered site of a row that is more than viscous.

@@ -18,9 +18,9 @@ from sim.kernel.stage.assemble import (
     add_linear,
     add_row,
     add_viscous_advection,
-    drive_torque,
     is_linear,
 )
+from sim.kernel.stage.chuck import drive_torque
 from sim.kernel.stage.plasticity import add_sets
 from sim.kernel.stage.stiffening import add_stiffening, set_springs
 from sim.kernel.stage.tridiagonal import factorise, substitute
@@ -70,6 +70,7 @@ def newton(
     tip_torque: float,
     nonlinear: bool,
     factored: bool,
+    slip: float = 0.0,
 ) -> tuple[bool, int, float, float]:
     """Solve one stage for the rates `w.omega`, rad/s, from where they stand.
 
@@ -83,6 +84,7 @@ def newton(
       tip_torque: torque that resists at the tip, N m.
       nonlinear: whether iteration is needed.
       factored: whether the factors of the stage before hold.
+      slip: of the chuck before the stage, rad; `drive` is less it.
 
     Returns:
       whether it converged, iterations, power that goes into twisted tissue and bent shaft, W, and
@@ -99,7 +101,7 @@ def newton(
         add_linear(w, frame.g, not factored)
         if stiffens:
             add_stiffening(head, w, frame.g)
-        torque, slope = drive_torque(w, frame, drive)
+        torque, slope = drive_torque(w, frame, drive, slip)
         rhs[0] += torque
         rhs[n - 1] -= tip_torque
         if not factored:

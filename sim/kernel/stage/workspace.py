@@ -1,5 +1,6 @@
 """The working memory of one step, and what is constant during it."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +53,8 @@ class Frame(NamedTuple):
     yield_slope: float = 0.0  # stiffness beyond it over the elastic one
     creep: float = 0.0  # twist that a torque adds in time, over the elastic one; 0: none
     creep_time: float = 0.0  # s
+    stop: float = math.inf  # angle by which the needle slips in the chuck at most, rad
+    spring: float = 0.0  # that brings it back, N m / rad
 
 
 @inlined

@@ -95,6 +95,9 @@ def at_stage(interpreted, shaft_of):
             head[places.H_PRESLIDING],
             shaft.servo,
             head[places.H_BACKLASH],
+            grip=head[places.H_GRIP],
+            stop=head[places.H_STOP],
+            spring=head[places.H_SPRING],
         )
         lengths = (setup.free_mm * units.MM, setup.inserted_mm * units.MM)
         step._prepare(head, mesh, law, shaft, theta, rates, state, w, frame, *lengths, False)

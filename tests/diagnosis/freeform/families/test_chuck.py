@@ -7,11 +7,12 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered, same_readings
 
+from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.chuck import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE, MOST_N_MM = turns(6.0), 1.0
-(GRIP,) = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
+GRIP, COUPLING = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
 
 
 def test_a_log_without_a_torque_has_no_chuck():
@@ -29,3 +30,30 @@ def test_the_torque_is_looked_for_below_the_largest():
     assert torque.high > MOST_N_MM
     _, held = GRIP.curve(0.7)
     np.testing.assert_allclose(held, 0.7)
+
+
+def test_a_chuck_without_friction_and_spring_has_play():
+    """Friction of a thousandth of the torque, and play of 10 deg against that of the library."""
+    play = LIBRARY["chuck_backlash"].apply(NOMINAL, 10.0)
+    assert same_readings(ANGLE, COUPLING.effect.apply(NOMINAL, 1e-7, 10.0, 0.0), play)
+    assert not same_readings(ANGLE, COUPLING.effect.apply(NOMINAL, 0.1, 10.0, 0.0), play)
+
+
+def test_a_chuck_without_friction_and_stops_is_a_spring():
+    soft = LIBRARY["base_compliance"].apply(NOMINAL, 2.0)
+    assert same_readings(ANGLE, COUPLING.effect.apply(NOMINAL, 1e-7, 3600.0, 2.0), soft)
+    assert not same_readings(ANGLE, COUPLING.effect.apply(NOMINAL, 1e-7, 5.0, 2.0), soft)
+
+
+def test_a_chuck_without_stops_and_spring_slips_at_its_torque():
+    slips = GRIP.effect.apply(NOMINAL, 0.3)
+    assert same_readings(ANGLE, COUPLING.effect.apply(NOMINAL, 0.3, 3600.0, 0.0), slips)
+    angle_deg, torque_n_mm = COUPLING.curve(0.3, 20.0, 2.0)
+    np.testing.assert_allclose(torque_n_mm, 0.3 + 2.0 * np.radians(angle_deg))
+    assert angle_deg == (0.0, 10.0)
+
+
+def test_every_start_is_one_of_torque_play_and_spring():
+    starts = {len(p.start) for p in COUPLING.effect.parameters}
+    assert starts == {18}
+    assert all(p.low <= value <= p.high for p in COUPLING.effect.parameters for value in p.start)

@@ -6,7 +6,7 @@
 import numpy as np
 import pytest
 
-from models.drive import Drive, DriveKind
+from models.drive import Drive
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
@@ -51,7 +51,7 @@ def residual(interpreted, stage, omega, *, drive=0.2, tip_torque=1e-4):
     w, assemble = stage.w, interpreted.assemble
     w.omega[:] = omega
     assemble.add_linear(w, stage.frame.g, True)
-    torque, slope = assemble.drive_torque(w, stage.frame, drive)
+    torque, slope = interpreted.chuck.drive_torque(w, stage.frame, drive)
     w.rhs[0] += torque
     w.rhs[-1] -= tip_torque
     w.diagonal[0] += slope
@@ -88,28 +88,6 @@ def test_the_matrix_is_the_derivative_of_the_residual(interpreted, at_stage, nam
     scale = np.abs(exact).max()
     assert np.abs(matrix - exact).max() < 1e-3 * scale
     assert np.abs(1.01 * matrix - exact).max() > 1e-3 * scale  # negative control
-
-
-@pytest.mark.parametrize("kind", DriveKind)
-def test_a_drive_gives_its_torque_or_that_of_its_servo(interpreted, at_stage, kind):
-    stage = at_stage(setup(TISSUES["viscous"], drive=Drive(kind=kind, backlash_deg=0)))
-    torque, slope = interpreted.assemble.drive_torque(stage.w, stage.frame, 0.3)
-    if kind is DriveKind.TORQUE:
-        assert (torque, slope) == (0.3, 0.0)
-    else:
-        reached = stage.w.theta[0] + stage.frame.g * stage.w.omega[0]
-        assert torque == pytest.approx(stage.frame.servo * (0.3 - reached))
-        assert slope == pytest.approx(stage.frame.servo * stage.frame.g)
-
-
-def test_inside_its_play_the_chuck_gives_nothing(interpreted, at_stage):
-    loose = setup(TISSUES["viscous"], drive=Drive(backlash_deg=30))
-    stage = at_stage(loose)
-    reached = stage.w.theta[0] + stage.frame.g * stage.w.omega[0]
-    inside, beyond = reached + np.radians(14.9), reached + np.radians(15.1)
-    assert interpreted.assemble.drive_torque(stage.w, stage.frame, inside) == (0.0, 0.0)
-    torque, _ = interpreted.assemble.drive_torque(stage.w, stage.frame, beyond)
-    assert torque == pytest.approx(stage.frame.servo * np.radians(0.1))
 
 
 @pytest.mark.parametrize(

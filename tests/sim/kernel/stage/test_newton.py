@@ -46,7 +46,7 @@ def out_of_balance(interpreted, stage, drive=0.5):
     """The residual over the stiffness, as a rate, rad/s: largest of all nodes."""
     w = stage.w
     interpreted.assemble.add_linear(w, stage.frame.g, True)
-    torque, slope = interpreted.assemble.drive_torque(w, stage.frame, drive)
+    torque, slope = interpreted.chuck.drive_torque(w, stage.frame, drive)
     w.rhs[0] += torque
     w.diagonal[0] += slope
     interpreted.newton._add_other_rows(stage.law, w, stage.frame, 0.0)
