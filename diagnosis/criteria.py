@@ -495,9 +495,10 @@ FAULT_CONTENDERS, FAULT_PAIRS = 12, 4
 """Leading explanations of the decimated log that are fitted with a drift, or with jumps of a reading;
 half of them single effects: without it these leave more than any pair of which one effect does what it
 does; and how many pairs with the leading one that have not led without it."""
-JUMP_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 20, 3
+JUMP_SHARE, JUMPS_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 0.8, 20, 3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
-allowed for; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
+allowed for, and what all that may still be made have to, each as much as the next one, since the largest
+is made first; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
 Choices; the search tries them last."""
 JUMP_PARAMETERS = 3.0
 """Parameters that a jump of a reading counts for beside a drift: its trial, its time and its size."""
@@ -589,9 +590,9 @@ CLOSED_GAP = 1.1
 FREE_LAW_GAIN = 0.95
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told. Choices: no verdict rests on them."""
-FAR_GAP = 4.0
+FAR_GAP = 3.0
 """Gap on the decimated log above which free-form laws are not fitted to their end on the log itself. Its
-samples are means, so that this is about 2 on the log. A choice: no verdict rests on it."""
+samples are means, so that this is about 1.6 on the log. A choice: no verdict rests on it."""
 PLAIN_GAP = 2.0
 """Gap on the log up to which plain laws are looked for in place of a free-form curve. A choice: no
 verdict rests on it."""

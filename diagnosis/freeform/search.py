@@ -166,6 +166,7 @@ def _screened_beside(coarse: FitProblem, law: FreeFit, name: str) -> Screened:
 def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
     problem = with_family(coarse, family)
     start = screen(problem, base, family.name)[0].start
+    problem = replace(problem, differences_halved=True)
     fit = fit_effects(problem, (family.name,), start, most_iterations=FIRST_ITERATIONS)
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 

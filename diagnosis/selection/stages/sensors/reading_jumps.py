@@ -2,8 +2,8 @@
 
 The step in the residual of each leading explanation that takes most off its cost tells sensor, trial
 and sample. If that is a good part of what is left beyond noise, the leading explanations are fitted
-again with a jump there, whose size is open; and once more, if another jump is left. It is allowed for
-only if the log is explained so, and not as well by a chuck that slipped at that moment, or a base that
+again with a jump there, whose size is open; and once more, if another jump is left that takes off enough
+for those that may follow, which are smaller, to take off the rest. It is allowed for only if the log is explained so, and not as well by a chuck that slipped at that moment, or a base that
 lost counts, which move the needle against its reading. That shows for a moment in the torque, so that
 a trial has to have both, tip and torque.
 
@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.criteria import JUMP_LEAST_SAMPLES, JUMP_SHARE, MOST_JUMPS, SIMPLE_LEAD
+from diagnosis.criteria import JUMP_LEAST_SAMPLES, JUMP_SHARE, JUMPS_SHARE, MOST_JUMPS, SIMPLE_LEAD
 from diagnosis.fitting.nuisance import reading_jump
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
@@ -48,8 +48,9 @@ def jumps_of_readings(state: SearchState, workers: Workers) -> SearchState:
     if explained:
         return state
     jumping = state
-    for _ in range(MOST_JUMPS):
-        jump = _largest_jump(jumping)
+    for made in range(MOST_JUMPS):
+        share = max(JUMP_SHARE, JUMPS_SHARE / (MOST_JUMPS - made))
+        jump = _largest_jump(jumping, share)
         if jump is None:
             break
         jumping, explained = _refitted(state, jumping, jump, workers).rechecked()
@@ -85,20 +86,24 @@ def _may_be_a_slip(state: SearchState, jump: ReadingJump, workers: Workers) -> b
     return any(c.fit.cost - best.fit.cost <= SIMPLE_LEAD for c in found)
 
 
-def _largest_jump(state: SearchState) -> ReadingJump | None:
-    """The jump that leaves least of one of the leading explanations, if it takes off enough."""
+def _largest_jump(state: SearchState, share: float) -> ReadingJump | None:
+    """The jump that leaves least of one of the leading explanations.
+
+    Args:
+      share: of what that leaves beyond noise, which it has to take off; None if none does.
+    """
     places = list(_places(state.problem))
     rows = [place.rows for place in places]
     least, found = np.inf, None
     for one in leading_on_the_log(state):
         step = largest_step(one.fit.residual, one.fit.slopes, rows, JUMP_LEAST_SAMPLES)
-        if step and _is_enough(step, one) and one.fit.cost - step.gain < least:
+        if step and _is_enough(step, one, share) and one.fit.cost - step.gain < least:
             least, found = one.fit.cost - step.gain, step
     return _jump(places[found.block], found.sample) if found else None
 
 
-def _is_enough(step: ResidualStep, one: Candidate) -> bool:
-    return step.gain > JUMP_SHARE * (one.fit.cost - one.fit.prior - one.fit.samples)
+def _is_enough(step: ResidualStep, one: Candidate, share: float) -> bool:
+    return step.gain > share * (one.fit.cost - one.fit.prior - one.fit.samples)
 
 
 def rows_of(problem: FitProblem, sensor: str) -> list[slice]:
