@@ -497,8 +497,8 @@ half of them single effects: without it these leave more than any pair of which 
 does; and how many pairs with the leading one that have not led without it."""
 JUMP_SHARE, JUMPS_SHARE, JUMP_LEAST_SAMPLES, MOST_JUMPS = 0.3, 0.8, 20, 3
 """Of what an explanation leaves beyond noise: what a jump of a reading has to take off before it is
-allowed for, and what all that may still be made have to, each as much as the next one, since the largest
-is made first; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
+allowed for, and what it has to take off times those that may still be made, since the largest comes
+first; samples on either side of it, of which 20 tell a jump of one sigma; jumps of a log at most.
 Choices; the search tries them last."""
 JUMP_PARAMETERS = 3.0
 """Parameters that a jump of a reading counts for beside a drift: its trial, its time and its size."""

@@ -3,9 +3,10 @@
 The step in the residual of each leading explanation that takes most off its cost tells sensor, trial
 and sample. If that is a good part of what is left beyond noise, the leading explanations are fitted
 again with a jump there, whose size is open; and once more, if another jump is left that takes off enough
-for those that may follow, which are smaller, to take off the rest. It is allowed for only if the log is explained so, and not as well by a chuck that slipped at that moment, or a base that
-lost counts, which move the needle against its reading. That shows for a moment in the torque, so that
-a trial has to have both, tip and torque.
+for those that may follow, which are smaller, to take off the rest. It is allowed for only if the log is
+explained so, and not as well by a chuck that slipped at that moment, or a base that lost counts, which
+move the needle against its reading. That shows for a moment in the torque, so that a trial has to have
+both, tip and torque.
 
 It is told beside effects. A jump that explains a log alone is all that the model lacks: the log stays
 unknown, and the jump is told as the law that is missing.
