@@ -108,7 +108,7 @@ def _sensor(acts_on: ActsOn, words: str, unit: str, size: float) -> _Quantity:
 def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
     return Family(
         effect=Effect(
-            name=f"{quantity.acts_on.replace('_', ' ')} of each trial",
+            name=f"{quantity.acts_on.replace('_', ' ')} over time, of each trial",
             title=f"{quantity.words}, another one in each trial",
             place=max(quantity.places, key=lambda place: quantity.places[place]),
             parameters=coordinates(0, len(trials), quantity.size),
@@ -149,7 +149,7 @@ def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:
     own = (_beside(p, level) for p in coordinates(0, len(trials)))
     return Family(
         effect=Effect(
-            name="dry friction of each trial",
+            name="dry friction over time, of each trial",
             title="dry friction along the shaft, another one in each trial",
             place=Place.INTERFACE,
             parameters=(level, *own),

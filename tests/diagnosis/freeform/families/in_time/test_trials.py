@@ -20,14 +20,14 @@ REST = np.zeros(ANGLE.size)
 RANGES = covered_by([(ANGLE, ANGLE, (REST, REST))] * 3)
 FAMILIES = {f.name: f for f in families(replace(RANGES, missing={TIP: 2.0, TORQUE: 0.3}))}
 GROWS = (0.0, 0.1, -0.2)
-LEVEL, LENGTH = 0.001, "inserted length of each trial"
+LEVEL, LENGTH = 0.001, "inserted length over time, of each trial"
 EFFECTS = {
-    "tissue of each trial": lambda c: ("damping_error", np.exp(c)),
-    "stiffness of each trial": lambda c: ("stiffness_error", np.exp(c)),
-    "tip reading of each trial": lambda c: ("tip_angle_bias", c),
-    "tip gain of each trial": lambda c: ("tip_angle_scale", np.exp(c)),
-    "torque reading of each trial": lambda c: ("torque_bias", c),
-    "torque gain of each trial": lambda c: ("torque_scale", np.exp(c)),
+    "tissue over time, of each trial": lambda c: ("damping_error", np.exp(c)),
+    "stiffness over time, of each trial": lambda c: ("stiffness_error", np.exp(c)),
+    "tip reading over time, of each trial": lambda c: ("tip_angle_bias", c),
+    "tip gain over time, of each trial": lambda c: ("tip_angle_scale", np.exp(c)),
+    "torque reading over time, of each trial": lambda c: ("torque_bias", c),
+    "torque gain over time, of each trial": lambda c: ("torque_scale", np.exp(c)),
 }
 
 
@@ -42,7 +42,7 @@ def same(one, other, within=1e-6):
 
 def test_one_trial_has_nothing_to_differ_from():
     assert families(covered_by([(ANGLE, ANGLE, (REST, REST))] * (FEWEST_TRIALS - 1))) == ()
-    assert set(FAMILIES) == {*EFFECTS, LENGTH, "dry friction of each trial"}
+    assert set(FAMILIES) == {*EFFECTS, LENGTH, "dry friction over time, of each trial"}
     assert {family.says for family in FAMILIES.values()} <= VOCABULARY
     assert all(family.of_each_trial for family in FAMILIES.values())
 
@@ -66,18 +66,20 @@ def test_where_more_is_inserted_the_tip_lags_more():
 
 
 def test_dry_friction_is_that_of_the_library_in_each_trial():
-    rig = FAMILIES["dry friction of each trial"].effect.apply(NOMINAL, LEVEL, *GROWS)
+    rig = FAMILIES["dry friction over time, of each trial"].effect.apply(NOMINAL, LEVEL, *GROWS)
     for number, c in enumerate(GROWS, start=1):
         own = LIBRARY["coulomb_friction"].apply(NOMINAL, LEVEL * np.exp(c))
         assert same(reads(rig, number), reads(own, number))
 
 
 def test_curves_are_told_trial_by_trial():
-    number, damping = FAMILIES["tissue of each trial"].curve(*GROWS)
+    number, damping = FAMILIES["tissue over time, of each trial"].curve(*GROWS)
     np.testing.assert_allclose(number, (1, 2, 3))
     np.testing.assert_allclose(damping, DAMPING * np.exp(GROWS))
-    _, offset = FAMILIES["tip reading of each trial"].curve(*GROWS)
+    _, offset = FAMILIES["tip reading over time, of each trial"].curve(*GROWS)
     np.testing.assert_allclose(offset, GROWS)
-    _, level = FAMILIES["dry friction of each trial"].curve(LEVEL, *GROWS)
+    _, level = FAMILIES["dry friction over time, of each trial"].curve(LEVEL, *GROWS)
     np.testing.assert_allclose(level, LEVEL * np.exp(GROWS))
-    assert isinstance(FAMILIES["tip gain of each trial"].effect.apply(NOMINAL, *GROWS), RigParameters)
+    assert isinstance(
+        FAMILIES["tip gain over time, of each trial"].effect.apply(NOMINAL, *GROWS), RigParameters
+    )
