@@ -16,7 +16,7 @@ from models import units
 
 Array = NDArray[np.float64]
 
-_OF_READINGS = (Variable.PAST, Variable.TURNED_BY)
+_OF_READINGS = (Variable.PAST, Variable.TURNED_BY, Variable.LAG)
 LEAST_PAST_S, LONGEST_PAST_S = 0.02, 60.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
 LONGER = 1.2  # the longest trial, of the shortest, for shares of trials to be other than their times
@@ -38,6 +38,7 @@ LEAST_RANGE = {
     Variable.TORQUE_RATE: 0.0,
     Variable.PAST: 0.0,
     Variable.TURNED_BY: 0.0,
+    Variable.LAG: 0.0,
 }
 """Below which nothing can depend on a variable visibly."""
 

@@ -15,6 +15,9 @@ or with which the angle of the drive follows the torque, as an insert that creep
 A curve over the turn since the last reversal adds hysteresis (Prandtl-Ishlinskii),
 
     += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
+
+One over the lag of a reading gives the rate at which it follows: straight up to the last place, and
+level.
 """
 
 from dataclasses import dataclass, replace
@@ -27,10 +30,13 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from diagnosis.replay.sensing.bearing import stopped_at
 from diagnosis.replay.sensing.filters import first_order
+from diagnosis.replay.sensing.limited_rate import lag_at_limited_rate
 from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
 
 Array = NDArray[np.float64]
+
+_WEAKEST = 1e-6  # strength of a lag
 
 
 class ActsOn(StrEnum):
@@ -109,11 +115,18 @@ class Curve:
         each = zip(self.places, self.values, strict=True)
         return np.asarray(np.sum([share * stopped_at(values, limit) for limit, share in each], axis=0))
 
+    def behind(self, time_s: Array, values: Array) -> Array:
+        """What a reading that follows at a limited rate is behind, (N,), to add to it."""
+        lag, most_per_s = self.places[-1], self.values[-1]
+        return np.asarray(-lag_at_limited_rate(time_s, values, lag / most_per_s, most_per_s))
+
     def times(self, strength: float) -> "Curve":
         """The curve multiplied by a strength; factors are raised to that power.
 
-        One of the orientation stays: the law that it multiplies is multiplied.
+        One of the orientation stays: the law that it multiplies is multiplied. A reading follows faster.
         """
+        if self.variable is Variable.LAG:
+            return replace(self, values=tuple(value / max(strength, _WEAKEST) for value in self.values))
         if self.acts_on is ActsOn.ORIENTATION:
             return self
         if self.acts_on in FACTORS:

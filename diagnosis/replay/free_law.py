@@ -269,6 +269,8 @@ class FreeLaw:
                     more = own * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
                 elif curve.variable is Variable.PAST:
                     more = curve.of_past(inputs.time_s, own)
+                elif curve.variable is Variable.LAG:
+                    more = curve.behind(inputs.time_s, own)
                 elif curve.variable is Variable.TURNED_BY:
                     of_drive = curve.acts_on is ActsOn.DRIVE_TORQUE
                     more = curve.with_hysteresis(inputs.drive if of_drive else own)

@@ -17,6 +17,7 @@ torque         torque on the needle at the chuck, N mm
 torque_rate    N mm / s
 past           time constant, s, with which a reading follows what it shows
 turned_by      turn since the last reversal, for a reading with hysteresis, in its own unit
+lag            of a reading that follows at a limited rate, in its own unit
 """
 
 from collections.abc import Callable, Mapping
@@ -57,6 +58,7 @@ class Variable(StrEnum):
     TORQUE_RATE = "torque_rate"
     PAST = "past"
     TURNED_BY = "turned_by"
+    LAG = "lag"
 
 
 UNITS = {
@@ -77,6 +79,7 @@ UNITS = {
     Variable.TORQUE_RATE: "N mm / s",
     Variable.PAST: "s",
     Variable.TURNED_BY: "of its unit",
+    Variable.LAG: "of its unit",
 }
 SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
@@ -87,6 +90,7 @@ SAYS: Mapping[str, str] = {
     Variable.TORQUE_RATE: "history",
     Variable.PAST: "history",
     Variable.TURNED_BY: "history",
+    Variable.LAG: "rate",
 }
 """What variables are called in the vocabulary, those that have no name of their own there."""
 OF_THE_NEEDLE = (
