@@ -171,9 +171,9 @@ def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -
 
 
 def _without_drift(judged: Judged) -> Judged:
-    """The same with a torque sensor that does not drift, which would hide a part of what is missing."""
+    """The same with sensors that do not drift, which would hide a part of what is missing."""
     fine, coarse = judged.problem, judged.coarse
-    noise = replace(fine.noise, torque_drift_n_mm=0.0)
+    noise = replace(fine.noise, drifts={})
     best = candidate(rescaled(judged.verdict.best.fit, fine, noise))
     return replace(
         judged,

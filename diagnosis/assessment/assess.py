@@ -20,7 +20,7 @@ from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
-from diagnosis.replay.drift import drift_range_sigma, with_drift
+from diagnosis.replay.drift import drift_ranges_sigma, with_drift
 from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
@@ -60,7 +60,7 @@ class Assessment:
       joint: joint uncertainty of the parameters of the nearest explanation.
       imperfections: imperfections of sensors in the nearest explanation, with their parameters.
       reading_jumps: readings that are off from a moment on, in the nearest explanation.
-      torque_drift_sigma: largest range of the drift within a trial that was allowed for.
+      drift_sigma: largest range of the drift within a trial that was allowed for, by sensor.
       with_one_more: gap that the best fit may reach with one more effect, by effect.
       detection_limits: parameters at the largest strength that may go unseen, by effect; empty if
         the log is not explained, or explained by two effects.
@@ -81,7 +81,7 @@ class Assessment:
     joint: JointUncertainty
     imperfections: dict[str, dict[str, Interval]]
     reading_jumps: tuple[ReadingJump, ...]
-    torque_drift_sigma: float
+    drift_sigma: dict[str, float]
     with_one_more: dict[str, float]
     detection_limits: dict[str, dict[str, float]]
     next_experiment: str
@@ -150,7 +150,7 @@ def assess(
         joint=joint_uncertainty(near.fit, spread, named),
         imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
         reading_jumps=rig.jumps,
-        torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
+        drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,
         detection_limits=limits,
         next_experiment=_next_experiment(coarse, verdict, where, accepted, stop)

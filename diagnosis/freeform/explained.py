@@ -11,7 +11,7 @@ from diagnosis.freeform.in_words import next_step
 from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
-from diagnosis.replay.drift import drift_range_sigma, with_drift
+from diagnosis.replay.drift import drift_ranges_sigma, with_drift
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.residuals.residual_breakdown import residual_breakdown
 from diagnosis.residuals.residual_shape import residual_shape
@@ -48,7 +48,7 @@ def explained_by(
         ),
         imperfections={},  # those of the nearest explanation are not in the fit of the law
         reading_jumps=rig.jumps,
-        torque_drift_sigma=drift_range_sigma(problem.log, problem.noise, predictions),
+        drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
         explained=explained,
         breakdown_after=residual_breakdown(left),
         shape_after=residual_shape(left),

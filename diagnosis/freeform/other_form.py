@@ -48,7 +48,7 @@ def other_form(nominal: NominalReplay, best: Fit, workers: Workers) -> Family | 
     """The free-form law that leaves clearly less than an effect of an explanation; None: there is none.
 
     Args:
-      nominal: the log as it was replayed first, without drift of the torque.
+      nominal: the log as it was replayed first, without drift of the sensors.
       best: the explanation.
 
     Raises:

@@ -1,4 +1,4 @@
-"""The likeliest drift of the torque sensor in the residual of a prediction, if drift is allowed for."""
+"""The likeliest drift of a sensor in the residual of a prediction, if drift is allowed for."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -7,40 +7,52 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import DRIFT_ALIKE
-from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.replay import Prediction
 
 Array = NDArray[np.float64]
 
 
-def torque_drift_sigma(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
-    """Drift at every sample, in sigma of the torque, (N,); 0 if none is allowed for."""
-    drift = noise.drift(TORQUE)
-    if drift is None or not trial.has(TORQUE):
+def drift_sigma(trial: PreparedTrial, sensor: str, prediction: Prediction, noise: Noise) -> Array:
+    """Drift at every sample, in sigma of the sensor, (N,); 0 if none is allowed for."""
+    drift = noise.drift(sensor)
+    if drift is None or not trial.has(sensor):
         return np.zeros(trial.time_s.size)
-    return drift.likeliest(trial.time_s, (trial.readings[TORQUE] - prediction[TORQUE]) / noise[TORQUE])
+    return drift.likeliest(trial.time_s, _left(trial, sensor, prediction, noise))
 
 
 def with_drift(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Prediction]:
     """Predictions of the readings, including drift, by trial."""
-    drifts = _by_trial(log, noise, predictions)
+    each = zip(log.trials, predictions, strict=True)
     return [
-        replace(one, base_torque_n_mm=one.base_torque_n_mm + noise[TORQUE] * drift)
-        for one, drift in zip(predictions, drifts, strict=True)
+        replace(one, **{s: one[s] + noise[s] * drift_sigma(trial, s, one, noise) for s in noise.drifts})
+        for trial, one in each
     ]
 
 
-def drift_range_sigma(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
-    """Largest range of the drift within a trial, in sigma of the torque."""
-    return max((float(np.ptp(drift)) for drift in _by_trial(log, noise, predictions)), default=0.0)
+def drift_ranges_sigma(
+    log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]
+) -> dict[str, float]:
+    """Largest range of the drift within a trial, by sensor and in its sigma."""
+    return {s: drift_range_sigma(log, s, noise, predictions) for s in SENSORS}
 
 
-def drifts_alike(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> bool:
+def drift_range_sigma(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> float:
+    """Largest range of the drift within a trial, in sigma of the sensor."""
+    drifts = _by_trial(log, sensor, noise, predictions)
+    return max((float(np.ptp(drift)) for drift in drifts), default=0.0)
+
+
+def drifts_alike(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> bool:
     """Whether the sensor drifts along a line in every trial, at one rate: a law, and no accident."""
     rates = []
-    for trial, drift in zip(log.trials, _by_trial(log, noise, predictions), strict=True):
-        if trial.has(TORQUE):
+    drifts = _by_trial(log, sensor, noise, predictions)
+    for trial, drift in zip(log.trials, drifts, strict=True):
+        if trial.has(sensor):
             after_s = trial.time_s - trial.time_s[0]
             line = np.polyfit(after_s, drift, 1)
             if np.ptp(drift - np.polyval(line, after_s)) > DRIFT_ALIKE * np.ptp(drift):
@@ -49,33 +61,23 @@ def drifts_alike(log: PreparedLog, noise: Noise, predictions: Sequence[Predictio
     return len(rates) > 1 and float(np.ptp(rates)) <= DRIFT_ALIKE * abs(float(np.mean(rates)))
 
 
-def least_start(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
+def least_start(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> float:
     """By how much the drift begins off zero in every trial at least, in standard deviations."""
-    drift = noise.drift(TORQUE)
+    drift = noise.drift(sensor)
     each = zip(log.trials, predictions, strict=True)
-    read = [(t, (t.readings[TORQUE] - p[TORQUE]) / noise[TORQUE]) for t, p in each if t.has(TORQUE)]
+    read = [(trial, _left(trial, sensor, one, noise)) for trial, one in each if trial.has(sensor)]
     if drift is None or not read:
         return 0.0
     return min(abs(drift.start(trial.time_s, left)) for trial, left in read)
 
 
-def follows_speed(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> float:
-    """How much of the axial speed is in the residual of the torque, in standard deviations.
-
-    By generalised least squares: the drift is a part of the noise.
-    """
-    shared, power = 0.0, 0.0
-    for trial, one in zip(log.trials, predictions, strict=True):
-        if not trial.has(TORQUE):
-            continue
-        left = (trial.readings[TORQUE] - one[TORQUE]) / noise[TORQUE]
-        read = np.isfinite(left)
-        time_s, speed = trial.time_s[read], trial.speed_mm_s[read]
-        white, own = (noise.whitened(TORQUE, time_s, part) for part in (left[read], speed))
-        shared, power = shared + float(white @ own), power + float(own @ own)
-    return shared / float(np.sqrt(power)) if power > 0 else 0.0
-
-
-def _by_trial(log: PreparedLog, noise: Noise, predictions: Sequence[Prediction]) -> list[Array]:
+def _by_trial(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> list[Array]:
     each = zip(log.trials, predictions, strict=True)
-    return [torque_drift_sigma(trial, one, noise) for trial, one in each]
+    return [drift_sigma(trial, sensor, one, noise) for trial, one in each]
+
+
+def _left(trial: PreparedTrial, sensor: str, one: Prediction, noise: Noise) -> Array:
+    """What a prediction leaves, in sigma, (N,)."""
+    return np.asarray((trial.readings[sensor] - one[sensor]) / noise[sensor])

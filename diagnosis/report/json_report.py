@@ -15,6 +15,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.report.sentences import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
@@ -44,7 +45,8 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         **missing,
         "sensors": {
             "imperfections": _parameters(told.imperfections),
-            "torque_drift_sigma": told.torque_drift_sigma,
+            "torque_drift_sigma": told.drift_sigma[TORQUE],
+            "tip_drift_sigma": told.drift_sigma[TIP],
             "reading_jumps": [asdict(jump) for jump in told.reading_jumps],
         },
         "where": _where(diagnosis),

@@ -3,19 +3,22 @@
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
-from diagnosis.prepare.noise.sensor_noise import TORQUE
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.result import Diagnosis
+
+_SENSORS = {TORQUE: "the torque sensor", TIP: "the tip sensor"}
 
 
 def imperfections(found: Diagnosis) -> str:
     """What the sensors do beside noise, in one sentence; empty where nothing had to be allowed for."""
     told = found.assessment
     lines = [_told(name, parameters) for name, parameters in told.imperfections.items()]
-    if told.torque_drift_sigma > 0.0:
-        lines.append(
-            f"a drift of the torque sensor, by up to {in_sigma(told.torque_drift_sigma)} within a trial"
-        )
+    lines += [
+        f"a drift of {_SENSORS[sensor]}, by up to {in_sigma(most)} within a trial"
+        for sensor, most in told.drift_sigma.items()
+        if most > 0.0
+    ]
     lines += map(_jumped, told.reading_jumps)
     if not lines:
         return ""

@@ -6,7 +6,8 @@ noise floor, every pair of a leading effect with any other is screened, and so o
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, outliers
-may be left, noise may be weakly coloured, the torque may drift, and readings may jump.
+may be left, noise may be weakly coloured, the torque may drift, readings may jump, and those of the tip
+may drift.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -32,13 +33,17 @@ from diagnosis.selection.stages.sensors.coloured_noise import (
     noise_of_the_best,
     weakly_coloured_noise,
 )
+from diagnosis.selection.stages.sensors.drift_or_offset import drift_or_offset
 from diagnosis.selection.stages.sensors.imperfections import one_more_imperfection
 from diagnosis.selection.stages.sensors.outliers_left import (
     outliers_and_more,
     outliers_beside_the_best,
 )
 from diagnosis.selection.stages.sensors.reading_jumps import jumps_of_readings
-from diagnosis.selection.stages.sensors.torque_drift import drift_of_the_torque_sensor, drift_or_offset
+from diagnosis.selection.stages.sensors.sensor_drift import (
+    drift_of_the_tip_sensor,
+    drift_of_the_torque_sensor,
+)
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
 from diagnosis.selection.stages.triples import three_effects
@@ -70,7 +75,15 @@ STAGES: tuple[Stage, ...] = (
     weakly_coloured_noise,
     drift_of_the_torque_sensor,
     jumps_of_readings,
-    outliers_and_more((weakly_coloured_noise, drift_of_the_torque_sensor, jumps_of_readings)),
+    drift_of_the_tip_sensor,
+    outliers_and_more(
+        (
+            weakly_coloured_noise,
+            drift_of_the_torque_sensor,
+            jumps_of_readings,
+            drift_of_the_tip_sensor,
+        )
+    ),
     drift_or_offset,
     finer_mesh,
     simpler_effects_in_the_best,

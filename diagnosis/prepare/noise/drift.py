@@ -32,6 +32,19 @@ _KEPT = 32  # trials whose shapes are kept: a fit asks thousands of times for th
 
 
 @dataclass(frozen=True, kw_only=True)
+class AllowedDrift:
+    """Drift that a sensor may have, in the unit of its readings.
+
+    Attributes:
+      size: D, of a random walk within a trial.
+      zeroed: whether it begins at zero in every trial.
+    """
+
+    size: float
+    zeroed: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Drift:
     """Drift of a sensor whose readings are in units of its noise.
 

@@ -23,13 +23,13 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.noise.colour import Colour
-from diagnosis.prepare.noise.drift import Drift
+from diagnosis.prepare.noise.drift import AllowedDrift, Drift
 from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
 
-BASE, TORQUE = "base_angle_deg", "base_torque_n_mm"
+BASE, TORQUE, TIP = "base_angle_deg", "base_torque_n_mm", "tip_angle_deg"
 _ORDER = 4  # of differences, which a residual of a wrong model asks for
 _UNKNOWN = 1.0  # where nothing is claimed and too little was read
 
@@ -47,8 +47,7 @@ class Noise:
       most: largest noise that may be coloured: more is what the model lacks.
       means_of: number of readings that a sample is the mean of.
       colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
-      torque_drift_n_mm: size of the drift that the torque sensor may have within a trial; 0: none.
-      torque_zeroed: whether that drift begins at zero in every trial.
+      drifts: drift that sensors may have within a trial.
     """
 
     sigma: Mapping[str, float]
@@ -59,8 +58,7 @@ class Noise:
     most: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
     colour_chi_square: float = COLOUR_CHI_SQUARE
-    torque_drift_n_mm: float = 0.0
-    torque_zeroed: bool = False
+    drifts: Mapping[str, AllowedDrift] = field(default_factory=dict)
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
@@ -79,10 +77,16 @@ class Noise:
 
     def drift(self, sensor: str) -> Drift | None:
         """The drift that a sensor may have; None: none."""
-        if sensor != TORQUE or not self.torque_drift_n_mm:
+        own = self.drifts.get(sensor)
+        if own is None:
             return None
-        size_sigma = self.torque_drift_n_mm / self.sigma[sensor]
-        return Drift(size_sigma=size_sigma, zeroed=self.torque_zeroed, colour=self.colour.get(sensor))
+        size_sigma = own.size / self.sigma[sensor]
+        return Drift(size_sigma=size_sigma, zeroed=own.zeroed, colour=self.colour.get(sensor))
+
+    def with_drift(self, sensor: str, allowed: AllowedDrift | None) -> "Noise":
+        """The noise with another drift of a sensor; None: without one."""
+        others = {name: own for name, own in self.drifts.items() if name != sensor}
+        return replace(self, drifts=others | {sensor: allowed} if allowed else others)
 
     def with_colour(
         self,
@@ -108,8 +112,7 @@ class Noise:
 
     def same(self, other: "Noise") -> bool:
         """Whether residuals in units of both are the same."""
-        drifts = self.drift(TORQUE) == other.drift(TORQUE)
-        return self.sigma == other.sigma and self.colour == other.colour and drifts
+        return (self.sigma, self.colour, self.drifts) == (other.sigma, other.colour, other.drifts)
 
     def alike(self, other: "Noise", sensor: str) -> bool:
         """Whether the noise of a sensor differs in its size alone."""

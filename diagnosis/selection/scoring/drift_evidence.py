@@ -1,4 +1,4 @@
-"""How well a drift of the torque sensor explains what an explanation leaves, whatever the drift was.
+"""How well a drift of a sensor explains what an explanation leaves, whatever the drift was.
 
 Scores of explanations with and without drift are comparable once what allowing for it costs is added:
 the cost of a residual with noise of covariance C is r' C^-1 r + log det C, and a drift changes both
@@ -13,7 +13,8 @@ import numpy as np
 from diagnosis.criteria import DRIFT_SIZES_SIGMA, MOST_QUIETENED
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
+from diagnosis.prepare.noise.drift import AllowedDrift
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
 
 
@@ -27,32 +28,37 @@ def score_beside_drift(one: Candidate, problem: FitProblem) -> float:
     return one.score + _allowance(problem)
 
 
-def likeliest_drift(problem: FitProblem, found: Sequence[Candidate], zeroed: bool) -> Noise:
+def likeliest_drift(problem: FitProblem, sensor: str, found: Sequence[Candidate], zeroed: bool) -> Noise:
     """The problem's noise with the drift under which the best of some candidates has the least score.
 
     Args:
+      sensor: that drifts.
       found: candidates of the problem; at least one.
       zeroed: whether the drift begins at zero in every trial.
     """
-    options = list(_noises(problem, zeroed))
+    options = list(_noises(problem, sensor, DRIFT_SIZES_SIGMA, zeroed))
     return min(options, key=lambda noise: _least_score(problem, found, noise))
 
 
-def widest_drift(problem: FitProblem) -> Noise:
-    """The problem's noise with the largest drift, whatever it begins at."""
-    return max(_noises(problem, zeroed=False), key=lambda noise: noise.torque_drift_n_mm)
+def widest_drift(problem: FitProblem, sensor: str) -> Noise:
+    """The problem's noise with the largest drift of a sensor, whatever it begins at."""
+    (noise,) = _noises(problem, sensor, [max(DRIFT_SIZES_SIGMA)], zeroed=False)
+    return noise
 
 
-def noise_of_a_reading_n_mm(problem: FitProblem) -> float:
+def noise_of_a_reading(problem: FitProblem, sensor: str) -> float:
     """As found, or as claimed, if that is more; of samples that are means, that of a single reading."""
-    found, claimed = problem.noise[TORQUE], problem.log.rig.sensors.base_torque_noise_n_mm
+    found, claimed = problem.noise[sensor], problem.log.rig.sensors.by_column()[sensor]
     return float(np.sqrt(problem.log.means_of)) * max(found, min(claimed, MOST_QUIETENED * found))
 
 
-def _noises(problem: FitProblem, zeroed: bool) -> Iterable[Noise]:
-    for size_sigma in DRIFT_SIZES_SIGMA:
-        size_n_mm = size_sigma * noise_of_a_reading_n_mm(problem)
-        yield replace(problem.noise, torque_drift_n_mm=size_n_mm, torque_zeroed=zeroed)
+def _noises(
+    problem: FitProblem, sensor: str, sizes_sigma: Iterable[float], zeroed: bool
+) -> Iterable[Noise]:
+    one_sigma = noise_of_a_reading(problem, sensor)
+    for size_sigma in sizes_sigma:
+        allowed = AllowedDrift(size=size_sigma * one_sigma, zeroed=zeroed)
+        yield problem.noise.with_drift(sensor, allowed)
 
 
 def _least_score(problem: FitProblem, found: Sequence[Candidate], noise: Noise) -> float:
@@ -62,8 +68,12 @@ def _least_score(problem: FitProblem, found: Sequence[Candidate], noise: Noise) 
 
 
 def _allowance(problem: FitProblem) -> float:
-    drift = problem.noise.drift(TORQUE)
+    return sum(_allowance_of(problem, sensor) for sensor in problem.noise.drifts)
+
+
+def _allowance_of(problem: FitProblem, sensor: str) -> float:
+    drift = problem.noise.drift(sensor)
     if drift is None:
         return 0.0
-    torques = [t for t in problem.log.trials if t.has(TORQUE)]
-    return sum(drift.uncertainty(t.time_s[np.isfinite(t.readings[TORQUE])]) for t in torques)
+    read = [t for t in problem.log.trials if t.has(sensor)]
+    return sum(drift.uncertainty(t.time_s[np.isfinite(t.readings[sensor])]) for t in read)

@@ -1,0 +1,91 @@
+"""What the drift of a working sensor may be, beside the best explanation of a search.
+
+A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
+than DRIFT_ALIKE_SIGMA that is the same line in every trial. And it stands beside one effect at most:
+with two it takes the shape of what no library holds. Nor does it follow the axial speed, or, at the tip,
+depth, rate or angle (scoring/followed); and where such a law is likelier than a drift, it is none.
+
+Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from diagnosis.criteria import (
+    DRIFT_ALIKE_SIGMA,
+    DRIFT_FOLLOWS_SIGMA,
+    DRIFT_MOST_EFFECTS,
+    DRIFT_RANGE_SIGMA,
+    DRIFT_START_SIGMA,
+)
+from diagnosis.effects import LIBRARY
+from diagnosis.replay.drift import drift_range_sigma, drifts_alike, least_start
+from diagnosis.replay.replay import Prediction, replay
+from diagnosis.selection.scoring.drift_evidence import noise_of_a_reading, score_beside_drift
+from diagnosis.selection.scoring.followed import followed
+from diagnosis.selection.stages.stage import leading_on_the_log
+from diagnosis.selection.state import SearchState
+
+
+def drifts(state: SearchState, sensor: str) -> bool:
+    """Whether a drift of the sensor is allowed for."""
+    return sensor in state.problem.noise.drifts
+
+
+def with_few_effects(state: SearchState, beside: Sequence[str] = ()) -> SearchState:
+    """The state without explanations that name more effects than may be beside a drift.
+
+    Args:
+      beside: effects that do not count.
+    """
+    counted = set(LIBRARY) - set(beside)
+    few = (c for c in state.candidates if len(counted & {*c.names}) <= DRIFT_MOST_EFFECTS)
+    return replace(state, candidates=tuple(few))
+
+
+def range_sigma(state: SearchState, sensor: str) -> float:
+    """Largest range of the drift beside the best within a trial, in sigma of a reading."""
+    problem = state.problem
+    sigma = drift_range_sigma(problem.log, sensor, problem.noise, _replayed(state))
+    return sigma * problem.noise[sensor] / noise_of_a_reading(problem, sensor)
+
+
+def allowed_sigma(state: SearchState, sensor: str) -> float:
+    """Range of a drift of a working sensor; less, where it is the same line in every trial."""
+    alike = drifts_alike(state.problem.log, sensor, state.problem.noise, _replayed(state))
+    return DRIFT_ALIKE_SIGMA if alike else DRIFT_RANGE_SIGMA
+
+
+def what_it_follows(state: SearchState, sensor: str) -> str:
+    """What the readings follow beside the best and its drift, in words; empty: nothing."""
+    found = followed(state.problem, state.best.fit, sensor)
+    most = max(found, key=lambda one: one.gain)
+    return most.name if most.gain > DRIFT_FOLLOWS_SIGMA**2 else ""
+
+
+def what_is_likelier(state: SearchState, drifting: SearchState, sensor: str) -> str:
+    """What the readings rather follow than that they drift, in words; empty: nothing.
+
+    Args:
+      state: without drift.
+      drifting: with it.
+    """
+    most = score_beside_drift(drifting.best, drifting.problem)
+    for one in leading_on_the_log(state):
+        for law in followed(state.problem, one.fit, sensor):
+            allowed = law.parameters * math.log(one.fit.samples)
+            if score_beside_drift(one, state.problem) - law.gain + allowed < most:
+                return law.name
+    return ""
+
+
+def begins_off_zero(state: SearchState, sensor: str) -> bool:
+    """Whether the drift beside the best begins off zero in every trial."""
+    noise = state.problem.noise
+    return least_start(state.problem.log, sensor, noise, _replayed(state)) > DRIFT_START_SIGMA
+
+
+def _replayed(state: SearchState) -> list[Prediction]:
+    problem, fit = state.problem, state.best.fit
+    return replay(problem.log, fit.parameterization.rig(fit.x), problem.resolution)

@@ -1,0 +1,53 @@
+"""Small logs of our own needle, one sensor of which drifts."""
+
+import numpy as np
+from diagnosis_fixtures import log_of, log_with, start_of_search
+
+from diagnosis.log.trial import Trial
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.selection.stages.nominal_rig import nominal_rig
+from diagnosis.selection.stages.sensors.sensor_drift import (
+    drift_of_the_tip_sensor,
+    drift_of_the_torque_sensor,
+)
+from diagnosis.workers import Workers
+
+STAGES = {TORQUE: drift_of_the_torque_sensor, TIP: drift_of_the_tip_sensor}
+SIZES = {TORQUE: 0.015, TIP: 0.375}
+"""What a size of 1 is in these logs: 1.5 times the noise of a reading."""
+
+
+def off(log, sensor, course):
+    """The log with a reading of its one trial off by a course over the share of its time, in sizes."""
+    (one,) = log.trials
+    share = (one.table["time_s"] / one.table["time_s"].iloc[-1]).to_numpy()
+    moved = one.table[sensor] + SIZES[sensor] * course(share)
+    return log_with(Trial(name=one.name, table=one.table.assign(**{sensor: moved})))
+
+
+def drifted(size, sensor=TORQUE):
+    """A nominal rig, a sensor of which drifts by a line of that size."""
+    return off(log_of(NOMINAL, seconds=14.0), sensor, lambda share: size * share)
+
+
+def jumped(size, sensor=TORQUE):
+    """The same with a sensor that jumps in the middle, and stays off."""
+    return off(log_of(NOMINAL, seconds=14.0), sensor, lambda share: size * (share >= 0.5))
+
+
+def searched(log, sensor=TORQUE):
+    """The nominal rig alone, then with drift if that is needed."""
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    return state, STAGES[sensor](state, Workers())
+
+
+def moved(*each, sensor=TORQUE):
+    """Nominal rigs, a sensor of each off by an offset and a line between two values, in sigma."""
+    trials = []
+    for offset, first, last in each:
+        log = log_of(NOMINAL, seconds=10.0, seed=len(trials))
+        ends = np.array([offset + first, offset + last]) / 1.5
+        (one,) = off(log, sensor, lambda share, ends=ends: np.interp(share, [0, 1], ends)).trials
+        trials.append(Trial(name=f"trial_{len(trials) + 1:02d}.csv", table=one.table))
+    return log_with(*trials)
