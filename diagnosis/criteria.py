@@ -375,7 +375,7 @@ unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on prac
 DRIFT_SIZES_SIGMA = (0.25, 0.5, 1.0, 2.0)
 DRIFT_FASTEST_S = 0.75
 DRIFT_MOST_SHAPES = 80
-"""Physical: what the torque sensor of a lab drifts by within a trial, in sigma of its noise: the
+"""Physical: what a sensor of a lab drifts by within a trial, in sigma of its noise: the
 likeliest of these is allowed for; period of the fastest shape of drift, and shapes at most: of a random
 walk so many leave less than 0.1 sigma."""
 DRIFT_START_SIGMA = 3.0

@@ -1,10 +1,11 @@
 """Small logs of our own needle, one sensor of which drifts."""
 
 import numpy as np
-from diagnosis_fixtures import log_of, log_with, start_of_search
+from diagnosis_fixtures import RIG, log_of, log_with, prepared, start_of_search, trial, turns
 
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.sensor_drift import (
@@ -34,6 +35,16 @@ def drifted(size, sensor=TORQUE):
 def jumped(size, sensor=TORQUE):
     """The same with a sensor that jumps in the middle, and stays off."""
     return off(log_of(NOMINAL, seconds=14.0), sensor, lambda share: size * (share >= 0.5))
+
+
+def sliding():
+    """A nominal rig whose needle slides to and fro by 1 mm/s while its base turns."""
+    rng, clean = np.random.default_rng(0), trial(turns(14.0))
+    speed = np.sign(np.sin(1.5 * clean.table["time_s"]))
+    moved = clean.table.assign(speed_mm_s=speed, free_mm=60.0 - 0.01 * np.cumsum(speed))
+    found = predict(RIG, prepared(Trial(name=clean.name, table=moved)), [NOMINAL])[0]
+    read = {s: found[s] + rng.normal(0.0, SIZES[s] / 1.5, len(moved)) for s in SIZES}
+    return log_with(Trial(name=clean.name, table=moved.assign(**read)))
 
 
 def searched(log, sensor=TORQUE):

@@ -149,8 +149,9 @@ def test_floats_of_records_carry_their_unit():
                     name = field.target.id
                     if not (has_unit(name) or any(word in name for word in DIMENSIONLESS)):
                         bare.append(f"{path.stem}.{record.name}.{name}")
-    # An effect's parameter, an interval, a jump, a noise: values of any unit, beside its name.
+    # An effect's parameter, an interval, a jump, a drift, a noise: values of any unit, beside its name.
     own_unit = {"effect.Parameter.low", "effect.Parameter.high", "mapping.ColumnSource.start"}
     own_unit |= {"rig_parameters.ReadingJump.size", "noise_spectrum._Sized.sigma"}
+    own_unit |= {"drift.AllowedDrift.size"}
     own_unit |= {f"intervals.Interval.{name}" for name in ("value", "low", "high")}
     assert set(bare) <= own_unit

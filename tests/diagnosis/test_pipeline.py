@@ -17,6 +17,8 @@ from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.pipeline import diagnose
+from diagnosis.prepare.noise.drift import AllowedDrift
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.replay import replay as replaying
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.candidate import candidate
@@ -37,7 +39,7 @@ def test_dry_friction_is_found_where_others_would_see_damping(dry):
 def test_what_is_missing_of_a_refuted_explanation_is_looked_for_without_drift(monkeypatch):
     """A drift would hide a part of it; the explanation is told as it is without."""
     nominal = replay_nominal(log_of(DRY, speed=-1.0, seconds=8.0))
-    drifting = replace(nominal.problem.noise, torque_drift_n_mm=0.05)
+    drifting = nominal.problem.noise.with_drift(TORQUE, AllowedDrift(size=0.05))
     fine = replace(nominal.problem, noise=drifting)
     coarse = replace(start_of_search(nominal.log, ()).coarse, noise=drifting)
     fit = fit_effects(fine, ("coulomb_friction",))
@@ -49,7 +51,7 @@ def test_what_is_missing_of_a_refuted_explanation_is_looked_for_without_drift(mo
     assert found.verdict.kind is VerdictKind.UNKNOWN
     assert found.verdict.other_form == "dry friction along the shaft that depends on the rate of turning"
     for problem in (found.problem, found.coarse):
-        assert problem.noise.torque_drift_n_mm == 0.0
+        assert not problem.noise.drifts
     left = found.problem.residuals([fit.parameterization.rig(fit.x)])
     cost = fit.prior + sum(float(own[0] @ own[0]) for own in left)
     assert found.verdict.best.fit.cost == pytest.approx(cost, rel=1e-6)

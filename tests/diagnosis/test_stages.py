@@ -6,9 +6,10 @@ from diagnosis.selection.search import STAGES as SEARCHED
 from diagnosis.selection.stages import mesh_refinement
 from diagnosis.selection.stages.sensors import (
     coloured_noise,
+    drift_or_offset,
     outliers_left,
     reading_jumps,
-    torque_drift,
+    sensor_drift,
 )
 from diagnosis.stages import STAGES, in_words, usual
 
@@ -18,14 +19,20 @@ def test_a_stage_that_is_not_known_is_told_as_it_is_and_takes_no_time():
     assert usual("another stage").task_s == 0.0
 
 
-@pytest.mark.parametrize("module", [mesh_refinement, outliers_left, reading_jumps, torque_drift])
+@pytest.mark.parametrize("module", [mesh_refinement, outliers_left, reading_jumps, drift_or_offset])
 def test_names_are_those_of_the_search(module):
     assert module.STAGE in STAGES
 
 
+@pytest.mark.parametrize("name", [sensor_drift.OF_TORQUE, sensor_drift.OF_TIP])
+def test_names_of_drifts_are_too(name):
+    assert name in STAGES
+
+
 def test_what_a_stop_leaves_out_of_the_search_has_the_name_that_the_stage_records():
     names = {stage.__name__.replace("_", " ") for stage in SEARCHED}
-    own = {outliers_left.STAGE, reading_jumps.STAGE, torque_drift.STAGE, torque_drift.OR_OFFSET}
+    own = {outliers_left.STAGE, reading_jumps.STAGE, drift_or_offset.STAGE}
+    own |= {sensor_drift.OF_TORQUE, sensor_drift.OF_TIP}
     assert own | {coloured_noise.STAGE, coloured_noise.OF_THE_BEST, coloured_noise.WEAK} <= names
 
 

@@ -7,6 +7,8 @@ import pytest
 from diagnosis_fixtures import joined, log_of, problem_of
 
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.drift import AllowedDrift
 from diagnosis.replay.replay import predict, residuals
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 
@@ -63,20 +65,21 @@ def test_a_coarse_encoder_reads_a_rest_off_by_one_rounding_error():
     assert np.std(offs) == pytest.approx(step / np.sqrt(12), rel=0.25)
 
 
-def test_a_torque_that_may_drift_does_not_count_a_line_of_its_size():
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_a_sensor_that_may_drift_does_not_count_a_line_of_its_size(sensor):
     """The cost of a line of one sigma is about (1 / D)^2, not the number of its samples."""
     problem = problem_of(log_of(NOMINAL, seconds=12.0))
-    sigma = problem.noise["base_torque_n_mm"]
+    sigma = problem.noise[sensor]
     (one,) = problem.log.trials
     line = sigma * one.time_s / one.time_s[-1]
-    off = {**one.readings, "base_torque_n_mm": one.readings["base_torque_n_mm"] + line}
+    off = {**one.readings, sensor: one.readings[sensor] + line}
     drifted = replace(problem, log=replace(problem.log, trials=(replace(one, readings=off),)))
 
     def cost(some):
         return float(np.sum(some.residuals([NOMINAL])[0][0] ** 2))
 
     as_it_is = cost(drifted) - cost(problem)
-    noise = replace(problem.noise, torque_drift_n_mm=2.0 * sigma)
+    noise = problem.noise.with_drift(sensor, AllowedDrift(size=2.0 * sigma))
     allowed = cost(replace(drifted, noise=noise)) - cost(replace(problem, noise=noise))
     assert as_it_is > 100.0
     assert abs(allowed) < 0.1 * as_it_is

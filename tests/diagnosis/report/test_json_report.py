@@ -9,6 +9,7 @@ from free_forms import LAW, VOCABULARY, missing_with
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.report.json_report import FORMAT, as_json
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision
@@ -40,6 +41,12 @@ KEYS = {
     "sensors",
     "warnings",
 }
+
+
+def test_the_drift_of_each_sensor_is_there(dry):
+    told = replace(dry.found.assessment, drift_sigma={TORQUE: 2.0, TIP: 3.5})
+    sensors = as_json(replace(dry.found, assessment=told))["sensors"]
+    assert (sensors["torque_drift_sigma"], sensors["tip_drift_sigma"]) == (2.0, 3.5)
 
 
 def test_every_key_is_there_and_no_other(dry):

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.report.sensors import imperfections
 
@@ -25,9 +26,13 @@ def test_each_imperfection_is_told_with_its_value(dry):
     )
 
 
-def test_a_drift_is_told_with_its_range(dry):
-    found = having(dry.found, torque_drift_sigma=2.345)
+def test_a_drift_is_told_with_its_sensor_and_range(dry):
+    found = having(dry.found, drift_sigma={TORQUE: 2.345, TIP: 0.0})
     assert "drift of the torque sensor, by up to 2.35 σ within a trial" in imperfections(found)
+    assert "tip" not in imperfections(found)
+    found = having(dry.found, drift_sigma={TORQUE: 0.0, TIP: 4.2})
+    assert "drift of the tip sensor, by up to 4.20 σ within a trial" in imperfections(found)
+    assert "torque" not in imperfections(found)
 
 
 def test_a_jump_is_told_with_its_size_time_and_trial(dry):

@@ -1,4 +1,4 @@
-"""Drift of the torque sensor, told from what is left of its readings."""
+"""Drift of a sensor, told from what is left of its readings."""
 
 import numpy as np
 import pytest

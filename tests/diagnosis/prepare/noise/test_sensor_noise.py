@@ -5,7 +5,9 @@ import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, trial, turns
 from scipy.signal import lfilter
 
-from diagnosis.prepare.noise.sensor_noise import base_noise_deg, estimate_noise
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.drift import AllowedDrift, Drift
+from diagnosis.prepare.noise.sensor_noise import Noise, base_noise_deg, estimate_noise
 
 
 def residuals(size=4000, seed=1):
@@ -102,3 +104,19 @@ def test_what_is_far_above_the_claim_is_no_noise(size, coloured):
     for claim in (0.0, 0.02 * TORQUE):  # none, and one that is no measure of what the readings do
         other = RIG.but(sensors=RIG.sensors.but(base_torque_noise_n_mm=claim))
         assert estimate_noise(other, {"base_torque_n_mm": parts}, BASE).colour
+
+
+def test_each_sensor_may_have_a_drift_of_its_own():
+    """In units of its noise, and until it is taken back."""
+    torque, tip = SENSORS
+    plain = Noise(sigma={torque: TORQUE, tip: TIP})
+    both = plain.with_drift(torque, AllowedDrift(size=2.0 * TORQUE, zeroed=True))
+    both = both.with_drift(tip, AllowedDrift(size=0.5 * TIP))
+    assert both.drift(torque) == Drift(size_sigma=2.0, zeroed=True)
+    assert both.drift(tip) == Drift(size_sigma=0.5)
+    assert plain.drift(tip) is None
+    assert not both.same(plain)
+    assert (both.alike(plain, tip), both.alike(plain, torque)) == (False, False)
+    without = both.with_drift(tip, None)
+    assert without.alike(plain, tip)
+    assert without.with_drift(torque, None).same(plain)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.report.sections.sensors import sensors_section
 from diagnosis.report.sentences import replay_quality
 
@@ -14,6 +15,6 @@ def test_noise_and_numerical_error_are_told_of_each_sensor(dry):
 
 
 def test_what_had_to_be_allowed_for_is_told(dry):
-    told = replace(dry.found.assessment, torque_drift_sigma=2.0)
+    told = replace(dry.found.assessment, drift_sigma={TORQUE: 2.0})
     found = replace(dry.found, assessment=told)
     assert "a drift of the torque sensor, by up to 2.00 σ" in sensors_section(found)[1]

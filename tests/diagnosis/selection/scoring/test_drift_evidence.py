@@ -1,4 +1,4 @@
-"""Scores of explanations with and without a drift of the torque sensor are comparable."""
+"""Scores of explanations with and without a drift of a sensor are comparable."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -7,13 +7,15 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of
 
-from diagnosis.criteria import DRIFT_SIZES_SIGMA
+from diagnosis.criteria import DRIFT_SIZES_SIGMA, MOST_QUIETENED
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.noise.sensor_noise import TORQUE, Noise
+from diagnosis.prepare.noise.drift import AllowedDrift
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.scoring.drift_evidence import (
     in_noise,
     likeliest_drift,
+    noise_of_a_reading,
     score_beside_drift,
     widest_drift,
 )
@@ -32,7 +34,7 @@ class Trial:
         return sensor == TORQUE
 
 
-SENSORS = SimpleNamespace(base_torque_noise_n_mm=SIGMA)
+SENSORS = SimpleNamespace(by_column=lambda: {TORQUE: SIGMA})
 LOG = SimpleNamespace(trials=(Trial(),), means_of=1, rig=SimpleNamespace(sensors=SENSORS))
 PROBLEM = FitProblem(log=LOG, noise=Noise(sigma={TORQUE: SIGMA}), nuisance=())
 
@@ -44,7 +46,7 @@ def left(drift, seed=0):
 
 
 def with_size(sigmas, zeroed=False):
-    noise = replace(PROBLEM.noise, torque_drift_n_mm=sigmas * SIGMA, torque_zeroed=zeroed)
+    noise = PROBLEM.noise.with_drift(TORQUE, AllowedDrift(size=sigmas * SIGMA, zeroed=zeroed))
     return replace(PROBLEM, noise=noise)
 
 
@@ -77,8 +79,8 @@ def test_the_score_is_the_likelihood_of_the_covariance_of_both():
 @pytest.mark.parametrize("size", [1.0, 4.0])
 def test_the_likeliest_size_is_near_the_true_one(size):
     """The cosines of a walk that ends so far off on average have amplitudes of size sqrt(2) / (pi k)."""
-    found = [likeliest_drift(PROBLEM, [left(walk(size, s), s)], zeroed=True) for s in range(6)]
-    sizes = [noise.torque_drift_n_mm / SIGMA for noise in found]
+    found = [likeliest_drift(PROBLEM, TORQUE, [left(walk(size, s), s)], zeroed=True) for s in range(6)]
+    sizes = [noise.drifts[TORQUE].size / SIGMA for noise in found]
     true = size * np.sqrt(2.0) / np.pi
     assert true / 1.6 <= np.exp(np.mean(np.log(sizes))) <= 1.6 * true
 
@@ -91,6 +93,17 @@ def test_a_constant_is_likelier_where_no_trial_begins_at_zero():
 
 
 def test_the_widest_drift_is_the_largest_and_begins_anywhere():
-    noise = widest_drift(PROBLEM)
-    assert noise.torque_drift_n_mm == pytest.approx(max(DRIFT_SIZES_SIGMA) * SIGMA)
-    assert not noise.torque_zeroed
+    noise = widest_drift(PROBLEM, TORQUE)
+    assert noise.drifts[TORQUE].size == pytest.approx(max(DRIFT_SIZES_SIGMA) * SIGMA)
+    assert not noise.drifts[TORQUE].zeroed
+
+
+@pytest.mark.parametrize(
+    ("claimed", "told"), [(0.5, 1.0), (2.0, 2.0), (10.0 * MOST_QUIETENED, MOST_QUIETENED)]
+)
+@pytest.mark.parametrize("sensor", [TORQUE, TIP])
+def test_a_filter_takes_off_noise_but_not_off_a_drift(claimed, told, sensor):
+    sensors = SimpleNamespace(by_column=lambda: {sensor: claimed})
+    log = SimpleNamespace(rig=SimpleNamespace(sensors=sensors), means_of=4)
+    problem = SimpleNamespace(log=log, noise={sensor: 1.0})
+    assert noise_of_a_reading(problem, sensor) == pytest.approx(2 * told)

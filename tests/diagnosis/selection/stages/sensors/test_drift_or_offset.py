@@ -1,12 +1,10 @@
 """A drift of a sensor is told from an offset of it, and from what follows the motion."""
 
-import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, start_of_search
-from drifting_logs import STAGES, moved, off
+from diagnosis_fixtures import start_of_search
+from drifting_logs import STAGES, moved, off, sliding
 
 from diagnosis.log.trial import SENSORS
-from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS, STAGE, drift_or_offset
@@ -65,10 +63,9 @@ def followed(log, sensor, course):
 
 def test_what_follows_the_axial_speed_by_little_is_no_drift_either(sensor):
     """Back and forth, in steps that a drift takes for its own."""
-    log = log_of(NOMINAL, seconds=14.0)
-    log.trials[0].table["speed_mm_s"] = 2.0 * np.sign(np.sin(1.5 * log.trials[0].table["time_s"]))
-    share = log.trials[0].table["speed_mm_s"].to_numpy()
-    assert followed(log, sensor, lambda _: 0.5 * share) == (
+    log = sliding()
+    speed = log.trials[0].table["speed_mm_s"].to_numpy()
+    assert followed(log, sensor, lambda _: 0.5 * speed) == (
         False,
         ["it follows the axial speed, as no drift does"],
     )

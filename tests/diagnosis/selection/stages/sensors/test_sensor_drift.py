@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 from diagnosis_fixtures import log_of, scored, start_of_search
-from drifting_logs import SIZES, STAGES, drifted, jumped, searched
+from drifting_logs import SIZES, STAGES, drifted, jumped, moved, searched
 
 from diagnosis.criteria import CONTENDING, DRIFT_RANGE_SIGMA, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.scoring.drift_evidence import widest_drift
@@ -22,6 +22,7 @@ from diagnosis.selection.stages.sensors.sensor_drift import OF_TIP, OF_TORQUE
 from diagnosis.workers import Workers
 
 NAMES = {TORQUE: OF_TORQUE, TIP: OF_TIP}
+BESIDE = {TORQUE: "tip_drag", TIP: "torque_scale"}  # effects that a drift does not tell
 
 
 def said(state, sensor):
@@ -67,15 +68,16 @@ def test_one_jump_is_no_drift(size_sigma, sensor):
 @pytest.mark.parametrize(
     ("names", "decision"),
     [
-        (("tip_drag",), Decision.KEPT),
-        (("tip_drag", "its offset"), Decision.KEPT),
-        (("tip_drag", "coulomb_friction"), Decision.DROPPED),
+        (("an effect",), Decision.KEPT),
+        (("an effect", "its offset"), Decision.KEPT),
+        (("an effect", "coulomb_friction"), Decision.DROPPED),
     ],
     ids=["one effect", "an offset beside it", "two effects"],
 )
 def test_a_drift_stands_beside_one_effect_at_most(monkeypatch, names, decision, sensor):
     """All of them leave nothing but noise beside the drift."""
-    names = tuple(OFFSETS[sensor] if name == "its offset" else name for name in names)
+    said = {"an effect": BESIDE[sensor], "its offset": OFFSETS[sensor]}
+    names = tuple(said.get(name, name) for name in names)
     _, drifting = searched(drifted(3.5, sensor), sensor)
     found = replace(drifting, candidates=(candidate(fit_effects(drifting.problem, names)),))
     monkeypatch.setattr(sensor_drift, "_searched_again", lambda *_: found)
@@ -153,6 +155,15 @@ def test_a_drift_is_as_large_beside_the_noise_of_a_reading_that_means_have_quiet
     _, after = searched(log)
     assert bool(after.problem.noise.drifts) is explained
     assert after.best.floor.reached is explained
+
+
+@pytest.mark.parametrize("sensor", SENSORS)
+@pytest.mark.parametrize(("last", "kept"), [(-8, True), (8, False)], ids=["to either side", "alike"])
+def test_a_law_over_time_that_is_larger_than_a_drift_stays_unknown(last, kept, sensor):
+    """One line of 8 sigma in every trial is a law; lines to either side are none."""
+    _, after = searched(moved((0, 0, 8), (0, 0, last), sensor=sensor), sensor)
+    assert bool(after.problem.noise.drifts) == kept
+    assert after.best.floor.reached == kept
 
 
 def test_of_a_sensor_that_was_not_read_no_drift_is_asked():

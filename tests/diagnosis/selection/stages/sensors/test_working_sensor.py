@@ -2,20 +2,18 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, scored
-from drifting_logs import SIZES, drifted, moved, off, searched
+from diagnosis_fixtures import scored
+from drifting_logs import drifted, moved, off, searched, sliding
 
 from diagnosis.criteria import DRIFT_ALIKE_SIGMA, DRIFT_RANGE_SIGMA
-from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.log.trial import SENSORS
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
     begins_off_zero,
     drifts,
     range_sigma,
+    what_is_likelier,
     what_it_follows,
     with_few_effects,
 )
@@ -54,9 +52,23 @@ def test_effects_that_do_not_count_stand_beside_a_drift_as_well():
     assert [c.names for c in with_few_effects(state, ["tip_angle_bias"]).candidates] == [*sets[:2]]
 
 
-def plunged():
-    """A needle that is pushed in and drawn back while its base turns."""
-    log = log_of(NOMINAL, seconds=14.0)
-    (one,) = log.trials
-    depth = 90.0 + 5.0 * np.sin(1.5 * one.table["time_s"])
-    return replace(log, trials=(Trial(name=one.name, table=one.table.assign(inserted_mm=depth)),))
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_what_follows_the_axial_speed_beside_its_drift_is_told(sensor):
+    """By a size of half, beside a drift of two."""
+    log = sliding()
+    speed = log.trials[0].table["speed_mm_s"].to_numpy()
+    _, line = searched(off(log, sensor, lambda share: 2.0 * share), sensor)
+    assert what_it_follows(line, sensor) == ""
+    _, both = searched(off(log, sensor, lambda share: 2.0 * share + 0.5 * speed), sensor)
+    assert drifts(both, sensor)
+    assert what_it_follows(both, sensor) == "axial speed"
+
+
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_a_small_law_is_likelier_than_a_drift_that_takes_it_over(sensor):
+    log = sliding()
+    speed = log.trials[0].table["speed_mm_s"].to_numpy()
+    before, after = searched(off(log, sensor, lambda _: 0.5 * speed), sensor)
+    assert what_is_likelier(before, after, sensor) == "axial speed"
+    before, after = searched(off(log, sensor, lambda share: 2.0 * share), sensor)
+    assert what_is_likelier(before, after, sensor) == ""

@@ -1,0 +1,88 @@
+"""What the readings of a sensor follow beside an explanation."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import NOISE, fit_of, problem_of
+from drifting_logs import sliding
+
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.drift import AllowedDrift
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.replay.replay import replay
+from diagnosis.selection.scoring.followed import COURSES, followed, taken_off
+
+
+@pytest.fixture(scope="module")
+def problem():
+    """A needle that turns while it slides, and is pushed in and drawn back."""
+    found = problem_of(sliding(), sigma=NOISE.sigma)
+    (one,) = found.log.trials
+    rng, deep = np.random.default_rng(0), one.inserted_mm + 3.0 * np.sin(0.8 * one.time_s)
+    one = replace(one, inserted_mm=deep)
+    read = replay(replace(found.log, trials=(one,)))[0]
+    readings = {s: read[s] + rng.normal(0.0, NOISE[s], one.time_s.size) for s in SENSORS}
+    return replace(found, log=replace(found.log, trials=(replace(one, readings=readings),)))
+
+
+def courses(trial):
+    """What each law adds to the tip, in sigma, (N,)."""
+    rate = np.gradient(trial.base_motion_deg, trial.time_s)
+    turned = np.cos(np.deg2rad(trial.readings[TIP] - 40.0))
+    return {
+        "axial speed": trial.speed_mm_s,
+        "depth": np.sin(0.8 * trial.time_s),
+        "rate of the base": rate / np.abs(rate).max(),
+        "angle of the tip": turned,
+    }
+
+
+def most_followed(problem, sensor=TIP):
+    fit = fit_effects(problem, ())
+    return max(followed(problem, fit, sensor), key=lambda law: law.gain)
+
+
+@pytest.mark.parametrize("name", COURSES[TIP])
+def test_a_law_of_the_tip_is_told_by_its_variable(problem, name):
+    (one,) = problem.log.trials
+    law = courses(one)[name]
+    off = {**one.readings, TIP: one.readings[TIP] + problem.noise[TIP] * law}
+    moved = replace(problem, log=replace(problem.log, trials=(replace(one, readings=off),)))
+    found = most_followed(moved)
+    assert found.name == name
+    assert found.gain > 25.0
+    assert found.parameters == (2 if name == "angle of the tip" else 1)
+
+
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_noise_follows_nothing_and_no_law_of_another_sensor(problem, sensor):
+    """Gains of noise are chi-square: of one or two degrees of freedom, 25 in none of 10^5."""
+    assert most_followed(problem, sensor).gain < 25.0
+    (other,) = {*SENSORS} - {sensor}
+    (one,) = problem.log.trials
+    off = {**one.readings, other: one.readings[other] + 2.0 * problem.noise[other] * one.speed_mm_s}
+    moved = replace(problem, log=replace(problem.log, trials=(replace(one, readings=off),)))
+    assert most_followed(moved, sensor).gain < 25.0
+
+
+def test_beside_a_drift_a_slow_law_is_told_less_certainly(problem):
+    (one,) = problem.log.trials
+    off = {**one.readings, TIP: one.readings[TIP] + problem.noise[TIP] * courses(one)["depth"]}
+    moved = replace(problem, log=replace(problem.log, trials=(replace(one, readings=off),)))
+    noise = problem.noise.with_drift(TIP, AllowedDrift(size=problem.noise[TIP]))
+    assert most_followed(replace(moved, noise=noise)).gain < 0.2 * most_followed(moved).gain
+
+
+def test_what_a_fit_answers_to_is_not_counted():
+    """A residual along the slope of a parameter, and one that is half along it."""
+    slope, beside = np.eye(10)[:, :1], np.eye(10)[:, 1:2]
+    fit = fit_of(("tip_drag",), by_trial=[3.0 * (slope + beside)[:, 0]], jacobian=(slope,))
+    assert taken_off(fit, slope + beside) == pytest.approx(9.0)
+    assert taken_off(fit, np.column_stack([beside, beside])) == pytest.approx(9.0)
+
+
+def test_the_torque_may_follow_the_axial_speed_alone():
+    """Depth, rate and angle move it by what the needle does."""
+    assert [*COURSES[TORQUE]] == ["axial speed"]
