@@ -16,6 +16,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.variables import Variable, of_needle
 
 Array = NDArray[np.float64]
 Course = Callable[[PreparedTrial, Prediction], Sequence[Array]]
@@ -23,8 +24,10 @@ Course = Callable[[PreparedTrial, Prediction], Sequence[Array]]
 _OF_TORQUE: dict[str, Course] = {"axial speed": lambda trial, _: [trial.speed_mm_s]}
 _OF_TIP: dict[str, Course] = {
     "depth": lambda trial, _: [trial.inserted_mm - trial.inserted_mm[0]],
-    "rate of the base": lambda trial, _: [np.gradient(trial.base_motion_deg, trial.time_s)],
+    "rate of the tip": lambda trial, one: [_of_tip(Variable.TIP_RATE, trial, one)],
+    "direction of the tip": lambda trial, one: [_of_tip(Variable.TIP_DIRECTION, trial, one)],
     "angle of the tip": lambda _, one: _circle(one[TIP]),
+    "angle of the tip over time": lambda trial, one: [one[TIP], _share(trial.time_s) * one[TIP]],
 }
 COURSES: Mapping[str, Mapping[str, Course]] = MappingProxyType(
     {TORQUE: _OF_TORQUE, TIP: _OF_TORQUE | _OF_TIP}
@@ -85,3 +88,12 @@ def _rows(problem: FitProblem, fit: Fit, sensor: str, shapes: Sequence[Array]) -
 def _circle(angle_deg: Array) -> list[Array]:
     """Shapes of what comes once in a turn."""
     return [shape(np.deg2rad(angle_deg)) for shape in (np.sin, np.cos)]
+
+
+def _of_tip(variable: Variable, trial: PreparedTrial, one: Prediction) -> Array:
+    return of_needle(variable, trial.time_s, one[TIP], one[TORQUE])
+
+
+def _share(time_s: Array) -> Array:
+    """Of the trial's duration that is over."""
+    return np.asarray((time_s - time_s[0]) / (time_s[-1] - time_s[0]))

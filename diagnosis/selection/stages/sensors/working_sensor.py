@@ -3,7 +3,8 @@
 A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
 than DRIFT_ALIKE_SIGMA that is the same line in every trial. And it stands beside one effect at most:
 with two it takes the shape of what no library holds. Nor does it follow the axial speed, or, at the tip,
-depth, rate or angle (scoring/followed); and where such a law is likelier than a drift, it is none.
+depth, rate, direction or angle (scoring/followed); and where such a law is likelier than a drift, it is
+none.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """

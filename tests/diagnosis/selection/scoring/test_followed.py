@@ -29,13 +29,15 @@ def problem():
 
 def courses(trial):
     """What each law adds to the tip, in sigma, (N,)."""
-    rate = np.gradient(trial.base_motion_deg, trial.time_s)
-    turned = np.cos(np.deg2rad(trial.readings[TIP] - 40.0))
+    turned_deg, share = trial.base_motion_deg, trial.time_s / trial.time_s[-1]
+    rate = np.gradient(turned_deg, trial.time_s)
     return {
         "axial speed": trial.speed_mm_s,
         "depth": np.sin(0.8 * trial.time_s),
-        "rate of the base": rate / np.abs(rate).max(),
-        "angle of the tip": turned,
+        "rate of the tip": 2.0 * rate / np.abs(rate).max(),
+        "direction of the tip": np.where(trial.time_s > 5.0, -1.0, 1.0) * (trial.time_s > 1.0),
+        "angle of the tip": np.cos(np.deg2rad(turned_deg - 40.0)),
+        "angle of the tip over time": turned_deg / 45.0 * (1.0 + share),
     }
 
 
@@ -53,7 +55,7 @@ def test_a_law_of_the_tip_is_told_by_its_variable(problem, name):
     found = most_followed(moved)
     assert found.name == name
     assert found.gain > 25.0
-    assert found.parameters == (2 if name == "angle of the tip" else 1)
+    assert found.parameters == (2 if "angle" in name else 1)
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
