@@ -1,7 +1,7 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for one iteration on the decimated log, the most
-promising for a few more; the best to their end there, the strength of their prior estimated,
+Every family is fitted through the simulation: for one iteration on the decimated log, a few where it has
+few numbers; the most promising for a few more; the best to their end there, the strength of their prior estimated,
 alone and, if none closes the gap, beside the effects of the library that promise most there; the best
 of these on the log itself, and checked on trials that the fit has not seen. Those that promise far
 more than the least gap do not go on. Where all leave far more than noise, fewer go to the log itself,
@@ -39,6 +39,7 @@ SCREENING, FITTING, SCREENING_BESIDE, BESIDE, FINALS = (
     "finalists, free-form laws",
 )
 FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
+FEW_NUMBERS = 5  # of a law that takes more iterations at once: it costs little, and is no curve
 WORTH_MORE = 10  # families that get more than the first iteration
 IN_REACH = 2.5  # times the least gap that one promises
 CONTENDERS, ACCOMPANIED, COMPANIONS, FINALISTS = 6, 6, 2, 4
@@ -167,7 +168,9 @@ def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
     problem = with_family(coarse, family)
     start = screen(problem, base, family.name)[0].start
     problem = replace(problem, differences_halved=True)
-    fit = fit_effects(problem, (family.name,), start, most_iterations=FIRST_ITERATIONS)
+    few = len(family.effect.parameters) <= FEW_NUMBERS
+    iterations = MORE_ITERATIONS if few else FIRST_ITERATIONS
+    fit = fit_effects(problem, (family.name,), start, most_iterations=iterations)
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 
 

@@ -227,6 +227,9 @@ class FreeLaw:
             if curve.variable is Variable.TURNED_BY:
                 drive = drive + curve.with_hysteresis(inputs.drive)
                 continue
+            if curve.variable is Variable.LAG:
+                drive = drive + curve.behind(inputs.time_s, inputs.drive)
+                continue
             if curve.variable is Variable.PAST:
                 drive = drive + curve.creep(inputs.time_s, torque_n_mm)
                 continue

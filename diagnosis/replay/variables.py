@@ -17,7 +17,7 @@ torque         torque on the needle at the chuck, N mm
 torque_rate    N mm / s
 past           time constant, s, with which a reading follows what it shows
 turned_by      turn since the last reversal, for a reading with hysteresis, in its own unit
-lag            of a reading that follows at a limited rate, in its own unit
+lag            of a reading or the needle in its chuck behind what it follows, in its own unit
 """
 
 from collections.abc import Callable, Mapping

@@ -1,0 +1,35 @@
+"""A tip sensor, or a needle in its chuck, that follows at a limited rate."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import VOCABULARY, covered, same_readings
+
+from diagnosis.freeform.families.slow import families
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE = turns(6.0)
+REST = np.zeros(ANGLE.size)
+LIMITED, CHUCK = families(covered(ANGLE, tip=ANGLE + 1.0, seen=(ANGLE, REST)))
+
+
+def test_a_log_without_a_tip_sensor_has_that_of_the_chuck_alone():
+    (only,) = families(covered(ANGLE, torque=ANGLE))
+    assert only.name == CHUCK.name != LIMITED.name
+
+
+@pytest.mark.parametrize("family", [LIMITED, CHUCK], ids=lambda family: family.name)
+def test_what_follows_at_once_and_at_any_rate_is_where_it_should_be(family):
+    """The lag is the time constant times the rate: 1e-9 s of 100 deg/s."""
+    assert same_readings(ANGLE, family.effect.apply(NOMINAL, 1e-9, 1e4), NOMINAL)
+    assert not same_readings(ANGLE, family.effect.apply(NOMINAL, 1e-9, 5.0), NOMINAL)
+
+
+def test_the_law_is_told_over_the_lag():
+    lag_deg, rate_deg_s = LIMITED.curve(0.1, 50.0)
+    np.testing.assert_allclose(lag_deg, (0.0, 5.0, 10.0))
+    np.testing.assert_allclose(rate_deg_s, (0.0, 50.0, 50.0))
+    assert {LIMITED.says, CHUCK.says} <= VOCABULARY
+    assert all(
+        p.low < s < p.high for f in (LIMITED, CHUCK) for p in f.effect.parameters for s in p.start
+    )
