@@ -1,7 +1,7 @@
 """An event: an angle or a reading that steps, at an unknown time, fast or slowly.
 
 What has stepped may be back at the start of the next trial, or stay so in all that follow. Or it steps
-once in every trial, by as much, each time at a time of its own.
+once in every trial, by as much to either side, each time at a time of its own.
 
 The starting value of the time is from the residual of the nominal rig: of all times of all trials, the
 one at which a step takes most off (residuals/step_time.py).
@@ -43,10 +43,11 @@ _PLACES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Moment:
-    """The time of an event: its trial, and s after the start of it."""
+    """The time of an event: its trial, and s after the start of it; and the way it steps, 1 or -1."""
 
     trial: str
     time_s: float
+    way: float = 1.0
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -101,7 +102,10 @@ def events(ranges: LogRanges, sensor: str) -> tuple[Moment, ...]:
         time_s = trial.time_s[read] - trial.time_s[0]
         step = step_of(time_s, left[read])
         if step is not None:
-            found.append((step.gain, Moment(trial=trial.name, time_s=float(time_s[step.sample]))))
+            before, after = np.split(left[read], [step.sample])
+            way = -1.0 if before.sum() * after.size > after.sum() * before.size else 1.0
+            when = Moment(trial=trial.name, time_s=float(time_s[step.sample]), way=way)
+            found.append((step.gain, when))
     return tuple(moment for _, moment in sorted(found, key=lambda one: -one[0]))
 
 
@@ -177,12 +181,14 @@ class _EveryTrial:
     Attributes:
       trials: their names, (n,).
       found_s: when it was found in each, (n,).
+      ways: 1 where it steps as in the first of these, -1 where it steps the other way, (n,).
       line: times of a line by its parameters, (n, 1 or 2): a time, and more in longer trials.
       off_line: times by the other coordinates, orthogonal to these, (n, n - 1 or 2).
     """
 
     trials: tuple[str, ...]
     found_s: Array
+    ways: Array
     line: Array
     off_line: Array
 
@@ -196,6 +202,7 @@ class _EveryTrial:
         return cls(
             trials=tuple(m.trial for m in moments),
             found_s=np.array([m.time_s for m in moments]),
+            ways=np.array([m.way * moments[0].way for m in moments]),
             line=np.stack(columns, axis=1),
             off_line=null_space(np.stack(columns)),
         )
@@ -261,8 +268,8 @@ def _apply_to_each(
 ) -> RigParameters:
     *times, step = c
     steps = (
-        curves_of(acts_on, trial, (), around(float(time_s), duration_s), (0.0, step))
-        for trial, time_s in zip(each.trials, each.times_s(times), strict=True)
+        curves_of(acts_on, trial, (), around(float(time_s), duration_s), (0.0, float(way) * step))
+        for trial, time_s, way in zip(each.trials, each.times_s(times), each.ways, strict=True)
     )
     return replace(rig, free=FreeLaw(curves=tuple(curve for one in steps for curve in one)))
 

@@ -97,10 +97,10 @@ def test_a_step_is_in_its_own_trial_from_its_time_on():
     assert (x[1:3], y[0], y[-1]) == (pytest.approx((4.95, 5.05)), 0.0, 1.5)
 
 
-def every_trial(at_s, lasting=(8.0, 8.0, 8.0), size=3.0):
+def every_trial(at_s, lasting=(8.0, 8.0, 8.0), sizes=(3.0, 3.0, 3.0, 3.0)):
     """The last family of a log whose tip sensor jumps at times of its trials; and its events."""
     trials = []
-    for when, last in zip(at_s, lasting, strict=True):
+    for when, last, size in zip(at_s, lasting, sizes, strict=False):
         angle = ANGLE[: round(last / 0.01)]
         time = 0.01 * np.arange(angle.size)
         still = (angle, np.zeros(angle.size))
@@ -163,3 +163,12 @@ def test_the_step_of_every_trial_is_looked_for_with_either_sign():
     x, y = family.curve(*values)
     first = dict((m.trial, m.time_s) for m in found)[curves[0].trial]
     assert (np.mean(x[1:3]), y[-1]) == (pytest.approx(first, abs=1e-9), 2.5)
+
+
+def test_a_step_may_go_the_other_way_in_some_of_the_trials():
+    family, found = every_trial((2.0, 5.0, 3.0), sizes=(3.0, -3.0, 3.0))
+    curves = family.effect.apply(NOMINAL, *started(family, 0)[:-1], 2.5).free.curves
+    steps = {curve.trial: curve.values[-1] for curve in curves}
+    sign = 1.0 if found[0].trial != "trial_02.csv" else -1.0
+    expected = {"trial_01.csv": 2.5, "trial_02.csv": -2.5, "trial_03.csv": 2.5}
+    assert steps == {trial: sign * step for trial, step in expected.items()}
