@@ -4,6 +4,7 @@ Its torque is multiplied by a curve over one of
 
     slip    angle by which the shaft has slipped there so far, in both directions, deg
     age     time since the contact was renewed, s: d age / dt = 1 - age |slip rate| / renewal
+    heat    of slipping of late, (rad/s)^2: d heat / dt = (slip rate^2 - heat) / fading
 
 (Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979)), or the stiffness of yielding tissue
 by one over
@@ -33,6 +34,7 @@ class ContactVariable(StrEnum):
 
     SLIP = "slip"
     AGE = "age"
+    HEAT = "heat"
     TWIST = "twist"
 
 
@@ -42,15 +44,17 @@ class ContactCurve(Record):
     over: ContactVariable
     factors: tuple[Positive, ...] = Field(min_length=CONTACT_POINTS, max_length=CONTACT_POINTS)
     scale: Positive
-    """Below which places are even, deg or s."""
+    """Below which places are even, deg, s or (rad/s)^2."""
     last: Positive
-    """Place of the last factor, deg or s."""
+    """Place of the last factor, in the same unit."""
     renewal_deg: Positive = 1.0
     """Slip that renews a contact, of age alone."""
+    fading_s: Positive = 1.0
+    """In which heat fades by a factor e, of heat alone."""
 
     @property
     def places(self) -> Array:
-        """Places of the factors, deg or s, (CONTACT_POINTS,)."""
+        """Places of the factors, in the unit of the scale, (CONTACT_POINTS,)."""
         return contact_places(self.scale, self.last)
 
 

@@ -27,6 +27,7 @@ _TORQUES_PER_LENGTH = [
 _REMEMBERED = {
     ContactVariable.SLIP: (memory_map.SLIP_SO_FAR, units.DEG),
     ContactVariable.AGE: (memory_map.AGE, 1.0),
+    ContactVariable.HEAT: (memory_map.HEAT, 1.0),
     ContactVariable.TWIST: (memory_map.TWIST, units.DEG),
 }
 
@@ -140,7 +141,8 @@ def _set_contact(row: Array, curve: ContactCurve) -> None:
     row[memory_map.L_CONTACT] = remembered
     row[memory_map.L_CONTACT_SCALE] = curve.scale * unit
     row[memory_map.L_CONTACT_STEP] = np.log1p(curve.last / curve.scale) / (memory_map.CONTACT_POINTS - 1)
-    row[memory_map.L_RENEWAL] = curve.renewal_deg * units.DEG
+    fades = curve.over is ContactVariable.HEAT
+    row[memory_map.L_RENEWAL] = curve.fading_s if fades else curve.renewal_deg * units.DEG
     row[memory_map.L_CONTACT_0 :] = np.log(curve.factors)
 
 

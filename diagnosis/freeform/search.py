@@ -1,11 +1,11 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for one iteration on the decimated log, a few where it has
-few numbers; the most promising for a few more; the best to their end there, the strength of their prior estimated,
-alone and, if none closes the gap, beside the effects of the library that promise most there; the best
-of these on the log itself, and checked on trials that the fit has not seen. Those that promise far
-more than the least gap do not go on. Where all leave far more than noise, fewer go to the log itself,
-and not to their end.
+Every family is fitted through the simulation: for one iteration on the decimated log, a few where it
+has few numbers; the most promising for a few more; the best to their end there, the strength of their
+prior estimated, alone and, if none closes the gap, beside the effects of the library that promise most
+there; the best of these on the log itself, and checked on trials that the fit has not seen. Those that
+promise far more than the least gap do not go on. Where all leave far more than noise, fewer go to the
+log itself, and not to their end.
 """
 
 from collections.abc import Callable, Sequence

@@ -109,9 +109,9 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CURVE_10,
     L_CURVE_11,
     L_CONTACT,  # what the curve of the following is over; 0: there is none
-    L_CONTACT_SCALE,  # of the curve over that, rad or s
+    L_CONTACT_SCALE,  # of the curve over that, rad, s or (rad/s)^2
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
-    L_RENEWAL,  # slip that renews a contact, rad
+    L_RENEWAL,  # slip that renews a contact, rad, or time in which its heat fades, s
     L_CONTACT_0,  # log factors at these places of the torque, or of the tissue's stiffness
     L_CONTACT_1,
     L_CONTACT_2,
@@ -125,7 +125,12 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 ) = range(52)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
-SLIP_SO_FAR, AGE, TWIST = 1.0, 2.0, 3.0  # what the curve is over; of the last PHI is the memory
+SLIP_SO_FAR, AGE, HEAT, TWIST = (
+    1.0,
+    2.0,
+    3.0,
+    4.0,
+)  # what the curve is over; of the last PHI is the memory
 TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffness, too
 
 # --- numeric "needle_springs": of siblings alone, N m / rad (n values) -----------------

@@ -87,6 +87,19 @@ def test_friction_follows_the_age_of_a_contact_that_slip_renews():
     assert abs(never_renewed / exact[-1] - 1) > 0.3
 
 
+def test_friction_follows_the_heat_of_slipping_of_late():
+    """heat = w^2 (1 - exp(-t / fading)) at a constant rate. Late by a stage: h d log f / dt < 0.5 %."""
+    rate, fading_s = 0.9, 1.5
+    heated = curve("heat", 0.1, 1.0, -1.0, fading_s=fading_s)
+    time_s = np.arange(0, 6, STEP_S)
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=0.02, contact=heated)
+    run = turned(tissue, time_s, np.degrees(rate) * time_s)
+    heat = -(rate**2) * np.expm1(-run.time_s / fading_s)
+    exact = 0.02 * LENGTH_MM * rate * factor(heated, heat)
+    np.testing.assert_allclose(run.base_torque_n_mm[20:], exact[20:], rtol=5e-3)
+    assert exact[-1] / exact[20] < 0.6
+
+
 def test_a_level_curve_changes_nothing():
     time_s = np.arange(0, 3, STEP_S)
     law = {"viscous_n_mm_s_per_mm": 0.02, "kinetic_n_mm_per_mm": 0.002}

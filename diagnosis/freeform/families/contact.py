@@ -1,6 +1,7 @@
 """Free laws of what each contact between shaft and tissue has been through.
 
 - damping, or dry friction, times a curve of the slip so far: lubrication and wear
+- damping times a curve of the heat of slipping, which fades: warmed or thixotropic tissue
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
 - dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
   Automatic Control 40 (1995))
@@ -16,7 +17,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
-from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -27,9 +28,21 @@ from models.tissue import Interface
 _FIRST_PART = 30.0  # of the slip in a log: below it places are even
 _FIRST_AGE_S = 0.1
 _GROWS = 1.0  # slope of a curve over age to start with
+_CHANGES = 0.5  # of one of the damping, either way
 _PLACES = {Place.INTERFACE: 1.0}
-_UNITS = {ContactVariable.SLIP: "deg", ContactVariable.AGE: "s"}
-_WORDS = {ContactVariable.SLIP: "the slip so far", ContactVariable.AGE: "the age of the contact"}
+_UNITS = {
+    ContactVariable.SLIP: "deg",
+    ContactVariable.AGE: "s",
+    ContactVariable.HEAT: "(rad/s)^2 of late",
+}
+_WORDS = {
+    ContactVariable.SLIP: "the slip so far",
+    ContactVariable.AGE: "the age of the contact",
+    ContactVariable.HEAT: "how fast it has slipped of late",
+}
+_FADING = Parameter(
+    name="fading", unit="s", low=0.1, high=60.0, start=(1.0, 5.0), logarithmic=True, neutral=None
+)
 _RENEWAL = Parameter(
     name="renewal", unit="deg", low=0.05, high=90.0, start=(3.0,), logarithmic=True, neutral=None
 )
@@ -62,7 +75,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     found: list[Family] = []
     if Variable.HISTORY in ranges.ends:
         found += [
-            _damping_over_slip(ranges),
+            *(_damping_over(own, ranges) for own in (_slip(ranges), _heat(ranges))),
             _friction_over(_slip(ranges), ranges),
             _bristles(ranges),
             _bonds(ranges),
@@ -83,18 +96,28 @@ def _age(ranges: LogRanges) -> ContactCurve:
     return _neutral(ContactVariable.AGE, _FIRST_AGE_S, ranges.ends[Variable.TIME][1])
 
 
+def _heat(ranges: LogRanges) -> ContactCurve:
+    """A neutral curve over the squares of the rates at which contacts slip in a log."""
+    fastest = max(ranges.fastest_slip_rad_s, LEAST_RANGE[Variable.RATE])
+    return _neutral(ContactVariable.HEAT, fastest**2 / _FIRST_PART, fastest**2)
+
+
 def _neutral(over: ContactVariable, scale: float, last: float) -> ContactCurve:
     return ContactCurve(over=over, scale=scale, last=last, factors=(1.0,) * CONTACT_POINTS)
 
 
-def _damping_over_slip(ranges: LogRanges) -> Family:
-    curve, neutral = smooth_curve(0.0, 1.0, CONTACT_POINTS), _slip(ranges)
+def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
+    curve = smooth_curve(0.0, 1.0, CONTACT_POINTS)
+    shape = coordinates_of(curve)
+    if neutral.over is ContactVariable.HEAT:
+        level, change, *rest = (replace(p, start=2 * p.start) for p in shape)
+        shape = (_FADING, level, replace(change, start=(_CHANGES, -_CHANGES)), *rest)
     return Family(
         effect=Effect(
-            name="damping over slip",
+            name=f"damping over {neutral.over}",
             title=f"damping that changes with {_WORDS[neutral.over]}",
             place=Place.INTERFACE,
-            parameters=coordinates_of(curve),
+            parameters=shape,
             apply=partial(_apply_damping, curve, neutral),
         ),
         places=_PLACES,
@@ -106,14 +129,14 @@ def _damping_over_slip(ranges: LogRanges) -> Family:
     )
 
 
-def _damping(curve: SmoothCurve, neutral: ContactCurve, beta: float, *c: float) -> Points:
-    return neutral.places, beta * np.array(curve.factors(c))
+def _damping(curve: SmoothCurve, neutral: ContactCurve, beta: float, *shape: float) -> Points:
+    return neutral.places, beta * np.array(_shaped(neutral, curve, shape).factors)
 
 
 def _apply_damping(
-    curve: SmoothCurve, neutral: ContactCurve, rig: RigParameters, *c: float
+    curve: SmoothCurve, neutral: ContactCurve, rig: RigParameters, *shape: float
 ) -> RigParameters:
-    return replace(rig, free=FreeLaw(contact=_shaped(neutral, curve, c)))
+    return replace(rig, free=FreeLaw(contact=_shaped(neutral, curve, shape)))
 
 
 def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
@@ -153,9 +176,11 @@ def _apply_friction(
 
 
 def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -> ContactCurve:
-    """The curve with its coordinates; of an age, the slip that renews it comes first."""
+    """The curve with its coordinates; of an age or heat, what renews or fades it comes first."""
     if neutral.over is ContactVariable.AGE:
         neutral, shape = neutral.but(renewal_deg=shape[0]), shape[1:]
+    elif neutral.over is ContactVariable.HEAT:
+        neutral, shape = neutral.but(fading_s=shape[0]), shape[1:]
     changed: ContactCurve = neutral.but(factors=curve.factors(shape))
     return changed
 

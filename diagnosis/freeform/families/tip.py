@@ -1,7 +1,8 @@
 """Free laws of the tip.
 
 - drag times a curve of the rate, and dry friction, which may differ between the directions
-- the same times a curve of the axial speed or the inserted length, as of a bevel that cuts,
+- dry friction that twists before it slips, as in a pocket of tissue that holds the bevel
+- drag and dry friction times a curve of the axial speed or the inserted length, as of a bevel that cuts,
   or of the angle, once a turn
 """
 
@@ -30,6 +31,7 @@ from models.tissue import RATE_POINTS, Interface
 AT_TIP_MM = 30.0  # of shaft, whose dry friction is as strong as one may start with at the tip
 TORQUE_OVER = (Variable.AXIAL_SPEED, Variable.DEPTH)
 _SAYS = {Variable.BASE_ANGLE: "tip_angle"}  # which follows that of the base, and is not known before
+_TWISTS_DEG = (5.0, 20.0, 60.0)  # to start with
 _SHOWN_RAD_S = np.array([-1.0, -0.3, -0.1, -0.03, 0.03, 0.1, 0.3, 1.0])
 
 
@@ -39,7 +41,41 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.BASE_ANGLE in ranges.ends:
         curves[Variable.BASE_ANGLE] = periodic_curve(TURN_DEG, WAVES)
     changing = (_torque_over(v, curve, ranges) for v, curve in curves.items())
-    return (_tip_rate(ranges), *changing)
+    held = (_held(ranges),) if Variable.BASE_ANGLE in ranges.ends else ()
+    return (_tip_rate(ranges), *held, *changing)
+
+
+def _held(ranges: LogRanges) -> Family:
+    dry, starts = _dry(ranges), len(_TWISTS_DEG)
+    twist = Parameter(
+        name="twist", unit="deg", low=0.5, high=180.0, start=_TWISTS_DEG, logarithmic=True, neutral=None
+    )
+    return Family(
+        effect=Effect(
+            name="tip torque over turned_by",
+            title="dry friction at the tip that twists before it slips",
+            place=Place.NEEDLE,
+            parameters=(replace(dry, start=dry.start[-1:] * starts), twist),
+            apply=_apply_held,
+            differences=(1e-1, 1e-2),
+        ),
+        places={Place.NEEDLE: 0.7, Place.TISSUE: 0.3},
+        says="history",
+        title="dry friction at the tip after it has turned back",
+        curve=_twisted,
+        x_unit="deg",
+        unit="N mm",
+    )
+
+
+def _twisted(level: float, twist_deg: float) -> Points:
+    return (0.0, twist_deg, 2.0 * twist_deg), (0.0, level, level)
+
+
+def _apply_held(rig: RigParameters, level: float, twist_deg: float) -> RigParameters:
+    stiffness = level / np.radians(twist_deg)
+    law = Interface(kinetic_n_mm_per_mm=level, stiffness_n_mm_per_rad_per_mm=float(stiffness))
+    return replace(rig, free=FreeLaw(at_tip=(law,)))
 
 
 def _tip_rate(ranges: LogRanges) -> Family:

@@ -5,6 +5,7 @@ remembers, beside its presliding, one of
 
     the slip so far    d past / dt = |s|
     its age            d past / dt = 1 - past |s| / renewal
+    its heat           d past / dt = (s^2 - past) / fading
 
 or its tissue is as stiff as a curve over its twist says.
 """
@@ -33,7 +34,7 @@ def rate_factor(s: float, row: Array) -> tuple[float, float]:
 
 @embedded
 def contact_factor(past: float, row: Array) -> tuple[float, float]:
-    """Factor after a slip or at a twist, rad, or at an age, s, and its slope."""
+    """Factor after a slip or at a twist, rad, at an age, s, or a heat, and its slope."""
     last = memory_map.CONTACT_POINTS - 1
     step, scale = row[memory_map.L_CONTACT_STEP], row[memory_map.L_CONTACT_SCALE]
     at = math.log1p(past / scale) / step
@@ -81,7 +82,10 @@ def _grown(b: float, low: float, high: float, power: float) -> float:
 
 @embedded
 def past_after(past: float, s: float, g: float, row: Array) -> float:
-    """Slip so far, rad, or age, s, at the end of a stage of length g, by backward Euler."""
+    """Slip so far, rad, age, s, or heat at the end of a stage of length g, by backward Euler."""
     if row[memory_map.L_CONTACT] == memory_map.SLIP_SO_FAR:
         return past + g * abs(s)
+    if row[memory_map.L_CONTACT] == memory_map.HEAT:
+        share = g / row[memory_map.L_RENEWAL]
+        return (past + share * s * s) / (1.0 + share)
     return (past + g) / (1.0 + g * abs(s) / row[memory_map.L_RENEWAL])

@@ -31,6 +31,16 @@ def test_damping_times_a_constant_is_damping_of_another_size():
     assert not same_readings(ANGLE, rig_of("damping over slip", *falling), NOMINAL)
 
 
+def test_damping_over_heat_is_the_nominal_one_where_its_curve_is_level():
+    law, fading_s = "damping over heat", 2.0
+    assert same_readings(ANGLE, rig_of(law, fading_s, *LEVEL_CURVE), NOMINAL)
+    rising = (0.0, 0.5, *LEVEL_CURVE[2:])
+    heated = rig_of(law, fading_s, *rising)
+    assert not same_readings(ANGLE, heated, NOMINAL)
+    assert not same_readings(ANGLE, heated, rig_of(law, 10.0 * fading_s, *rising))
+    assert {len(p.start) for p in FAMILIES[law].effect.parameters} == {2}
+
+
 @pytest.mark.parametrize(("name", "own"), [("slip", ()), ("age", (RENEWAL,))])
 def test_dry_friction_times_a_constant_is_that_of_the_library(name, own):
     law = f"dry friction over {name}"

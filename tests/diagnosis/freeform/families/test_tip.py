@@ -65,3 +65,13 @@ def test_a_torque_over_the_speed_is_told_at_a_slow_rate():
     speeds, torque = CUTTING.curve(1.0, 0.1, *flat)
     np.testing.assert_allclose(torque, 0.1 + 0.03)
     assert min(speeds) < 0 < max(speeds)
+
+
+def test_friction_that_hardly_twists_is_dry_friction_at_the_tip():
+    """The twist adds a thousandth to the presliding of 0.1 deg."""
+    name = "tip torque over turned_by"
+    dry = rig_of(RATE, 1e-12, 0.1, 0.0, *FLAT)
+    assert same_readings(ANGLE, rig_of(name, 0.1, 1e-4), dry, within=1e-5)
+    assert not same_readings(ANGLE, rig_of(name, 0.1, 20.0), dry, within=1e-5)
+    angle_deg, torque = FAMILIES[name].curve(0.1, 20.0)
+    assert (angle_deg, torque) == ((0.0, 20.0, 40.0), (0.0, 0.1, 0.1))
