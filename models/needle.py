@@ -64,6 +64,10 @@ class Needle(Record):
     """In which 63 % of it come."""
     damping_time_s: NonNegative = 0.0
     """Damping of its material over its stiffness: a Kelvin-Voigt solid."""
+    joint_play_deg: NonNegative = 0.0
+    """Total play of a joint in the shaft; 0: there is none."""
+    joint_from_tip_mm: NonNegative = 0.0
+    """Where the joint is."""
 
     @model_validator(mode="after")
     def _curve_is_complete(self) -> "Needle":
@@ -79,6 +83,10 @@ class Needle(Record):
             raise InvalidValue("creep_time_s", 0.0, "a time above 0 of a shaft that creeps")
         if self.creep_ratio and self.yield_torque_n_mm is not None:
             raise InvalidValue("creep_ratio", self.creep_ratio, "0 of a shaft that yields")
+        if self.joint_play_deg and (self.creep_ratio or self.yield_torque_n_mm is not None):
+            raise InvalidValue(
+                "joint_play_deg", self.joint_play_deg, "0 of a shaft that yields or creeps"
+            )
         return self
 
     @property

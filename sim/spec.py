@@ -268,15 +268,28 @@ def header(setup: Setup, *, rows: int) -> Array:
     head[memory_map.H_CREEP_TIME] = setup.needle.creep_time_s
     head[memory_map.H_SHAFT_DAMPING] = setup.needle.damping_time_s
     head[memory_map.H_CHAIN] = setup.is_chain
+    head[memory_map.H_JOINT] = 0.5 * setup.needle.joint_play_deg * units.DEG
+    head[memory_map.H_JOINT_AT] = _joint_at(setup)
     return head
+
+
+def _joint_at(setup: Setup) -> float:
+    """The element that the joint is in; between the middles of two, the part that is in the second."""
+    middles = _from_tip_mm(setup)
+    return float(np.interp(-setup.needle.joint_from_tip_mm, -middles, np.arange(middles.size)))
+
+
+def _from_tip_mm(setup: Setup) -> Array:
+    """Middles of the elements, from the tip, at the start, (n,)."""
+    nodes = setup.nodes_mm
+    return np.asarray(nodes[-1] - 0.5 * (nodes[1:] + nodes[:-1]))
 
 
 def springs_n_m_per_rad(setup: Setup) -> Array:
     """Torsional stiffness kappa / a of every element at the start, (n,)."""
     rigidity, nodes = setup.needle.rigidity_n_mm2 * units.N_MM2, setup.nodes_mm
-    from_tip_mm = nodes[-1] - 0.5 * (nodes[1:] + nodes[:-1])
     stiffness: Array = rigidity / (np.diff(nodes) * units.MM)
-    return stiffness * setup.needle.stiffness_factors(from_tip_mm)
+    return stiffness * setup.needle.stiffness_factors(_from_tip_mm(setup))
 
 
 def _numbers(setup: Setup) -> dict[str, Array]:

@@ -60,8 +60,10 @@ MAGIC = 590_273.0  # marks a model as ours: other models pass the callback untou
     H_SHAFT_DAMPING,  # of a twisted element, over its stiffness, s
     H_STOP,  # angle by which the needle slips in the chuck at most, either way, rad
     H_SPRING,  # that brings it back, N m / rad
+    H_JOINT,  # half of the play of a joint in the shaft, rad; 0: there is none
+    H_JOINT_AT,  # element that it is in, and the part of it that is in the next one
     HEADER,
-) = range(46)
+) = range(48)
 STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 """Of either sign."""
 

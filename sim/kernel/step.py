@@ -79,6 +79,7 @@ def _prepare(
         add_shaft_damping(w, head[memory_map.H_SHAFT_DAMPING])
     nonlinear = head[memory_map.H_BACKLASH] > 0.0 or frame.grip > 0.0 or frame.yield_torque > 0.0
     nonlinear |= head[memory_map.H_STIFFNESS_TORQUE] > 0.0 or frame.creep > 0.0
+    nonlinear |= frame.joint > 0.0
     for r in range(law.shape[0]):
         if is_idle(law[r]):
             continue
@@ -233,6 +234,8 @@ def advance(
         head[memory_map.H_CREEP_TIME],
         head[memory_map.H_STOP],
         head[memory_map.H_SPRING],
+        head[memory_map.H_JOINT],
+        head[memory_map.H_JOINT_AT],
     )
     drive_was, drive_is = (
         drive_input(shaft, past[memory_map.U_DRIVE]),

@@ -6,6 +6,7 @@
 - a shaft that twists plastically beyond a torque
 - a shaft that creeps: a torque twists it further in time
 - a shaft whose material damps: it resists the rate at which it twists
+- a joint in the shaft, with play
 """
 
 from collections.abc import Sequence
@@ -31,6 +32,7 @@ _STIFFENS = 0.5  # of the logarithm of the stiffness, to start with
 _CREEPS_BY, _CREEPS_S, _CREEP_POINTS = 0.3, (0.3, 2.0, 10.0), 11
 _DAMPS_S, _SHOWN_PER_S = (0.02, 0.3), 2.0
 _PARTS = 10  # of the longest shaft
+_JOINTS_AT, _PLAY_DEG = (0.1, 0.25, 0.45, 0.65), 5.0  # of it from the tip on, to start with
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -38,7 +40,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.TORQUE not in ranges.ends:
         return ()
     of_time = (_over(v, ranges) for v in (Variable.TIME, Variable.TRIAL_SHARE) if v in ranges.ends)
-    return (_stiffness(ranges), _along(ranges), *of_time, _yielding(ranges), _creeping(), _damping())
+    numbers = (_yielding(ranges), _creeping(), _damping(), _joint(ranges))
+    return (_stiffness(ranges), _along(ranges), *of_time, *numbers)
 
 
 def _stiffness(ranges: LogRanges) -> Family:
@@ -84,10 +87,14 @@ def _apply_stiffness(
     return replace(rig, free=law)
 
 
-def _along(ranges: LogRanges) -> Family:
+def _longest_mm(ranges: LogRanges) -> float:
+    """Of the shaft, in all trials."""
     trials = ranges.problem.log.trials
-    longest_mm = max(float((trial.free_mm + trial.inserted_mm).max()) for trial in trials)
-    curve = rough_curve(0.0, longest_mm, _PARTS)
+    return max(float((trial.free_mm + trial.inserted_mm).max()) for trial in trials)
+
+
+def _along(ranges: LogRanges) -> Family:
+    curve = rough_curve(0.0, _longest_mm(ranges), _PARTS)
     return Family(
         effect=Effect(
             name="stiffness over position",
@@ -255,3 +262,48 @@ def _damped(time_s: float) -> Points:
 
 def _apply_damping(rig: RigParameters, time_s: float) -> RigParameters:
     return replace(rig, free=FreeLaw(shaft_damping_s=time_s))
+
+
+def _joint(ranges: LogRanges) -> Family:
+    longest_mm = _longest_mm(ranges)
+    play = Parameter(
+        name="play",
+        unit="deg",
+        low=0.0,
+        high=90.0,
+        start=(_PLAY_DEG,) * len(_JOINTS_AT),
+        scale=_PLAY_DEG,
+    )
+    place = Parameter(
+        name="place",
+        unit="mm",
+        low=0.0,
+        high=longest_mm,
+        start=tuple(share * longest_mm for share in _JOINTS_AT),
+        scale=0.3 * longest_mm,
+        neutral=None,
+    )
+    return Family(
+        effect=Effect(
+            name="joint of the shaft over position",
+            title="a joint in the shaft, with play",
+            place=Place.NEEDLE,
+            parameters=(play, place),
+            apply=_apply_joint,
+            differences=(1e-2,),
+        ),
+        places={Place.NEEDLE: 1.0},
+        says="position",
+        title="play of the shaft from the tip to there",
+        curve=partial(_play, longest_mm),
+        x_unit="mm from the tip",
+        unit="deg",
+    )
+
+
+def _play(longest_mm: float, play_deg: float, place_mm: float) -> Points:
+    return (0.0, place_mm, place_mm + 1.0, longest_mm + 2.0), (0.0, 0.0, play_deg, play_deg)
+
+
+def _apply_joint(rig: RigParameters, play_deg: float, place_mm: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(joint_play_deg=play_deg, joint_from_tip_mm=place_mm))

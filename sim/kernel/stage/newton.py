@@ -106,7 +106,7 @@ def newton(
         rhs[n - 1] -= tip_torque
         if not factored:
             diagonal[0] += slope
-            if frame.yield_torque > 0.0 or frame.creep > 0.0:
+            if frame.yield_torque > 0.0 or frame.creep > 0.0 or frame.joint > 0.0:
                 add_sets(w, frame)
             recoverable, stored = _add_other_rows(law, w, frame, tip_torque)
         if iteration > _FREE or not convex:

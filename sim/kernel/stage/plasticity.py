@@ -1,4 +1,4 @@
-"""A shaft that yields or creeps: elements that keep a twist without a torque.
+"""A shaft that yields, creeps or has a joint: elements that keep a twist without a torque.
 
     torque = k (twist - set),    |torque - k q / (1 - q) set| <= yield torque,
 
@@ -8,13 +8,16 @@ Inelasticity, section 1.4). Or, as a standard linear solid,
 
     d set / dt = (c torque / k - set) / tau,
 
-so that a torque twists the shaft 1 + c times as far in the end.
+so that a torque twists the shaft 1 + c times as far in the end. Or a joint has play: its set is any
+within that, so that it carries no torque inside.
 """
 
 import math
 
 from sim.kernel.compiled import Array, inlined
 from sim.kernel.stage.workspace import Frame, Workspace
+
+_IN_PLAY = 1.0 - 1e-6  # part of the stiffness that an element loses there: the equation stays solvable
 
 
 @inlined
@@ -43,6 +46,12 @@ def crept_after(frame: Frame, twist: float, before: float) -> tuple[float, float
 
 
 @inlined
+def play_of(frame: Frame, e: int) -> float:
+    """Half of the play in an element, rad: a joint between the middles of two is shared by them."""
+    return frame.joint * max(0.0, 1.0 - abs(frame.joint_at - e))
+
+
+@inlined
 def add_sets(w: Workspace, frame: Frame) -> None:
     """What sets change of the linearised stage equation: torques of the elements, and their slopes."""
     rhs, lower, diagonal, upper = w.rhs, w.lower, w.diagonal, w.upper
@@ -50,7 +59,11 @@ def add_sets(w: Workspace, frame: Frame) -> None:
     for e in range(w.set.size):
         twist = theta[e + 1] - theta[e] + frame.g * (omega[e + 1] - omega[e])
         slope = 0.0
-        if frame.creep > 0.0:
+        if frame.joint > 0.0:
+            play = play_of(frame, e)
+            w.set[e] = min(max(twist, -play), play)
+            slope = _IN_PLAY if abs(twist) < play else 0.0
+        elif frame.creep > 0.0:
             w.set[e], slope = crept_after(frame, twist, w.set_before[e])
         else:
             w.set[e] = set_after(spring[e], frame, twist, w.set_before[e])

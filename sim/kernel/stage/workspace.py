@@ -55,6 +55,8 @@ class Frame(NamedTuple):
     creep_time: float = 0.0  # s
     stop: float = math.inf  # angle by which the needle slips in the chuck at most, rad
     spring: float = 0.0  # that brings it back, N m / rad
+    joint: float = 0.0  # half of the play of a joint in the shaft, rad; 0: there is none
+    joint_at: float = 0.0  # element that it is in, and the part of it that is in the next one
 
 
 @inlined

@@ -79,3 +79,13 @@ def test_damping_of_the_material_is_that_of_the_needle_and_hardly_any_is_none():
     np.testing.assert_allclose(torque, 1.0 + 0.2 * per_s)
     assert same_readings(ANGLE, damps.effect.apply(NOMINAL, 1e-9), NOMINAL)
     assert not same_readings(ANGLE, rig, NOMINAL)
+
+
+def test_a_joint_without_play_is_none():
+    joint = FAMILIES["joint of the shaft over position"]
+    assert same_readings(ANGLE, joint.effect.apply(NOMINAL, 0.0, 40.0), NOMINAL)
+    here, there = (joint.effect.apply(NOMINAL, 5.0, at_mm) for at_mm in (20.0, 100.0))
+    assert not same_readings(ANGLE, here, NOMINAL)
+    assert not same_readings(ANGLE, here, there)
+    places, play = joint.curve(5.0, 40.0)
+    assert (np.interp(39.0, places, play), np.interp(42.0, places, play)) == (0.0, 5.0)

@@ -120,3 +120,12 @@ def test_what_creep_takes_is_stored_and_becomes_heat(interpreted, creeping):
     assert sets[0] == pytest.approx(twist * CREEP / (1.0 + CREEP), rel=1e-4)
     first, last = 0.5 * STIFFNESS * twist**2, 0.5 * STIFFNESS * (twist - sets[0]) ** 2 + stored
     assert first - last == pytest.approx(heat, rel=step_s / CREEP_S)
+
+
+@pytest.mark.parametrize("at", [2.0, 2.3, 3.9])
+def test_the_play_of_a_joint_is_shared_by_the_elements_beside_it(interpreted, frame, at):
+    jointed = frame._replace(joint=0.1, joint_at=at)
+    plays = [interpreted.plasticity.play_of(jointed, e) for e in range(8)]
+    assert sum(plays) == pytest.approx(0.1)
+    assert sum(e * play for e, play in enumerate(plays)) == pytest.approx(0.1 * at)
+    assert sum(play > 0 for play in plays) <= 2
