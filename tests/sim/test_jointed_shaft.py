@@ -87,8 +87,11 @@ def test_near_the_chuck_the_needle_beyond_it_asks_for_no_torque_while_it_waits()
 
 @ARRANGEMENTS
 def test_play_takes_no_work(arrangement):
-    """Work of the drive = heat in the tissue + what the shaft stores. Play that is taken up within a step
-    leaves the torque of that step open: one of some 60 in a half wave, at its turning point."""
+    """Work of the drive = heat in the tissue + what the shaft stores.
+
+    Play that is taken up within a step leaves the torque of that step open: one of some 150 in a half
+    wave, near its turning point, where the drive is slow.
+    """
     run = turned(40 * np.sin(0.02 * np.arange(600)), from_tip_mm=31.0, arrangement=arrangement)
     work, heat = run.outputs[-1, [memory_map.O_WORK, memory_map.O_DISSIPATED]]
     assert work == pytest.approx(heat + run.outputs[-1, memory_map.O_SHAFT_ENERGY], rel=2e-3)

@@ -47,7 +47,7 @@ class Moment:
 
     trial: str
     time_s: float
-    way: float = 1.0
+    way: int = 1
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -103,7 +103,7 @@ def events(ranges: LogRanges, sensor: str) -> tuple[Moment, ...]:
         step = step_of(time_s, left[read])
         if step is not None:
             before, after = np.split(left[read], [step.sample])
-            way = -1.0 if before.sum() * after.size > after.sum() * before.size else 1.0
+            way = -1 if before.sum() * after.size > after.sum() * before.size else 1
             when = Moment(trial=trial.name, time_s=float(time_s[step.sample]), way=way)
             found.append((step.gain, when))
     return tuple(moment for _, moment in sorted(found, key=lambda one: -one[0]))

@@ -36,8 +36,8 @@ class _Quantity:
 
     Attributes:
       words: what it is, in plain words.
-      size: to look for.
-      level: its value where a factor is 1, in its unit.
+      scale: of its coordinates, in its unit or in the logarithm of a factor.
+      at_factor_one: its value in its unit where its factor is 1.
       varies: whether the torque of the nominal tissue follows.
     """
 
@@ -45,8 +45,8 @@ class _Quantity:
     words: str
     places: dict[Place, float]
     unit: str
-    size: float
-    level: float = 1.0
+    scale: float
+    at_factor_one: float = 1.0
     varies: bool = False
 
 
@@ -67,8 +67,8 @@ def _quantities(ranges: LogRanges) -> list[_Quantity]:
             words="damping along the shaft",
             places=_TISSUE,
             unit=unit,
-            size=_FACTOR,
-            level=beta,
+            scale=_FACTOR,
+            at_factor_one=beta,
             varies=True,
         ),
         _Quantity(
@@ -76,7 +76,7 @@ def _quantities(ranges: LogRanges) -> list[_Quantity]:
             words="stiffness of the shaft over the nominal",
             places=_SHAFT,
             unit="-",
-            size=_FACTOR,
+            scale=_FACTOR,
             varies=True,
         ),
         _Quantity(
@@ -84,7 +84,7 @@ def _quantities(ranges: LogRanges) -> list[_Quantity]:
             words="true inserted length less the logged one",
             places={Place.PARAMETERS: 1.0},
             unit="mm",
-            size=_LENGTH_MM,
+            scale=_LENGTH_MM,
         ),
     ]
     read = {
@@ -101,8 +101,8 @@ def _quantities(ranges: LogRanges) -> list[_Quantity]:
     return needle
 
 
-def _sensor(acts_on: ActsOn, words: str, unit: str, size: float) -> _Quantity:
-    return _Quantity(acts_on=acts_on, words=words, places=SENSOR, unit=unit, size=size)
+def _sensor(acts_on: ActsOn, words: str, unit: str, scale: float) -> _Quantity:
+    return _Quantity(acts_on=acts_on, words=words, places=SENSOR, unit=unit, scale=scale)
 
 
 def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
@@ -111,7 +111,7 @@ def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
             name=f"{quantity.acts_on.replace('_', ' ')} over time, of each trial",
             title=f"{quantity.words}, another one in each trial",
             place=max(quantity.places, key=lambda place: quantity.places[place]),
-            parameters=coordinates(0, len(trials), quantity.size),
+            parameters=coordinates(0, len(trials), quantity.scale),
             apply=partial(_apply, quantity, trials),
         ),
         places=quantity.places,
@@ -130,7 +130,7 @@ def _values(quantity: _Quantity, c: Sequence[float]) -> list[float]:
 
 def _points(quantity: _Quantity, *c: float) -> Points:
     own = np.array(_values(quantity, c))
-    return np.arange(1, len(c) + 1), quantity.level * own
+    return np.arange(1, len(c) + 1), quantity.at_factor_one * own
 
 
 def _curves(acts_on: ActsOn, trials: Sequence[str], values: Sequence[float]) -> tuple[Curve, ...]:
