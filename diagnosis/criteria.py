@@ -513,8 +513,7 @@ DRIFT_FOLLOWS_SIGMA = 5.0
 """Standard deviations of the axial speed in what a drift takes up, or of another course that a law of
 the sensor has (selection/scoring/followed): derived, by chance in one of 10^5 logs. Six blind logs with
 a drift of the torque: at most 2.5; a torque sensor that feels the axial force: 6.7. 24 own logs with a
-drift of the tip by 3 to 7 sigma: at most 3.7; laws of the tip's reading of 1.5 sigma are likelier than
-a drift, or stand out by more than 5."""
+drift of the tip by 3 to 7 sigma: at most 3.7."""
 IMPERFECT_BASES = 4
 """Leading explanations with an imperfection of a sensor, to which another one is added."""
 FINALISTS, MOST_FINALISTS = 4, 8
