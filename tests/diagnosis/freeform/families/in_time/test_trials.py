@@ -13,7 +13,7 @@ from diagnosis.freeform.families.readings import TIP, TORQUE
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import COARSE
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
 REST = np.zeros(ANGLE.size)
@@ -80,6 +80,3 @@ def test_curves_are_told_trial_by_trial():
     np.testing.assert_allclose(offset, GROWS)
     _, level = FAMILIES["dry friction over time, of each trial"].curve(LEVEL, *GROWS)
     np.testing.assert_allclose(level, LEVEL * np.exp(GROWS))
-    assert isinstance(
-        FAMILIES["tip gain over time, of each trial"].effect.apply(NOMINAL, *GROWS), RigParameters
-    )
