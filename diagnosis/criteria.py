@@ -550,6 +550,9 @@ DECIMATION_SIGMA = 0.5
 """By how much of the noise the nominal rig on the decimated log may differ from that on the log. Usual
 logs: 0.05 to 0.45; set on a rig with turns of several hertz and little noise, 0.9 to 3.4, where two
 causes were missed for it, and where windows half as long are off by 0.2 to 0.5."""
+LONG_LOG_S, WIDE_SIGMA = 150.0, 0.25
+"""Length of a log, all trials together, above which windows are twice as long where the coarse needle
+still follows to half of that: a choice that saves time, as such a log has readings to spare."""
 FINEST_ELEMENTS, FINEST_STEP_S = 48, 0.0025
 NUMERICAL_ERROR_WARNED = 0.14
 """Derived: numerical error of so much of sigma adds 1 % to a gap at the floor."""
@@ -592,12 +595,9 @@ CLOSED_GAP = 1.1
 FREE_LAW_GAIN = 0.95
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told. Choices: no verdict rests on them."""
-FAR_GAP = 3.0
-"""Gap on the decimated log above which free-form laws are not fitted to their end on the log itself. Its
-samples are means, so that this is about 1.6 on the log. A choice: no verdict rests on it."""
-PLAIN_GAP = 2.0
-"""Gap on the log up to which plain laws are looked for in place of a free-form curve. A choice: no
-verdict rests on it."""
+FAR_GAP = 1.6
+"""Gap on the log above which free-form laws are not fitted to their end on it, and plain laws are not
+looked for in their place. A choice: no verdict rests on it."""
 FAR_STEP = 1.5
 """Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and what
 comes nearest, or a free-form law, is fitted to the other trials instead. A choice: no verdict rests on

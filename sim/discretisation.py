@@ -14,6 +14,8 @@ from models.tissue import Tissue
 
 Array = NDArray[np.float64]
 
+LONGEST_STEP_S = 0.1
+
 
 class Arrangement(StrEnum):
     """The parent body of an element in MuJoCo. Both arrangements give the same angles."""
@@ -63,7 +65,7 @@ class Discretisation(Record):
     """Along the inserted shaft (Eulerian mesh) or the whole needle (other meshes)."""
     free_elements: Annotated[int, Field(ge=1, le=1000)] | None = None
     """Along the free shaft (Eulerian mesh); None: 1, or 8 where a sheath rubs."""
-    step_s: Annotated[float, Field(gt=0, le=0.1)] = 0.01
+    step_s: Annotated[float, Field(gt=0, le=LONGEST_STEP_S)] = 0.01
     presliding_deg: Annotated[float, Field(gt=0, le=5)] = 0.1
     """Angle at which a dry element slips."""
     order: Annotated[int, Field(ge=1, le=3)] = 2

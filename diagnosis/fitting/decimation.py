@@ -9,7 +9,7 @@ so that the residual of the nominal rig on the decimated log is the mean of that
 log. Sums of squares / sigma^2 are preserved, at a tenth of the cost: a mean of few readings, of a sensor
 that was read less often than others or lost some, counts for less. Where the coarse needle does not
 follow the nominal rig, for its base turns fast or its noise is small, windows are half as long: what an
-effect changes would be as wrong.
+effect changes would be as wrong. Of a long log they are twice as long where it follows closely.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
-from diagnosis.criteria import DECIMATION_SIGMA
+from diagnosis.criteria import DECIMATION_SIGMA, LONG_LOG_S, WIDE_SIGMA
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.colour import Colour
@@ -46,11 +46,19 @@ def decimated(
     Raises:
       SimulationFailed: the nominal rig cannot be simulated with the coarse needle.
     """
-    for resolution in (COARSE, replace(COARSE, step_s=COARSE.step_s / 2)):
+    for resolution, most_sigma in _tried(problem.log):
         rare, error_sigma = _decimated(problem, nominal, nominal_rig, resolution)
-        if error_sigma <= DECIMATION_SIGMA:
+        if error_sigma <= most_sigma:
             break
     return rare
+
+
+def _tried(log: PreparedLog) -> list[tuple[Resolution, float]]:
+    """Resolutions, widest windows first, and up to which error of the coarse needle each is taken."""
+    wider, finer = (replace(COARSE, step_s=times * COARSE.step_s) for times in (2.0, 0.5))
+    tried = [(COARSE, DECIMATION_SIGMA), (finer, DECIMATION_SIGMA)]
+    long = sum(float(np.ptp(trial.time_s)) for trial in log.trials) > LONG_LOG_S
+    return [(wider, WIDE_SIGMA), *tried] if long else tried
 
 
 def _decimated(

@@ -119,7 +119,7 @@ def free_form_fits(
         calls = [(coarse, f, s.names[-1:], enough, s.start) for f, s in pairs]
         fitted += _each(BESIDE, _to_its_end, calls, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
-    far = least > FAR_GAP
+    far = _gap_on_the_log(least, problem, coarse) > FAR_GAP
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
     worth = [f for f in fitted if f.fit.gap <= reach * least]
     last = _distinct(sorted(worth, key=lambda f: f.score))[: FAR_FINALISTS if far else FINALISTS]
@@ -129,6 +129,12 @@ def free_form_fits(
     others = [f for f in (*fitted, *(f for f in first if f.family.name not in fitted_names))]
     behind = _distinct(sorted((f for f in others if f.family.name not in names), key=lambda f: f.score))
     return (*finals, *behind)
+
+
+def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> float:
+    """Gap that is about that on the decimated log, whose samples are means of several readings."""
+    readings = problem.samples / max(coarse.samples, 1)
+    return float(np.sqrt(1.0 + max(gap**2 - 1.0, 0.0) / readings))
 
 
 def with_family(problem: FitProblem, family: Family) -> FitProblem:
@@ -187,7 +193,8 @@ def _to_its_end(
     enough: float = np.inf,
     start: Array | None = None,
 ) -> FreeFit:
-    """Fitted twice: the second time with the strength of the prior that the first one speaks for.
+    """Fitted twice, unless it is given up: the second time with the strength of the prior that the first
+    one speaks for.
 
     Args:
       enough: cost below which it is of use.
@@ -196,6 +203,8 @@ def _to_its_end(
     family, problem = first.family, with_family(coarse, first.family)
     start, names = first.fit.x if start is None else start, (family.name, *beside)
     fit = fit_effects(problem, names, start, enough, most_iterations=ITERATIONS)
+    if fit.status.ended_early:
+        return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
     family = with_estimated_prior(family, fit)
     own = with_family(coarse, family)
     fit = fit_effects(own, names, fit.x, enough, most_iterations=ITERATIONS // 2)
@@ -204,22 +213,27 @@ def _to_its_end(
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
-    iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
-    return fitted_and_checked(problem, contender, contender.fit.x, iterations)
+    return fitted_and_checked(problem, contender, contender.fit.x, far=far)
 
 
 def fitted_and_checked(
-    problem: FitProblem, contender: FreeFit, start: Array, most_iterations: int = FINAL_ITERATIONS
+    problem: FitProblem, contender: FreeFit, start: Array, *, far: bool = False
 ) -> FreeFit:
-    """The family of a contender, fitted to the log itself and checked on trials that it has not seen."""
+    """The family of a contender, fitted to the log itself and checked on trials that it has not seen.
+
+    Args:
+      far: whether it leaves far more than noise: it is not fitted to its end, and checked by runs half
+        as fine.
+    """
     own = with_family(problem, contender.family)
     own = replace(own, differences_halved=True, tolerance_sigma=FINAL_SIGMA)
     names = (contender.family.name, *contender.beside)
-    fit = fit_effects(own, names, start, most_iterations=most_iterations)
+    iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
+    fit = fit_effects(own, names, start, most_iterations=iterations)
     if len(problem.log.trials) == 1:
         return replace(contender, fit=fit, gap_after=fit.gap, final=True)
     try:
-        held_out = held_out_or_refitted(own, fit, predictive_gap)
+        held_out = held_out_or_refitted(own.of_differences if far else own, fit, predictive_gap)
     except SimulationFailed:
         return replace(contender, fit=fit, gap_after=np.inf, final=True)
     gap = max(predictive_gap(fit, held_out), fit.gap)

@@ -9,7 +9,7 @@ Source: H. Akima, J. ACM 17 (1970) 589.
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import Akima1DInterpolator
+from scipy.interpolate import Akima1DInterpolator, make_interp_spline
 
 Array = NDArray[np.float64]
 
@@ -17,15 +17,16 @@ _ON_SAMPLES = 1e-4  # of a step: rounding of logged times
 
 
 def interpolated(at_s: Array, time_s: Array, values: Array) -> Array:
-    """The signal at other times, (M,); beyond its ends as there.
+    """The signal, or several at once, at other times, (M,) or (M, K); beyond the ends as there.
 
     Args:
       at_s: times, (M,).
       time_s: times of its samples, increasing, (N,).
+      values: of one signal, (N,), or of several, (N, K).
     """
-    if _on_samples(at_s, time_s):
-        return np.asarray(np.interp(at_s, time_s, values))
     within = np.clip(at_s, time_s[0], time_s[-1])
+    if _on_samples(at_s, time_s):
+        return np.asarray(make_interp_spline(time_s, values, k=1)(within))
     return np.asarray(Akima1DInterpolator(time_s, values)(within))
 
 

@@ -79,7 +79,7 @@ def predict(
     number: dict[RigParameters, int] = {}
     each = [number.setdefault(rig.without_sensors, len(number)) for rig in rigs]
     runs = _run(nominal, trial, list(number), resolution, callback_alone=callback_alone)
-    return [_sensed(rig, runs[i], trial) for rig, i in zip(rigs, each, strict=True)]
+    return _sensed(rigs, [runs[i] for i in each], trial)
 
 
 def shape_of(
@@ -131,17 +131,34 @@ def _run(
         raise SimulationFailed(f"a needle with these parameters cannot be built: {refused}") from refused
 
 
-def _sensed(rig: RigParameters, run: Run, trial: PreparedTrial) -> Prediction:
-    """Readings at the samples of a trial; as read where a sensor's clock is past the end of it."""
-    at_s = trial.time_s
-    tip, torque = sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
-    shown = {
-        "tip_angle_deg": interpolated(at_s, run.time_s, tip),
-        "base_torque_n_mm": interpolated(at_s, run.time_s, torque),
-    }
+def _sensed(
+    rigs: Sequence[RigParameters], runs: Sequence[Run], trial: PreparedTrial
+) -> list[Prediction]:
+    """Readings at the samples of a trial, by rig; as read where a sensor's clock is past the end of it.
+
+    Args:
+      runs: by rig, all with the same time steps.
+    """
+    at_s, steps_s = trial.time_s, runs[0].time_s
+    shown = [
+        sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
+        for rig, run in zip(rigs, runs, strict=True)
+    ]
+    read = interpolated(at_s, steps_s, np.stack([signal for both in shown for signal in both], axis=-1))
+    return [
+        _as_read(rig, Prediction(tip_angle_deg=tip, base_torque_n_mm=torque), trial, steps_s)
+        for rig, tip, torque in zip(rigs, read.T[::2], read.T[1::2], strict=True)
+    ]
+
+
+def _as_read(
+    rig: RigParameters, prediction: Prediction, trial: PreparedTrial, steps_s: Array
+) -> Prediction:
+    """A prediction with the jumps of sensors, and with what was read where a clock is past the end."""
+    shown, at_s = {sensor: prediction[sensor] for sensor in SENSORS}, trial.time_s
     for jump in (one for one in rig.jumps if one.sensor in shown):
         shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)
-    for sensor, ahead in reads_ahead(rig, run.time_s, at_s).items():
+    for sensor, ahead in reads_ahead(rig, steps_s, at_s).items():
         if trial.has(sensor):
             read = trial.readings[sensor]
             shown[sensor] = np.where(ahead & np.isfinite(read), read, shown[sensor])

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from diagnosis.prepare.prepared_log import PreparedTrial
+from sim.discretisation import LONGEST_STEP_S
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,10 +20,10 @@ class Resolution:
 
     @property
     def halved(self) -> "Resolution":
-        """Half as fine in space and time."""
+        """Half as fine in space and time, as far as a simulation goes."""
         return Resolution(
             elements=self.elements // 2,
-            step_s=2 * self.step_s,
+            step_s=min(2 * self.step_s, LONGEST_STEP_S),
             step_samples=2 * self.step_samples,
         )
 

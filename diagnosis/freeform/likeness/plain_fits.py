@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import PLAIN_GAP
+from diagnosis.criteria import FAR_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
@@ -42,7 +42,7 @@ def with_plain_laws(
     Args:
       problem, coarse: the log itself, and decimated.
     """
-    near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= PLAIN_GAP][:MOST]
+    near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= FAR_GAP][:MOST]
     tasks = [Task(effects=f.fit.names, arguments=(problem, coarse, f)) for f in near]
     found = zip(near, workers.each(STAGE, _as_plain, tasks), strict=True)
     plain = [(curve, f) for curve, f in found if isinstance(f, FreeFit)]

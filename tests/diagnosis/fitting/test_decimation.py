@@ -194,3 +194,19 @@ def test_windows_are_shorter_where_the_coarse_needle_does_not_follow(noise_sigma
     coarse = decimated(quiet, nominal.predictions)
     assert coarse.resolution.step_s == step_s
     assert coarse.log.trials[0].sample_s == pytest.approx(step_s)
+
+
+@pytest.mark.parametrize(
+    ("noise_sigma", "seconds", "step_s"),
+    [(5.0, 160.0, 0.08), (0.5, 160.0, 0.04), (5.0, 140.0, 0.04)],
+    ids=["long, and followed closely", "long, and not so", "short"],
+)
+def test_windows_are_longer_of_a_long_log_that_the_coarse_needle_follows_closely(
+    noise_sigma, seconds, step_s
+):
+    nominal = replay_nominal(log_of(NOMINAL, seconds=seconds))
+    sigma = {sensor: noise_sigma * own for sensor, own in nominal.problem.noise.sigma.items()}
+    problem = replace(nominal.problem, noise=replace(nominal.problem.noise, sigma=sigma))
+    coarse = decimated(problem, nominal.predictions)
+    assert coarse.resolution.step_s == step_s
+    assert coarse.log.trials[0].sample_s == pytest.approx(step_s)

@@ -39,3 +39,10 @@ def test_a_jump_is_not_overshot():
 
 def test_two_samples_are_a_straight_line():
     assert interpolated(np.array([0.25]), np.array([0.0, 1.0]), np.array([0.0, 4.0]))[0] == 1.0
+
+
+def test_several_signals_at_once_are_as_each_alone():
+    signals = np.stack([fast(STEPS), np.sign(np.sin(STEPS)), STEPS**2], axis=-1)
+    for at_s in (STEPS[:-1] + 0.003, STEPS, np.array([-1.0, 0.5, 9.0])):
+        alone = [interpolated(at_s, STEPS, one) for one in signals.T]
+        np.testing.assert_array_equal(interpolated(at_s, STEPS, signals), np.stack(alone, axis=-1))
