@@ -5,31 +5,30 @@ from dataclasses import dataclass, replace
 from diagnosis.prepare.prepared_log import PreparedTrial
 from sim.discretisation import LONGEST_STEP_S
 
+_ROUNDING = 1e-6  # of logged times, in samples
+
 
 @dataclass(frozen=True, kw_only=True)
 class Resolution:
-    """Elements of the inserted needle, and the longest step: in s, and in samples of the trial."""
+    """Elements of the inserted needle, and the longest step, s."""
 
     elements: int
     step_s: float
-    step_samples: int = 1
 
     def step_of(self, trial: PreparedTrial) -> float:
-        """Time step for a trial, s."""
-        return min(self.step_s, self.step_samples * trial.sample_s)
+        """Time step for a trial, s: as many whole samples as are no longer than the longest step, or that
+        step, if one sample is longer."""
+        samples = max(1, int(self.step_s / trial.sample_s + _ROUNDING))
+        return min(self.step_s, samples * trial.sample_s)
 
     @property
     def halved(self) -> "Resolution":
         """Half as fine in space and time, as far as a simulation goes."""
-        return Resolution(
-            elements=self.elements // 2,
-            step_s=min(2 * self.step_s, LONGEST_STEP_S),
-            step_samples=2 * self.step_samples,
-        )
+        return replace(self, elements=self.elements // 2, step_s=min(2 * self.step_s, LONGEST_STEP_S))
 
     @property
     def refined(self) -> "Resolution":
-        """Twice as fine in space and time, but for a step of one sample."""
+        """Twice as fine in space and time."""
         return replace(self, elements=2 * self.elements, step_s=self.step_s / 2)
 
 

@@ -7,14 +7,10 @@ from diagnosis.replay.resolution import COARSE, FINE, Resolution
 from sim.discretisation import LONGEST_STEP_S
 
 
-def test_a_step_is_never_longer_than_a_sample():
-    rare, often = (
-        prepared(trial(turns(step=0.03), step=0.03)),
-        prepared(trial(turns(step=0.002), step=0.002)),
-    )
-    assert FINE.step_of(rare) == FINE.step_s
-    assert FINE.step_of(often) == pytest.approx(0.002)
-    assert COARSE.step_of(rare) == pytest.approx(0.03)
+def test_a_step_is_whole_samples_or_a_part_of_one():
+    each = [prepared(trial(turns(step=step), step=step)) for step in (0.03, 0.008, 0.005, 0.002)]
+    assert [FINE.step_of(one) for one in each] == pytest.approx([0.01, 0.008, 0.01, 0.01])
+    assert COARSE.step_of(each[0]) == pytest.approx(0.03)
 
 
 def test_coarse_is_coarser():
@@ -23,13 +19,11 @@ def test_coarse_is_coarser():
 
 
 def test_half_as_fine_is_so_where_samples_limit_the_step_and_where_they_do_not():
-    rare, often = (
-        prepared(trial(turns(step=0.03), step=0.03)),
-        prepared(trial(turns(step=0.002), step=0.002)),
-    )
+    each = [prepared(trial(turns(step=step), step=step)) for step in (0.04, 0.01, 0.005)]
     assert FINE.halved.elements == FINE.elements / 2
-    for one in (rare, often):
+    for one in each:
         assert FINE.halved.step_of(one) == pytest.approx(2 * FINE.step_of(one))
+    assert FINE.refined.halved == FINE
 
 
 def test_no_step_is_longer_than_a_simulation_takes():
