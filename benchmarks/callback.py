@@ -28,7 +28,7 @@ from sim.kernel import memory_map
 from sim.kernel.callback import install
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
-from sim.spec import Setup
+from sim.needles.setup import Setup
 from studies.crosscheck.motion import fast_turn, viscous_setup
 
 Array = NDArray[np.float64]

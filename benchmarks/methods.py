@@ -17,7 +17,7 @@ from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
-from sim.spec import Setup
+from sim.needles.setup import Setup
 from studies.crosscheck.motion import fast_turn
 
 Array = NDArray[np.float64]

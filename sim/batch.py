@@ -16,9 +16,9 @@ import mujoco
 
 from models.errors import NeedleError
 from sim.needles.run import Run, SimulationFailed
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import prepare_processes, simulate
-from sim.spec import Setup
 
 _SIDE_BY_SIDE = 8  # needles of one batch: few enough to share out evenly, many enough to pay
 

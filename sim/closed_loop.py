@@ -25,8 +25,8 @@ from sim.loop.shaft import CommandedShaft
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
 from sim.needles.run import Run, refuse_untrustworthy
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 
 __all__ = ["ClosedLoopRun", "FeedbackController", "Measurement", "MeasurementNoise", "run_closed_loop"]
 

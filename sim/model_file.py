@@ -14,7 +14,7 @@ from models.errors import InvalidValue
 from sim.kernel import memory_map
 from sim.law_table import law_table
 from sim.needles.kept import compile_model
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 _SAME = 1e-4  # a file holds six digits
 

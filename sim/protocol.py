@@ -25,9 +25,9 @@ from models.record import Record
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.law_table import law_table
+from sim.needles.setup import Setup
 from sim.protocol_cost import refuse_costly, samples_of
 from sim.schedule import LENGTH_TOLERANCE_MM, Schedule
-from sim.spec import Setup
 
 _STIFFEST_GPA = 1000.0  # twice as stiff as diamond: most likely another unit
 _LARGEST, _SMALLEST = 1e9, 1e-18  # of any number in a file, in its own unit: no rig has more, or less

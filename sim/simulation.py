@@ -14,8 +14,8 @@ from sim.needles import callback_loop
 from sim.needles.inputs import at_steps, controls_of_each, start_joints
 from sim.needles.kept import batch_of, models_in_turn, models_of
 from sim.needles.run import Run, run_of
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 
 Array = NDArray[np.float64]
 

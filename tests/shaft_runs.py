@@ -4,9 +4,9 @@ import numpy as np
 
 from models.tissue import Interface, Layer, Tissue
 from sim.discretisation import Discretisation
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 LEVEL_N_MM = 1.5
 FREE_MM, INSERTED_MM = 20.0, 60.0

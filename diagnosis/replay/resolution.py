@@ -16,8 +16,7 @@ class Resolution:
     step_s: float
 
     def step_of(self, trial: PreparedTrial) -> float:
-        """Time step for a trial, s: as many whole samples as are no longer than the longest step, or that
-        step, if one sample is longer."""
+        """Time step for a trial, s: as many whole samples as the longest step holds, or that step."""
         samples = max(1, int(self.step_s / trial.sample_s + _ROUNDING))
         return min(self.step_s, samples * trial.sample_s)
 

@@ -14,8 +14,8 @@ from models.drive import Drive
 from models.needle import Needle
 from models.tissue import Interface, Layer, Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 
 LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
 

@@ -14,7 +14,8 @@ import mujoco
 from mujoco.batch import Batch
 
 from sim.kernel.callback import install
-from sim.spec import Setup, needle_spec, set_bodies, set_numbers
+from sim.needles.setup import Setup
+from sim.spec import needle_spec, set_bodies, set_numbers
 
 T = TypeVar("T")
 

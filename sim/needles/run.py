@@ -9,8 +9,8 @@ from models import units
 from models.drive import DriveKind
 from models.errors import NeedleError
 from sim.kernel import memory_map
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 
 Array = NDArray[np.float64]
 

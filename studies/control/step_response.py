@@ -19,8 +19,8 @@ from sim.discretisation import Discretisation
 from sim.kernel import memory_map
 from sim.loop.hardware import LoopHardware
 from sim.needles.run import Run
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 from studies.control.tip_controllers import ControllerDesign, tip_controller_named
 from studies.crosscheck.paper import integral_deg_s, settling_s
 

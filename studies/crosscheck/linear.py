@@ -25,8 +25,8 @@ from models.tip_drag_modes import TipDragNeedle
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
 from sim.needles.kept import compile_model
+from sim.needles.setup import Setup
 from sim.simulation import simulate
-from sim.spec import Setup
 from studies.crosscheck.findings import Check
 from studies.crosscheck.motion import base_turn
 from studies.crosscheck.poles import BOUND, COUNT, measure

@@ -19,10 +19,10 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
 from sim.needles.run import Run
+from sim.needles.setup import Setup
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 from studies.crosscheck.findings import Check
 
 Array = NDArray[np.float64]

@@ -19,7 +19,7 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
 from sim.needles.kept import compile_model
-from sim.spec import Setup
+from sim.needles.setup import Setup
 from studies.crosscheck import native_needle
 from studies.crosscheck.findings import Check, Pole, PoleSource
 from studies.crosscheck.identification import (

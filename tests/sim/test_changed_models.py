@@ -13,10 +13,10 @@ from sim.discretisation import Arrangement, Discretisation
 from sim.experiment import perform
 from sim.needles.kept import compile_model
 from sim.needles.run import SimulationFailed
+from sim.needles.setup import Setup
 from sim.paper_protocols import protocol_named
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 BETA = 0.01725
 ORDERS = pytest.mark.parametrize("order", [1, 2, 3])

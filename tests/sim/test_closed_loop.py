@@ -13,9 +13,9 @@ from sim.loop.hardware import LoopHardware, Sensors
 from sim.loop.shaft import CommandedShaft
 from sim.needles.kept import compile_model
 from sim.needles.run import SimulationFailed
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 STEP_S = 0.005
 

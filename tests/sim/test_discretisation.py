@@ -7,7 +7,7 @@ from models.errors import InvalidValue
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh, SlipRate, node_positions_mm
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.017)
 

@@ -16,9 +16,9 @@ from models import units
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 BETA, FREE_MM = 0.01725, 50.0
 TIMES = np.array([0.0, 0.5, 1.5, 4.0, 8.0])

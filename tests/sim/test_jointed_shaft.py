@@ -15,9 +15,9 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 STIFF = NITINOL.but(shear_modulus_gpa=1e6)
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.02)

@@ -19,9 +19,9 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.kernel import memory_map
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 BETA = 0.01725
 TIP_DEG, TORQUE = 0.02, 2e-3

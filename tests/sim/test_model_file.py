@@ -12,9 +12,10 @@ from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.model_file import read_model
 from sim.needles.kept import compile_model
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup, needle_spec
+from sim.spec import needle_spec
 
 
 def setup(order=2, **fields):

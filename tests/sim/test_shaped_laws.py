@@ -17,9 +17,9 @@ from models.tissue import RATE_POINTS, Interface, Layer, Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.needles.run import Run
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 DAMPING, LENGTH_MM, RATE = 0.017, 60.0, 0.8
 NEEDLE = Needle(diameter_mm=0.59, shear_modulus_gpa=27.2, density_g_cm3=6.45)

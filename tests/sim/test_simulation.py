@@ -18,9 +18,9 @@ from sim.discretisation import Arrangement, Discretisation, Mesh
 from sim.kernel import memory_map
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import prepare_processes, simulate
-from sim.spec import Setup
 from studies.crosscheck import motion
 
 BETA = 0.01725

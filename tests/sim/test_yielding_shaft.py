@@ -15,9 +15,9 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 YIELD_N_MM, SLOPE, LENGTH_MM = 1.2, 0.3, 120.0
 COMPLIANCE = LENGTH_MM / NITINOL.rigidity_n_mm2  # rad per N mm

@@ -18,9 +18,9 @@ from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.sensing.sensors import driven
 from sim.needles.run import Run
+from sim.needles.setup import Setup
 from sim.protocol import Protocol
 from sim.schedule import Schedule
-from sim.spec import Setup
 from studies.campaign.posterior.rig_posterior import RigPosterior
 
 Array = NDArray[np.float64]

@@ -5,8 +5,8 @@ import numpy as np
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 
 
 def lagrangian_setup(

@@ -23,9 +23,9 @@ from diagnosis.replay.rig_parameters import RigParameters
 from models.bevel import path_mm
 from sim.closed_loop import FeedbackController, Measurement, run_closed_loop
 from sim.needles.run import Run
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 from studies.control.tables import DESIGN
 from studies.control.tip_controllers import tip_controller_named
 from studies.published.criteria import INSERTION_ELEMENTS, INSERTION_STEP_S

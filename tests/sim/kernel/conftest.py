@@ -13,7 +13,8 @@ import sim
 import sim.kernel
 from models import units
 from sim.law_table import law_table
-from sim.spec import header, needle_spec
+from sim.needles.numeric_fields import header
+from sim.spec import needle_spec
 
 
 @pytest.fixture(scope="session")

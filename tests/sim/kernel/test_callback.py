@@ -8,7 +8,8 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.kernel import memory_map
 from sim.kernel.callback import install
-from sim.spec import Setup, needle_spec
+from sim.needles.setup import Setup
+from sim.spec import needle_spec
 
 
 def test_other_models_pass_the_callback_untouched():

@@ -9,7 +9,7 @@ from models.drive import Drive, DriveKind
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.01725)
 

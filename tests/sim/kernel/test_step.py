@@ -11,8 +11,9 @@ from sim.discretisation import Discretisation
 from sim.law_table import law_table
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
+from sim.needles.numeric_fields import header
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup, header
 
 TISSUE = Tissue.uniform(
     viscous_n_mm_s_per_mm=0.01,

@@ -12,9 +12,9 @@ from sim.kernel.mesh import XI_LEFT, XI_RIGHT
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
 from sim.needles.passive_torques import passive_torques
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 BETA = 0.01725  # N m s / rad / m, which is N mm s / rad / mm
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=BETA)

@@ -10,9 +10,9 @@ from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.needles.callback_loop import run_callback
 from sim.needles.kept import models_of
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 TIME = np.linspace(0.0, 4.0, 401)
 INPUTS = Schedule(

@@ -14,8 +14,8 @@ from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.needles.inputs import at_steps, controls, controls_of_each, initial_data
 from sim.needles.kept import compile_model
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 
 STEP_S = 0.01
 TIME = np.array([0.0, 0.3, 3.0])

@@ -11,9 +11,9 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.needles.kept import Kept, batch_of, compile_model, data_of, models_in_turn, models_of
 from sim.needles.run import SimulationFailed
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 TIME = np.array([0.0, 0.3, 1.0])
 TURN = Schedule(

@@ -10,7 +10,7 @@ from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.needles.kept import compile_model
 from sim.needles.passive_torques import passive_torques
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 
 def setup(**discretisation):

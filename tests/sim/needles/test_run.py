@@ -11,9 +11,9 @@ from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.needles.run import SimulationFailed, refuse_untrustworthy
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 TURN = Schedule(
     time_s=np.array([0.0, 0.3, 3.0]),

@@ -8,8 +8,8 @@ from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.closed_loop import run_closed_loop
 from sim.discretisation import Discretisation, Mesh
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
-from sim.spec import Setup
 from studies.control.closed_loop_recording import record_closed_loop
 from studies.control.step_response import DAMPING, DESIGN
 from studies.control.tip_controllers import tip_controller_named

@@ -7,7 +7,7 @@ import pytest
 from models.drive import DriveKind
 from models.needle import NITINOL
 from models.tissue import Tissue
-from sim.spec import Setup
+from sim.needles.setup import Setup
 from studies.crosscheck import poles
 from studies.crosscheck.findings import Pole, PoleSource
 

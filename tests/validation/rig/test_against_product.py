@@ -6,9 +6,9 @@ import pytest
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Arrangement, Discretisation
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 from validation.rig.simulation import ideal_signals
 
 BETA = 0.018

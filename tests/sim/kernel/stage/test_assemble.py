@@ -10,7 +10,7 @@ from models.drive import Drive
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation, Mesh
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 TISSUES = {
     "viscous": Tissue.uniform(viscous_n_mm_s_per_mm=0.02),

@@ -9,7 +9,7 @@ import pytest
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 VISCOUS = Tissue.uniform(viscous_n_mm_s_per_mm=0.02)
 DRY = Tissue.uniform(viscous_n_mm_s_per_mm=0.002, kinetic_n_mm_per_mm=0.02)

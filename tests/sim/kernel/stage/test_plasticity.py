@@ -6,7 +6,7 @@ import pytest
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
-from sim.spec import Setup
+from sim.needles.setup import Setup
 
 STIFFNESS, YIELD, SLOPE = 2.0, 0.5, 0.25
 HARDENING = STIFFNESS * SLOPE / (1 - SLOPE)

@@ -8,9 +8,9 @@ from models.needle import NITINOL, STIFFNESS_POINTS
 from models.tissue import Tissue
 from sim.discretisation import Discretisation
 from sim.needles.run import Run
+from sim.needles.setup import Setup
 from sim.schedule import Schedule
 from sim.simulation import simulate
-from sim.spec import Setup
 
 MOST_N_MM = 4.0
 PLACES = MOST_N_MM * (np.arange(STIFFNESS_POINTS) / (STIFFNESS_POINTS - 1)) ** 2
