@@ -502,10 +502,11 @@ first; samples on either side of it, of which 20 tell a jump of one sigma; jumps
 Choices; the search tries them last."""
 JUMP_PARAMETERS = 3.0
 """Parameters that a jump of a reading counts for beside a drift: its trial, its time and its size."""
-DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ALIKE = 10.0, 6.0, 0.3
+DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ONE_COURSE_SIGMA, DRIFT_ALIKE = 10.0, 6.0, 3.0, 0.3
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: 5 to one
 side and the other; more is no roughness but a fault, and the answer stays unknown. So it does for less
-where the drift is a line of one rate in all trials, to that share: that is a law."""
+where the drift is a line of one rate in all trials, to that share: that is a law. Another course that is
+the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in each trial."""
 DRIFT_MOST_EFFECTS = 1
 """Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
 drift explained one was so; the others had one effect, or a law that is in no library."""

@@ -13,9 +13,9 @@ from diagnosis.fitting.nuisance import nuisance_of
 from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family, coordinates_of
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.freeform.ranges import ranges_of
-from diagnosis.freeform.search import FreeFit
 from diagnosis.freeform.smooth_curve import smooth_curve
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepare import prepare

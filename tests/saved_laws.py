@@ -9,8 +9,8 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.effects.saved.effect_file import SavedEffect
 from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.freeform.family import Family
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing import Dependence, Law, Missing
-from diagnosis.freeform.search import FreeFit
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.prior import free_covariance, well_determined
-from diagnosis.freeform.search import FreeFit
 
 Array = NDArray[np.float64]
 

@@ -61,6 +61,25 @@ def drifts_alike(log: PreparedLog, sensor: str, noise: Noise, predictions: Seque
     return len(rates) > 1 and float(np.ptp(rates)) <= DRIFT_ALIKE * abs(float(np.mean(rates)))
 
 
+def drifts_by_one_course(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> bool:
+    """Whether the sensor drifts along one course in every trial, wherever it begins: a law."""
+    drifts = _by_trial(log, sensor, noise, predictions)
+    each = [
+        (trial.time_s - trial.time_s[0], drift)
+        for trial, drift in zip(log.trials, drifts, strict=True)
+        if trial.has(sensor)
+    ]
+    if len(each) < 2:
+        return False
+    shortest_s = min((after_s for after_s, _ in each), key=lambda after_s: float(after_s[-1]))
+    courses = np.array([np.interp(shortest_s, after_s, drift) for after_s, drift in each])
+    courses -= courses.mean(axis=1, keepdims=True)
+    apart = float(np.ptp(courses, axis=0).max())
+    return apart <= DRIFT_ALIKE * float(np.ptp(courses.mean(axis=0)))
+
+
 def least_start(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> float:
     """By how much the drift begins off zero in every trial at least, in standard deviations."""
     drift = noise.drift(sensor)

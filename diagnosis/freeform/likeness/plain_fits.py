@@ -19,11 +19,12 @@ from diagnosis.criteria import FAR_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
+from diagnosis.freeform.fits.checked import fitted_and_checked, left_open
+from diagnosis.freeform.fits.free_fit import FreeFit, with_family
 from diagnosis.freeform.likeness.likeness import recognised
 from diagnosis.freeform.likeness.plain_family import plain_family
 from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing import law_of, likelier_first
-from diagnosis.freeform.search import FreeFit, fitted_and_checked, left_open, with_family
 from diagnosis.workers import Task, Workers
 
 Array = NDArray[np.float64]

@@ -9,8 +9,8 @@ from free_forms import linear_fit, missing_with, nothing_told
 
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.families.readings import families
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.ranges import ranges_of
-from diagnosis.freeform.search import FreeFit
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL

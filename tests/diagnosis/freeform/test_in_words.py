@@ -9,6 +9,7 @@ from free_forms import LAW, VOCABULARY, covered, free_fit, linear_fit, missing_w
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.in_words import (
     DOUBT,
     PLACES,
@@ -18,7 +19,6 @@ from diagnosis.freeform.in_words import (
     repeating,
     what_is_missing,
 )
-from diagnosis.freeform.search import FreeFit
 
 
 def test_every_place_and_variable_has_words():

@@ -9,8 +9,8 @@ from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
 
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing import CHOICE, FLOOR, FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
-from diagnosis.freeform.search import FreeFit
 
 TIP = {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}
 

@@ -11,9 +11,9 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.freeform import other_form as module
 from diagnosis.freeform.families import families_of
+from diagnosis.freeform.fits.free_fit import with_family
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.ranges import ranges_of
-from diagnosis.freeform.search import with_family
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Curve

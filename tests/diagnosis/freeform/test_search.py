@@ -9,7 +9,9 @@ from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit, one_trial,
 from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
-from diagnosis.freeform.search import FreeFit, free_form_fits, predictive_gap, with_family
+from diagnosis.freeform.fits.checked import predictive_gap
+from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.freeform.search import free_form_fits
 from diagnosis.selection.screening import Screened
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed

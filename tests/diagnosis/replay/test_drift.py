@@ -13,6 +13,7 @@ from diagnosis.replay.drift import (
     drift_ranges_sigma,
     drift_sigma,
     drifts_alike,
+    drifts_by_one_course,
     least_start,
     with_drift,
 )
@@ -92,6 +93,34 @@ def test_one_line_in_every_trial_is_a_law_and_anything_else_is_none(shapes, alik
     noise = allowing(problem.noise, sensor, 2.0)
     log = replace(problem.log, trials=trials)
     assert drifts_alike(log, sensor, noise, [prediction] * len(trials)) is alike
+
+
+@pytest.mark.parametrize(
+    ("shapes", "one"),
+    [
+        (("line", "line"), True),
+        (("wave", "wave", "wave"), True),
+        (("wave", "raised"), True),
+        (("wave", "opposite"), False),
+        (("wave", "half"), False),
+        (("wave", "line"), False),
+        (("wave",), False),
+    ],
+)
+def test_one_course_in_every_trial_is_a_law_wherever_it_begins(shapes, one, drifting, sensor):
+    problem, line, (prediction,) = drifting
+    (trial,) = problem.log.trials
+    wave = 3.0 * np.sin(1.5 * line)
+    course = {"line": line, "wave": wave, "raised": wave + 1.0, "opposite": -wave, "half": 0.5 * wave}
+    plain = trial.readings[sensor] - problem.noise[sensor] * line
+    trials = tuple(
+        replace(
+            trial, readings={**trial.readings, sensor: plain + 3.0 * problem.noise[sensor] * course[s]}
+        )
+        for s in shapes
+    )
+    log, noise = replace(problem.log, trials=trials), allowing(problem.noise, sensor, 2.0)
+    assert drifts_by_one_course(log, sensor, noise, [prediction] * len(trials)) is one
 
 
 def test_a_drift_from_zero_starts_there_and_one_beside_an_offset_does_not(drifting, sensor):

@@ -1,7 +1,8 @@
 """What the drift of a working sensor may be, beside the best explanation of a search.
 
 A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
-than DRIFT_ALIKE_SIGMA that is the same line in every trial. And it stands beside one effect at most:
+than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_COURSE_SIGMA that is
+another course, and the same in every trial. And it stands beside one effect at most:
 with two it takes the shape of what no library holds. Nor does it follow the axial speed, or, at the tip,
 depth, rate, direction or angle (scoring/followed); and where such a law is likelier than a drift, it is
 none.
@@ -17,11 +18,17 @@ from diagnosis.criteria import (
     DRIFT_ALIKE_SIGMA,
     DRIFT_FOLLOWS_SIGMA,
     DRIFT_MOST_EFFECTS,
+    DRIFT_ONE_COURSE_SIGMA,
     DRIFT_RANGE_SIGMA,
     DRIFT_START_SIGMA,
 )
 from diagnosis.effects import LIBRARY
-from diagnosis.replay.drift import drift_range_sigma, drifts_alike, least_start
+from diagnosis.replay.drift import (
+    drift_range_sigma,
+    drifts_alike,
+    drifts_by_one_course,
+    least_start,
+)
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.selection.scoring.drift_evidence import noise_of_a_reading, score_beside_drift
 from diagnosis.selection.scoring.followed import followed
@@ -53,9 +60,11 @@ def range_sigma(state: SearchState, sensor: str) -> float:
 
 
 def allowed_sigma(state: SearchState, sensor: str) -> float:
-    """Range of a drift of a working sensor; less, where it is the same line in every trial."""
-    alike = drifts_alike(state.problem.log, sensor, state.problem.noise, _replayed(state))
-    return DRIFT_ALIKE_SIGMA if alike else DRIFT_RANGE_SIGMA
+    """Range of a drift of a working sensor; less, where it is the same in every trial."""
+    of = state.problem.log, sensor, state.problem.noise, _replayed(state)
+    if drifts_alike(*of):
+        return DRIFT_ALIKE_SIGMA
+    return DRIFT_ONE_COURSE_SIGMA if drifts_by_one_course(*of) else DRIFT_RANGE_SIGMA
 
 
 def what_it_follows(state: SearchState, sensor: str) -> str:

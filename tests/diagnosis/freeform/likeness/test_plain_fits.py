@@ -9,10 +9,11 @@ from free_forms import CURVE, family_of, free_fit, linear_fit, one_trial
 from rig_outside import log_outside
 
 from diagnosis.fitting.decimation import decimated
+from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.likeness import plain_fits
 from diagnosis.freeform.likeness.plain_fits import with_plain_laws
 from diagnosis.freeform.missing import law_of
-from diagnosis.freeform.search import FreeFit, free_form_fits
+from diagnosis.freeform.search import free_form_fits
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
