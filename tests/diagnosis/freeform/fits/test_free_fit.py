@@ -1,0 +1,31 @@
+"""A family fitted to a log: its score, and its place in the library of a problem."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from free_forms import family_of, free_fit, one_trial
+
+from diagnosis.freeform.fits.free_fit import with_family
+
+
+def test_a_score_is_a_cost_in_its_own_units_and_a_penalty_for_what_data_determine():
+    simple, free = (free_fit(1.0, freedom=n) for n in (1, 4))
+    given = {"by_trial": (np.full(100, 1.0),), "jacobian": (np.zeros((100, 1)),), "cost": 100.0}
+    one = replace(simple, fit=replace(simple.fit, **given))
+    assert one.score == pytest.approx(np.log(100), abs=1e-6)  # a level without a prior counts whole
+    loud = replace(one, fit=replace(one.fit, cost=200.0))
+    assert loud.score - one.score == pytest.approx(100 * np.log(2))
+    beside = replace(one, beside=("tip_drag",))
+    assert beside.score - one.score == pytest.approx(2 * np.log(100))
+    free_given = given | {"jacobian": (np.zeros((100, 4)),)}
+    four = replace(free, fit=replace(free.fit, **free_given))
+    assert four.score - one.score == pytest.approx(3 * np.log(100), abs=1e-6)
+
+
+def test_a_family_is_fitted_as_an_effect_of_the_library():
+    problem, _ = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
+    own, family = with_family(problem, family_of(name="mine")), family_of(name="mine")
+    assert own.library["mine"].parameters == family.effect.parameters
+    assert set(own.library) == {*problem.library, "mine"}
+    assert "mine" not in problem.library
