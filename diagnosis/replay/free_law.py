@@ -294,8 +294,11 @@ class FreeLaw:
 
 
 def _stronger(law: Interface, strength: float) -> Interface:
-    """An additional law with its torques multiplied."""
-    stronger: Interface = law.but(**{name: strength * getattr(law, name) for name in _TORQUES})
+    """An additional law with its torques multiplied; so is the stiffness of tissue in series with it."""
+    changes = {name: strength * getattr(law, name) for name in _TORQUES}
+    if law.stiffness_n_mm_per_rad_per_mm and strength > 0.0:
+        changes["stiffness_n_mm_per_rad_per_mm"] = strength * law.stiffness_n_mm_per_rad_per_mm
+    stronger: Interface = law.but(**changes)
     return stronger
 
 

@@ -9,7 +9,6 @@ from diagnosis.freeform.families.shaft import families
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import predict
-from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.variables import Variable
 from models.needle import NITINOL
@@ -62,7 +61,7 @@ def test_a_shaft_that_softens_while_it_relaxes_carries_less_and_relaxes_slower()
     own = prepared(trial(held))
     rigs = [NOMINAL, RigParameters(free=FreeLaw(tissue_varies=True, curves=(softens,)))]
     at = np.rint(100 * np.array([6.0, 7.9, 8.1, 10.0])).astype(int)
-    torques = [p.base_torque_n_mm[at] for p in predict(RIG, own, rigs, COARSE)]
+    torques = [p.base_torque_n_mm[at] for p in predict(RIG, own, rigs)]
     (nominal, _, _, _), (before, last, first, after) = np.log(torques)
     rate = (before - last) / 1.9
     assert before == pytest.approx(nominal, abs=1e-9)
