@@ -46,6 +46,7 @@ class ActsOn(StrEnum):
     ORIENTATION = "orientation"
     STIFFNESS = "stiffness"
     TISSUE_ANGLE = "tissue_angle"
+    TISSUE_SLIP = "tissue_slip"
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
     INSERTED_LENGTH = "inserted_length"

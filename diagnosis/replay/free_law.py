@@ -8,6 +8,7 @@ What its curves act on:
                     needle's torque is so much larger; exact without other torques and inertia
     tissue_angle    the tissue turns by the curve, deg, and takes the needle with it: as seen from the
                     tissue, the drive shaft turns by so much less; exact without friction elsewhere
+    tissue_slip     it turns at the rate of the curve, deg/s, in the same way
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
     inserted_length as much more of the shaft is inserted as the curve says, mm, and less is free
@@ -253,7 +254,7 @@ class FreeLaw:
                 deeper = deeper + own
             elif curve.acts_on is ActsOn.TISSUE_ANGLE:
                 drive = drive - own
-            elif curve.acts_on is ActsOn.DRIVE_SLIP:
+            elif curve.acts_on in (ActsOn.DRIVE_SLIP, ActsOn.TISSUE_SLIP):
                 drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
             else:
                 drive = drive + own
@@ -273,6 +274,9 @@ class FreeLaw:
                 read[False] = read[False] + more
             if curve.acts_on is ActsOn.TISSUE_ANGLE:
                 read[True] = read[True] + curve.at(of_inputs(curve.variable, inputs, start_s))
+            if curve.acts_on is ActsOn.TISSUE_SLIP:
+                turned = cumulative_trapezoid(curve.at(torque_n_mm), inputs.time_s, initial=0)
+                read[True] = read[True] + turned
             if curve.acts_on in _SENSORS:
                 of_tip = curve.acts_on in _OF_TIP
                 own = tip_deg if of_tip else torque_n_mm

@@ -8,6 +8,7 @@ acceleration   of the drive shaft, rad/s^2
 direction      in which it last turned: 1 forwards, -1 backwards, straight between over a short time
 slid_direction in which dry friction in the drive slides: straight between while it sticks
 axial_speed    of the needle into the tissue, mm/s
+slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SLID_S)
 depth          inserted length, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
 tip_angle      deg
@@ -29,6 +30,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
 from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, stopped_at
+from diagnosis.replay.sensing.filters import first_order
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -36,6 +38,7 @@ Array = NDArray[np.float64]
 STILL_DEG_S = 1.0  # slower than this, a drive shaft rests
 _TURN_S = 0.1  # in which a direction changes
 _RATE_S = 0.02  # over which rates are taken
+SLID_S = 4.0  # in which tissue forgets that the needle slid: its relaxation takes some seconds
 
 
 class Variable(StrEnum):
@@ -49,6 +52,7 @@ class Variable(StrEnum):
     DIRECTION = "direction"
     SLID_DIRECTION = "slid_direction"
     AXIAL_SPEED = "axial_speed"
+    SLID_LATELY = "slid_lately"
     DEPTH = "depth"
     HISTORY = "history"
     TIP_ANGLE = "tip_angle"
@@ -70,6 +74,7 @@ UNITS = {
     Variable.DIRECTION: "-",
     Variable.SLID_DIRECTION: "-",
     Variable.AXIAL_SPEED: "mm/s",
+    Variable.SLID_LATELY: "mm/s",
     Variable.DEPTH: "mm",
     Variable.HISTORY: "turns",
     Variable.TIP_ANGLE: "deg",
@@ -84,6 +89,7 @@ UNITS = {
 SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
     Variable.ACCELERATION: "rate",
+    Variable.SLID_LATELY: "axial_speed",
     Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",
@@ -170,6 +176,10 @@ def _history(inputs: Schedule, _: float) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(inputs.drive)))]) / 360.0
 
 
+def _slid_lately(inputs: Schedule, _: float) -> Array:
+    return first_order(inputs.time_s, np.abs(inputs.speed_mm_s), SLID_S)
+
+
 _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.TIME: lambda inputs, start_s: inputs.time_s - start_s,
     Variable.TRIAL_SHARE: _trial_share,
@@ -179,6 +189,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.DIRECTION: _direction,
     Variable.SLID_DIRECTION: _slid_direction,
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
+    Variable.SLID_LATELY: _slid_lately,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,
 }

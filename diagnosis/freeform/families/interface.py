@@ -24,8 +24,9 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.tissue import RATE_POINTS, Interface
 
-DAMPING_OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
-FRICTION_OVER = (*DAMPING_OVER, Variable.BASE_ANGLE)
+OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
+DAMPING_OVER = (*OVER, Variable.SLID_LATELY)
+FRICTION_OVER = (*OVER, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03
 SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft

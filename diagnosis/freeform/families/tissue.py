@@ -1,6 +1,8 @@
 """Free laws of the tissue: elastic (Kelvin-Voigt), with a stiffness that is a curve of a variable.
 
-The stiffness may also be a curve of the twist of the tissue: it hardens or softens.
+The stiffness may also be a curve of the twist of the tissue: it hardens or softens. Or a block of tissue
+slips on its support beyond a torque T0, and takes the needle with it: it turns at a rate that grows
+straight with |T| - T0.
 """
 
 from collections.abc import Callable, Sequence
@@ -9,19 +11,22 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Place
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import FADING, PARTS
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.curve import ActsOn
+from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contact_places
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
+_BEYOND = 1.2  # times the largest torque, at which the rate of a block that slips is told
+_THRESHOLDS = (0.3, 0.6, 0.3, 0.6)  # of that torque, to start with
+_SLIP_DEG_S = (3.0, 3.0, 30.0, 30.0)
 _EVEN_DEG, _MOST_DEG = 3.0, 45.0  # twist below which places are even, and beyond which none is
 
 
@@ -29,7 +34,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that the tissue may lack."""
     over = (_elastic_over(v, ranges) for v in OVER if v in ranges.ends)
     hardening = (_elastic_over_twist(ranges),) if Variable.BASE_ANGLE in ranges.ends else ()
-    return (*over, _elastic_along_depth(ranges), *hardening)
+    return (*over, _elastic_along_depth(ranges), *hardening, *_slipping(ranges))
 
 
 def _elastic_over(variable: Variable, ranges: LogRanges) -> Family:
@@ -101,6 +106,59 @@ def _law_over_twist(curve: SmoothCurve, c: Sequence[float]) -> FreeLaw:
         factors=curve.factors(c),
     )
     return FreeLaw(contact=contact)
+
+
+def _slipping(ranges: LogRanges) -> tuple[Family, ...]:
+    """A block that slips on its support, if there is a torque."""
+    if Variable.TORQUE not in ranges.ends:
+        return ()
+    most = _BEYOND * max(abs(end) for end in ranges.ends[Variable.TORQUE])
+    threshold = Parameter(
+        name="threshold",
+        unit="N mm",
+        low=1e-3 * most,
+        high=0.99 * most,
+        start=tuple(share * most for share in _THRESHOLDS),
+        logarithmic=True,
+        neutral=None,
+    )
+    rate = Parameter(name="rate", unit="deg/s", low=0.0, high=500.0, start=_SLIP_DEG_S, scale=5.0)
+    family = Family(
+        effect=Effect(
+            name="tissue slip over torque",
+            title="tissue that slips on its support, and takes the needle with it",
+            place=Place.TISSUE,
+            parameters=(threshold, rate),
+            apply=partial(_apply_slip, most),
+            differences=(1e-2,),
+        ),
+        places={Place.TISSUE: 1.0},
+        says=Variable.TORQUE,
+        title="rate at which the tissue turns",
+        curve=partial(_slip, most),
+        x_unit=UNITS[Variable.TORQUE],
+        unit="deg/s",
+    )
+    return (family,)
+
+
+def _slip(most: float, threshold: float, rate: float) -> Points:
+    """Torques, in N mm, and rates, in deg/s: of the largest torque, the parameter."""
+    torque = np.linspace(threshold, most, 4)
+    slope = rate / (most - threshold)
+    one_way = slope * (torque - threshold)
+    return np.append(-torque[::-1], torque), np.append(-one_way[::-1], one_way)
+
+
+def _apply_slip(most: float, rig: RigParameters, threshold: float, rate: float) -> RigParameters:
+    places, values = _slip(most, threshold, rate)
+    curve = Curve(
+        acts_on=ActsOn.TISSUE_SLIP,
+        variable=Variable.TORQUE,
+        places=tuple(np.asarray(places)),
+        values=tuple(np.asarray(values)),
+    )
+    return replace(rig, free=FreeLaw(curves=(curve,)))
 
 
 def _stiffness(curve: SmoothCurve, stiffness: float, _: float, *c: float) -> Points:

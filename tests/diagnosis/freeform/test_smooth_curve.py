@@ -152,6 +152,7 @@ def test_the_signs_of_a_two_sided_curve_differ_by_a_jump_and_a_slope_alone():
 ADDED = {
     ActsOn.ORIENTATION,
     ActsOn.TISSUE_ANGLE,
+    ActsOn.TISSUE_SLIP,
     ActsOn.DRIVE_ANGLE,
     ActsOn.DRIVE_SLIP,
     ActsOn.INSERTED_LENGTH,

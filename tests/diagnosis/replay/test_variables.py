@@ -1,10 +1,12 @@
 """What a free law may depend on, against motions whose variables are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
-from diagnosis.replay.variables import OF_THE_NEEDLE, UNITS, Variable, of_inputs, of_needle
+from diagnosis.replay.variables import OF_THE_NEEDLE, SLID_S, UNITS, Variable, of_inputs, of_needle
 from sim.schedule import Schedule
 
 STEP_S = 0.01
@@ -87,6 +89,14 @@ def test_a_turn_that_gains_speed_evenly_has_one_acceleration():
 
 def test_a_base_that_never_turns_has_no_direction():
     assert not of_inputs(Variable.DIRECTION, inputs(angle=np.zeros(TIME.size)), 0.0).any()
+
+
+def test_sliding_is_forgotten_in_some_seconds_whichever_way_it_was():
+    """From rest to 3 mm/s: 3 (1 - exp(-t / tau)), and as much where it is pulled out."""
+    there = of_inputs(Variable.SLID_LATELY, replace(inputs(), speed_mm_s=np.full(TIME.size, 3.0)), 0.0)
+    back = of_inputs(Variable.SLID_LATELY, replace(inputs(), speed_mm_s=np.full(TIME.size, -3.0)), 0.0)
+    np.testing.assert_array_equal(back, there)
+    np.testing.assert_allclose(there, 3.0 * (1 - np.exp(-TIME / SLID_S)), atol=0.02)
 
 
 def test_history_is_what_was_turned_to_and_fro():

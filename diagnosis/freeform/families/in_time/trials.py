@@ -2,7 +2,7 @@
 
 - damping, dry friction beside it, or the stiffness of the shaft, times a factor of each trial
 - a length by which more of the shaft is inserted in it than was logged
-- an offset, or a gain, of the tip or torque sensor in it
+- an offset, or a gain, of the tip or torque sensor in it, or a drift of its own from zero
 
 A trial that was left out of a fit says nothing on its own number, so that such a law is judged by the
 trials of its fit, and by how many numbers it takes.
@@ -25,6 +25,7 @@ from diagnosis.replay.variables import Variable
 from models.tissue import Interface
 
 FEWEST_TRIALS = 2
+_DRIFTS = (ActsOn.TIP_READING, ActsOn.TORQUE_READING)
 _FACTOR, _LENGTH_MM = 0.3, 5.0  # sizes to look for: of the logarithm, and of a length
 _TISSUE = {Place.TISSUE: 0.5, Place.INTERFACE: 0.3, Place.PARAMETERS: 0.2}
 _SHAFT = {Place.PARAMETERS: 0.6, Place.NEEDLE: 0.4}
@@ -56,7 +57,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if len(trials) < FEWEST_TRIALS:
         return ()
     own = [_of_each_trial(quantity, trials) for quantity in _quantities(ranges)]
-    return (*own, _friction(ranges, trials))
+    drifts = [_drift(q, trials) for q in _quantities(ranges) if q.acts_on in _DRIFTS]
+    return (*own, *drifts, _friction(ranges, trials))
 
 
 def _quantities(ranges: LogRanges) -> list[_Quantity]:
@@ -142,6 +144,38 @@ def _curves(acts_on: ActsOn, trials: Sequence[str], values: Sequence[float]) -> 
 def _apply(quantity: _Quantity, trials: Sequence[str], rig: RigParameters, *c: float) -> RigParameters:
     curves = _curves(quantity.acts_on, trials, _values(quantity, c))
     return replace(rig, free=FreeLaw(tissue_varies=quantity.varies, curves=curves))
+
+
+def _drift(quantity: _Quantity, trials: Sequence[str]) -> Family:
+    """What a sensor is off by in the middle and at the end of each trial, of which it begins at zero."""
+    words = quantity.words.replace("offset", "drift")
+    return Family(
+        effect=Effect(
+            name=f"{quantity.acts_on.replace('_', ' ')} over time, drifting in each trial",
+            title=f"{words}, another one in each trial",
+            place=Place.SENSOR,
+            parameters=coordinates(0, 2 * len(trials), quantity.scale),
+            apply=partial(_apply_drift, quantity.acts_on, trials),
+        ),
+        places=quantity.places,
+        says="time",
+        title=f"{words} at the end of each trial",
+        curve=_ends_of_drifts,
+        x_unit="number of the trial",
+        unit=quantity.unit,
+        of_each_trial=True,
+    )
+
+
+def _ends_of_drifts(*c: float) -> Points:
+    return np.arange(1, len(c) // 2 + 1), np.array(c[1::2])
+
+
+def _apply_drift(acts_on: ActsOn, trials: Sequence[str], rig: RigParameters, *c: float) -> RigParameters:
+    of_share = partial(Curve, acts_on=acts_on, variable=Variable.TRIAL_SHARE, places=(0.0, 0.5, 1.0))
+    each = zip(trials, c[::2], c[1::2], strict=True)
+    curves = tuple(of_share(values=(0.0, middle, end), trial=name) for name, middle, end in each)
+    return replace(rig, free=FreeLaw(curves=curves))
 
 
 def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:

@@ -1,5 +1,7 @@
 """Free laws of the tissue: where they are constant, they are elastic tissue of the library."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import turns
@@ -8,12 +10,18 @@ from free_forms import covered, same_readings
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.tissue import families
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.variables import Variable
 
 ANGLE = turns(6.0)
 FAMILIES = {family.name: family for family in families(covered(ANGLE, tip=ANGLE))}
 ELASTIC = LIBRARY["tissue_viscoelasticity"].apply(NOMINAL, 0.01, 0.4)
 FLAT = [0.0] * 8
+TORQUE = 0.02 * ANGLE
+SLIPS = "tissue slip over torque"
+(SLIP,) = (f for f in families(covered(ANGLE, torque=TORQUE, seen=(ANGLE, TORQUE))) if f.name == SLIPS)
 
 
 @pytest.mark.parametrize("name", list(FAMILIES))
@@ -36,3 +44,25 @@ def test_it_is_of_what_the_log_has():
     says = {family.says for family in FAMILIES.values()}
     assert says == {"time", "history", "position", "torque"}
     assert all(family.place is Place.TISSUE for family in FAMILIES.values())
+
+
+def test_tissue_that_turns_at_one_rate_is_tissue_that_turns_by_a_line_in_time():
+    """Of tissue that turns at any torque alike: 20 deg/s for six seconds are 120 deg."""
+    rate = Curve(
+        acts_on=ActsOn.TISSUE_SLIP, variable=Variable.TORQUE, places=(-9.0, 9.0), values=(20.0, 20.0)
+    )
+    line = Curve(
+        acts_on=ActsOn.TISSUE_ANGLE, variable=Variable.TIME, places=(0.0, 6.0), values=(0.0, 120.0)
+    )
+    slips, turns_by = (replace(NOMINAL, free=FreeLaw(curves=(one,))) for one in (rate, line))
+    assert same_readings(ANGLE, slips, turns_by, within=1e-3)
+    assert not same_readings(ANGLE, slips, NOMINAL, within=0.02)
+
+
+def test_a_block_that_does_not_slip_is_the_nominal_rig_and_one_that_does_turns_beyond_its_torque():
+    assert same_readings(ANGLE, SLIP.effect.apply(NOMINAL, 1.0, 0.0), NOMINAL)
+    torque, rate = SLIP.curve(0.5, 12.0)
+    np.testing.assert_allclose(rate, -np.array(rate)[::-1])
+    assert np.interp((-0.5, 0.0, 0.5), torque, rate) == pytest.approx(0.0)
+    assert (rate[-1], torque[-1]) == (pytest.approx(12.0), pytest.approx(1.2 * TORQUE.max(), rel=0.05))
+    assert SLIP.places == {Place.TISSUE: 1.0}

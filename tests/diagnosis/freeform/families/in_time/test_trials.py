@@ -20,6 +20,10 @@ REST = np.zeros(ANGLE.size)
 RANGES = covered_by([(ANGLE, ANGLE, (REST, REST))] * 3)
 FAMILIES = {f.name: f for f in families(replace(RANGES, missing={TIP: 2.0, TORQUE: 0.3}))}
 GROWS = (0.0, 0.1, -0.2)
+DRIFTS = {
+    "tip reading over time, drifting in each trial": "tip reading over time, of each trial",
+    "torque reading over time, drifting in each trial": "torque reading over time, of each trial",
+}
 LEVEL, LENGTH = 0.001, "inserted length over time, of each trial"
 EFFECTS = {
     "tissue over time, of each trial": lambda c: ("damping_error", np.exp(c)),
@@ -42,7 +46,7 @@ def same(one, other, within=1e-6):
 
 def test_one_trial_has_nothing_to_differ_from():
     assert families(covered_by([(ANGLE, ANGLE, (REST, REST))] * (FEWEST_TRIALS - 1))) == ()
-    assert set(FAMILIES) == {*EFFECTS, LENGTH, "dry friction over time, of each trial"}
+    assert set(FAMILIES) == {*EFFECTS, *DRIFTS, LENGTH, "dry friction over time, of each trial"}
     assert {family.says for family in FAMILIES.values()} <= VOCABULARY
     assert all(family.of_each_trial for family in FAMILIES.values())
 
@@ -70,6 +74,23 @@ def test_dry_friction_is_that_of_the_library_in_each_trial():
     for number, c in enumerate(GROWS, start=1):
         own = LIBRARY["coulomb_friction"].apply(NOMINAL, LEVEL * np.exp(c))
         assert same(reads(rig, number), reads(own, number))
+
+
+@pytest.mark.parametrize(("drifting", "offset"), DRIFTS.items())
+def test_a_sensor_drifts_from_zero_in_each_trial(drifting, offset):
+    """In the middle and at the end it reads as one with the offset of there."""
+    ends = (0.2, 0.5, -0.1, 0.3, 0.0, 0.0)
+    rig = FAMILIES[drifting].effect.apply(NOMINAL, *ends)
+    for number in (1, 2, 3):
+        middle, end = ends[2 * number - 2 : 2 * number]
+        for share, size in ((0.0, 0.0), (0.5, middle), (1.0, end)):
+            shifted = FAMILIES[offset].effect.apply(NOMINAL, size, size, size)
+            at = round(share * (ANGLE[::4].size - 1))
+            for sensor in SENSORS:
+                seen, known = (reads(one, number)[sensor][at] for one in (rig, shifted))
+                assert seen == pytest.approx(known, abs=0.01)
+    number, told = FAMILIES[drifting].curve(*ends)
+    np.testing.assert_allclose((number, told), ((1, 2, 3), (0.5, 0.3, 0.0)))
 
 
 def test_curves_are_told_trial_by_trial():
