@@ -34,6 +34,7 @@ LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 TURN_DEG, WAVES = 360.0, 8
 _PLACES = {Place.INTERFACE: 1.0}
+_WHEN = {Variable.SLID_LATELY: " after sliding"}
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
 
 
@@ -75,7 +76,7 @@ def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> 
         ),
         places=_PLACES,
         says=SAYS.get(variable, variable),
-        title="damping along the shaft",
+        title="damping along the shaft" + _WHEN.get(variable, ""),
         curve=partial(_damping, curve, beta),
         x_unit=UNITS[variable],
         unit="N mm s / rad / mm",
