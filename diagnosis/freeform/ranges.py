@@ -30,6 +30,7 @@ LEAST_RANGE = {
     Variable.SLID_DIRECTION: 1.5,
     Variable.AXIAL_SPEED: 0.3,
     Variable.SLID_LATELY: 0.2,
+    Variable.AXIAL_DRAG: 5.0,
     Variable.DEPTH: 5.0,
     Variable.HISTORY: 0.1,
     Variable.TIP_ANGLE: 20.0,

@@ -9,6 +9,8 @@ direction      in which it last turned: 1 forwards, -1 backwards, straight betwe
 slid_direction in which dry friction in the drive slides: straight between while it sticks
 axial_speed    of the needle into the tissue, mm/s
 slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SLID_S)
+axial_drag     inserted length, with the sign of the axial speed, mm: what the friction of a needle that
+               slides is proportional to; 0 at rest
 depth          inserted length, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
 tip_angle      deg
@@ -38,6 +40,7 @@ Array = NDArray[np.float64]
 STILL_DEG_S = 1.0  # slower than this, a drive shaft rests
 _TURN_S = 0.1  # in which a direction changes
 _RATE_S = 0.02  # over which rates are taken
+_SLIDES_MM_S = 0.1  # axial speed at which friction is no longer that of a needle at rest
 SLID_S = 4.0  # in which tissue forgets that the needle slid: its relaxation takes some seconds
 
 
@@ -53,6 +56,7 @@ class Variable(StrEnum):
     SLID_DIRECTION = "slid_direction"
     AXIAL_SPEED = "axial_speed"
     SLID_LATELY = "slid_lately"
+    AXIAL_DRAG = "axial_drag"
     DEPTH = "depth"
     HISTORY = "history"
     TIP_ANGLE = "tip_angle"
@@ -75,6 +79,7 @@ UNITS = {
     Variable.SLID_DIRECTION: "-",
     Variable.AXIAL_SPEED: "mm/s",
     Variable.SLID_LATELY: "mm/s",
+    Variable.AXIAL_DRAG: "mm, with the sign of the axial speed",
     Variable.DEPTH: "mm",
     Variable.HISTORY: "turns",
     Variable.TIP_ANGLE: "deg",
@@ -90,6 +95,7 @@ SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
     Variable.ACCELERATION: "rate",
     Variable.SLID_LATELY: "axial_speed",
+    Variable.AXIAL_DRAG: "axial_speed",
     Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",
@@ -180,6 +186,10 @@ def _slid_lately(inputs: Schedule, _: float) -> Array:
     return first_order(inputs.time_s, np.abs(inputs.speed_mm_s), SLID_S)
 
 
+def _axial_drag(inputs: Schedule, _: float) -> Array:
+    return np.asarray(inputs.inserted_mm * np.tanh(inputs.speed_mm_s / _SLIDES_MM_S))
+
+
 _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.TIME: lambda inputs, start_s: inputs.time_s - start_s,
     Variable.TRIAL_SHARE: _trial_share,
@@ -190,6 +200,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.SLID_DIRECTION: _slid_direction,
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
     Variable.SLID_LATELY: _slid_lately,
+    Variable.AXIAL_DRAG: _axial_drag,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,
 }

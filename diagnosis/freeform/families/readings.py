@@ -47,6 +47,7 @@ SIGNED = (
     Variable.TIP_RATE,
     Variable.ACCELERATION,
     Variable.AXIAL_SPEED,
+    Variable.AXIAL_DRAG,
 )
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 _RATES = (Variable.RATE, Variable.TIP_RATE)  # friction changes fastest where these are small
@@ -139,7 +140,7 @@ ADDED = (
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
     *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
-    *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY),
+    *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY, _V.AXIAL_DRAG),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
     *_added(*_TORQUE, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
     *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME),

@@ -92,11 +92,22 @@ def test_a_base_that_never_turns_has_no_direction():
 
 
 def test_sliding_is_forgotten_in_some_seconds_whichever_way_it_was():
-    """From rest to 3 mm/s: 3 (1 - exp(-t / tau)), and as much where it is pulled out."""
-    there = of_inputs(Variable.SLID_LATELY, replace(inputs(), speed_mm_s=np.full(TIME.size, 3.0)), 0.0)
-    back = of_inputs(Variable.SLID_LATELY, replace(inputs(), speed_mm_s=np.full(TIME.size, -3.0)), 0.0)
+    """At 3 mm/s from a second after the start: 3 (1 - exp(-t / tau)), and as much where it is pulled."""
+    speed = np.where(TIME < 1.0, 0.0, 3.0)
+    there, back = (
+        of_inputs(Variable.SLID_LATELY, replace(inputs(), speed_mm_s=way * speed), 0.0)
+        for way in (1, -1)
+    )
     np.testing.assert_array_equal(back, there)
-    np.testing.assert_allclose(there, 3.0 * (1 - np.exp(-TIME / SLID_S)), atol=0.02)
+    expected = 3.0 * (1 - np.exp(-np.maximum(TIME - 1.0, 0.0) / SLID_S))
+    np.testing.assert_allclose(there, expected, atol=3.0 * STEP_S / SLID_S)  # speeds run straight
+
+
+def test_the_axial_drag_is_the_inserted_length_with_the_sign_of_the_speed():
+    for speed, sign in ((2.0, 1.0), (-2.0, -1.0), (0.0, 0.0)):
+        moving = replace(inputs(), speed_mm_s=np.full(TIME.size, speed))
+        drag = of_inputs(Variable.AXIAL_DRAG, moving, 0.0)
+        np.testing.assert_allclose(drag, sign * moving.inserted_mm)
 
 
 def test_history_is_what_was_turned_to_and_fro():
