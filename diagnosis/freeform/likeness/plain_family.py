@@ -77,7 +77,8 @@ class _Through:
 
 
 def plain_family(family: Family, values: Array, law: Law, found: Recognised) -> Family | None:
-    """The family of the plain law; None: the curve of this family cannot have its shape.
+    """The family of the plain law; None: the curve of this family cannot have its shape, or the law does
+    not depend on one of its numbers there, which no fit could find.
 
     Args:
       values: of the family's parameters, as they were fitted, (n,).
@@ -87,7 +88,10 @@ def plain_family(family: Family, values: Array, law: Law, found: Recognised) -> 
     through = _through(family, values, law, found)
     if through is None:
         return None
-    own = [*_shape_parameters(through, found.values)]
+    scales = _scales(through, found.values)
+    if not np.isfinite(np.abs(found.values) + FARTHEST * scales).all():
+        return None
+    own = [_shape_parameter(i, *one) for i, one in enumerate(zip(found.values, scales, strict=True))]
     own += [_begun_at(family.effect.parameters[i], values[i]) for i in through.beside]
     effect = replace(
         family.effect,
@@ -127,26 +131,28 @@ def _is_beside(family: Family, values: Array, index: int) -> bool:
     return bool(np.array_equal(np.asarray(here), np.asarray(there)))
 
 
-def _shape_parameters(through: _Through, values: Array) -> list[Parameter]:
-    """Parameters in units by which the law changes as much as its own range."""
+def _scales(through: _Through, values: Array) -> Array:
+    """By how much each parameter changes the law as much as its own range; infinite: by no change."""
     found = []
     for i, value in enumerate(values):
         step = _STEP * max(abs(float(value)), _STEP)
         moved = np.array(values)
         moved[i] += step
         slope: Array = (through.wanted(moved) - through.wanted(values)) / step
-        scale = through.size / max(float(np.sqrt(np.mean(slope**2))), np.finfo(float).tiny)
-        found.append(
-            Parameter(
-                name=f"shape {i}",
-                unit="-",
-                low=float(value) - FARTHEST * scale,
-                high=float(value) + FARTHEST * scale,
-                start=(float(value),),
-                scale=scale,
-            )
-        )
-    return found
+        size = float(np.sqrt(np.mean(slope**2)))
+        found.append(through.size / size if size > 0.0 else np.inf)
+    return np.array(found)
+
+
+def _shape_parameter(number: int, value: float, scale: float) -> Parameter:
+    return Parameter(
+        name=f"shape {number}",
+        unit="-",
+        low=float(value) - FARTHEST * float(scale),
+        high=float(value) + FARTHEST * float(scale),
+        start=(float(value),),
+        scale=float(scale),
+    )
 
 
 def _begun_at(parameter: Parameter, value: float) -> Parameter:

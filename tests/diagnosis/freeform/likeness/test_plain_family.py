@@ -16,6 +16,7 @@ from diagnosis.freeform.missing import Law
 from diagnosis.replay.rig_parameters import RigParameters
 
 LINE = next(shape for shape in OF_ANY if shape.name == "straight line")
+APPROACH = next(shape for shape in OF_ANY if shape.name == "exponential approach")
 STEP = next(shape for shape in OF_ANY if shape.name == "step")
 TURNS = np.concatenate([np.linspace(0, 400, 300), np.linspace(400, -200, 400)])
 SEEN = (0.5 * TURNS, 0.005 * TURNS)
@@ -114,6 +115,14 @@ def test_a_curve_that_cannot_have_the_shape_has_no_plain_law():
     law = law_of(family, started(family))
     step = np.array([0.0, 1.0, 0.0])
     assert plain_family(family, started(family), law, Recognised(shape=STEP, values=step)) is None
+
+
+def test_a_law_that_does_not_depend_on_one_of_its_numbers_is_none():
+    """An approach by nothing takes any time: no fit could find which."""
+    family = next(f for f in SHAPED if f.name == "tip reading over time")
+    law, _ = line_near(family, started(family))
+    level = Recognised(shape=APPROACH, values=np.array([1.0, 0.0, 2.0]))
+    assert plain_family(family, started(family), law, level) is None
 
 
 def test_nor_has_one_with_as_many_parameters():
