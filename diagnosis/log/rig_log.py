@@ -17,7 +17,7 @@ from diagnosis.log.checks.time_scale import lag_warnings
 from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
-from diagnosis.log.sensor_faults import without_faults
+from diagnosis.log.sensor_faults import ends_of_ranges, without_faults
 from diagnosis.log.times.even_times import with_even_times
 from diagnosis.log.times.sampling_jitter import with_sampling_times
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
@@ -55,8 +55,9 @@ def read_rig_log(folder: Path) -> RigLog:
     even, warnings = with_even_times(read)
     timed, jittered = with_sampling_times(even)
     warnings, trials = [*warnings, *jittered], list[Trial]()
+    ends = ends_of_ranges(timed, noise)
     for path, one in zip(paths, timed, strict=True):
-        trial, found = without_faults(one, noise)
+        trial, found = without_faults(one, noise, ends)
         refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)
         warnings += found
         trials.append(trial)

@@ -7,8 +7,9 @@ of n with p^(n-1). If s is below q/2, repeats are normal and nothing is conclude
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,24 @@ _REPLACED = "replaced by values from their neighbours"
 _KEPT = "used as it is: correct or cut these rows"
 
 
-def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, list[str]]:
+def ends_of_ranges(trials: Sequence[Trial], noise: Mapping[str, float]) -> dict[str, set[float]]:
+    """By sensor: the ends of its range at which readings of a trial stand, and those of the other sign.
+
+    They are the sensor's: readings that are exactly there are saturated in every trial, though few.
+    """
+    found: dict[str, set[float]] = {name: set() for name in noise}
+    for trial in trials:
+        for name in (n for n in noise if trial.has(n)):
+            ends = _ends(trial[name], noise[name])
+            found[name].update(ends, [-end for end in ends])
+    return found
+
+
+def without_faults(
+    trial: Trial,
+    noise: Mapping[str, float],
+    ends: Mapping[str, Collection[float]] = MappingProxyType({}),
+) -> tuple[Trial, list[str]]:
     """The trial without faulty readings, in memory, and a warning for each kind of fault.
 
     Faulty readings of a sensor become NaN. The base angle drives the needle and cannot be missing: its
@@ -50,13 +68,14 @@ def without_faults(trial: Trial, noise: Mapping[str, float]) -> tuple[Trial, lis
     Args:
       trial: the trial as read.
       noise: claimed standard deviation by column.
+      ends: of the ranges of sensors, which other trials show.
     """
     table, warnings = trial.table.copy(), []
     outliers = _outliers(trial, noise)
     for name, off in outliers.items():
         read, claim = trial[name], noise[name]
         values = np.where(off.rows, np.nan, read)
-        saturated = _saturated(values, claim)
+        saturated = _saturated(values, claim, ends.get(name, ()))
         frozen = _frozen(trial["time_s"], np.where(saturated, np.nan, values), claim)
         faults = {
             "stands at an end of its range, or next to it (saturated)": (saturated, _KEPT),
@@ -173,16 +192,22 @@ def _seen_scatter(values: Array, claim: float) -> float:
     return least if least >= 0.5 * quantum(values) else 0.0
 
 
-def _saturated(values: Array, claim: float) -> Mask:
-    """Mask of saturated readings: more are at the end of the range than within one scatter of it."""
-    rows = np.zeros(values.size, bool)
+def _ends(values: Array, claim: float) -> list[float]:
+    """Ends of the range at which more readings stand than are within one scatter of them."""
     width = max(_seen_scatter(values, claim), quantum(values))
     if _seen_scatter(values, claim) == 0 or np.nanmin(values) == np.nanmax(values):
-        return rows
+        return []
+    found = []
     for end in (np.nanmin(values), np.nanmax(values)):
         at, near = values == end, np.abs(values - end) <= SATURATED_NEAR_SIGMA * width
         if at.sum() >= SATURATED_LEAST_RUN and at.sum() > SATURATED_SHARE * near.sum():
-            rows |= at
+            found.append(float(end))
+    return found
+
+
+def _saturated(values: Array, claim: float, ends: Collection[float]) -> Mask:
+    """Mask of saturated readings, given ends of the range that other trials show."""
+    rows = np.isin(values, [*_ends(values, claim), *ends])
     # Between samples at the end, those that noise alone took off it are no better.
     return np.convolve(rows, np.ones(2 * SATURATED_BESIDE + 1), "same") > 0 if rows.any() else rows
 
