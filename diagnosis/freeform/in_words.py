@@ -134,11 +134,13 @@ def course_of(law: Law) -> str:
 
 
 def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """The points of a curve whose band is not far wider than the curve is large; all, if few are."""
+    """The points of a curve whose band is not far wider than the curve is large; all, if few are, or if
+    the curve is level there alone."""
     most = _WIDEST * statistics.median(map(abs, law.y))
     points = zip(law.x, law.y, law.low, law.high, strict=True)
     known = [(x, y) for x, y, least, greatest in points if greatest - least <= most]
-    if len(known) < _FEWEST:
+    level_there = len({y for _, y in known}) == 1 and len(set(law.y)) > 1
+    if len(known) < _FEWEST or level_there:
         return law.x, law.y
     return tuple(x for x, _ in known), tuple(y for _, y in known)
 

@@ -66,6 +66,13 @@ def test_the_course_of_a_law_is_told(changes, said):
     assert said in course_of(replace(LAW, **changes))
 
 
+def test_a_law_of_one_layer_is_not_told_as_none_where_its_level_is_uncertain():
+    """Nothing outside of the layer is certain; the level in it is known to a factor."""
+    y, high = (0.0, 0.0, 0.004, 0.004, 0.0), (0.0, 0.0, 0.02, 0.02, 0.0)
+    law = replace(LAW, x=(0.0, 50.0, 50.1, 60.0, 60.1), y=y, low=(0.0,) * 5, high=high)
+    assert "varies between 0 and 0.004" in course_of(law)
+
+
 def test_where_a_curve_is_not_determined_its_course_is_not_told():
     x, y, wide = (0.0, 1.0, 2.0, 3.0), (1.0, 1.5, 2.0, 400.0), (0.9, 1.4, 1.9, 0.0)
     law = replace(LAW, x=x, y=y, low=wide, high=(1.1, 1.6, 2.1, 9e4))
