@@ -130,7 +130,7 @@ def _slipping(ranges: LogRanges) -> tuple[Family, ...]:
             place=Place.TISSUE,
             parameters=(threshold, rate),
             apply=partial(_apply_slip, most),
-            differences=(1e-2,),
+            differences=(1e-1, 1e-2),
         ),
         places={Place.TISSUE: 1.0},
         says=Variable.TORQUE,
@@ -145,8 +145,7 @@ def _slipping(ranges: LogRanges) -> tuple[Family, ...]:
 def _slip(most: float, threshold: float, rate: float) -> Points:
     """Torques, in N mm, and rates, in deg/s: of the largest torque, the parameter."""
     torque = np.linspace(threshold, most, 4)
-    slope = rate / (most - threshold)
-    one_way = slope * (torque - threshold)
+    one_way = rate * np.linspace(0.0, 1.0, 4)
     return np.append(-torque[::-1], torque), np.append(-one_way[::-1], one_way)
 
 
