@@ -11,12 +11,14 @@ from dataclasses import replace
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
 from models.tissue import Interface
 
 TIMES_S = (0.1, 0.4, 1.6, 6.4, 25.6)
-"""Relaxation times: apart by what one of them cannot be told from its neighbours by."""
+"""Relaxation times, a factor of four apart: between them, two branches together relax alike."""
 _START = 0.1  # of the stiffness of yielding tissue, which stands in series
 _LEAST = 1e-9  # of a branch that is as good as none, in N mm / rad / mm
 
@@ -25,9 +27,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """The law, if anything turns."""
     stiffness = ranges.library["tissue_viscoelasticity"].parameters[0]
     start = _START * stiffness.start[0]
-    branch = replace(
-        stiffness, low=0.0, start=(start,), scale=start, logarithmic=False, neutral=0.0, reported=True
-    )
+    branch = replace(stiffness, low=0.0, start=(start,), scale=start, logarithmic=False, neutral=0.0)
     damping = Parameter(
         name="damping", unit="-", low=0.02, high=5.0, start=(1.0,), logarithmic=True, neutral=1.0
     )
@@ -59,8 +59,10 @@ def _apply(rig: RigParameters, damping: float, *stiffness: float) -> RigParamete
     branches = tuple(
         _branch(max(k, _LEAST), time_s) for k, time_s in zip(stiffness, TIMES_S, strict=True)
     )
-    scale = rig.damping_scale * damping
-    return replace(rig, damping_scale=scale, free=FreeLaw(throughout=branches))
+    viscous = Curve(
+        acts_on=ActsOn.TISSUE, variable=Variable.TIME, places=(0.0, 1.0), values=(damping, damping)
+    )
+    return replace(rig, free=FreeLaw(tissue_varies=True, curves=(viscous,), throughout=branches))
 
 
 def _branch(stiffness: float, time_s: float) -> Interface:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import FADING, PARTS
@@ -22,6 +23,8 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.contact import CONTACT_POINTS, ContactCurve, ContactVariable, contact_places
+
+Array = NDArray[np.float64]
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.DEPTH, Variable.HISTORY)
 _BEYOND = 1.2  # times the largest torque, at which the rate of a block that slips is told
@@ -142,7 +145,7 @@ def _slipping(ranges: LogRanges) -> tuple[Family, ...]:
     return (family,)
 
 
-def _slip(most: float, threshold: float, rate: float) -> Points:
+def _slip(most: float, threshold: float, rate: float) -> tuple[Array, Array]:
     """Torques, in N mm, and rates, in deg/s: of the largest torque, the parameter."""
     torque = np.linspace(threshold, most, 4)
     one_way = rate * np.linspace(0.0, 1.0, 4)
@@ -152,10 +155,7 @@ def _slip(most: float, threshold: float, rate: float) -> Points:
 def _apply_slip(most: float, rig: RigParameters, threshold: float, rate: float) -> RigParameters:
     places, values = _slip(most, threshold, rate)
     curve = Curve(
-        acts_on=ActsOn.TISSUE_SLIP,
-        variable=Variable.TORQUE,
-        places=tuple(np.asarray(places)),
-        values=tuple(np.asarray(values)),
+        acts_on=ActsOn.TISSUE_SLIP, variable=Variable.TORQUE, places=tuple(places), values=tuple(values)
     )
     return replace(rig, free=FreeLaw(curves=(curve,)))
 

@@ -1,15 +1,18 @@
 """Which free-form laws are saved, and under which names."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
+import numpy as np
 import pytest
 import yaml
+from free_forms import covered
 from saved_laws import EVERYTHING, SOFTENING, STICKY, missing_with, saved
 
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
 from diagnosis.effects.saved.effect_file import effect_as_text, read_effect
 from diagnosis.effects.saved.folder import OWN_FOLDER
+from diagnosis.freeform.families import families_of
 from diagnosis.freeform.save import as_file, file_of
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -17,6 +20,7 @@ from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
 
+ELASTIC = {"tissue_stiffness_n_mm_per_rad_per_mm", "tissue_time_constant_s"}
 ONE = Curve(acts_on=ActsOn.TISSUE, variable=Variable.TIME, places=(0.0, 1.0), values=(1.0, 2.0))
 
 
@@ -33,6 +37,24 @@ def test_of_elastic_tissue_stiffness_and_time_constant_are_saved_with_it():
     content = yaml.safe_load(as_file(missing_with(place=Place.TISSUE, **elastic), "soft"))
     assert content["stiffness_n_mm_per_rad_per_mm"] == 0.4
     assert content["time_constant_s"] == 0.7
+
+
+TURNS = np.concatenate([np.linspace(0, 400, 300), np.linspace(400, -200, 400)])
+SEEN = (0.5 * TURNS, 0.005 * TURNS)
+FAMILIES = families_of(covered(TURNS, tip=0.9 * TURNS, torque=0.01 * TURNS, speed=2.0, seen=SEEN))
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+def test_no_part_of_a_law_is_lost_where_it_is_saved(family):
+    """What a family changes of the rig is what its file keeps: the law, and elastic tissue's numbers."""
+    parameters = family.effect.parameters
+    moved = [p.from_fit(p.to_fit(p.start[0]) + 0.1) for p in parameters]
+    values = [min(max(v, p.low), p.high) for v, p in zip(moved, parameters, strict=True)]
+    rig = family.effect.apply(NOMINAL, *values)
+    kept = {"free"} | (ELASTIC if family.place is Place.TISSUE else set())
+    changed = {f.name for f in fields(rig) if getattr(rig, f.name) != getattr(NOMINAL, f.name)}
+    assert "free" in changed
+    assert changed <= kept
 
 
 UNSAVED = {
