@@ -169,7 +169,8 @@ def _with_readings(
             readings[sensor] = _means(trial.time_s, residual, bare.time_s, width_s) + coarse[sensor]
             half_s = _half_widths_s(trial.time_s, bare.time_s, width_s)
             counts = _counts(trial.time_s[np.isfinite(residual)], bare.time_s, half_s)
-            weights[sensor] = np.sqrt(share * counts)
+            own = trial.weights.get(sensor, np.ones(trial.time_s.size))
+            weights[sensor] = np.sqrt(share * counts) * np.interp(bare.time_s, trial.time_s, own)
     return replace(bare, readings=readings, weights=weights)
 
 

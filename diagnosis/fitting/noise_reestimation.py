@@ -3,7 +3,8 @@
 Fourth differences give the noise whatever the nominal model lacks, but with low efficiency: to 2 %
 from some thousands of samples. The residual of a good explanation is white, and its first differences
 give the noise to 1 %. They are used if they are within 8 % of the first estimate: otherwise
-something fast is left in them.
+something fast is left in them. The first estimate is that of the core of the noise: where its tails are
+heavy, it may be larger by what they add.
 
 Whether the noise is white at all is tested on the residual of a fitted effect, and again on that of
 the best explanation: the residual of the nominal rig contains too much else
@@ -21,6 +22,8 @@ from diagnosis.criteria import (
     COLOUR_MOST_PARTS,
     COLOUR_PARTS_GAP,
     COLOURED_BLOCK_S,
+    NOISE_HEAVIEST,
+    NOISE_HEAVY,
     NOISE_TRUST,
     SLOW_BLOCK,
 )
@@ -28,7 +31,7 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
-from diagnosis.log.white_noise import white_noise
+from diagnosis.log.white_noise import heaviness, white_noise
 from diagnosis.prepare.noise.sensor_noise import Noise
 
 Array = NDArray[np.float64]
@@ -100,8 +103,10 @@ def _other_units(part: Read, before: Noise, noise: Noise) -> Array:
 
 def _change(parts: Sequence[Array]) -> float:
     """Noise / its first estimate, from residuals in units of that estimate."""
-    found = white_noise(parts, order=1)
-    return float(np.clip(found if np.isfinite(found) else 1.0, 1 - NOISE_TRUST, 1 + NOISE_TRUST))
+    found, heavy = white_noise(parts, order=1), heaviness(parts)
+    tails = min(heavy, NOISE_HEAVIEST) if heavy > NOISE_HEAVY else 1.0
+    trusted = (1 - NOISE_TRUST, (1 + NOISE_TRUST) * tails)
+    return float(np.clip(found if np.isfinite(found) else 1.0, *trusted))
 
 
 def by_trial_and_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> list[list[Read]]:

@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 # Root mean square of a standard normal distribution within its central share, by order.
 _CENTRAL_SHARE = {1: 1.0, 2: 0.9, 4: 0.75}
 _CENTRAL_RMS = {1: 1.0, 2: 1 / 1.267, 4: 0.60706}
+_CORE_SHARE, _CORE_RMS = 0.75, 0.60706
 
 
 def white_noise(parts: Sequence[Array], *, order: int, times_s: Sequence[Array] = ()) -> float:
@@ -45,6 +46,28 @@ def white_noise(parts: Sequence[Array], *, order: int, times_s: Sequence[Array] 
     kept = sizes[: max(1, round(_CENTRAL_SHARE[order] * sizes.size))]
     rms = float(np.sqrt(np.mean(kept**2)))
     return rms / _CENTRAL_RMS[order]
+
+
+def heaviness(parts: Sequence[Array]) -> float:
+    """Standard deviation of white noise / that of its core, at least 1: of normal noise it is 1.
+
+    Readings and their first differences both have to tell it: single jumps are far off in differences
+    alone, and what a model lacks is far off in readings alone.
+
+    Args:
+      parts: residuals, (N,) each; values that are not finite are left out.
+    """
+    finite = [values[np.isfinite(values)] for values in parts]
+    each = (finite, [np.diff(values) for values in finite])
+    return max(1.0, min(_of_its_core(np.concatenate(own)) for own in each if finite))
+
+
+def _of_its_core(values: Array) -> float:
+    sizes = np.sort(np.abs(values))
+    core = sizes[: round(_CORE_SHARE * sizes.size)]
+    if sizes.size < LEAST_DIFFERENCES or core[-1] == 0:
+        return 1.0
+    return float(np.sqrt(np.mean(sizes**2) / np.mean(core**2)) * _CORE_RMS)
 
 
 def _differences(time_s: Array, values: Array, order: int) -> Array:

@@ -5,9 +5,9 @@ log; the best of these are then fitted on the log itself. If none of them brings
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is.
-What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, outliers
-may be left, noise may be weakly coloured, the torque may drift, readings may jump, and those of the tip
-may drift.
+What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, noise may
+grow with rate or torque, outliers may be left, noise may be weakly coloured, the torque may drift,
+readings may jump, and those of the tip may drift.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -34,6 +34,7 @@ from diagnosis.selection.stages.sensors.coloured_noise import (
     weakly_coloured_noise,
 )
 from diagnosis.selection.stages.sensors.drift_or_offset import drift_or_offset
+from diagnosis.selection.stages.sensors.growing_noise import noise_that_grows
 from diagnosis.selection.stages.sensors.imperfections import one_more_imperfection
 from diagnosis.selection.stages.sensors.outliers_left import (
     outliers_and_more,
@@ -71,6 +72,7 @@ STAGES: tuple[Stage, ...] = (
     richer_effects_in_the_best,
     scatter_of_the_best,
     finer_mesh,
+    noise_that_grows,
     outliers_beside_the_best,
     weakly_coloured_noise,
     drift_of_the_torque_sensor,

@@ -24,6 +24,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.drift import AllowedDrift, Drift
+from diagnosis.prepare.noise.growing_noise import GrowingNoise
 from diagnosis.prepare.noise.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
@@ -48,6 +49,7 @@ class Noise:
       means_of: number of readings that a sample is the mean of.
       colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
       drifts: drift that sensors may have within a trial.
+      grows: how the noise of sensors grows, whose samples then have weights.
     """
 
     sigma: Mapping[str, float]
@@ -59,6 +61,7 @@ class Noise:
     means_of: int = 1
     colour_chi_square: float = COLOUR_CHI_SQUARE
     drifts: Mapping[str, AllowedDrift] = field(default_factory=dict)
+    grows: Mapping[str, GrowingNoise] = field(default_factory=dict)
 
     def __getitem__(self, sensor: str) -> float:
         return self.sigma[sensor]
@@ -110,6 +113,11 @@ class Noise:
                 sigma[sensor] = self.white[sensor]
         return replace(self, sigma=sigma, colour=colour)
 
+    def growing(self, found: Mapping[str, GrowingNoise]) -> "Noise":
+        """The noise of which that of some sensors also grows."""
+        sigma = {s: own * found[s].noise_ratio if s in found else own for s, own in self.sigma.items()}
+        return replace(self, sigma=sigma, grows={**self.grows, **found})
+
     def same(self, other: "Noise") -> bool:
         """Whether residuals in units of both are the same."""
         return (self.sigma, self.colour, self.drifts) == (other.sigma, other.colour, other.drifts)
@@ -127,13 +135,17 @@ class Noise:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Warnings, and the sensors whose noise is not white."""
+        """Warnings, and the sensors whose noise is not white or grows."""
         each = (
             f"{sensor}: {100 * min(colour.share, 1.0):.0f} % of the noise's variance is correlated "
             f"{colour.in_words}; the diagnosis allows for it"
             for sensor, colour in self.colour.items()
         )
-        return (*self.warnings, *each)
+        grown = (
+            f"{sensor}: the noise {own.in_words}; samples count accordingly"
+            for sensor, own in self.grows.items()
+        )
+        return (*self.warnings, *each, *grown)
 
 
 def estimate_noise(

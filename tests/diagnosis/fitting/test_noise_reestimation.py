@@ -50,6 +50,17 @@ def test_what_is_far_off_is_not_believed(problem):
     assert noise["tip_angle_deg"] == pytest.approx((1 - NOISE_TRUST) * TIP)
 
 
+def test_heavy_tails_add_to_what_is_believed(problem):
+    """Of a core of the first estimate: then as large as first differences are."""
+    tails = 0.75 * np.random.default_rng(4).standard_t(3, size=SAMPLES)
+    rows = np.concatenate([tails, left(1, 1)[SAMPLES:]])
+    noise = reestimated_noise(problem, fit_of((), by_trial=[rows]))
+    expected = np.sqrt(np.mean(np.diff(tails) ** 2) / 2)
+    assert expected > 1 + NOISE_TRUST
+    assert noise["base_torque_n_mm"] / TORQUE == pytest.approx(expected)
+    assert noise["tip_angle_deg"] / TIP == pytest.approx(1.0, abs=3 * np.sqrt(0.75 / SAMPLES))
+
+
 def test_a_fit_in_units_of_another_noise_is_what_a_fit_to_it_would_be(problem):
     scales = tuple(LIBRARY[name] for name in SCATTER)
     x = np.array([0.01, -0.02])

@@ -4,7 +4,7 @@ from math import comb
 
 import numpy as np
 import pytest
-from scipy import integrate, stats
+from scipy import integrate, signal, stats
 
 from diagnosis.log import white_noise as owner
 from diagnosis.log.white_noise import white_noise
@@ -120,3 +120,27 @@ def test_over_even_times_differences_are_those_of_binomials():
 def test_times_belong_to_their_readings():
     with pytest.raises(ValueError, match="zip"):
         white_noise([np.zeros(30)], order=2, times_s=[np.arange(30.0)] * 2)
+
+
+@pytest.mark.parametrize("degrees", [3, 5, 1000])
+def test_heavy_tails_are_measured_beside_the_core(degrees):
+    """First differences of Student's t, whose density is that of t convolved with itself."""
+    grid = np.linspace(-200, 200, 80_001)
+    one = stats.t.pdf(grid, degrees)
+    density = np.maximum(signal.fftconvolve(one, one, "same"), 0) * (grid[1] - grid[0])
+    share = np.cumsum(density) * (grid[1] - grid[0])
+    core = np.abs(grid) <= grid[np.searchsorted(share, 0.875)]
+    variance = np.sum((grid**2 * density)[core]) / np.sum(density[core])
+    ratio = np.sqrt(2 * degrees / (degrees - 2) / variance) * owner._CORE_RMS
+    noise = np.random.default_rng(1).standard_t(degrees, size=400_000)
+    # The variance of t with 3 degrees of freedom converges slowly; the others' to 1 in 600.
+    assert owner.heaviness([noise]) == pytest.approx(ratio, rel=0.05 if degrees == 3 else 0.01)
+
+
+def test_neither_jumps_nor_what_a_model_lacks_are_heavy_tails():
+    rng = np.random.default_rng(2)
+    noise = rng.normal(size=4000)
+    jumps = 15 * (np.arange(4000) // 500 % 2)
+    assert owner.heaviness([noise + jumps]) < 1.05
+    hump = 12 * np.exp(-(((np.arange(4000) - 2000) / 150) ** 2))
+    assert owner.heaviness([noise + hump]) < 1.05
