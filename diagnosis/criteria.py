@@ -503,8 +503,8 @@ MOST_QUIETENED = 4.0
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_PROMISED_GAP = 1.15
-"""Residual that slopes have to promise beside a drift, in sigma, before all is fitted again. Measured: 1.04
-at most in 12 logs that a drift explains, 1.17 to 1.78 in 9 searches of logs that it does not."""
+"""Residual that slopes have to promise beside a drift, in sigma, before all is fitted again. Measured:
+at most 1.04 in 12 logs that a drift explains, 1.17 to 1.78 in 9 searches of logs that it does not."""
 FAULT_CONTENDERS, FAULT_PAIRS = 12, 4
 """Leading explanations of the decimated log that are fitted with a drift, or with jumps of a reading;
 half of them single effects: without it these leave more than any pair of which one effect does what it

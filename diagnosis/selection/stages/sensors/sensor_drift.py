@@ -1,10 +1,11 @@
-"""Sensors that drift, where nothing else explains a log: of the torque, or else of the tip, or else both.
+"""Sensors that drift, where nothing else explains a log: that of the torque, of the tip, or both.
 
 A drift could take over a part of what friction does, or of what moves the tip, so that it is tried last,
 where it would take off most of what one of the leading explanations leaves beyond noise, and slopes
 promise that what is left comes near it. The leading explanations are then fitted again with it. It is
-kept if they explain the log, and if a working sensor may drift so (working_sensor). (An offset beside it does not count before it is told from a drift.) And
-where one jump of its readings is likelier than a drift, that is looked at instead (reading_jumps).
+kept if they explain the log, and if a working sensor may drift so (working_sensor). (An offset beside
+it does not count before it is told from a drift.) And where one jump of its readings is likelier than a
+drift, that is looked at instead (reading_jumps).
 """
 
 import math
@@ -105,7 +106,7 @@ def _promises(state: SearchState, noise: Noise, one: Candidate) -> bool:
 
 
 def _comes_near(state: SearchState, noise: Noise) -> bool:
-    """Whether slopes promise that an explanation of the log, or the decimated one, comes near the noise."""
+    """Whether slopes promise that an explanation comes near the noise, on this log or the decimated."""
     rare = state.renoised(noise).coarse.noise
     found = [in_noise(c, state.problem, noise).fit for c in leading_on_the_log(state)]
     found += [in_noise(c, state.coarse, rare).fit for c in (*state.singles, *state.pairs)]

@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, scored, start_of_search
-from drifting_logs import SIZES, STAGES, drifted, jumped, moved, searched
+from drifting_logs import SIZES, STAGES, drifted, jumped, moved, off, searched
 
 from diagnosis.criteria import CONTENDING, DRIFT_RANGE_SIGMA, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
@@ -18,7 +19,13 @@ from diagnosis.selection.stages import stage
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors import sensor_drift
 from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS
-from diagnosis.selection.stages.sensors.sensor_drift import OF_TIP, OF_TORQUE
+from diagnosis.selection.stages.sensors.sensor_drift import (
+    OF_TIP,
+    OF_TORQUE,
+    drift_of_both_sensors,
+    drift_of_the_tip_sensor,
+    drift_of_the_torque_sensor,
+)
 from diagnosis.workers import Workers
 
 NAMES = {TORQUE: OF_TORQUE, TIP: OF_TIP}
@@ -44,6 +51,34 @@ def test_a_drift_that_a_sensor_may_have_explains_a_log(sensor):
     assert after.best.floor.reached
     assert [*after.problem.noise.drifts] == [sensor]
     assert Decision.KEPT in [e.decision for e in said(after, sensor)]
+
+
+def test_drifts_of_both_sensors_explain_a_log_that_neither_does():
+    log = off(drifted(3.5, TORQUE), TIP, lambda share: 3.5 * np.sin(2 * share))
+    before = nominal_rig(start_of_search(log, effects=()), Workers())
+    alone = drift_of_the_tip_sensor(drift_of_the_torque_sensor(before, Workers()), Workers())
+    assert alone.problem is before.problem
+    after = drift_of_both_sensors(alone, Workers())
+    assert after.best.floor.reached
+    assert {*after.problem.noise.drifts} == {TORQUE, TIP}
+
+
+def test_of_drifts_of_both_sensors_each_has_to_be_that_of_a_working_one():
+    log = off(drifted(3.5, TORQUE), TIP, lambda share: 3 * DRIFT_RANGE_SIGMA * share)
+    state = nominal_rig(start_of_search(log, effects=()), Workers())
+    after = drift_of_both_sensors(state, Workers())
+    assert after.problem is state.problem
+    assert "is more than a sensor's drift" in after.record[-1].reason
+
+
+def test_where_slopes_promise_too_little_beside_a_drift_nothing_is_fitted(monkeypatch):
+    """A drift takes off much of what dry friction leaves, and never comes near the noise."""
+    monkeypatch.setattr(sensor_drift, "_promises", lambda *_: True)
+    monkeypatch.setattr(sensor_drift, "_searched_again", pytest.fail)
+    dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.002), speed=-1.0, seconds=8.0)
+    state = nominal_rig(start_of_search(dry, effects=()), Workers())
+    after = drift_of_the_torque_sensor(state, Workers())
+    assert after.record[-1].reason == "no explanation comes near the noise with it"
 
 
 def test_a_drift_of_one_sensor_is_none_of_the_other():
@@ -117,7 +152,7 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
     singles = [scored([name], score) for name, score in (("stiction", 0.0), ("tip_drag", 9.0))]
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, pairs=pairs, singles=tuple(singles))
-    sensor_drift._searched_again(state, TORQUE, widest_drift(state.problem, TORQUE), Workers())
+    sensor_drift._searched_again(state, (TORQUE,), widest_drift(state.problem, TORQUE), Workers())
     enough = 100.0 + CONTENDING
     assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
 
@@ -135,7 +170,7 @@ def test_pairs_with_the_leading_effect_that_a_drift_may_have_hidden_are_screened
     state = start_of_search(drifted(3.5), effects=("tip_drag", "stiction", "torque_bias"))
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, singles=(scored(["stiction"], 5.0), scored(["tip_drag"], 1.0)))
-    sensor_drift._searched_again(state, TORQUE, widest_drift(state.problem, TORQUE), Workers())
+    sensor_drift._searched_again(state, (TORQUE,), widest_drift(state.problem, TORQUE), Workers())
     assert asked == [(("tip_drag",), "stiction"), (("tip_drag",), "torque_bias")]
 
 
