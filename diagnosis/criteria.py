@@ -375,6 +375,11 @@ COLOURED_BLOCK_S = 2.0
 """Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
 correlation time, so that they are as good as independent. Coloured noise is strong where effects are,
 and SLOW_BLOCK alone, some tenths of a second, would not see them."""
+SWINGS_CHANCE, SWINGS_SHARE, SWINGS_LEAST_PERIODS = 1e-6, 0.06, 5.0
+"""Chance of such a line in the spectrum of white residuals, and its share of the variance before they
+were whitened, from which coloured noise is none; periods in a trial. Measured: in 4 logs with coloured
+noise the share is 0.013 to 0.045, with chances above 0.1; of dry friction in pulses 0.10 and 0.24, at
+1e-51."""
 LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
@@ -500,6 +505,9 @@ decimated log, before it is fitted to the log itself, where nothing explains tha
 all but the error of the coarse needle, which rough friction makes up to 0.8 of the cost at the floor."""
 MOST_QUIETENED = 4.0
 """Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
+STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.6
+"""Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
+once in a thousand logs), how many, and their share of the nominal residual beyond noise. Choices."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_PROMISED_GAP = 1.15

@@ -25,6 +25,7 @@ from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.noise_reestimation import slow_where_coloured
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.fitting.swinging import swinging_where_coloured
 from diagnosis.selection.scoring.complexity import complexity_penalty
 from diagnosis.selection.scoring.scatter import gain_of_exact_constants, open_scatter, scatter_of
 from sim.needles.run import SimulationFailed
@@ -48,6 +49,7 @@ class Candidate:
       shift_limit: largest that is of an explanation.
       of_means: whether samples are means of readings, whose noise may be below what a replay resolves.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
+      swinging_hz: frequencies at which sensors with coloured noise swing, as no noise does.
       shape_open: whether typical forms of its law explain the log too: a bound is nothing against it.
     """
 
@@ -61,6 +63,7 @@ class Candidate:
     shift_limit: float = SHIFT_LIMIT
     of_means: bool = False
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
+    swinging_hz: Mapping[str, float] = field(default_factory=dict)
     shape_open: bool = False
 
     @property
@@ -95,6 +98,8 @@ class Candidate:
             if own.slow > own.slow_limit:
                 seen = f"{own.slow:.2f} times what its noise makes them, limit {own.slow_limit:.2f}"
                 yield f"means of {sensor} over seconds are {seen}"
+        for sensor, hertz in self.swinging_hz.items():
+            yield f"{sensor} swings at {hertz:.2g} Hz, as no noise does"
         if self.held_out_floor and self.held_out_floor.gap > HELD_OUT_GAP:
             yield f"held-out trials are {self.held_out_floor.gap:.3g} σ off, limit {HELD_OUT_GAP:.3g} σ"
         if self.shift > self.shift_limit:
@@ -147,6 +152,7 @@ class Candidate:
             shift=shift_statistic(self.fit),
             of_means=problem.log.means_of > 1,
             coloured=slow_where_coloured(problem, self.fit.by_trial),
+            swinging_hz=swinging_where_coloured(problem, self.fit.by_trial),
         )
 
     @property
