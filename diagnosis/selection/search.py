@@ -7,7 +7,7 @@ does, but a second effect promises to take more off than noise could, that pair 
 no pair does, every effect beside each of the leading pairs is.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, noise may
 grow with rate or torque, outliers may be left, noise may be weakly coloured, the torque may drift,
-readings may jump, and those of the tip may drift, alone or beside the torque.
+readings may jump, and those of the tip may drift.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -42,7 +42,6 @@ from diagnosis.selection.stages.sensors.outliers_left import (
 )
 from diagnosis.selection.stages.sensors.reading_jumps import jumps_of_readings
 from diagnosis.selection.stages.sensors.sensor_drift import (
-    drift_of_both_sensors,
     drift_of_the_tip_sensor,
     drift_of_the_torque_sensor,
 )
@@ -79,7 +78,6 @@ STAGES: tuple[Stage, ...] = (
     drift_of_the_torque_sensor,
     jumps_of_readings,
     drift_of_the_tip_sensor,
-    drift_of_both_sensors,
     outliers_and_more(
         (
             weakly_coloured_noise,

@@ -4,7 +4,7 @@
     tissue angle   the tissue turns by a curve of time, and takes the needle with it
     drive torque   the torque sensor also reads a curve of the drive's angle, rate or direction
     sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal,
-                   or true value times a curve of time
+                   or true value times a curve of time or depth
 
 An offset of the tip that depends on the torque is a twist in addition to that of the nominal stiffness:
 it is more likely due to the needle than to the sensor.
@@ -143,8 +143,8 @@ ADDED = (
     *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY, _V.AXIAL_DRAG),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
     *_added(*_TORQUE, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
-    *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME),
-    *_added(ActsOn.TORQUE_GAIN, TORQUE, "gain of the torque sensor", SENSOR, _V.TIME),
+    *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME, _V.DEPTH),
+    *_added(ActsOn.TORQUE_GAIN, TORQUE, "gain of the torque sensor", SENSOR, _V.TIME, _V.DEPTH),
 )
 
 

@@ -51,7 +51,6 @@ def test_the_stages_are_these_in_this_order():
         "drift_of_the_torque_sensor",
         "jumps_of_readings",
         "drift_of_the_tip_sensor",
-        "drift_of_both_sensors",
         "outliers_and_another_imperfection",
         "drift_or_offset",
         "finer_mesh",

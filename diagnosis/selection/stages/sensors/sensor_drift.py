@@ -1,17 +1,16 @@
-"""Sensors that drift, where nothing else explains a log: that of the torque, of the tip, or both.
+"""A sensor that drifts, where nothing else explains a log: that of the torque, or else that of the tip.
 
 A drift could take over a part of what friction does, or of what moves the tip, so that it is tried last,
 where it would take off most of what one of the leading explanations leaves beyond noise, and slopes
 promise that what is left comes near it. The leading explanations are then fitted again with it. It is
 kept if they explain the log, and if a working sensor may drift so (working_sensor). (An offset beside
 it does not count before it is told from a drift.) And where one jump of its readings is likelier than a
-drift, that is looked at instead (reading_jumps).
+drift, that is looked at instead (reading_jumps). Both sensors may not drift at once: that explained a
+log whose depth was zeroed anew in each trial, beside effects that were not there.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 from diagnosis.criteria import (
     CONTENDING,
@@ -37,56 +36,38 @@ from diagnosis.selection.stages.stage import fitted_again, leading_on_the_log, l
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
-Sensors = tuple[str, ...]
-
-OF_TORQUE, OF_TIP, OF_BOTH = (
-    f"drift of {what}" for what in ("the torque sensor", "the tip sensor", "both")
-)
-_STAGES: Mapping[Sensors, str] = MappingProxyType(
-    {(TORQUE,): OF_TORQUE, (TIP,): OF_TIP, (TORQUE, TIP): OF_BOTH}
-)
+OF_TORQUE, OF_TIP = "drift of the torque sensor", "drift of the tip sensor"
+_STAGES = {TORQUE: OF_TORQUE, TIP: OF_TIP}
 
 
 def drift_of_the_torque_sensor(state: SearchState, workers: Workers) -> SearchState:
     """The state with a drift of the torque allowed for, where only that explains the log."""
-    return _with_drift(state, (TORQUE,), workers)
+    return _with_drift(state, TORQUE, workers)
 
 
 def drift_of_the_tip_sensor(state: SearchState, workers: Workers) -> SearchState:
     """The state with a drift of the tip's readings allowed for, where only that explains the log."""
-    return _with_drift(state, (TIP,), workers)
+    return _with_drift(state, TIP, workers)
 
 
-def drift_of_both_sensors(state: SearchState, workers: Workers) -> SearchState:
-    """The state with drifts of torque and tip allowed for, where only both explain the log."""
-    return _with_drift(state, (TORQUE, TIP), workers)
-
-
-def _with_drift(state: SearchState, sensors: Sensors, workers: Workers) -> SearchState:
-    """The state with drift of sensors allowed for, where only that explains the log; else itself."""
+def _with_drift(state: SearchState, sensor: str, workers: Workers) -> SearchState:
+    """The state with drift of a sensor allowed for, where only that explains the log; else itself."""
     state, explained = state.rechecked()
-    if explained or not all(any(t.has(s) for t in state.problem.log.trials) for s in sensors):
+    if explained or not any(trial.has(sensor) for trial in state.problem.log.trials):
         return state
-    widest = _widest(state, sensors)
-    if not any(_promises(state, widest, c) for c in leading_on_the_log(state)):
+    leading = leading_on_the_log(state)
+    widest = widest_drift(state.problem, sensor)
+    if not any(_promises(state, widest, c) for c in leading):
         return state
     if not _comes_near(state, widest):
-        return state.noting(_dropped(sensors, "no explanation comes near the noise with it"))
-    again = _searched_again(state, sensors, widest, workers)
-    again = with_few_effects(again, beside=tuple(OFFSETS[s] for s in sensors))
+        return state.noting(_dropped(sensor, "no explanation comes near the noise with it"))
+    again = _searched_again(state, sensor, widest, workers)
+    again = with_few_effects(again, beside=(OFFSETS[sensor],))
     again, explained = again.rechecked() if again.candidates else (again, False)
-    why_not = "no explanation reaches the noise with it"
-    if explained:
-        why_not = next((own for s in sensors if (own := _objection(state, again, s))), "")
-    return state.noting(_dropped(sensors, why_not)) if why_not else again
-
-
-def _widest(state: SearchState, sensors: Sensors) -> Noise:
-    """The noise with the largest drift of these sensors."""
-    problem = state.problem
-    for sensor in sensors:
-        problem = replace(problem, noise=widest_drift(problem, sensor))
-    return problem.noise
+    why_not = (
+        _objection(state, again, sensor) if explained else "no explanation reaches the noise with it"
+    )
+    return state.noting(_dropped(sensor, why_not)) if why_not else again
 
 
 def _objection(state: SearchState, drifting: SearchState, sensor: str) -> str:
@@ -127,14 +108,14 @@ def _jumps_rather(state: SearchState, drifting: SearchState, sensor: str) -> boo
     return min(jumped, default=math.inf) < score_beside_drift(drifting.best, drifting.problem)
 
 
-def _searched_again(state: SearchState, sensors: Sensors, noise: Noise, workers: Workers) -> SearchState:
+def _searched_again(state: SearchState, sensor: str, noise: Noise, workers: Workers) -> SearchState:
     """What the search has come to, fitted with drift from where it is.
 
     A drift may have hidden which effect is beside the leading one: all pairs with that are screened. Of
     some 450 blind logs, none that drift explains needed a search from the beginning, which would double
     the time.
     """
-    stage, reason = _STAGES[sensors], "it would remove most of the remaining residual"
+    stage, reason = _STAGES[sensor], "it would remove most of the remaining residual"
     drifting = state.renoised(noise).noting(noted(stage, Decision.KEPT, reason))
     start = replace(drifting, candidates=(), singles=(), pairs=(), triples=())
     noise = start.coarse.noise
@@ -151,5 +132,5 @@ def _searched_again(state: SearchState, sensors: Sensors, noise: Noise, workers:
     return fitted_again(stage, start.noting(*record), calls, workers, pairs)
 
 
-def _dropped(sensors: Sensors, reason: str) -> RecordEntry:
-    return noted(_STAGES[sensors], Decision.DROPPED, reason)
+def _dropped(sensor: str, reason: str) -> RecordEntry:
+    return noted(_STAGES[sensor], Decision.DROPPED, reason)

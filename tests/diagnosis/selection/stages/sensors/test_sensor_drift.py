@@ -22,7 +22,6 @@ from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS
 from diagnosis.selection.stages.sensors.sensor_drift import (
     OF_TIP,
     OF_TORQUE,
-    drift_of_both_sensors,
     drift_of_the_tip_sensor,
     drift_of_the_torque_sensor,
 )
@@ -53,22 +52,11 @@ def test_a_drift_that_a_sensor_may_have_explains_a_log(sensor):
     assert Decision.KEPT in [e.decision for e in said(after, sensor)]
 
 
-def test_drifts_of_both_sensors_explain_a_log_that_neither_does():
+def test_drifts_of_both_sensors_at_once_explain_nothing():
     log = off(drifted(3.5, TORQUE), TIP, lambda share: 3.5 * np.sin(2 * share))
     before = nominal_rig(start_of_search(log, effects=()), Workers())
-    alone = drift_of_the_tip_sensor(drift_of_the_torque_sensor(before, Workers()), Workers())
-    assert alone.problem is before.problem
-    after = drift_of_both_sensors(alone, Workers())
-    assert after.best.floor.reached
-    assert {*after.problem.noise.drifts} == {TORQUE, TIP}
-
-
-def test_of_drifts_of_both_sensors_each_has_to_be_that_of_a_working_one():
-    log = off(drifted(3.5, TORQUE), TIP, lambda share: 3 * DRIFT_RANGE_SIGMA * share)
-    state = nominal_rig(start_of_search(log, effects=()), Workers())
-    after = drift_of_both_sensors(state, Workers())
-    assert after.problem is state.problem
-    assert "is more than a sensor's drift" in after.record[-1].reason
+    after = drift_of_the_tip_sensor(drift_of_the_torque_sensor(before, Workers()), Workers())
+    assert after.problem is before.problem
 
 
 def test_where_slopes_promise_too_little_beside_a_drift_nothing_is_fitted(monkeypatch):
@@ -152,7 +140,7 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
     singles = [scored([name], score) for name, score in (("stiction", 0.0), ("tip_drag", 9.0))]
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, pairs=pairs, singles=tuple(singles))
-    sensor_drift._searched_again(state, (TORQUE,), widest_drift(state.problem, TORQUE), Workers())
+    sensor_drift._searched_again(state, TORQUE, widest_drift(state.problem, TORQUE), Workers())
     enough = 100.0 + CONTENDING
     assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
 
@@ -170,7 +158,7 @@ def test_pairs_with_the_leading_effect_that_a_drift_may_have_hidden_are_screened
     state = start_of_search(drifted(3.5), effects=("tip_drag", "stiction", "torque_bias"))
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, singles=(scored(["stiction"], 5.0), scored(["tip_drag"], 1.0)))
-    sensor_drift._searched_again(state, (TORQUE,), widest_drift(state.problem, TORQUE), Workers())
+    sensor_drift._searched_again(state, TORQUE, widest_drift(state.problem, TORQUE), Workers())
     assert asked == [(("tip_drag",), "stiction"), (("tip_drag",), "torque_bias")]
 
 

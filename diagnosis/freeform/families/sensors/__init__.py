@@ -1,0 +1,1 @@
+"""Free-form laws of a sensor by a few numbers."""

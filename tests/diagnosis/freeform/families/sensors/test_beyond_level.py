@@ -1,0 +1,60 @@
+"""A sensor that clips, or reads otherwise beyond a level."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import VOCABULARY, covered, same_readings
+
+from diagnosis.effects.effect import Place
+from diagnosis.freeform.families.sensors.beyond_level import families
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE = turns(6.0)
+TORQUE = 0.01 * ANGLE
+RANGES = covered(ANGLE, tip=ANGLE + 1.0, torque=TORQUE, seen=(ANGLE, TORQUE))
+OF_TORQUE, OF_TIP = families(RANGES)
+
+
+def read(family, true, *values):
+    """What a sensor reads of true values."""
+    (curve,) = family.effect.apply(NOMINAL, *values).free.curves
+    return true + curve.at(true)
+
+
+@pytest.mark.parametrize(("family", "size"), [(OF_TORQUE, 0.01), (OF_TIP, 1.0)], ids=["torque", "tip"])
+def test_a_sensor_that_clips_reads_no_more_than_its_level(family, size):
+    """But for a corner of 0.5 % of the largest value."""
+    true = np.linspace(-90, 90, 181) * size
+    np.testing.assert_allclose(
+        read(family, true, 50 * size, 0.0, 0.0), np.clip(true, -50 * size, 50 * size), atol=0.5 * size
+    )
+
+
+def test_beyond_the_level_it_may_have_another_gain_and_jump():
+    true = np.array([-80.0, -60.0, -40.0, 0.0, 40.0, 60.0, 80.0])
+    found = read(OF_TIP, true, 50.0, 1.5, 4.0)
+    np.testing.assert_allclose(found, [-99, -69, -40, 0, 40, 69, 99], atol=0.2)
+
+
+def test_with_a_gain_of_1_and_no_jump_it_reads_what_is_true():
+    for family in (OF_TORQUE, OF_TIP):
+        _, gain, jump = family.effect.parameters
+        level = family.effect.parameters[0].start[1]
+        own = family.effect.apply(NOMINAL, level, gain.neutral, jump.neutral)
+        assert same_readings(ANGLE, own, NOMINAL)
+
+
+def test_the_law_is_one_of_the_sensor_over_what_it_reads():
+    assert [f.says for f in (OF_TORQUE, OF_TIP)] == ["torque", "tip_angle"]
+    assert {f.place for f in (OF_TORQUE, OF_TIP)} == {Place.SENSOR}
+    assert {f.says for f in (OF_TORQUE, OF_TIP)} <= VOCABULARY
+    x, y = OF_TIP.curve(50.0, 0.0, 0.0)
+    assert np.interp(70.0, x, y) == pytest.approx(-20.0, abs=0.1)
+    assert all(
+        p.low <= s <= p.high for f in (OF_TORQUE, OF_TIP) for p in f.effect.parameters for s in p.start
+    )
+
+
+def test_a_sensor_that_was_not_read_has_none():
+    (only,) = families(covered(ANGLE, tip=ANGLE + 1.0, seen=(ANGLE, TORQUE)))
+    assert only.name == OF_TIP.name
