@@ -615,9 +615,10 @@ tenth is the least that anybody sees."""
 # Laws that no library holds (freeform/)
 
 CLOSED_GAP = 1.1
-FREE_LAW_GAIN = 0.95
+FREE_LAW_GAIN, FREE_LAW_LEAVES = 0.95, 0.25
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
-explanation that it has to come below to be told. Choices: no verdict rests on them."""
+explanation that it has to come below to be told; or, where that is near the noise, times the variance
+that it leaves beyond it. Choices: no verdict rests on them."""
 FAR_GAP = 1.6
 """Gap on the log above which free-form laws are not fitted to their end on it, and plain laws are not
 looked for in their place. A choice: no verdict rests on it."""

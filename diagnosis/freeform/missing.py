@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
+from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAVES, GAP_LIMIT
 from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.fits.free_fit import FreeFit
@@ -103,7 +103,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
     """
     ranked = likelier_first(fits)
     best = ranked[0]
-    helps = best.final and best.gap_after < FREE_LAW_GAIN * nearest_gap
+    helps = best.final and _leaves_clearly_less(best.gap_after, nearest_gap)
     return Missing(
         place=_places(fits, nearest_gap),
         depends_on=_dependences(ranked),
@@ -111,6 +111,13 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
         best=best,
         closed=helps and best.gap_after <= CLOSED_GAP,
     )
+
+
+def _leaves_clearly_less(gap: float, nearest_gap: float) -> bool:
+    """Whether a law does, than the library; near the noise that shows in what is left beyond it."""
+    beyond, nearest = (max(one**2 - 1.0, 0.0) for one in (gap, nearest_gap))
+    near = nearest_gap > GAP_LIMIT and beyond < FREE_LAW_LEAVES * nearest
+    return gap < FREE_LAW_GAIN * nearest_gap or near
 
 
 def likelier_first(fits: Sequence[FreeFit]) -> list[FreeFit]:
