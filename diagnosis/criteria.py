@@ -505,9 +505,6 @@ decimated log, before it is fitted to the log itself, where nothing explains tha
 all but the error of the coarse needle, which rough friction makes up to 0.8 of the cost at the floor."""
 MOST_QUIETENED = 4.0
 """Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
-STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.6
-"""Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
-once in a thousand logs), how many, and their share of the nominal residual beyond noise. Choices."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
 DRIFT_PROMISED_GAP = 1.15
@@ -619,6 +616,9 @@ FREE_LAW_GAIN, FREE_LAW_LEAVES = 0.95, 0.25
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told; or, where that is near the noise, times the variance
 that it leaves beyond it. Choices: no verdict rests on them."""
+STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.6
+"""Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
+once in a thousand logs), how many, and their share of the nominal residual beyond noise. Choices."""
 FAR_GAP = 1.6
 """Gap on the log above which free-form laws are not fitted to their end on it, and plain laws are not
 looked for in their place. A choice: no verdict rests on it."""

@@ -44,7 +44,7 @@ def with_colour(problem: FitProblem, best: Fit) -> Noise:
     Of several parts where it is little more than noise: what a model lacks of a rig that swings is none.
     """
     plain = problem.noise.uncoloured
-    in_sigma = _by_sensor(problem, in_units_of(problem, best.by_trial, plain))
+    in_sigma = by_sensor(problem, in_units_of(problem, best.by_trial, plain))
     left = {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
     claims = problem.log.rig.sensors.by_column()  # a filter hides most of what differences show
     gaps = {
@@ -58,7 +58,7 @@ def with_colour(problem: FitProblem, best: Fit) -> Noise:
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors, from the residual of the best fit."""
     first = with_colour(problem, best) if problem.noise.colour else problem.noise
-    left = _by_sensor(problem, in_units_of(problem, best.by_trial, first))
+    left = by_sensor(problem, in_units_of(problem, best.by_trial, first))
     change = {s: _change([values for _, values in own]) for s, own in left.items()}
     sigma = {s: max(own * change.get(s, 1.0), first.least.get(s, 0.0)) for s, own in first.sigma.items()}
     return replace(first, sigma=sigma)
@@ -68,7 +68,7 @@ def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[
     """Noise floors of sensors with coloured noise, with blocks of seconds for the slow part."""
     step_s = float(np.median([trial.sample_s for trial in problem.log.trials]))
     block = max(round(COLOURED_BLOCK_S / step_s), SLOW_BLOCK)
-    left = _by_sensor(problem, by_trial)
+    left = by_sensor(problem, by_trial)
     return {s: floor_of([r for _, r in left[s]], block) for s in problem.noise.colour}
 
 
@@ -120,7 +120,7 @@ def by_trial_and_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> list[
     return found
 
 
-def _by_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, list[tuple[Array, Array]]]:
+def by_sensor(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, list[tuple[Array, Array]]]:
     """Times and residuals of every trial, by sensor."""
     found: dict[str, list[tuple[Array, Array]]] = {}
     for parts in by_trial_and_sensor(problem, by_trial):

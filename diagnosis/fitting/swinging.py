@@ -23,7 +23,7 @@ from diagnosis.criteria import (
     SWINGS_LEAST_PERIODS,
     SWINGS_SHARE,
 )
-from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
+from diagnosis.fitting.noise_reestimation import by_sensor, in_units_of
 from diagnosis.fitting.problem import FitProblem
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ _FINER = 4  # frequencies in 1 / duration
 def swinging_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, float]:
     """Frequencies, Hz, at which sensors with coloured noise swing, of those that do."""
     plain = in_units_of(problem, by_trial, problem.noise.uncoloured)
-    white, before = (_of_sensors(problem, rows) for rows in (by_trial, plain))
+    white, before = (by_sensor(problem, rows) for rows in (by_trial, plain))
     each = {s: swinging_hz(white[s], before[s]) for s in problem.noise.colour if s in white}
     return {sensor: hertz for sensor, hertz in each.items() if hertz}
 
@@ -48,6 +48,9 @@ def swinging_hz(white: Timed, before: Timed) -> float:
       white: in sigma, whitened.
       before: in sigma, before whitening.
     """
+    white, before = ([part for part in parts if part[1].size] for parts in (white, before))
+    if not white:
+        return 0.0
     lasting_s = max(float(np.ptp(time_s)) for time_s, _ in white)
     hertz, powers = _periodograms(white, lasting_s)
     inside = (hertz > SWINGS_LEAST_PERIODS / lasting_s) & (hertz < COLOUR_OSCILLATES_ABOVE_HZ)
@@ -69,12 +72,3 @@ def _periodograms(parts: Timed, lasting_s: float) -> tuple[Array, Array]:
         sums = np.bincount(bins, weights=values, minlength=size)
         found.append(np.abs(np.fft.rfft(sums, size)) ** 2 / max(values.size, 1))
     return np.asarray(np.fft.rfftfreq(size, _BIN_S)), np.array(found)
-
-
-def _of_sensors(problem: FitProblem, rows: Sequence[Array]) -> dict[str, list[tuple[Array, Array]]]:
-    found: dict[str, list[tuple[Array, Array]]] = {}
-    for parts in by_trial_and_sensor(problem, rows):
-        for sensor, time_s, values in parts:
-            if values.size:
-                found.setdefault(sensor, []).append((time_s, values))
-    return found

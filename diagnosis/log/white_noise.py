@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 # Root mean square of a standard normal distribution within its central share, by order.
 _CENTRAL_SHARE = {1: 1.0, 2: 0.9, 4: 0.75}
 _CENTRAL_RMS = {1: 1.0, 2: 1 / 1.267, 4: 0.60706}
-_CORE_SHARE, _CORE_RMS = 0.75, 0.60706
+_CORE_SHARE, _CORE_RMS = _CENTRAL_SHARE[4], _CENTRAL_RMS[4]
 
 
 def white_noise(parts: Sequence[Array], *, order: int, times_s: Sequence[Array] = ()) -> float:
