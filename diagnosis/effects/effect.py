@@ -38,6 +38,7 @@ class Parameter:
       neutral: value at which the effect is absent; None: a parameter of shape, without such a value.
       prior_sigma: standard deviation of a normal prior on its coordinate about 0; infinite: none.
       least_factor: distance from neutral below which the effect is as good as none.
+      of_one_trial: whether it changes one trial only, of which no other tells.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Parameter:
     neutral: float | None = 0.0
     prior_sigma: float = math.inf
     least_factor: float = 0.0
+    of_one_trial: bool = False
 
     def scaled(self, *, torque: float, rate: float) -> "Parameter":
         """The same parameter for a rig with torques and rates that are larger by these factors."""

@@ -112,7 +112,8 @@ class Parameterization:
     @property
     def about_one_trial(self) -> NDArray[np.bool_]:
         """Mask of the entries that concern one trial only."""
-        return np.array([bool(effect.trial) for effect in self.all for _ in effect.parameters], bool)
+        each = [bool(e.trial) or p.of_one_trial for e in self.all for p in e.parameters]
+        return np.array(each, bool)
 
 
 def parameterization_of(

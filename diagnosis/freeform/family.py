@@ -28,7 +28,6 @@ class Family:
         effect, by its name.
       contains: effects of the library that it may have for a part.
       shape: name of the plain law that its curve has; empty: a curve of any form.
-      of_each_trial: whether each trial has coordinates of its own, of which no other trial tells.
     """
 
     effect: Effect
@@ -41,12 +40,16 @@ class Family:
     as_effect: Mapping[str, Callable[..., tuple[float, ...]]] = field(default_factory=dict)
     contains: tuple[str, ...] = ()
     shape: str = ""
-    of_each_trial: bool = False
 
     @property
     def name(self) -> str:
         """Name of its effect."""
         return self.effect.name
+
+    @property
+    def of_each_trial(self) -> bool:
+        """Whether each trial has coordinates of its own, of which no other trial tells."""
+        return any(p.of_one_trial for p in self.effect.parameters)
 
     @property
     def place(self) -> Place:
@@ -77,6 +80,11 @@ def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter
 def coordinates_of(curve: SmoothCurve, scale: float = 1.0) -> tuple[Parameter, ...]:
     """Coordinates of a curve."""
     return coordinates(curve.straight, curve.size - curve.straight, scale)
+
+
+def of_trials(count: int, scale: float = 1.0) -> tuple[Parameter, ...]:
+    """Coordinates that concern one trial each, with a first prior of standard deviation `scale`."""
+    return tuple(replace(p, of_one_trial=True) for p in coordinates(0, count, scale))
 
 
 def kind_of(parameter: Parameter) -> str:

@@ -2,8 +2,8 @@
 
 Each trial is left out in turn: one Gauss-Newton step on the others moves the
 parameters, and the left-out trial is simulated with them. Which rate the tissue
-resists is a convention of the rig, not a result: it stays as fitted. The past of a trial that
-began late only affects that trial: it is fitted there, with the other parameters from the others.
+resists is a convention of the rig, not a result: it stays as fitted. What concerns one trial
+alone, as the past of one that began late, is fitted there, with the other parameters from the others.
 """
 
 import numpy as np
@@ -61,10 +61,10 @@ def shift_statistic(fit: Fit) -> float:
     low, high = fit.parameterization.bounds()
     for i, step in enumerate(_steps(fit)):
         there = fit.x + step
-        known = _known(fit, i)
+        known = told_by_others(fit, i)
         known = known[(there > low + _AT_BOUND)[known] & (there < high - _AT_BOUND)[known]]
         spread = np.linalg.pinv(information(fit, without=i)[np.ix_(known, known)])
-        slopes = fit.jacobian[i][:, known] + fit.jacobian[i][:, _own(fit, i)] @ _answers(fit, i, known)
+        slopes = slopes_by(fit, i, known)
         moved += float(np.sum((fit.jacobian[i] @ step) ** 2))
         explained += float(np.sum((slopes @ spread) * slopes))
     return moved / explained if explained > 0 else 0.0
@@ -76,11 +76,24 @@ def _own(fit: Fit, trial: int) -> NDArray[np.int_]:
     return np.flatnonzero(fit.parameterization.about_one_trial & seen)
 
 
-def _known(fit: Fit, without: int) -> NDArray[np.int_]:
+def told_by_others(fit: Fit, trial: int) -> NDArray[np.int_]:
     """Indices of entries that are fitted again without a trial."""
     found = np.array([owner not in CONVENTIONS for owner in fit.parameterization.owners], bool)
-    found[_own(fit, without)] = False
+    found[_own(fit, trial)] = False
     return np.flatnonzero(found)
+
+
+def slopes_by(fit: Fit, trial: int, known: NDArray[np.int_]) -> Array:
+    """Derivative of a trial's residual by these entries, its own ones answering, (N, known)."""
+    own = fit.jacobian[trial][:, _own(fit, trial)]
+    return np.asarray(fit.jacobian[trial][:, known] + own @ _answers(fit, trial, known))
+
+
+def with_own_answers(fit: Fit, trial: int, others: Array) -> Array:
+    """The vector that a fit to the other trials has found, with a trial's own entries fitted to it."""
+    known, own, found = told_by_others(fit, trial), _own(fit, trial), others.copy()
+    found[own] = fit.x[own] + _answers(fit, trial, known) @ (others - fit.x)[known]
+    return np.clip(found, *fit.parameterization.bounds())
 
 
 def _answers(fit: Fit, trial: int, known: NDArray[np.int_]) -> Array:
@@ -95,10 +108,10 @@ def _steps(fit: Fit) -> list[Array]:
     """Steps of the parameters without each trial: least squares on the others, within bounds."""
     found = [np.zeros(fit.x.size) for _ in fit.by_trial]
     for i, step in enumerate(found):
-        known = _known(fit, i)
+        known = told_by_others(fit, i)
         if known.size and len(found) > 1:
             step[known] = _bounded(fit, known, i)
-            step[_own(fit, i)] = _answers(fit, i, known) @ step[known]
+            step[:] = with_own_answers(fit, i, fit.x + step) - fit.x
     return found
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import FAR_STEP
 from diagnosis.fitting.fit import Fit, fit_effects
-from diagnosis.fitting.held_out.cross_validation import held_out_residuals
+from diagnosis.fitting.held_out.cross_validation import held_out_residuals, with_own_answers
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.stopping import StoppedEarly
@@ -60,7 +60,7 @@ def refitted_without(problem: FitProblem, fit: Fit) -> tuple[Array, ...]:
             problem, log=replace(problem.log, trials=others), tolerance_sigma=_TOLERANCE_SIGMA
         )
         again = fit_effects(rest, fit.names, fit.x, most_iterations=_ITERATIONS, slopes=slopes)
-        rig = again.parameterization.rig(again.x)
+        rig = again.parameterization.rig(with_own_answers(fit, i, again.x))
         own = replace(problem, log=replace(problem.log, trials=(trial,)))
         left.append(own.residuals([rig])[0][0])
     return tuple(left)

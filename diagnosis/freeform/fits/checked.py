@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.held_out.cross_validation import slopes_by, told_by_others
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
@@ -56,5 +57,7 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
 
 def left_open(fit: Fit, trial: int) -> Array:
     """Variance of a trial's prediction that the other trials leave open, in that of the noise, (N,)."""
-    slopes = fit.jacobian[trial]
-    return np.asarray(np.sum((slopes @ free_covariance(fit, without=trial)) * slopes, axis=1))
+    known = told_by_others(fit, trial)
+    slopes = slopes_by(fit, trial, known)
+    spread = free_covariance(fit, without=trial)[np.ix_(known, known)]
+    return np.asarray(np.sum((slopes @ spread) * slopes, axis=1))

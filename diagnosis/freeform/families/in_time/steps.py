@@ -3,8 +3,8 @@
 A drive loses steps, a tracker is registered anew, a load cell is zeroed. Times and sizes start from the
 residual of the nominal rig, cut where a step takes most off, and each part once more (binary
 segmentation); the law is tried where such steps are most of the residual. One event alone, or one in
-every trial, are laws of their own (events.py). A trial that was left out of a fit says nothing on its
-own steps.
+every trial, are laws of their own (events.py). The others tell nothing of the
+steps of a trial that is left out of a fit: they stay as fitted.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ from diagnosis.criteria import STEPS_GAIN, STEPS_MOST, STEPS_SHARE
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.events import DIFFERENCES
 from diagnosis.freeform.families.readings import TIP, TORQUE
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -104,7 +104,7 @@ def _family(acts_on: ActsOn, steps: Sequence[_Step], size: float) -> Family:
             name=name,
             title=f"{title}, several in a log",
             place=place,
-            parameters=(*map(_time, steps, range(len(steps))), *coordinates(0, len(steps), size)),
+            parameters=(*map(_time, steps, range(len(steps))), *of_trials(len(steps), size)),
             apply=partial(_apply, acts_on, tuple(step.trial for step in steps)),
             differences=DIFFERENCES,
         ),
@@ -114,7 +114,6 @@ def _family(acts_on: ActsOn, steps: Sequence[_Step], size: float) -> Family:
         curve=partial(_first_trial, tuple(step.trial for step in steps)),
         x_unit="s",
         unit=unit,
-        of_each_trial=True,
     )
 
 
@@ -127,6 +126,7 @@ def _time(step: _Step, number: int) -> Parameter:
         start=(step.time_s,),
         scale=1.0,
         neutral=None,
+        of_one_trial=True,
     )
 
 

@@ -4,8 +4,8 @@
 - a length by which more of the shaft is inserted in it than was logged
 - an offset, or a gain, of the tip or torque sensor in it, or a drift of its own from zero
 
-A trial that was left out of a fit says nothing on its own number, so that such a law is judged by the
-trials of its fit, and by how many numbers it takes.
+No other trial tells of the number of a trial that is left out of a fit: it stays as fitted. So such a
+law is judged by the trials of its fit, and by how many numbers it takes.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -113,7 +113,7 @@ def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
             name=f"{quantity.acts_on.replace('_', ' ')} over time, of each trial",
             title=f"{quantity.words}, another one in each trial",
             place=max(quantity.places, key=lambda place: quantity.places[place]),
-            parameters=coordinates(0, len(trials), quantity.scale),
+            parameters=of_trials(len(trials), quantity.scale),
             apply=partial(_apply, quantity, trials),
         ),
         places=quantity.places,
@@ -122,7 +122,6 @@ def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
         curve=partial(_points, quantity),
         x_unit="number of the trial",
         unit=quantity.unit,
-        of_each_trial=True,
     )
 
 
@@ -154,7 +153,7 @@ def _drift(quantity: _Quantity, trials: Sequence[str]) -> Family:
             name=f"{quantity.acts_on.replace('_', ' ')} over time, drifting in each trial",
             title=f"{words}, another one in each trial",
             place=Place.SENSOR,
-            parameters=coordinates(0, 2 * len(trials), quantity.scale),
+            parameters=of_trials(2 * len(trials), quantity.scale),
             apply=partial(_apply_drift, quantity.acts_on, trials),
         ),
         places=quantity.places,
@@ -163,7 +162,6 @@ def _drift(quantity: _Quantity, trials: Sequence[str]) -> Family:
         curve=_ends_of_drifts,
         x_unit="number of the trial",
         unit=quantity.unit,
-        of_each_trial=True,
     )
 
 
@@ -180,7 +178,7 @@ def _apply_drift(acts_on: ActsOn, trials: Sequence[str], rig: RigParameters, *c:
 
 def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:
     level = ranges.library["coulomb_friction"].parameters[0]
-    own = (_beside(p, level) for p in coordinates(0, len(trials)))
+    own = (_beside(p, level) for p in of_trials(len(trials)))
     return Family(
         effect=Effect(
             name="dry friction over time, of each trial",
@@ -196,7 +194,6 @@ def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:
         curve=_levels,
         x_unit="number of the trial",
         unit="N mm / mm",
-        of_each_trial=True,
     )
 
 

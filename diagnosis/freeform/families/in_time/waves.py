@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.changes import in_time
 from diagnosis.freeform.families.readings import TIP
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -71,7 +71,7 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
             name="damping over time, as a wave",
             title="damping that swells and falls with a period",
             place=Place.TISSUE,
-            parameters=(_period(rate_hz), *coordinates(0, 2 * len(trials), _SWELLS)),
+            parameters=(_period(rate_hz), *of_trials(2 * len(trials), _SWELLS)),
             apply=partial(_apply_breathing, trials),
         ),
         places=_EITHER,
@@ -80,14 +80,13 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
         curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
         x_unit="s",
         unit="N mm s / rad / mm",
-        of_each_trial=True,
     )
 
 
 def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
     trials = tuple(trial.name for trial in ranges.problem.log.trials)
     level = ranges.library["coulomb_friction"].parameters[0]
-    shape = (_period(rate_hz), *coordinates(0, 2 * len(trials)))
+    shape = (_period(rate_hz), *of_trials(2 * len(trials)))
     return Family(
         effect=Effect(
             name="dry friction over time, as a wave",
@@ -103,7 +102,6 @@ def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
         curve=_breath,
         x_unit="s",
         unit="N mm / mm",
-        of_each_trial=True,
     )
 
 
@@ -115,7 +113,7 @@ def _turns(ranges: LogRanges, rate_hz: float) -> Family:
             name="tissue angle over time, as a wave",
             title="tissue that turns to and fro with a period",
             place=Place.TISSUE,
-            parameters=(_period(rate_hz), *coordinates(0, 2 * len(trials), ranges.missing[TIP])),
+            parameters=(_period(rate_hz), *of_trials(2 * len(trials), ranges.missing[TIP])),
             apply=partial(_apply_turning, trials),
         ),
         places={Place.TISSUE: 1.0},
@@ -124,7 +122,6 @@ def _turns(ranges: LogRanges, rate_hz: float) -> Family:
         curve=_to_and_fro,
         x_unit="s",
         unit="deg",
-        of_each_trial=True,
     )
 
 

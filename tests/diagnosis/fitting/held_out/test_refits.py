@@ -1,15 +1,21 @@
 """Held-out trials by fits to the others, where one step from the fit leads too far."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import TORQUE, joined, log_of, problem_of
 
 from diagnosis.criteria import FAR_STEP
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.held_out.cross_validation import held_out_residuals
 from diagnosis.fitting.held_out.refits import held_out_or_refitted, plain_gap, refitted_without
 from diagnosis.log.trial import SENSORS
+from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
 from diagnosis.stopping import StopSignal, listening
 
 BIASES_N_MM = (0.02, 0.05)
@@ -32,6 +38,43 @@ def test_each_trial_is_predicted_with_what_the_others_ask_for(fitted):
         expected = sign * (BIASES_N_MM[1] - BIASES_N_MM[0]) / TORQUE
         # Each of the two means is known to sigma / sqrt(N).
         assert torque.mean() == pytest.approx(expected, abs=5 * np.sqrt(2 / torque.size))
+
+
+def offsets(trials):
+    """Offsets of the torque sensor, one for each trial."""
+
+    def apply(rig, *values):
+        each = zip(trials, values, strict=True)
+        curves = (
+            Curve(
+                acts_on=ActsOn.TORQUE_READING,
+                variable=Variable.TIME,
+                places=(0.0, 1.0),
+                values=(value, value),
+                trial=trial,
+            )
+            for trial, value in each
+        )
+        return replace(rig, free=FreeLaw(curves=tuple(curves)))
+
+    parameters = tuple(
+        Parameter(
+            name=trial, unit="N mm", low=-1, high=1, start=(0.0,), prior_sigma=0.1, of_one_trial=True
+        )
+        for trial in trials
+    )
+    return Effect(name="offsets", title="", place=Place.SENSOR, parameters=parameters, apply=apply)
+
+
+@pytest.mark.parametrize("predicted", [held_out_residuals, refitted_without])
+def test_numbers_of_one_trial_are_fitted_there(fitted, predicted):
+    problem, _ = fitted
+    own = offsets([trial.name for trial in problem.log.trials])
+    problem = replace(problem, library={**problem.library, own.name: own})
+    fit = fit_effects(problem, (own.name,))
+    assert fit.parameterization.about_one_trial[:2].all()
+    # Nothing is off but the offsets: damping and stiffness from one trial change nothing visible.
+    assert plain_gap(fit, predicted(problem, fit)) == pytest.approx(fit.gap, rel=0.01)
 
 
 @pytest.mark.parametrize(("factor", "refits"), [(0.99, False), (1.01, True)])

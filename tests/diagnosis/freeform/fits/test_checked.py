@@ -1,5 +1,7 @@
 """The gap on trials that a fit has not seen, over what the other trials leave open of its law."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from free_forms import CURVE, family_of, linear_fit, priors, solved
@@ -66,3 +68,14 @@ def test_what_the_other_trials_leave_open_is_the_variance_of_the_prior_where_non
     slopes, sigma = fit.jacobian[-1][:, 5:], priors(family_of())[5:]
     assert unknown == pytest.approx(np.mean(np.sum((slopes * sigma) ** 2, axis=1)), rel=0.05)
     assert known < 0.05
+
+
+def test_what_concerns_the_trial_alone_is_not_left_open():
+    """Its own coordinates are fitted there; of the others the trial is told as much as without them."""
+    fit, _ = log_of_a_law(np.random.default_rng(5), reach=1.0)
+    (law,) = fit.parameterization.effects
+    own = [replace(p, of_one_trial=i >= 5) for i, p in enumerate(law.parameters)]
+    of_trial = replace(fit.parameterization, effects=(replace(law, parameters=tuple(own)),))
+    fit = replace(fit, parameterization=of_trial)
+    # 5 coordinates of 400 samples leave 5 / 400 of the noise open: a percent, at three times its spread.
+    assert left_open(fit, TRIALS - 1).mean() == pytest.approx(5 / 400, rel=0.3)
