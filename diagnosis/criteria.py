@@ -526,6 +526,10 @@ DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ONE_COURSE_SIGMA, DRIFT_ALIKE = 10.0
 side and the other; more is no roughness but a fault, and the answer stays unknown. So it does for less
 where the drift is a line of one rate in all trials, to that share: that is a law. Another course that is
 the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in each trial."""
+DRIFT_OF_TIP_ALONE_SIGMA = 4.0
+"""What a tip sensor may drift by within a trial where nothing else is missing: noise that is correlated
+over seconds wanders so far. More is itself what the model lacks, and is told as the law that is missing.
+A choice, below two logs of a rig whose tip sensor drifts or jumps (6 sigma), and above noise (1.6)."""
 DRIFT_MOST_EFFECTS = 1
 """Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
 drift explained one was so; the others had one effect, or a law that is in no library."""

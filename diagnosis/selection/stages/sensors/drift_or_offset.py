@@ -3,7 +3,8 @@
 The best explanation is fitted with and without offset, beside no drift, beside one that begins at zero
 in every trial, and beside one that does not; the least score decides (scoring/drift_evidence). One that
 begins off zero in every trial may hide an offset. What a working sensor does not do (working_sensor) is
-none of them.
+none of them. And a large drift of the tip beside which nothing is missing is no defect beside the
+diagnosis but the diagnosis: the log stays unknown, and the drift is told as the law that is missing.
 """
 
 from collections.abc import Mapping
@@ -20,6 +21,7 @@ from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
     begins_off_zero,
     drifts,
+    is_all_that_is_missing,
     range_sigma,
     what_is_likelier,
     what_it_follows,
@@ -55,15 +57,17 @@ def _drift_or_offset(state: SearchState, sensor: str, workers: Workers) -> Searc
     open_to = [own for own in (state, plain, *working) if own.candidates]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
     likeliest = min(explaining, key=_score, default=plain)
-    if drifts(likeliest, sensor) and (law := _law_instead(plain, likeliest, sensor)):
-        return plain.noting(noted(STAGE, Decision.DROPPED, f"it follows the {law}, as no drift does"))
+    if drifts(likeliest, sensor) and (why_not := _objection(plain, likeliest, sensor)):
+        return plain.noting(noted(STAGE, Decision.DROPPED, why_not))
     likeliest = likeliest.noting(noted(STAGE, Decision.KEPT, _told(likeliest, sensor)))
     return _without_what_is_hidden(likeliest, sensor)
 
 
-def _law_instead(plain: SearchState, drifting: SearchState, sensor: str) -> str:
-    """What the readings follow beside a drift, or rather than drift, in words; empty: nothing."""
-    return what_it_follows(drifting, sensor) or what_is_likelier(plain, drifting, sensor)
+def _objection(plain: SearchState, drifting: SearchState, sensor: str) -> str:
+    """Why a drift with which the log is explained does not count; empty: it does."""
+    if law := what_it_follows(drifting, sensor) or what_is_likelier(plain, drifting, sensor):
+        return f"it follows the {law}, as no drift does"
+    return "it explains the log without any effect" if is_all_that_is_missing(drifting, sensor) else ""
 
 
 def _may_be(state: SearchState, sensor: str) -> bool:

@@ -2,7 +2,8 @@
 
 A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
 than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_COURSE_SIGMA that is
-another course, and the same in every trial. And it stands beside one effect at most:
+another course, and the same in every trial. Where nothing else is missing, a drift of the tip by more
+than DRIFT_OF_TIP_ALONE_SIGMA is itself what the model lacks. And it stands beside one effect at most:
 with two it takes the shape of what no library holds. Nor does it follow the axial speed, or, at the tip,
 depth, rate, direction or angle (scoring/followed); and where such a law is likelier than a drift, it is
 none.
@@ -18,11 +19,13 @@ from diagnosis.criteria import (
     DRIFT_ALIKE_SIGMA,
     DRIFT_FOLLOWS_SIGMA,
     DRIFT_MOST_EFFECTS,
+    DRIFT_OF_TIP_ALONE_SIGMA,
     DRIFT_ONE_COURSE_SIGMA,
     DRIFT_RANGE_SIGMA,
     DRIFT_START_SIGMA,
 )
 from diagnosis.effects import LIBRARY
+from diagnosis.prepare.noise.sensor_noise import TIP
 from diagnosis.replay.drift import (
     drift_range_sigma,
     drifts_alike,
@@ -65,6 +68,12 @@ def allowed_sigma(state: SearchState, sensor: str) -> float:
     if drifts_alike(*of):
         return DRIFT_ALIKE_SIGMA
     return DRIFT_ONE_COURSE_SIGMA if drifts_by_one_course(*of) else DRIFT_RANGE_SIGMA
+
+
+def is_all_that_is_missing(state: SearchState, sensor: str) -> bool:
+    """Whether the drift is a large one of the tip, beside which no effect is missing."""
+    alone = sensor == TIP and not state.best.named
+    return alone and range_sigma(state, sensor) > DRIFT_OF_TIP_ALONE_SIGMA
 
 
 def what_it_follows(state: SearchState, sensor: str) -> str:

@@ -5,6 +5,7 @@ from diagnosis_fixtures import start_of_search
 from drifting_logs import STAGES, moved, off, sliding
 
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS, STAGE, drift_or_offset
@@ -69,4 +70,12 @@ def test_what_follows_the_axial_speed_by_little_is_no_drift_either(sensor):
         False,
         ["it follows the axial speed, as no drift does"],
     )
-    assert followed(log, sensor, lambda own: 3.5 * own) == (True, [])
+    assert followed(log, sensor, lambda own: 2.5 * own) == (True, [])
+
+
+def test_a_large_drift_of_the_tip_with_nothing_beside_it_is_what_is_missing(sensor):
+    """By 5.4 sigma; that of a torque sensor is told beside the diagnosis."""
+    large = followed(sliding(), sensor, lambda own: 3.6 * own)
+    assert large == (
+        (True, []) if sensor == TORQUE else (False, ["it explains the log without any effect"])
+    )
