@@ -5,8 +5,11 @@ Its torque is multiplied by a curve over one of
     slip    angle by which the shaft has slipped there so far, in both directions, deg
     age     time since the contact was renewed, s: d age / dt = 1 - age |slip rate| / renewal
     heat    of slipping of late, (rad/s)^2: d heat / dt = (slip rate^2 - heat) / fading
+    broken  share of its structure that slip has broken:
+            d broken / dt = (1 - broken) |slip rate| / renewal - broken / fading
 
-(Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979)), or the stiffness of yielding tissue
+(Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979). The last is Moore's law of thixotropy;
+Moore, Trans. Brit. Ceramic Soc. 58 (1959)), or the stiffness of yielding tissue
 by one over
 
     twist   angle by which the tissue is twisted there, either way, deg: tissue that hardens or softens
@@ -35,6 +38,7 @@ class ContactVariable(StrEnum):
     SLIP = "slip"
     AGE = "age"
     HEAT = "heat"
+    BROKEN = "broken"
     TWIST = "twist"
 
 
@@ -44,13 +48,13 @@ class ContactCurve(Record):
     over: ContactVariable
     factors: tuple[Positive, ...] = Field(min_length=CONTACT_POINTS, max_length=CONTACT_POINTS)
     scale: Positive
-    """Below which places are even, deg, s or (rad/s)^2."""
+    """Below which places are even, deg, s, (rad/s)^2 or a share."""
     last: Positive
     """Place of the last factor, in the same unit."""
     renewal_deg: Positive = 1.0
-    """Slip that renews a contact, of age alone."""
+    """Slip that renews a contact, or breaks its structure by a factor e: of age and broken alone."""
     fading_s: Positive = 1.0
-    """In which heat fades by a factor e, of heat alone."""
+    """In which heat fades, or structure mends, by a factor e: of heat and broken alone."""
 
     @property
     def places(self) -> Array:

@@ -7,6 +7,7 @@ from pydantic import model_validator
 from models.errors import InvalidValue
 from models.needle import NonNegative, Positive
 from models.record import Record
+from models.tissue import Interface
 
 
 class DriveKind(StrEnum):
@@ -32,10 +33,17 @@ class Drive(Record):
     """Of a spring that brings back what has slipped."""
     sheath_friction_n_mm_per_mm: NonNegative = 0.0
     """Dry torque per mm of free shaft."""
+    in_sheath: tuple[Interface, ...] = ()
+    """Further laws over the free length."""
     rotor_inertia_kg_m2: NonNegative = 0.0
     """Of motor and gear, as felt at the needle's base."""
     torque_limit_n_mm: Positive | None = None
     """Most torque that a motor of kind torque gives, either way; None: unlimited."""
+
+    @property
+    def rubs_in_sheath(self) -> bool:
+        """Whether the free shaft is resisted anywhere along it."""
+        return self.sheath_friction_n_mm_per_mm > 0 or bool(self.in_sheath)
 
     @model_validator(mode="after")
     def _limit_has_a_motor(self) -> "Drive":

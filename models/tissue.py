@@ -124,6 +124,8 @@ class Tissue(Record):
     """Further laws over the whole inserted length."""
     at_tip: tuple[Interface, ...] = ()
     """Laws in one place, at the tip: their torques are N mm in place of N mm per mm."""
+    at_entry: tuple[Interface, ...] = ()
+    """The same where the shaft enters."""
     unknown: tuple[str, ...] = ()
     """What the source does not state of this tissue, and what is assumed instead."""
 

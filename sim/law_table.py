@@ -28,6 +28,7 @@ _REMEMBERED = {
     ContactVariable.SLIP: (memory_map.SLIP_SO_FAR, units.DEG),
     ContactVariable.AGE: (memory_map.AGE, 1.0),
     ContactVariable.HEAT: (memory_map.HEAT, 1.0),
+    ContactVariable.BROKEN: (memory_map.BROKEN, 1.0),
     ContactVariable.TWIST: (memory_map.TWIST, units.DEG),
 }
 
@@ -44,6 +45,8 @@ def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) ->
     table = _layers(tissue.layers, needle)
     table += [_over_inserted_length(law) for law in tissue.throughout]
     table += [_at_tip(law) for law in tissue.at_tip]
+    table += [_at_entry(law) for law in tissue.at_entry]
+    table += [_over_free_length(law) for law in drive.in_sheath]
     if drive.sheath_friction_n_mm_per_mm > 0:
         table.append(_sheath(drive.sheath_friction_n_mm_per_mm * _PER_MM))
     if tissue.entry_friction_n_mm > 0:
@@ -97,11 +100,24 @@ def _over_inserted_length(law: Interface) -> Array:
     return row
 
 
+def _over_free_length(law: Interface) -> Array:
+    row = _interface(law)
+    row[memory_map.L_END_FREE] = 1.0
+    return row
+
+
 def _at_tip(law: Interface) -> Array:
     """A law at the tip alone, where torques are not per mm."""
+    row = _at_entry(law)
+    row[memory_map.L_TOP_INSERTED] = 1.0
+    return row
+
+
+def _at_entry(law: Interface) -> Array:
+    """A law where the shaft enters alone, where torques are not per mm."""
     row = _interface(law)
     row[_TORQUES_PER_LENGTH] *= units.MM
-    row[[memory_map.L_POINT, memory_map.L_TOP_FREE, memory_map.L_TOP_INSERTED]] = 1.0
+    row[[memory_map.L_POINT, memory_map.L_TOP_FREE]] = 1.0
     return row
 
 
@@ -141,8 +157,8 @@ def _set_contact(row: Array, curve: ContactCurve) -> None:
     row[memory_map.L_CONTACT] = remembered
     row[memory_map.L_CONTACT_SCALE] = curve.scale * unit
     row[memory_map.L_CONTACT_STEP] = np.log1p(curve.last / curve.scale) / (memory_map.CONTACT_POINTS - 1)
-    fades = curve.over is ContactVariable.HEAT
-    row[memory_map.L_RENEWAL] = curve.fading_s if fades else curve.renewal_deg * units.DEG
+    row[memory_map.L_RENEWAL] = curve.renewal_deg * units.DEG
+    row[memory_map.L_FADING] = curve.fading_s
     row[memory_map.L_CONTACT_0 :] = np.log(curve.factors)
 
 

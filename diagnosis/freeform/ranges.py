@@ -17,6 +17,7 @@ from models import units
 Array = NDArray[np.float64]
 
 _OF_READINGS = (Variable.PAST, Variable.TURNED_BY, Variable.LAG)
+_OF_TRIALS = (Variable.TRIAL_SHARE, Variable.ADVANCED_BY)
 LEAST_PAST_S, LONGEST_PAST_S = 0.02, 60.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
 LONGER = 1.2  # the longest trial, of the shortest, for shares of trials to be other than their times
@@ -32,6 +33,7 @@ LEAST_RANGE = {
     Variable.SLID_LATELY: 0.2,
     Variable.AXIAL_DRAG: 5.0,
     Variable.DEPTH: 5.0,
+    Variable.ADVANCED_BY: 2.0,
     Variable.HISTORY: 0.1,
     Variable.TIP_ANGLE: 20.0,
     Variable.TIP_RATE: 0.05,
@@ -102,10 +104,11 @@ def ranges_of(
 ) -> LogRanges:
     """Ranges of a log, given readings of the nominal rig, and of one with less damping, by trial."""
     trials = problem.log.trials
-    moving = (v for v in Variable if v not in (*_OF_READINGS, Variable.TRIAL_SHARE))
+    moving = (v for v in Variable if v not in (*_OF_READINGS, *_OF_TRIALS))
     found: dict[Variable, tuple[float, float]] = {v: _ends(v, trials, nominal) for v in moving}
     found[Variable.PAST] = (LEAST_PAST_S, LONGEST_PAST_S)
     found[Variable.TURNED_BY] = (0.0, 1.0)
+    found[Variable.ADVANCED_BY] = (0.0, max(float(np.ptp(trial.inserted_mm)) for trial in trials))
     found[Variable.TRIAL_SHARE] = (0.0, float(_last_differently(trials)))
     left = {
         sensor: tuple(

@@ -12,7 +12,7 @@ or with which the angle of the drive follows the torque, as an insert that creep
 
     angle += sum over time constants of value filtered torque.
 
-A curve over the turn since the last reversal adds hysteresis (Prandtl-Ishlinskii),
+A curve over the turn, or the advance, since the last reversal adds hysteresis (Prandtl-Ishlinskii),
 
     += sum over places r of value z_r,    z_r <- clamp(z_r + change, -r, r).
 
@@ -50,6 +50,7 @@ class ActsOn(StrEnum):
     DRIVE_ANGLE = "drive_angle"
     DRIVE_SLIP = "drive_slip"
     INSERTED_LENGTH = "inserted_length"
+    TIP_TORQUE = "tip_torque"
     DRIVE_TORQUE = "drive_torque"
     TIP_READING = "tip_reading"
     TORQUE_READING = "torque_reading"

@@ -12,6 +12,8 @@ What its curves act on:
     drive_angle     the needle is turned by the drive shaft's angle + the curve, deg
     drive_slip      the needle slips at the chuck at the rate of the curve, deg/s
     inserted_length as much more of the shaft is inserted as the curve says, mm, and less is free
+                    over advanced_by: hysteresis, as of a surface that is dragged along
+    tip_torque      the tip is turned by a torque as the curve says, N mm
     drive_torque    the torque sensor reads the needle's torque + the curve, N mm
     tip_reading     the tip sensor reads the tip's angle + the curve, deg
     torque_reading  the torque sensor reads the torque + the curve, N mm
@@ -21,6 +23,7 @@ What its curves act on:
 Dependence on the rate, angle or place of each piece of the shaft is a law of the tissue.
 """
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -80,7 +83,8 @@ class FreeLaw:
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       grip_play_deg: between the stops of that slip; None: there are none.
       grip_stiffness_n_mm_per_rad: of a spring that brings it back.
-      throughout, at_tip: additional laws (models.tissue).
+      throughout, at_tip, at_entry: additional laws (models.tissue).
+      in_sheath: additional laws of the free shaft (models.drive).
 
     Raises:
       InvalidValue: a value is not allowed in an `Interface`.
@@ -110,6 +114,8 @@ class FreeLaw:
     grip_stiffness_n_mm_per_rad: float = 0.0
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
+    at_entry: tuple[Interface, ...] = ()
+    in_sheath: tuple[Interface, ...] = ()
 
     def __post_init__(self) -> None:
         Interface(
@@ -121,7 +127,8 @@ class FreeLaw:
     @property
     def more_rows(self) -> int:
         """Number of additional rows in the law table."""
-        return len(self.throughout) + len(self.at_tip) + self.along_depth.parts
+        laws = (self.throughout, self.at_tip, self.at_entry, self.in_sheath)
+        return sum(map(len, laws)) + self.along_depth.parts
 
     def times(self, strength: float) -> "FreeLaw":
         """The law multiplied by a strength: 0: no law, 1: the law itself.
@@ -153,6 +160,8 @@ class FreeLaw:
             grip_stiffness_n_mm_per_rad=_weaker(self.grip_stiffness_n_mm_per_rad, strength) or 0.0,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
+            at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
+            in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
         )
 
     def on_trial(self, trial: str) -> "FreeLaw":
@@ -193,6 +202,7 @@ class FreeLaw:
             grip_torque_n_mm=self.grip_torque_n_mm,
             grip_play_deg=self.grip_play_deg if grips else None,
             grip_stiffness_n_mm_per_rad=self.grip_stiffness_n_mm_per_rad if grips else 0.0,
+            in_sheath=self.in_sheath,
         )
         return changed
 
@@ -213,7 +223,9 @@ class FreeLaw:
         if self.rate_curve:
             changes |= {"rate_curve": self.rate_curve, "rate_range_rad_s": self.rate_range_rad_s}
         shaped = tuple(layer.but(interface=layer.interface.but(**changes)) for layer in layers)
-        whole: Tissue = tissue.but(layers=shaped, throughout=self.throughout, at_tip=self.at_tip)
+        whole: Tissue = tissue.but(
+            layers=shaped, throughout=self.throughout, at_tip=self.at_tip, at_entry=self.at_entry
+        )
         return whole
 
     @property
@@ -230,38 +242,25 @@ class FreeLaw:
         curves = self._of_the_needle()
         if not curves:
             return inputs
-        size = inputs.time_s.size
-        factor, wave, drive, deeper = np.ones(size), np.ones(size), inputs.drive, np.zeros(size)
+        found: dict[ActsOn, list[Array]] = {what: [] for what in ActsOn}
         for curve in curves:
-            if curve.variable is Variable.TURNED_BY:
-                drive = drive + curve.with_hysteresis(inputs.drive)
-                continue
-            if curve.variable is Variable.LAG:
-                drive = drive + curve.behind(inputs.time_s, inputs.drive)
-                continue
-            if curve.variable is Variable.PAST:
-                drive = drive + curve.creep(inputs.time_s, torque_n_mm)
-                continue
-            of_torque = curve.variable is Variable.TORQUE
-            own = curve.at(torque_n_mm if of_torque else of_inputs(curve.variable, inputs, start_s))
-            if curve.acts_on is ActsOn.TISSUE:
-                factor = factor * own
-            elif curve.acts_on is ActsOn.ORIENTATION:
-                wave = wave * own
-            elif curve.acts_on is ActsOn.STIFFNESS:
-                factor = factor / own
-            elif curve.acts_on is ActsOn.INSERTED_LENGTH:
-                deeper = deeper + own
-            elif curve.acts_on is ActsOn.TISSUE_ANGLE:
-                drive = drive - own
-            elif curve.acts_on in (ActsOn.DRIVE_SLIP, ActsOn.TISSUE_SLIP):
-                drive = drive - cumulative_trapezoid(own, inputs.time_s, initial=0)
-            else:
-                drive = drive + own
-        factor = np.maximum(factor, _LEAST_FACTOR) * wave
+            found[curve.acts_on].append(_of_the_past_or_present(curve, inputs, start_s, torque_n_mm))
+        one, none = np.ones(inputs.time_s.size), np.zeros(inputs.time_s.size)
+        factor = math.prod(found[ActsOn.TISSUE], start=one)
+        factor = np.maximum(factor / math.prod(found[ActsOn.STIFFNESS], start=one), _LEAST_FACTOR)
+        slip = sum((*found[ActsOn.DRIVE_SLIP], *found[ActsOn.TISSUE_SLIP]), start=none)
+        backwards = sum(found[ActsOn.TISSUE_ANGLE], start=none)
+        backwards = backwards + cumulative_trapezoid(slip, inputs.time_s, initial=0)
+        deeper = sum(found[ActsOn.INSERTED_LENGTH], start=none)
         deeper = np.clip(deeper, -inputs.inserted_mm, inputs.free_mm)
-        lengths = {"inserted_mm": inputs.inserted_mm + deeper, "free_mm": inputs.free_mm - deeper}
-        return replace(inputs, drive=drive, tissue_factor=factor, **lengths)
+        return replace(
+            inputs,
+            drive=sum(found[ActsOn.DRIVE_ANGLE], start=inputs.drive) - backwards,
+            tip_torque_n_mm=inputs.tip_torque_n_mm - sum(found[ActsOn.TIP_TORQUE], start=none),
+            tissue_factor=factor * math.prod(found[ActsOn.ORIENTATION], start=one),
+            inserted_mm=inputs.inserted_mm + deeper,
+            free_mm=inputs.free_mm - deeper,
+        )
 
     def sensed(
         self, inputs: Schedule, start_s: float, tip_deg: Array, torque_n_mm: Array
@@ -295,6 +294,22 @@ class FreeLaw:
                     more = curve.at(of_inputs(curve.variable, inputs, start_s))
                 read[of_tip] = read[of_tip] + more
         return read[True], read[False]
+
+
+def _of_the_past_or_present(curve: Curve, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Array:
+    """Values of a curve that acts on the needle, (N,)."""
+    match curve.variable:
+        case Variable.TURNED_BY:
+            return curve.with_hysteresis(inputs.drive)
+        case Variable.ADVANCED_BY:
+            return curve.with_hysteresis(inputs.inserted_mm)
+        case Variable.LAG:
+            return curve.behind(inputs.time_s, inputs.drive)
+        case Variable.PAST:
+            return curve.creep(inputs.time_s, torque_n_mm)
+        case Variable.TORQUE:
+            return curve.at(torque_n_mm)
+    return curve.at(of_inputs(curve.variable, inputs, start_s))
 
 
 def _stronger(law: Interface, strength: float) -> Interface:

@@ -12,6 +12,7 @@ slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SL
 axial_drag     inserted length, with the sign of the axial speed, mm: what the friction of a needle that
                slides is proportional to; 0 at rest
 depth          inserted length, mm
+advanced_by    advance since the needle last moved the other way, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
 tip_angle      deg
 tip_rate       rad/s
@@ -58,6 +59,7 @@ class Variable(StrEnum):
     SLID_LATELY = "slid_lately"
     AXIAL_DRAG = "axial_drag"
     DEPTH = "depth"
+    ADVANCED_BY = "advanced_by"
     HISTORY = "history"
     TIP_ANGLE = "tip_angle"
     TIP_RATE = "tip_rate"
@@ -81,6 +83,7 @@ UNITS = {
     Variable.SLID_LATELY: "mm/s",
     Variable.AXIAL_DRAG: "mm, with the sign of the axial speed",
     Variable.DEPTH: "mm",
+    Variable.ADVANCED_BY: "mm",
     Variable.HISTORY: "turns",
     Variable.TIP_ANGLE: "deg",
     Variable.TIP_RATE: "rad/s",
@@ -96,6 +99,7 @@ SAYS: Mapping[str, str] = {
     Variable.ACCELERATION: "rate",
     Variable.SLID_LATELY: "axial_speed",
     Variable.AXIAL_DRAG: "axial_speed",
+    Variable.ADVANCED_BY: "axial_speed",
     Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",

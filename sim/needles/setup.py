@@ -109,7 +109,7 @@ class Setup:
             self.tissue,
             free_mm=self.free_mm,
             inserted_mm=self.inserted_mm,
-            sheath=self.drive.sheath_friction_n_mm_per_mm > 0,
+            sheath=self.drive.rubs_in_sheath,
         )
 
     @cached_property

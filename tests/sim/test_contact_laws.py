@@ -100,6 +100,24 @@ def test_friction_follows_the_heat_of_slipping_of_late():
     assert exact[-1] / exact[20] < 0.6
 
 
+def test_friction_follows_the_share_of_its_structure_that_slip_has_broken():
+    """b = b1 (1 - exp(-k t)) at a rate w: k = w / renewal + 1 / fading, b1 = w / renewal / k.
+
+    Late by a stage: h d log f / db db/dt < 0.01 * 1.3 * 0.5.
+    """
+    rate, renewal_deg, fading_s = 0.6, 40.0, 2.0
+    broken = curve("broken", 1.0, 1.0, -1.5, renewal_deg=renewal_deg, fading_s=fading_s)
+    time_s = np.arange(0, 6, STEP_S)
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=0.02, contact=broken)
+    run = turned(tissue, time_s, np.degrees(rate) * time_s)
+    breaks = rate / np.radians(renewal_deg)
+    speed = breaks + 1.0 / fading_s
+    share = -breaks / speed * np.expm1(-speed * run.time_s)
+    exact = 0.02 * LENGTH_MM * rate * factor(broken, share)
+    np.testing.assert_allclose(run.base_torque_n_mm[20:], exact[20:], rtol=8e-3)
+    assert exact[-1] / exact[20] < 0.6
+
+
 def test_a_level_curve_changes_nothing():
     time_s = np.arange(0, 3, STEP_S)
     law = {"viscous_n_mm_s_per_mm": 0.02, "kinetic_n_mm_per_mm": 0.002}

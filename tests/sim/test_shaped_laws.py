@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from models.drive import Drive
 from models.errors import InvalidValue
 from models.needle import STIFFNESS_POINTS, Needle
 from models.tissue import RATE_POINTS, Interface, Layer, Tissue
@@ -25,11 +26,18 @@ DAMPING, LENGTH_MM, RATE = 0.017, 60.0, 0.8
 NEEDLE = Needle(diameter_mm=0.59, shear_modulus_gpa=27.2, density_g_cm3=6.45)
 
 
-def turned(tissue: Tissue, *, rate: float = RATE, factor: float = 1.0, needle: Needle = NEEDLE) -> Run:
+def turned(
+    tissue: Tissue,
+    *,
+    rate: float = RATE,
+    factor: float = 1.0,
+    needle: Needle = NEEDLE,
+    drive: Drive | None = None,
+) -> Run:
     """A run at a constant rate; to a constant angle at rate 0."""
     time_s = np.linspace(0.0, 6.0, 601)
     drive_deg = np.degrees(rate) * time_s
-    return run_of(tissue, time_s, drive_deg, np.full(time_s.shape, factor), needle)
+    return run_of(tissue, time_s, drive_deg, np.full(time_s.shape, factor), needle, drive)
 
 
 def run_of(
@@ -38,10 +46,12 @@ def run_of(
     drive_deg: np.ndarray,
     factor: np.ndarray,
     needle: Needle = NEEDLE,
+    drive: Drive | None = None,
 ) -> Run:
     setup = Setup(
         needle=needle,
         tissue=tissue,
+        drive=drive or Drive(),
         free_mm=10.0,
         inserted_mm=LENGTH_MM,
         discretisation=Discretisation(elements=16, step_s=0.01, arrangement=Arrangement.SIBLINGS),
@@ -122,6 +132,28 @@ def test_a_law_at_the_tip_acts_there_alone() -> None:
     assert steady_n_mm(run) == pytest.approx(torque, rel=1e-5)
     lag_deg = math.degrees(torque * (10.0 + LENGTH_MM) / NEEDLE.rigidity_n_mm2)
     assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-4)
+
+
+def test_a_law_where_the_shaft_enters_acts_there_alone() -> None:
+    """The free shaft is twisted by its torque, the inserted one is not."""
+    law = Interface(viscous_n_mm_s_per_mm=0.5, kinetic_n_mm_per_mm=0.1)
+    run = turned(Tissue(layers=(Layer(interface=Interface()),), at_entry=(law,)))
+    torque = 0.5 * RATE + 0.1
+    assert steady_n_mm(run) == pytest.approx(torque, rel=1e-5)
+    lag_deg = math.degrees(torque * 10.0 / NEEDLE.rigidity_n_mm2)
+    assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-4)
+
+
+def test_a_law_in_the_sheath_acts_along_the_free_shaft_alone() -> None:
+    """A torque per length t over the free length L twists the tip by t L^2 / (2 rigidity)."""
+    law = Interface(viscous_n_mm_s_per_mm=0.5, kinetic_n_mm_per_mm=0.1)
+    none = Tissue(layers=(Layer(interface=Interface()),))
+    run = turned(none, drive=Drive(in_sheath=(law,)))
+    per_mm = 0.5 * RATE + 0.1
+    assert steady_n_mm(run) == pytest.approx(per_mm * 10.0, rel=1e-5)
+    lag_deg = math.degrees(per_mm * 10.0**2 / (2.0 * NEEDLE.rigidity_n_mm2))
+    # Eight elements, each with its torque in the middle: exact to (1/8)^2 / 3.
+    assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=6e-3)
 
 
 def test_a_torque_that_depends_on_the_angle_twice_a_turn() -> None:

@@ -1,7 +1,9 @@
 """Free laws of what each contact between shaft and tissue has been through.
 
 - damping, or dry friction, times a curve of the slip so far: lubrication and wear
-- damping times a curve of the heat of slipping, which fades: warmed or thixotropic tissue
+- damping times a curve of the heat of slipping, which fades: warmed tissue
+- damping, or dry friction, times a curve of the share of its structure that slip has broken, which mends
+  in time: thixotropic tissue, a gel
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
 - dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
   Automatic Control 40 (1995))
@@ -34,11 +36,13 @@ _UNITS = {
     ContactVariable.SLIP: "deg",
     ContactVariable.AGE: "s",
     ContactVariable.HEAT: "(rad/s)^2 of late",
+    ContactVariable.BROKEN: "share",
 }
 _WORDS = {
     ContactVariable.SLIP: "the slip so far",
     ContactVariable.AGE: "the age of the contact",
     ContactVariable.HEAT: "how fast it has slipped of late",
+    ContactVariable.BROKEN: "the share of its structure that slip has broken",
 }
 _FADING = Parameter(
     name="fading", unit="s", low=0.1, high=60.0, start=(1.0, 5.0), logarithmic=True, neutral=None
@@ -46,6 +50,17 @@ _FADING = Parameter(
 _RENEWAL = Parameter(
     name="renewal", unit="deg", low=0.05, high=90.0, start=(3.0,), logarithmic=True, neutral=None
 )
+_BREAKING = Parameter(
+    name="breaking",
+    unit="deg",
+    low=1.0,
+    high=3600.0,
+    start=(10.0, 10.0, 90.0, 90.0),
+    logarithmic=True,
+    neutral=None,
+)
+_MENDING = replace(_FADING, name="mending", start=(1.0, 10.0) * 2)
+_WEAKENS = (-1.0,) * 4  # slope of a curve over what is broken to start with
 _BRISTLES = (
     Parameter(
         name="twist", unit="deg", low=0.5, high=90.0, start=(5.0, 15.0), logarithmic=True, neutral=None
@@ -75,8 +90,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     found: list[Family] = []
     if Variable.HISTORY in ranges.ends:
         found += [
-            *(_damping_over(own, ranges) for own in (_slip(ranges), _heat(ranges))),
-            _friction_over(_slip(ranges), ranges),
+            *(_damping_over(own, ranges) for own in (_slip(ranges), _heat(ranges), _broken_share())),
+            *(_friction_over(own, ranges) for own in (_slip(ranges), _broken_share())),
             _bristles(ranges),
             _bonds(ranges),
         ]
@@ -102,6 +117,11 @@ def _heat(ranges: LogRanges) -> ContactCurve:
     return _neutral(ContactVariable.HEAT, fastest**2 / _FIRST_PART, fastest**2)
 
 
+def _broken_share() -> ContactCurve:
+    """A neutral curve over the share of its structure that slip has broken."""
+    return _neutral(ContactVariable.BROKEN, 1.0, 1.0)
+
+
 def _neutral(over: ContactVariable, scale: float, last: float) -> ContactCurve:
     return ContactCurve(over=over, scale=scale, last=last, factors=(1.0,) * CONTACT_POINTS)
 
@@ -110,8 +130,9 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     curve = smooth_curve(0.0, 1.0, CONTACT_POINTS)
     shape = coordinates_of(curve)
     if neutral.over is ContactVariable.HEAT:
-        level, change, *rest = (replace(p, start=2 * p.start) for p in shape)
-        shape = (_FADING, level, replace(change, start=(_CHANGES, -_CHANGES)), *rest)
+        shape = _starting((_FADING,), shape, (_CHANGES, -_CHANGES))
+    elif neutral.over is ContactVariable.BROKEN:
+        shape = _starting((_BREAKING, _MENDING), shape, _WEAKENS)
     return Family(
         effect=Effect(
             name=f"damping over {neutral.over}",
@@ -127,6 +148,14 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         x_unit=_UNITS[neutral.over],
         unit="N mm s / rad / mm",
     )
+
+
+def _starting(
+    memory: tuple[Parameter, ...], shape: tuple[Parameter, ...], slopes: tuple[float, ...]
+) -> tuple[Parameter, ...]:
+    """What a contact remembers by, and the coordinates of a curve that start with these slopes."""
+    level, change, *rest = (replace(p, start=len(slopes) * p.start) for p in shape)
+    return (*memory, level, replace(change, start=slopes), *rest)
 
 
 def _damping(curve: SmoothCurve, neutral: ContactCurve, beta: float, *shape: float) -> Points:
@@ -146,12 +175,18 @@ def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     if neutral.over is ContactVariable.AGE:
         grows = replace(shape[1], start=(_GROWS,))
         shape = (_RENEWAL, shape[0], grows, *shape[2:])
+    elif neutral.over is ContactVariable.BROKEN:
+        shape = _starting((_BREAKING, _MENDING), shape, _WEAKENS)
+        level = replace(level, start=level.start[-1:])
+    each = len(shape[0].start)
+    level = replace(level, start=level.start * each) if each > 1 else level
+    shape = shape if each > 1 else tuple(replace(p, start=p.start * len(level.start)) for p in shape)
     return Family(
         effect=Effect(
             name=f"dry friction over {neutral.over}",
             title=f"dry friction that changes with {_WORDS[neutral.over]}",
             place=Place.INTERFACE,
-            parameters=(level, *(replace(p, start=p.start * len(level.start)) for p in shape)),
+            parameters=(level, *shape),
             apply=partial(_apply_friction, curve, neutral),
             differences=(1e-2,),
         ),
@@ -176,11 +211,13 @@ def _apply_friction(
 
 
 def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -> ContactCurve:
-    """The curve with its coordinates; of an age or heat, what renews or fades it comes first."""
+    """The curve with its coordinates; what renews or fades what it is over comes first."""
     if neutral.over is ContactVariable.AGE:
         neutral, shape = neutral.but(renewal_deg=shape[0]), shape[1:]
     elif neutral.over is ContactVariable.HEAT:
         neutral, shape = neutral.but(fading_s=shape[0]), shape[1:]
+    elif neutral.over is ContactVariable.BROKEN:
+        neutral, shape = neutral.but(renewal_deg=shape[0], fading_s=shape[1]), shape[2:]
     changed: ContactCurve = neutral.but(factors=curve.factors(shape))
     return changed
 

@@ -1,7 +1,8 @@
 """Free laws that are added to an angle or a reading: of the drive, the tissue and both sensors.
 
-    drive angle    needle at the chuck = drive shaft + a curve of time, angle, orientation or direction
-    tissue angle   the tissue turns by a curve of time, and takes the needle with it
+    drive angle    needle at the chuck = drive shaft + a curve of time, angle, orientation, direction, or
+                   of depth or axial speed, as of a carriage that twists what it carries
+    tissue angle   the tissue turns by a curve of time, depth or axial speed, and takes the needle along
     drive torque   the torque sensor also reads a curve of the drive's angle, rate or direction
     sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal,
                    or true value times a curve of time or depth
@@ -122,10 +123,10 @@ _V = Variable
 ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.BASE_ANGLE, _V.DIRECTION),
     *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
-    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE),
+    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.DEPTH, _V.AXIAL_SPEED),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
-    *_added(*_TISSUE, _V.TIME, _V.TRIAL_SHARE),
+    *_added(*_TISSUE, _V.TIME, _V.TRIAL_SHARE, _V.DEPTH, _V.AXIAL_SPEED),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.ACCELERATION, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_BEARING, DRIVE, _V.TURNED_BY),

@@ -6,6 +6,7 @@ remembers, beside its presliding, one of
     the slip so far    d past / dt = |s|
     its age            d past / dt = 1 - past |s| / renewal
     its heat           d past / dt = (s^2 - past) / fading
+    what is broken     d past / dt = (1 - past) |s| / renewal - past / fading
 
 or its tissue is as stiff as a curve over its twist says.
 """
@@ -34,7 +35,7 @@ def rate_factor(s: float, row: Array) -> tuple[float, float]:
 
 @embedded
 def contact_factor(past: float, row: Array) -> tuple[float, float]:
-    """Factor after a slip or at a twist, rad, at an age, s, or a heat, and its slope."""
+    """Factor after a slip or at a twist, rad, at an age, s, a heat, or a broken share, and its slope."""
     last = memory_map.CONTACT_POINTS - 1
     step, scale = row[memory_map.L_CONTACT_STEP], row[memory_map.L_CONTACT_SCALE]
     at = math.log1p(past / scale) / step
@@ -82,10 +83,13 @@ def _grown(b: float, low: float, high: float, power: float) -> float:
 
 @embedded
 def past_after(past: float, s: float, g: float, row: Array) -> float:
-    """Slip so far, rad, age, s, or heat at the end of a stage of length g, by backward Euler."""
+    """Slip so far, rad, age, s, heat, or broken share after a stage of length g, by backward Euler."""
     if row[memory_map.L_CONTACT] == memory_map.SLIP_SO_FAR:
         return past + g * abs(s)
     if row[memory_map.L_CONTACT] == memory_map.HEAT:
-        share = g / row[memory_map.L_RENEWAL]
+        share = g / row[memory_map.L_FADING]
         return (past + share * s * s) / (1.0 + share)
-    return (past + g) / (1.0 + g * abs(s) / row[memory_map.L_RENEWAL])
+    slips = g * abs(s) / row[memory_map.L_RENEWAL]
+    if row[memory_map.L_CONTACT] == memory_map.BROKEN:
+        return (past + slips) / (1.0 + slips + g / row[memory_map.L_FADING])
+    return (past + g) / (1.0 + slips)

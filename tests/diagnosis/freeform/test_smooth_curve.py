@@ -150,6 +150,7 @@ def test_the_signs_of_a_two_sided_curve_differ_by_a_jump_and_a_slope_alone():
 
 
 ADDED = {
+    ActsOn.TIP_TORQUE,
     ActsOn.ORIENTATION,
     ActsOn.TISSUE_ANGLE,
     ActsOn.TISSUE_SLIP,

@@ -32,7 +32,13 @@ def at(variable, when_s, **changed):
 
 def test_every_variable_has_a_unit_and_is_known_before_or_after_the_simulation():
     assert set(UNITS) == set(Variable)
-    before = set(Variable) - {*OF_THE_NEEDLE, Variable.PAST, Variable.TURNED_BY, Variable.LAG}
+    before = set(Variable) - {
+        *OF_THE_NEEDLE,
+        Variable.PAST,
+        Variable.TURNED_BY,
+        Variable.ADVANCED_BY,
+        Variable.LAG,
+    }
     assert all(of_inputs(v, inputs(), 0.0).shape == TIME.shape for v in before)
 
 

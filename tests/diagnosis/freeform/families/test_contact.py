@@ -41,7 +41,19 @@ def test_damping_over_heat_is_the_nominal_one_where_its_curve_is_level():
     assert {len(p.start) for p in FAMILIES[law].effect.parameters} == {2}
 
 
-@pytest.mark.parametrize(("name", "own"), [("slip", ()), ("age", (RENEWAL,))])
+def test_damping_over_what_is_broken_follows_what_breaks_and_what_mends_it():
+    law, memory = "damping over broken", (40.0, 2.0)
+    assert same_readings(ANGLE, rig_of(law, *memory, *LEVEL_CURVE), NOMINAL)
+    falling = (0.0, -1.0, *LEVEL_CURVE[2:])
+    weaker = rig_of(law, *memory, *falling)
+    for other in ((4.0, 2.0), (40.0, 0.5)):
+        assert not same_readings(ANGLE, weaker, rig_of(law, *other, *falling))
+    assert {len(p.start) for p in FAMILIES[law].effect.parameters} == {4}
+
+
+@pytest.mark.parametrize(
+    ("name", "own"), [("slip", ()), ("age", (RENEWAL,)), ("broken", (RENEWAL, 2.0))]
+)
 def test_dry_friction_times_a_constant_is_that_of_the_library(name, own):
     law = f"dry friction over {name}"
     assert same_readings(ANGLE, rig_of(law, LEVEL, *own, *LEVEL_CURVE), DRY)

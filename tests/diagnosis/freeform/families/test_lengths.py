@@ -17,10 +17,17 @@ ANGLE = turns(6.0)
 TIME = 0.01 * np.arange(ANGLE.size)
 STILL = covered(ANGLE, tip=ANGLE)
 MOVING = replace(
-    STILL, ends={**STILL.ends, Variable.DEPTH: (40.0, 90.0), Variable.AXIAL_SPEED: (-2.0, 4.0)}
+    STILL,
+    ends={
+        **STILL.ends,
+        Variable.DEPTH: (40.0, 90.0),
+        Variable.AXIAL_SPEED: (-2.0, 4.0),
+        Variable.ADVANCED_BY: (0.0, 50.0),
+    },
 )
 FAMILIES = {family.name: family for family in families(MOVING)}
 DEPTH, SPEED = "inserted length over depth", "inserted length over axial_speed"
+ADVANCED = "inserted length over advanced_by"
 
 
 def schedule(depth_mm, speed_mm_s):
@@ -35,13 +42,15 @@ def schedule(depth_mm, speed_mm_s):
 
 def test_at_one_length_and_at_rest_neither_is_asked_for():
     assert families(STILL) == ()
-    assert set(FAMILIES) == {DEPTH, SPEED}
+    assert set(FAMILIES) == {DEPTH, SPEED, ADVANCED}
 
 
 def test_a_length_that_is_right_everywhere_is_the_logged_one():
     for family in FAMILIES.values():
         none = [0.0] * len(family.effect.parameters)
         assert same_readings(ANGLE, family.effect.apply(NOMINAL, *none), NOMINAL)
+        if family.name == ADVANCED:  # of a needle at rest
+            continue
         assert not same_readings(ANGLE, family.effect.apply(NOMINAL, 5.0, *none[1:]), NOMINAL)
 
 
@@ -63,3 +72,18 @@ def test_there_is_no_more_shaft_than_there_is(change, inserted):
     rig = family.effect.apply(NOMINAL, change, *[0.0] * (len(family.effect.parameters) - 1))
     found = driven(rig, schedule(np.full(TIME.size, 60.0), 1.0))
     np.testing.assert_allclose(found.inserted_mm, inserted, atol=1e-9)
+
+
+def test_a_surface_goes_along_until_it_slides_and_back_by_twice_that():
+    """Of one limit: the advance takes it up once, and the way back twice."""
+    family = FAMILIES[ADVANCED]
+    shares = (*[0.0] * (len(family.effect.parameters) - 2), -1.0, 0.0)
+    advance, error = family.curve(*shares)
+    limit = advance[-2]
+    np.testing.assert_allclose(error, -np.minimum(advance, limit))
+    depth = 40.0 + np.concatenate([np.linspace(0, 50, 300), np.linspace(50, 0, TIME.size - 300)])
+    rig = family.effect.apply(NOMINAL, *shares)
+    moved = driven(rig, schedule(depth, 1.0)).inserted_mm
+    there, back = depth[:300], depth[300:]
+    np.testing.assert_allclose(moved[:300], there - np.minimum(there - 40.0, limit), atol=1e-6)
+    np.testing.assert_allclose(moved[300:], back - np.maximum(limit - (90.0 - back), -limit), atol=1e-6)

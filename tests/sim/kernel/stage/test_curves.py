@@ -22,7 +22,7 @@ def row(interpreted):
     values[places.L_CONTACT_SCALE], values[places.L_CONTACT_STEP] = 2.0, 0.5
     for i in range(places.CONTACT_POINTS):
         values[places.L_CONTACT_0 + i] = -0.2 * i
-    values[places.L_RENEWAL] = 0.5
+    values[places.L_RENEWAL], values[places.L_FADING] = 0.5, 4.0
     return values
 
 
@@ -68,3 +68,13 @@ def test_age_grows_at_rest_and_tends_to_renewal_over_rate(curves, row, interpret
     for _ in range(2000):
         age = curves.past_after(age, -0.25, 0.1, row)
     assert age == pytest.approx(0.5 / 0.25)
+
+
+def test_what_slip_breaks_mends_at_rest_and_tends_to_where_both_are_even(curves, row, interpreted):
+    """At rest by a factor exp(-t / fading); at a rate s to x / (1 + x), x = s fading / renewal."""
+    row[interpreted.memory_map.L_CONTACT] = interpreted.memory_map.BROKEN
+    assert curves.past_after(0.6, 0.0, 0.1, row) == pytest.approx(0.6 / (1.0 + 0.1 / 4.0))
+    broken = 0.0
+    for _ in range(2000):
+        broken = curves.past_after(broken, -0.25, 0.1, row)
+    assert broken == pytest.approx(2.0 / 3.0)
