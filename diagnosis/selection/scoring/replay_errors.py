@@ -8,8 +8,8 @@ s^2 over several readings of the encoder; noise has the variance 1 there. So a l
 
     lead / (1 + s^2).
 
-Two rivals may each lead a part that they share, and errors may be more like one of them: between these
-two their own difference decides.
+Two rivals may each lead a part, and errors may be more like the lead of one of them: between these two
+their own difference decides, also where the other has lost more of its lead than a rival is behind.
 """
 
 from collections.abc import Iterator, Sequence
@@ -62,7 +62,7 @@ def _with_rivals_nearer(
     """
     known = [one for one, _ in ranked]
     first = next((pair for pair in ranked if pair[0].explains), None)
-    if first is None or not any(_is_rival(first[0], one) for one in known):
+    if first is None or not any(_is_rival(first, pair) for pair in ranked):
         return known
     best, own = first
     try:
@@ -71,16 +71,22 @@ def _with_rivals_nearer(
         return known
     return [
         replace(one, score=min(one.score, best.score + _lead(own, bare, errors)))
-        if _is_rival(best, one)
+        if _is_rival(first, (one, bare))
         else one
         for one, bare in ranked
     ]
 
 
-def _is_rival(best: Candidate, other: Candidate) -> bool:
-    """Whether it explains the log as well, by something else, and its lead would decide."""
+def _is_rival(first: tuple[Candidate, Candidate], pair: tuple[Candidate, Candidate]) -> bool:
+    """Whether it explains the log as well, by something else, and its lead would decide.
+
+    Args:
+      first, pair: the best and another one, each with the score that counts, and with its own.
+    """
+    best, other = first[0], pair[0]
     else_ = not ({*best.names} <= {*other.names} or {*other.names} <= {*best.names})
-    return other.explains and else_ and SIMPLE_LEAD < other.score - best.score <= CONTENDING
+    near = any(one.score - ahead.score <= CONTENDING for ahead, one in zip(first, pair, strict=True))
+    return other.explains and else_ and near and SIMPLE_LEAD < other.score - best.score
 
 
 def _lead(best: Candidate, rival: Candidate, errors: Sequence[Array]) -> float:

@@ -46,12 +46,14 @@ def test_a_rival_is_as_near_as_errors_may_bring_it(size, monkeypatch, still_star
     assert scores[rival.names] - best.score == pytest.approx(25.0 / (1.0 + size**2) - 4.0)
 
 
-def test_between_two_rivals_a_part_that_both_lead_decides_nothing(monkeypatch, still_start):
-    """Errors are more like the first one, which leads the part by 64, but it is the likelier one."""
+@pytest.mark.parametrize("length", [8.0, 20.0])
+def test_between_two_rivals_a_part_that_both_lead_decides_nothing(length, monkeypatch, still_start):
+    """Errors are more like the first one, which leads the part by the square of the length, but it is
+    the likelier one; of a lead of 400 it loses more than anything that is far behind is."""
     across = np.array([0.0, 0.0, 1.0, 0.0])
-    part = fitted([], np.zeros(4), 200.0)
-    one = fitted(["tip_drag"], 8.0 * UNIT, 136.0)
-    other = fitted(["stiction"], 8.0 * across, 138.0)
+    part = fitted([], np.zeros(4), 136.0 + length**2)
+    one = fitted(["tip_drag"], length * UNIT, 136.0)
+    other = fitted(["stiction"], length * across, 138.0)
     monkeypatch.setattr(module, "_errors", lambda *_: [1.5 * UNIT, -1.5 * UNIT])
     scores = {c.names: c.score for c in without_replay_errors(still_start.problem, [one, other, part])}
     assert scores[other.names] == other.score
