@@ -86,7 +86,7 @@ def _is_rival(first: tuple[Candidate, Candidate], pair: tuple[Candidate, Candida
     best, other = first[0], pair[0]
     else_ = not ({*best.names} <= {*other.names} or {*other.names} <= {*best.names})
     near = any(one.score - ahead.score <= CONTENDING for ahead, one in zip(first, pair, strict=True))
-    return other.explains and else_ and near and SIMPLE_LEAD < other.score - best.score
+    return other.explains and else_ and near and other.score - best.score > SIMPLE_LEAD
 
 
 def _lead(best: Candidate, rival: Candidate, errors: Sequence[Array]) -> float:
