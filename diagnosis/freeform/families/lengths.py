@@ -2,7 +2,8 @@
 
 - over the logged length: a stage with a wrong pitch, or a surface that is not where it was touched
 - over the axial speed: tissue that the needle pushes in before it slides, and draws out after
-- with hysteresis over the logged length: a surface that goes with the shaft until it slides
+- with hysteresis over the logged length: a surface that goes with the shaft until it slides, up to one
+  limit, or to several
 """
 
 from dataclasses import replace
@@ -10,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Place
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, bent_curve, separate_values, smooth_curve
@@ -19,7 +20,7 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 
-_COUNT, _SIZE_MM, _SHARE = 6, 8.0, 0.3
+_COUNT, _SIZE_MM, _SHARE, _MOST = 6, 8.0, 0.3, 0.8
 _PLACES = {
     Variable.DEPTH: {Place.PARAMETERS: 1.0},
     Variable.AXIAL_SPEED: {Place.TISSUE: 0.6, Place.PARAMETERS: 0.4},
@@ -29,8 +30,9 @@ _PLACES = {
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """All laws, if length and speed change."""
     found = [_length_over(v, ranges) for v in _PLACES if v in ranges.ends]
-    dragged = [_dragged(ranges)] if Variable.ADVANCED_BY in ranges.ends else []
-    return (*found, *dragged)
+    if Variable.ADVANCED_BY in ranges.ends:
+        found += [_dragged(ranges), _dragged_to_one_limit(ranges)]
+    return tuple(found)
 
 
 def _length_over(variable: Variable, ranges: LogRanges) -> Family:
@@ -76,6 +78,43 @@ def _dragged(ranges: LogRanges) -> Family:
         x_unit=UNITS[Variable.ADVANCED_BY],
         unit="mm",
     )
+
+
+def _dragged_to_one_limit(ranges: LogRanges) -> Family:
+    least_mm, longest_mm = LEAST_RANGE[Variable.ADVANCED_BY] / 4, ranges.ends[Variable.ADVANCED_BY][1]
+    starts = tuple(least_mm * (longest_mm / least_mm) ** share for share in (0.3, 0.6, 0.9))
+    several = _dragged(ranges)
+    parameters = (
+        Parameter(
+            name="share", unit="-", low=-1.5, high=1.5, start=(-_MOST,) * len(starts), scale=_SHARE
+        ),
+        Parameter(
+            name="limit",
+            unit="mm",
+            low=least_mm,
+            high=longest_mm,
+            start=starts,
+            logarithmic=True,
+            neutral=None,
+        ),
+    )
+    effect = replace(
+        several.effect,
+        name=f"{several.name}, up to one limit",
+        parameters=parameters,
+        apply=_apply_one_limit,
+        differences=(1e-1, 1e-2),
+    )
+    return replace(several, effect=effect, curve=_after_an_advance_to_one)
+
+
+def _after_an_advance_to_one(share: float, limit_mm: float) -> Points:
+    return (0.0, limit_mm, 2.0 * limit_mm), (0.0, share * limit_mm, share * limit_mm)
+
+
+def _apply_one_limit(rig: RigParameters, share: float, limit_mm: float) -> RigParameters:
+    limits = separate_values(np.array([limit_mm, 2.0 * limit_mm]))
+    return _apply(Variable.ADVANCED_BY, limits, rig, share, 0.0)
 
 
 def _after_an_advance(limits: SmoothCurve, *c: float) -> Points:

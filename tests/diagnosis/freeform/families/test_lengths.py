@@ -28,6 +28,7 @@ MOVING = replace(
 FAMILIES = {family.name: family for family in families(MOVING)}
 DEPTH, SPEED = "inserted length over depth", "inserted length over axial_speed"
 ADVANCED = "inserted length over advanced_by"
+ONE_LIMIT = f"{ADVANCED}, up to one limit"
 
 
 def schedule(depth_mm, speed_mm_s):
@@ -42,14 +43,14 @@ def schedule(depth_mm, speed_mm_s):
 
 def test_at_one_length_and_at_rest_neither_is_asked_for():
     assert families(STILL) == ()
-    assert set(FAMILIES) == {DEPTH, SPEED, ADVANCED}
+    assert set(FAMILIES) == {DEPTH, SPEED, ADVANCED, ONE_LIMIT}
 
 
 def test_a_length_that_is_right_everywhere_is_the_logged_one():
     for family in FAMILIES.values():
-        none = [0.0] * len(family.effect.parameters)
+        none = [0.0 if p.neutral == 0.0 else p.low for p in family.effect.parameters]
         assert same_readings(ANGLE, family.effect.apply(NOMINAL, *none), NOMINAL)
-        if family.name == ADVANCED:  # of a needle at rest
+        if family.says == "axial_speed" and family.name != SPEED:  # of a needle at rest
             continue
         assert not same_readings(ANGLE, family.effect.apply(NOMINAL, 5.0, *none[1:]), NOMINAL)
 
@@ -87,3 +88,17 @@ def test_a_surface_goes_along_until_it_slides_and_back_by_twice_that():
     there, back = depth[:300], depth[300:]
     np.testing.assert_allclose(moved[:300], there - np.minimum(there - 40.0, limit), atol=1e-6)
     np.testing.assert_allclose(moved[300:], back - np.maximum(limit - (90.0 - back), -limit), atol=1e-6)
+
+
+def test_up_to_one_limit_it_is_the_same_with_one_share_alone():
+    several, one = FAMILIES[ADVANCED], FAMILIES[ONE_LIMIT]
+    shares = (*[0.0] * (len(several.effect.parameters) - 2), -0.7, 0.0)
+    advance, _ = several.curve(*shares)
+    limit = float(advance[-2])
+    depth = 65.0 + 25.0 * np.sin(np.linspace(0, 9, TIME.size))
+    each = (
+        driven(family.effect.apply(NOMINAL, *values), schedule(depth, 1.0)).inserted_mm
+        for family, values in ((several, shares), (one, (-0.7, limit)))
+    )
+    np.testing.assert_allclose(*each, atol=1e-9)
+    assert one.curve(-0.7, limit) == ((0.0, limit, 2 * limit), (0.0, -0.7 * limit, -0.7 * limit))
