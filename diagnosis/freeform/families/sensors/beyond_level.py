@@ -3,11 +3,14 @@
     reading = true value                                            up to the level, to either side of 0
               sign (level + jump + gain (|true value| - level))     beyond it
 
-With a gain of 0 it clips. A smooth curve of the true value has no such corner.
+With a gain of 0 it clips. A smooth curve of the true value has no such corner. Fits start from the
+levels at which jump and gain, by linear least squares, leave least of the nominal residual.
 """
 
 from dataclasses import dataclass, replace
 from functools import partial
+
+import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
@@ -18,12 +21,10 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 
-_STARTS = tuple(
-    (level, gain, jump * level)
-    for level in (0.92, 0.75, 0.55, 0.4, 0.25)
-    for gain, jump in ((0.0, 0.0), (1.5, 0.0), (1.3, 0.4))
-)  # level and jump in the largest value
 _LEAST, _MOST = 0.05, 1.0  # level, of the largest value
+_TRIED, _STARTS = 40, 4  # levels
+_GAINS = (-1.0, 5.0)
+_CLIPS = (0.92, 0.0, 0.0)  # level, gain and jump of a start where nothing is found
 _FAR, _CORNER = 3.0, 0.005  # in the largest value
 
 
@@ -68,23 +69,23 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 def _beyond(reading: _Reading, ranges: LogRanges) -> Family:
     largest = max(abs(end) for end in ranges.ends[reading.variable])
     size = ranges.missing[reading.sensor]
-    levels, gains, jumps = zip(*_STARTS, strict=True)
+    levels, gains, jumps = zip(*_found(reading, ranges, largest), strict=True)
     level = Parameter(
         name="level",
         unit=reading.unit,
         low=_LEAST * largest,
         high=_MOST * largest,
-        start=tuple(share * largest for share in levels),
+        start=levels,
         logarithmic=True,
         neutral=None,
     )
-    gain = Parameter(name="gain", unit="-", low=-1.0, high=5.0, start=gains, neutral=1.0)
+    gain = Parameter(name="gain", unit="-", low=_GAINS[0], high=_GAINS[1], start=gains, neutral=1.0)
     jump = Parameter(
         name="jump",
         unit=reading.unit,
         low=-_MOST * largest,
         high=_MOST * largest,
-        start=tuple(share * largest for share in jumps),
+        start=jumps,
         scale=size,
     )
     name = f"{reading.acts_on.replace('_', ' ')} over {reading.variable}, beyond a level"
@@ -104,6 +105,32 @@ def _beyond(reading: _Reading, ranges: LogRanges) -> Family:
         x_unit=UNITS[reading.variable],
         unit=reading.unit,
     )
+
+
+def _found(
+    reading: _Reading, ranges: LogRanges, largest: float
+) -> tuple[tuple[float, float, float], ...]:
+    """Level, gain and jump that leave least of the nominal residual, best first."""
+    read = [
+        own[reading.sensor]
+        for trial, own in zip(ranges.problem.log.trials, ranges.nominal, strict=True)
+        if trial.has(reading.sensor)
+    ]
+    true, left = np.concatenate(read), np.concatenate(ranges.left[reading.sensor])
+    true, left = true[np.isfinite(left)], left[np.isfinite(left)]
+    size, error = np.abs(true), left * np.sign(true)
+    tried = []
+    for level in np.geomspace(_LEAST, _MOST, _TRIED)[:-1] * largest:
+        beyond = size > level
+        if beyond.any():
+            columns = np.stack([np.ones(beyond.sum()), size[beyond] - level], axis=1)
+            (jump, slope), *_ = np.linalg.lstsq(columns, error[beyond])
+            taken_off = float(error[beyond] @ columns @ (jump, slope))
+            tried.append((taken_off, float(level), float(np.clip(1.0 + slope, *_GAINS)), float(jump)))
+    best = sorted(tried, reverse=True)[:_STARTS]
+    most = _MOST * largest
+    starts = tuple((level, gain, float(np.clip(jump, -most, most))) for _, level, gain, jump in best)
+    return starts or ((_CLIPS[0] * largest, *_CLIPS[1:]),)
 
 
 def _error(

@@ -58,3 +58,15 @@ def test_the_law_is_one_of_the_sensor_over_what_it_reads():
 def test_a_sensor_that_was_not_read_has_none():
     (only,) = families(covered(ANGLE, tip=ANGLE + 1.0, seen=(ANGLE, TORQUE)))
     assert only.name == OF_TIP.name
+
+
+@pytest.mark.parametrize(("gain", "jump"), [(0.0, 0.0), (1.5, 0.1)], ids=["clips", "another range"])
+def test_fits_start_where_the_residual_tells_the_level(gain, jump):
+    """Levels that are tried are 8 % apart."""
+    level = 0.5 * np.abs(TORQUE).max()
+    beyond = np.maximum(np.abs(TORQUE) - level, 0.0)
+    error = np.sign(TORQUE) * ((gain - 1.0) * beyond + jump * (beyond > 0))
+    own, _ = families(covered(ANGLE, tip=ANGLE, torque=TORQUE + error, seen=(ANGLE, TORQUE)))
+    found = [p.start[0] for p in own.effect.parameters]
+    assert found[0] == pytest.approx(level, rel=0.08)
+    assert found[1:] == pytest.approx([gain, jump], abs=0.1)
