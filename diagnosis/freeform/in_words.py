@@ -155,8 +155,8 @@ def period_deg(missing: Missing) -> float:
     free = family.effect.apply(RigParameters(), *values).free or FreeLaw()
     waves = [
         _TURN_DEG / law.orientation_cycles
-        for law in (*free.throughout, *free.at_tip)
-        if law.orientation_n_mm_per_mm
+        for law in (*free.throughout, *free.at_tip, *free.at_entry, *free.in_sheath)
+        if law.orientation_n_mm_per_mm and law.orientation_cycles.is_integer()  # else over many turns
     ]
     curves = (curve.period for curve in free.curves if curve.variable is not Variable.TIME)
     return max([*curves, *waves], default=0.0)

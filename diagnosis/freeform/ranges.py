@@ -32,6 +32,7 @@ LEAST_RANGE = {
     Variable.AXIAL_SPEED: 0.3,
     Variable.SLID_LATELY: 0.2,
     Variable.AXIAL_DRAG: 5.0,
+    Variable.AXIAL_FLOW: 20.0,
     Variable.DEPTH: 5.0,
     Variable.ADVANCED_BY: 2.0,
     Variable.HISTORY: 0.1,

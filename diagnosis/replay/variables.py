@@ -11,6 +11,8 @@ axial_speed    of the needle into the tissue, mm/s
 slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SLID_S)
 axial_drag     inserted length, with the sign of the axial speed, mm: what the friction of a needle that
                slides is proportional to; 0 at rest
+axial_flow     inserted length times axial speed, mm^2/s: what the viscous drag of a sliding needle is
+               proportional to
 depth          inserted length, mm
 advanced_by    advance since the needle last moved the other way, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
@@ -58,6 +60,7 @@ class Variable(StrEnum):
     AXIAL_SPEED = "axial_speed"
     SLID_LATELY = "slid_lately"
     AXIAL_DRAG = "axial_drag"
+    AXIAL_FLOW = "axial_flow"
     DEPTH = "depth"
     ADVANCED_BY = "advanced_by"
     HISTORY = "history"
@@ -82,6 +85,7 @@ UNITS = {
     Variable.AXIAL_SPEED: "mm/s",
     Variable.SLID_LATELY: "mm/s",
     Variable.AXIAL_DRAG: "mm, with the sign of the axial speed",
+    Variable.AXIAL_FLOW: "mm^2/s",
     Variable.DEPTH: "mm",
     Variable.ADVANCED_BY: "mm",
     Variable.HISTORY: "turns",
@@ -99,6 +103,7 @@ SAYS: Mapping[str, str] = {
     Variable.ACCELERATION: "rate",
     Variable.SLID_LATELY: "axial_speed",
     Variable.AXIAL_DRAG: "axial_speed",
+    Variable.AXIAL_FLOW: "axial_speed",
     Variable.ADVANCED_BY: "axial_speed",
     Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
@@ -205,6 +210,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
     Variable.SLID_LATELY: _slid_lately,
     Variable.AXIAL_DRAG: _axial_drag,
+    Variable.AXIAL_FLOW: lambda inputs, _: inputs.inserted_mm * inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,
 }

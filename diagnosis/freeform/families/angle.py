@@ -172,12 +172,17 @@ def _over_a_turn(waves: Sequence[int], *c: float) -> Points:
 
 
 def _apply_angle(waves: Sequence[int], tip: bool, rig: RigParameters, *c: float) -> RigParameters:
-    laws = tuple(_wave(n, a, b) for n, a, b in zip(waves, c[::2], c[1::2], strict=True))
+    laws = waves_over(waves, c)
     free = FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws)
     return replace(rig, free=free)
 
 
-def _wave(cycles: int, sine: float, cosine: float) -> Interface:
+def waves_over(waves: Sequence[float], c: Sequence[float]) -> tuple[Interface, ...]:
+    """Laws of waves with these cycles in a turn, with sine and cosine of each."""
+    return tuple(_wave(n, a, b) for n, a, b in zip(waves, c[::2], c[1::2], strict=True))
+
+
+def _wave(cycles: float, sine: float, cosine: float) -> Interface:
     """The law of one wave: a sin x + b cos x = hypot(a, b) sin(x + atan2(b, a))."""
     return Interface(
         orientation_n_mm_per_mm=math.hypot(sine, cosine),

@@ -1,7 +1,7 @@
 """Free laws of the interface between shaft and tissue, per mm of shaft.
 
 - damping times a curve of time, axial speed, depth, or place along the shaft, or of the base angle,
-  once a turn
+  also once a turn
 - nominal damping, and dry friction as a curve of these, or of the base angle
 - damping times a curve of the rate, and dry friction
 - damping and dry friction that differ between the directions
@@ -25,7 +25,7 @@ from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.tissue import RATE_POINTS, Interface
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
-DAMPING_OVER = (*OVER, Variable.SLID_LATELY)
+DAMPING_OVER = (*OVER, Variable.SLID_LATELY, Variable.BASE_ANGLE)
 FRICTION_OVER = (*OVER, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03

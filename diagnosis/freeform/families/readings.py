@@ -49,6 +49,7 @@ SIGNED = (
     Variable.ACCELERATION,
     Variable.AXIAL_SPEED,
     Variable.AXIAL_DRAG,
+    Variable.AXIAL_FLOW,
 )
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 _RATES = (Variable.RATE, Variable.TIP_RATE)  # friction changes fastest where these are small
@@ -116,6 +117,7 @@ def _added(
 _SHAFT = (ActsOn.DRIVE_ANGLE, TIP, "error of the drive's angle")
 _TISSUE = (ActsOn.TISSUE_ANGLE, TIP, "angle by which the tissue turns", {Place.TISSUE: 1.0})
 _SLIP = (ActsOn.DRIVE_SLIP, TIP, "slip of the needle in its chuck")
+_LOST = (ActsOn.DRIVE_SLIP, TIP, "rate at which the drive falls behind its encoder")
 _BEARING = (ActsOn.DRIVE_TORQUE, TORQUE, "torque of the drive that the needle does not feel")
 _TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
 _TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
@@ -126,6 +128,7 @@ ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.DEPTH, _V.AXIAL_SPEED),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
+    *_added(*_LOST, {Place.DRIVE: 0.6, Place.SENSOR: 0.4}, _V.RATE),
     *_added(*_TISSUE, _V.TIME, _V.TRIAL_SHARE, _V.DEPTH, _V.AXIAL_SPEED),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.ACCELERATION, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
@@ -141,7 +144,7 @@ ADDED = (
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=RIPPLE),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=RIPPLE),
     *_added(*_TORQUE, SENSOR, _V.TIME, _V.TORQUE, _V.AXIAL_SPEED, _V.DEPTH, _V.TORQUE_RATE, _V.PAST),
-    *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY, _V.AXIAL_DRAG),
+    *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY, _V.AXIAL_DRAG, _V.AXIAL_FLOW),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
     *_added(*_TORQUE, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
     *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME, _V.DEPTH),

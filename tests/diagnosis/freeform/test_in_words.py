@@ -116,6 +116,7 @@ def test_only_a_law_of_a_periodic_family_repeats_itself():
     assert found["tip reading over tip_angle, every 360 deg"] == pytest.approx(360.0)
     assert found["tip torque over tip_angle"] == pytest.approx(360.0)
     assert found["tip reading over tip_angle"] == 0.0
+    assert found["tip torque over tip_angle, over many turns"] == 0.0
     assert {round(period) for name, period in found.items() if "rate" in name} == {0}
 
 
