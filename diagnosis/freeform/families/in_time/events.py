@@ -57,9 +57,9 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
         moments = events(ranges, sensor) if sensor in ranges.missing else ()
         if moments:
             largest, size = moments[0], max(ranges.missing[sensor], ranges.problem.noise[sensor])
-            found.append(_step(acts_on, place, title, largest, size, ()))
+            found.append(step(acts_on, place, title, largest, size, ()))
             if after := trials_after(ranges, largest):
-                found.append(_step(acts_on, place, title, largest, size, after))
+                found.append(step(acts_on, place, title, largest, size, after))
             if len(moments) > 1:
                 each = _EveryTrial.at(moments, ranges)
                 found.append(_steps(acts_on, place, title, each, largest, size))
@@ -109,7 +109,7 @@ def events(ranges: LogRanges, sensor: str) -> tuple[Moment, ...]:
     return tuple(moment for _, moment in sorted(found, key=lambda one: -one[0]))
 
 
-def _step(
+def step(
     acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float, after: tuple[str, ...]
 ) -> Family:
     """The step; in trials `after` it, it stays."""
@@ -119,7 +119,7 @@ def _step(
             name=f"{title}, {how}",
             title=f"{title}, {how}, {where}",
             place=place,
-            parameters=_started(times_of(moment), size),
+            parameters=started(times_of(moment), size),
             apply=partial(_apply, acts_on, moment.trial, after),
             differences=DIFFERENCES,
             trial="" if after else moment.trial,
@@ -133,7 +133,7 @@ def _step(
     )
 
 
-def _started(parameters: Sequence[Parameter], size: float) -> tuple[Parameter, ...]:
+def started(parameters: Sequence[Parameter], size: float) -> tuple[Parameter, ...]:
     """Parameters of an event, and the size of its step, which starts from either sign."""
     step = replace(coordinates(1, 0, size)[0], name="step", prior_sigma=math.inf)
     most = max(len(p.start) for p in parameters)
@@ -245,7 +245,7 @@ def _steps(
             name=name,
             title=name,
             place=place,
-            parameters=_started((lasting, *each.parameters), size),
+            parameters=started((lasting, *each.parameters), size),
             apply=partial(_apply_to_each, acts_on, each),
             differences=DIFFERENCES,
         ),

@@ -30,7 +30,7 @@ from models.tissue import Interface
 Array = NDArray[np.float64]
 
 FEWEST_TRIALS = 3
-_PLACES = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
+_PLACES = {Place.INTERFACE: 0.55, Place.TISSUE: 0.45}
 _WORN = {Place.INTERFACE: 0.6, Place.TISSUE: 0.4}
 _GAINS = {TIP: (ActsOn.TIP_GAIN, "tip"), TORQUE: (ActsOn.TORQUE_GAIN, "torque")}
 _LEAST_SPAN = 1e-6  # of a trial that does not turn
@@ -164,7 +164,7 @@ def _friction(session: Session, ranges: LogRanges) -> Family:
         effect=Effect(
             name="dry friction over time, of the session",
             title="dry friction that changes with the time of all trials",
-            place=Place.TISSUE,
+            place=Place.INTERFACE,
             parameters=(level, *(replace(p, start=most * p.start) for p in session.parameters)),
             apply=partial(_apply_friction, session),
             differences=(1e-2,),
