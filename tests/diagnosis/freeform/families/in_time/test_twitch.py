@@ -23,7 +23,7 @@ def of_a_step(at_s):
 
 
 def test_a_needle_whose_base_rests_follows_and_returns():
-    """Viscous tissue that turns by 20 deg in 1 s takes the tip along, and leaves it where the base is."""
+    """Viscous tissue that turns by 20 deg takes the tip along, and leaves it where the base is."""
     family = of_a_step(3.0)
     tip = predict(RIG, STILL, [family.effect.apply(NOMINAL, 3.0, 1.0, 20.0)])[0].tip_angle_deg
     assert np.abs(tip[TIME < 2.4]).max() < 1e-6
