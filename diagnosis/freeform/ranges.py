@@ -31,6 +31,7 @@ LEAST_RANGE = {
     Variable.SLID_DIRECTION: 1.5,
     Variable.AXIAL_SPEED: 0.3,
     Variable.SLID_LATELY: 0.2,
+    Variable.PUSHED_LATELY: 0.2,
     Variable.AXIAL_DRAG: 5.0,
     Variable.AXIAL_FLOW: 20.0,
     Variable.DEPTH: 5.0,

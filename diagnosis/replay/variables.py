@@ -9,6 +9,7 @@ direction      in which it last turned: 1 forwards, -1 backwards, straight betwe
 slid_direction in which dry friction in the drive slides: straight between while it sticks
 axial_speed    of the needle into the tissue, mm/s
 slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SLID_S)
+pushed_lately  axial speed with its sign, mm/s, as the same mean
 axial_drag     inserted length, with the sign of the axial speed, mm: what the friction of a needle that
                slides is proportional to; 0 at rest
 axial_flow     inserted length times axial speed, mm^2/s: what the viscous drag of a sliding needle is
@@ -59,6 +60,7 @@ class Variable(StrEnum):
     SLID_DIRECTION = "slid_direction"
     AXIAL_SPEED = "axial_speed"
     SLID_LATELY = "slid_lately"
+    PUSHED_LATELY = "pushed_lately"
     AXIAL_DRAG = "axial_drag"
     AXIAL_FLOW = "axial_flow"
     DEPTH = "depth"
@@ -84,6 +86,7 @@ UNITS = {
     Variable.SLID_DIRECTION: "-",
     Variable.AXIAL_SPEED: "mm/s",
     Variable.SLID_LATELY: "mm/s",
+    Variable.PUSHED_LATELY: "mm/s",
     Variable.AXIAL_DRAG: "mm, with the sign of the axial speed",
     Variable.AXIAL_FLOW: "mm^2/s",
     Variable.DEPTH: "mm",
@@ -102,6 +105,7 @@ SAYS: Mapping[str, str] = {
     Variable.TRIAL_SHARE: "time",
     Variable.ACCELERATION: "rate",
     Variable.SLID_LATELY: "axial_speed",
+    Variable.PUSHED_LATELY: "axial_speed",
     Variable.AXIAL_DRAG: "axial_speed",
     Variable.AXIAL_FLOW: "axial_speed",
     Variable.ADVANCED_BY: "axial_speed",
@@ -195,6 +199,10 @@ def _slid_lately(inputs: Schedule, _: float) -> Array:
     return first_order(inputs.time_s, np.abs(inputs.speed_mm_s), SLID_S)
 
 
+def _pushed_lately(inputs: Schedule, _: float) -> Array:
+    return first_order(inputs.time_s, inputs.speed_mm_s, SLID_S)
+
+
 def _axial_drag(inputs: Schedule, _: float) -> Array:
     return np.asarray(inputs.inserted_mm * np.tanh(inputs.speed_mm_s / _SLIDES_MM_S))
 
@@ -209,6 +217,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.SLID_DIRECTION: _slid_direction,
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
     Variable.SLID_LATELY: _slid_lately,
+    Variable.PUSHED_LATELY: _pushed_lately,
     Variable.AXIAL_DRAG: _axial_drag,
     Variable.AXIAL_FLOW: lambda inputs, _: inputs.inserted_mm * inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,

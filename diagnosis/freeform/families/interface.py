@@ -25,8 +25,9 @@ from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.tissue import RATE_POINTS, Interface
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
-DAMPING_OVER = (*OVER, Variable.SLID_LATELY, Variable.BASE_ANGLE)
-FRICTION_OVER = (*OVER, Variable.BASE_ANGLE)
+LATELY = (Variable.SLID_LATELY, Variable.PUSHED_LATELY)
+DAMPING_OVER = (*OVER, *LATELY, Variable.BASE_ANGLE)
+FRICTION_OVER = (*OVER, *LATELY, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03
 SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft
@@ -34,7 +35,7 @@ LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 TURN_DEG, WAVES = 360.0, 8
 _PLACES = {Place.INTERFACE: 1.0}
-_WHEN = {Variable.SLID_LATELY: " after sliding"}
+_WHEN = dict.fromkeys(LATELY, " after sliding")
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
 
 
@@ -109,7 +110,7 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
         ),
         places=_PLACES,
         says=SAYS.get(variable, variable),
-        title="dry friction along the shaft",
+        title="dry friction along the shaft" + _WHEN.get(variable, ""),
         curve=partial(_dry_level, curve),
         x_unit=UNITS[variable],
         unit="N mm / mm",

@@ -65,6 +65,9 @@ def test_a_variable_that_the_log_does_not_have_has_no_law():
     assert left_out == {
         "damping over axial_speed",
         "damping over slid_lately",
+        "damping over pushed_lately",
+        "dry friction over slid_lately",
+        "dry friction over pushed_lately",
         "dry friction over axial_speed",
     }
 
