@@ -39,6 +39,7 @@ class Parameter:
       prior_sigma: standard deviation of a normal prior on its coordinate about 0; infinite: none.
       least_factor: distance from neutral below which the effect is as good as none.
       of_one_trial: whether it changes one trial only, of which no other tells.
+      fine: whether it is a coordinate of a curve that hardly changes it unless the curve is rough.
     """
 
     name: str
@@ -54,6 +55,7 @@ class Parameter:
     prior_sigma: float = math.inf
     least_factor: float = 0.0
     of_one_trial: bool = False
+    fine: bool = False
 
     def scaled(self, *, torque: float, rate: float) -> "Parameter":
         """The same parameter for a rig with torques and rates that are larger by these factors."""
@@ -160,6 +162,11 @@ class Effect:
         """Coordinates of its parameters in a fit, (n,), with this share of their strength."""
         each = zip(self.parameters, part, strict=True)
         return np.array([p.to_fit(p.towards_neutral(p.from_fit(float(x)), share)) for p, x in each])
+
+    @property
+    def delays_a_sensor(self) -> bool:
+        """Whether it is a time by which a sensor is late."""
+        return self.place is Place.SENSOR and any(p.unit == "s" for p in self.parameters)
 
     @property
     def reported(self) -> tuple[Parameter, ...]:

@@ -83,7 +83,7 @@ def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> Se
     swapped: dict[frozenset[str], tuple[str, ...]] = {}
     for column in SENSORS:
         lags = [e.name for e in FITTED.values() if e.needs == column and _is_in_time(e)]
-        for late in (name for name in best.names if name in lags and _has_a_time(FITTED[name])):
+        for late in (name for name in best.names if name in lags and FITTED[name].delays_a_sensor):
             others = tuple(name for name in best.names if name != late)
             bare = tuple(name for name in others if name not in lags)
             for names in ((*kept, lag) for kept in (others, bare) for lag in lags if lag not in kept):
@@ -94,11 +94,7 @@ def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> Se
 
 def _is_in_time(effect: Effect) -> bool:
     """Whether it is a delay of a sensor, a low pass or a clock."""
-    return effect.place is Place.SENSOR and (effect.name in IMPERFECTIONS or _has_a_time(effect))
-
-
-def _has_a_time(effect: Effect) -> bool:
-    return any(parameter.unit == "s" for parameter in effect.parameters)
+    return effect.delays_a_sensor or (effect.place is Place.SENSOR and effect.name in IMPERFECTIONS)
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:
