@@ -620,9 +620,10 @@ FREE_LAW_GAIN, FREE_LAW_LEAVES = 0.95, 0.25
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told; or, where that is near the noise, times the variance
 that it leaves beyond it. Choices: no verdict rests on them."""
-STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.6
+STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.9
 """Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
-once in a thousand logs), how many, and their share of the nominal residual beyond noise. Choices."""
+once in a thousand logs), how many, and their share of the nominal residual beyond noise: 0.986 of a
+torque sensor that zeroes itself, 0.72 to 0.85 of three other laws that ten steps imitate. Choices."""
 FAR_GAP = 1.6
 """Gap on the log above which free-form laws are not fitted to their end on it, and plain laws are not
 looked for in their place. A choice: no verdict rests on it."""

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from diagnosis.effects.effect import Effect, Parameter, Place
@@ -12,6 +13,7 @@ Points = tuple[ArrayLike, ArrayLike]
 """A curve by points: x, and y at each."""
 _STRAIGHT, _REST = "straight", "rest"
 FARTHEST = 12.0  # of a coordinate, in its prior's first guess
+FINE = 0.3  # of the largest change of a curve by a coordinate of its rest
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,7 +81,11 @@ def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter
 
 def coordinates_of(curve: SmoothCurve, scale: float = 1.0) -> tuple[Parameter, ...]:
     """Coordinates of a curve."""
-    return coordinates(curve.straight, curve.size - curve.straight, scale)
+    own = coordinates(curve.straight, curve.size - curve.straight, scale)
+    sizes = np.linalg.norm(curve.basis[:, curve.straight :], axis=0)
+    fine = np.zeros(curve.size, bool)
+    fine[curve.straight :] = sizes < FINE * sizes.max(initial=0.0)
+    return tuple(replace(p, fine=bool(one)) for p, one in zip(own, fine, strict=True))
 
 
 def of_trials(count: int, scale: float = 1.0) -> tuple[Parameter, ...]:

@@ -16,18 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import CLOSED_GAP, FAR_GAP
-from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
-from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.beside import pairs_beside
 from diagnosis.freeform.fits.checked import fitted_and_checked
+from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
 from diagnosis.freeform.prior import with_estimated_prior
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection.screening import screen
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
@@ -38,8 +37,7 @@ SCREENING, FITTING, BESIDE, FINALS = (
     "free-form laws beside an effect",
     "finalists, free-form laws",
 )
-FIRST_ITERATIONS, MORE_ITERATIONS, ITERATIONS = 1, 3, 10
-FEW_NUMBERS = 5  # of a law that takes more iterations at once: it costs little, and is no curve
+MORE_ITERATIONS, ITERATIONS = 3, 10
 WORTH_MORE = 10  # families that get more than the first iteration
 IN_REACH = 2.5  # times the least gap that one promises
 CONTENDERS, FINALISTS, FAR_FINALISTS = 6, 4, 2
@@ -65,7 +63,7 @@ def free_form_fits(
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
     families = families_of(ranges_of(coarse, nominal, softer))
     base = fit_effects(coarse, ())
-    first = _each(SCREENING, _first_fit, [(coarse, base, f) for f in families], workers)
+    first = _each(SCREENING, first_fit, [(coarse, base, f) for f in families], workers)
     better, rest = _promising(first, WORTH_MORE)
     first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
     near, _ = _promising(first, CONTENDERS)
@@ -100,16 +98,6 @@ def _each(
 ) -> list[FreeFit]:
     tasks = [Task(effects=(), arguments=call) for call in calls]
     return [f for f in workers.each(stage, function, tasks) if not isinstance(f, Failure)]
-
-
-def _first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
-    problem = with_family(coarse, family)
-    start = screen(problem, base, family.name)[0].start
-    problem = replace(problem, differences_halved=True)
-    few = len(family.effect.parameters) <= FEW_NUMBERS
-    iterations = MORE_ITERATIONS if few else FIRST_ITERATIONS
-    fit = fit_effects(problem, (family.name,), start, most_iterations=iterations)
-    return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 
 
 def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:

@@ -76,6 +76,7 @@ class RigParameters:
       drive_friction_n_mm: dry friction of the bearing, which the torque sensor reads.
       base_scale: reading of the encoder / true angle of the drive shaft.
       inserted_offset_mm: true inserted length minus the logged one.
+      offset_free_share: share of this by which the true free length is shorter than the logged one.
       material_share_constant_depth: share of the material derivative in the rate that tissue resists
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
@@ -118,6 +119,7 @@ class RigParameters:
     drive_friction_n_mm: float = 0.0
     base_scale: float = 1.0
     inserted_offset_mm: float = 0.0
+    offset_free_share: float = 0.0
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
     pasts: tuple[Past, ...] = ()

@@ -52,7 +52,8 @@ def driven(
             f"expected an inserted length above 0 mm, found {logged.inserted_mm.max():.1f} mm logged "
             f"and an offset of {rig.inserted_offset_mm:.1f} mm; take an offset nearer to 0"
         )
-    return replace(logged, drive=logged.drive / rig.base_scale, inserted_mm=inserted_mm)
+    free_mm = np.maximum(logged.free_mm - rig.offset_free_share * rig.inserted_offset_mm, 0.0)
+    return replace(logged, drive=logged.drive / rig.base_scale, inserted_mm=inserted_mm, free_mm=free_mm)
 
 
 def sensed(

@@ -37,7 +37,7 @@ def fitted(monkeypatch):
             "families_of": lambda _: [family_of(parameters=[LEVEL], name=name) for name in first],
             "replay": lambda *_, **__: nominal,
             "fit_effects": lambda *_, **__: None,
-            "_first_fit": lambda _, __, family: made(first, family),
+            "first_fit": lambda _, __, family: made(first, family),
             "_to_its_end": lambda _, one, beside, *enough: made(ended, one.family, beside, *enough),
             "pairs_beside": lambda _, __, laws, names, ___: [
                 (law, Screened(names=(law.family.name, name), start=np.zeros(2), cost=0.0, gain=0.0))

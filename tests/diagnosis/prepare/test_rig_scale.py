@@ -76,7 +76,7 @@ def test_an_inserted_offset_leaves_a_tenth_of_the_shallowest_trial_inserted(log)
     assert shallowest == 90.0
     own = library_of(RigScale(shallowest_mm=4.0))["inserted_offset"].parameters[0]
     assert own.low == pytest.approx(-3.6)
-    assert own.start == pytest.approx((5.0, -1.8))
+    assert own.start == pytest.approx(2 * (5.0, -1.8))
     deep = library_of(RigScale(shallowest_mm=shallowest))["inserted_offset"].parameters
     assert deep == FITTED["inserted_offset"].parameters
 

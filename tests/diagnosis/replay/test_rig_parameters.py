@@ -8,7 +8,7 @@ from diagnosis_fixtures import RIG, prepared, trial, turns
 
 from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, RigParameters
 from diagnosis.replay.sensing.sensors import driven, sensed
-from sim.schedule import Schedule
+from sim.schedule import COLUMNS, Schedule
 
 
 def setup(rig, one=None):
@@ -33,13 +33,14 @@ SENSORS = {
     *("tip_clock_ratio", "torque_clock_ratio", "torque_low_pass_s", "torque_butterworth_s"),
     "torque_average_s",
 }
-INPUTS = {"base_scale", "inserted_offset_mm"}
+INPUTS = {"base_scale", "inserted_offset_mm", "offset_free_share"}
 NEEDS = {  # what a field shows beside only
     "static_excess_n_mm_per_mm": {"kinetic_n_mm_per_mm": 0.001},
     "stribeck_rad_s": {"kinetic_n_mm_per_mm": 0.001, "static_excess_n_mm_per_mm": 0.001},
     "tissue_time_constant_s": {"tissue_stiffness_n_mm_per_rad_per_mm": 0.01},
     "layer_boundary_fraction": {"layer_ratio": 2.0},
     "curvature_phase_deg": {"curvature_n_mm_per_mm": 0.001},
+    "offset_free_share": {"inserted_offset_mm": 5.0},
 }
 
 
@@ -61,8 +62,9 @@ def test_every_parameter_changes_the_needle_or_its_sensors(name):
         assert not np.array_equal(before, after)
     elif name in INPUTS:
         logged = prepared(trial(turns())).schedule
-        assert driven(about, logged) is logged
-        assert driven(changed, logged) is not logged
+        assert (driven(about, logged) is logged) is (about == NOMINAL)
+        before, after = driven(about, logged), driven(changed, logged)
+        assert any(not np.array_equal(getattr(before, c), getattr(after, c)) for c in COLUMNS)
     else:
         assert setup(changed) != setup(about)
 

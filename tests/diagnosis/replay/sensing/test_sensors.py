@@ -104,13 +104,17 @@ def test_beside_dry_friction_neither_is_the_same(sliding):
 
 
 @pytest.mark.parametrize("growing", [False, True])
+@pytest.mark.parametrize("share", [0.0, 1.0])
 @pytest.mark.parametrize("offset", [12.0, -30.0])
-def test_an_inserted_offset_is_a_log_of_another_depth(sliding, growing, offset):
+def test_an_inserted_offset_is_a_log_of_another_depth(sliding, growing, offset, share):
+    """The free length is as logged, or shorter by the offset."""
     speed = 2.0 if growing else 0.0
     depth = 90.0 + speed * sliding.time_s
     logged = replace(sliding, inserted_mm=depth, free_mm=60 - speed * sliding.time_s)
-    there = predict(RIG, logged, [RigParameters(inserted_offset_mm=offset)])[0]
-    here = predict(RIG, replace(logged, inserted_mm=depth + offset), [NOMINAL])[0]
+    rig = RigParameters(inserted_offset_mm=offset, offset_free_share=share)
+    there = predict(RIG, logged, [rig])[0]
+    free = logged.free_mm - share * offset
+    here = predict(RIG, replace(logged, inserted_mm=depth + offset, free_mm=free), [NOMINAL])[0]
     for sensor in SENSORS:
         np.testing.assert_allclose(there[sensor], here[sensor], atol=1e-9)
 

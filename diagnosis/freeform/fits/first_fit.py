@@ -1,0 +1,82 @@
+"""The first fit of a family to the decimated log: from where screening leads, without fine coordinates.
+
+Each coordinate costs a simulation. The fine ones of a smooth curve hardly change it unless it is rough:
+the promise of a family shows without them, and later fits have them all.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.effects.effect import Effect
+from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.family import Family
+from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.selection.screening import screen
+
+Array = NDArray[np.float64]
+
+FIRST_ITERATIONS, FEW_ITERATIONS = 1, 3
+FEW_NUMBERS = 5  # of a law that takes more iterations at once: it costs little, and is no curve
+
+
+def first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
+    """The family fitted for one iteration, a few where it has few numbers.
+
+    Args:
+      base: fit of the rig without it.
+
+    Raises:
+      SimulationFailed: the rig with the law cannot be simulated.
+    """
+    problem = with_family(coarse, without_fine(family))
+    start = screen(problem, base, family.name)[0].start
+    problem = replace(problem, differences_halved=True)
+    few = len(family.effect.parameters) <= FEW_NUMBERS
+    iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
+    fit = fit_effects(problem, (family.name,), start, most_iterations=iterations)
+    fit = with_fine(fit, with_family(coarse, family), family)
+    return FreeFit(family=family, fit=fit, gap_after=fit.gap)
+
+
+def without_fine(family: Family) -> Family:
+    """The family with its fine coordinates at 0."""
+    kept = _kept(family)
+    if kept.all():
+        return family
+    effect = family.effect
+    coarse = replace(
+        effect,
+        parameters=tuple(p for p, keep in zip(effect.parameters, kept, strict=True) if keep),
+        apply=partial(_apply, effect, tuple(bool(keep) for keep in kept)),
+    )
+    return replace(family, effect=coarse)
+
+
+def _kept(family: Family) -> NDArray[np.bool_]:
+    return np.array([not p.fine for p in family.effect.parameters], bool)
+
+
+def _apply(effect: Effect, kept: tuple[bool, ...], rig: RigParameters, *values: float) -> RigParameters:
+    given = iter(values)
+    return effect.apply(rig, *(next(given) if keep else 0.0 for keep in kept))
+
+
+def with_fine(fit: Fit, problem: FitProblem, family: Family) -> Fit:
+    """The fit with fine coordinates at 0, of which nothing is known."""
+    of_family = np.array([owner == family.name for owner in fit.parameterization.owners], bool)
+    whole = problem.parameterization(fit.names)
+    kept = np.ones(len(whole.owners), bool)
+    kept[np.flatnonzero([owner == family.name for owner in whole.owners])] = _kept(family)
+    if kept.size == of_family.size:
+        return fit
+    x = np.zeros(kept.size)
+    x[kept] = fit.x
+    slopes = [np.zeros((len(own), kept.size)) for own in fit.jacobian]
+    for wide, own in zip(slopes, fit.jacobian, strict=True):
+        wide[:, kept] = own
+    return replace(fit, parameterization=whole, x=x, jacobian=tuple(slopes))
