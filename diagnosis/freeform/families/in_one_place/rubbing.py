@@ -13,16 +13,14 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import SLOW_RAD_S
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from models.tissue import Interface
 
-SLOW_RAD_S, USUAL_RAD_S = (
-    0.03,
-    0.5,
-)  # rates at which torques are told, and at which drag is as dry friction
+USUAL_RAD_S = 0.5  # at which drag is as dry friction, to start with
 _ASYMMETRY = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.3,))
 
 
@@ -47,8 +45,7 @@ class Spot:
 
     def with_laws(self, *laws: Interface) -> FreeLaw:
         """A free law with these at the spot."""
-        own = {self.law: laws}
-        return FreeLaw(**own)  # type: ignore[arg-type]
+        return replace(FreeLaw(), **{self.law: laws})
 
     def dry(self, ranges: LogRanges) -> Parameter:
         """Level of dry friction, in the range of the library's."""

@@ -10,8 +10,8 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect
-from diagnosis.freeform.families.in_one_place.rubbing import SLOW_RAD_S, SPOTS, Spot
-from diagnosis.freeform.families.interface import TURN_DEG, WAVES, curve_over
+from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
+from diagnosis.freeform.families.interface import SLOW_RAD_S, TURN_DEG, WAVES, curve_over
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
