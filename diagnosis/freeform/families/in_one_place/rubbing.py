@@ -9,6 +9,7 @@ A seal, a puncture, a guide tube or a bearing along the free shaft. That of the 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,8 @@ class Spot:
 
     def with_laws(self, *laws: Interface) -> FreeLaw:
         """A free law with these at the spot."""
-        return replace(FreeLaw(), **{self.law: laws})
+        own: dict[str, Any] = {self.law: laws}
+        return FreeLaw(**own)
 
     def dry(self, ranges: LogRanges) -> Parameter:
         """Level of dry friction, in the range of the library's."""
