@@ -54,7 +54,7 @@ class ContactCurve(Record):
     renewal_deg: Positive = 1.0
     """Slip that renews a contact, or breaks its structure by a factor e: of age and broken alone."""
     fading_s: Positive = 1.0
-    """In which heat fades, or structure mends, by a factor e: of heat and broken alone."""
+    """In which heat fades, or structure heals, by a factor e: of heat and broken alone."""
 
     @property
     def places(self) -> Array:

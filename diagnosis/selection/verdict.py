@@ -25,6 +25,7 @@ from diagnosis.criteria import (
 )
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.delay_or_filter import takes_for_a_filter
 
 NOTHING, UNEXPLAINED = "none", "unknown"
 """What a ranking has beside effects: the nominal rig, and what the library does not hold."""
@@ -87,7 +88,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
-    late = [c for c in at_floor if c.score - reached <= PART_LEAD and _takes_for_a_filter(best, c)]
+    late = [c for c in at_floor if c.score - reached <= PART_LEAD and takes_for_a_filter(best, c)]
     alike += [c for c in late if c not in alike]
     leading = [
         c for c in candidates if c.score < reached and (_alike(best, c) or _clearly_leads(c, reached))
@@ -241,19 +242,6 @@ def _alike(best: Candidate, other: Candidate) -> bool:
     if _nested(best, other):
         return best.fit.size < other.fit.size  # the other way round, NESTED_LEAD is enough
     return not _covers(other, best)
-
-
-def _takes_for_a_filter(best: Candidate, other: Candidate) -> bool:
-    """Whether the best has filters of a sensor in place of its delay, which is in the library.
-
-    A filter of a time constant near the interval of samples and such a delay differ by little more than
-    what a replay does not resolve.
-    """
-    mine = [FITTED[name] for name in {*best.names} - {*other.names}]
-    theirs = [FITTED[name] for name in {*other.names} - {*best.names}]
-    filters = all(e.delays_a_sensor and e.name in IMPERFECTIONS for e in mine)
-    delay = len(theirs) == 1 and theirs[0].delays_a_sensor and theirs[0].name in LIBRARY
-    return bool(mine) and filters and delay and {e.needs for e in mine} == {theirs[0].needs}
 
 
 def _is_part(one: Candidate, best: Candidate) -> bool:

@@ -114,7 +114,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_SCALE,  # of the curve over that, rad, s or (rad/s)^2
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
     L_RENEWAL,  # slip that renews a contact or breaks its structure, rad
-    L_FADING,  # time in which its heat fades, or its structure mends, s
+    L_FADING,  # time in which its heat fades, or its structure heals, s
     L_CONTACT_0,  # log factors at these places of the torque, or of the tissue's stiffness
     L_CONTACT_1,
     L_CONTACT_2,

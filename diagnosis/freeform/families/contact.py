@@ -2,7 +2,7 @@
 
 - damping, or dry friction, times a curve of the slip so far: lubrication and wear
 - damping times a curve of the heat of slipping, which fades: warmed tissue
-- damping, or dry friction, times a curve of the share of its structure that slip has broken, which mends
+- damping, or dry friction, times a curve of the share of its structure that slip has broken, which heals
   in time: thixotropic tissue, a gel
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
 - dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
@@ -59,7 +59,7 @@ _BREAKING = Parameter(
     logarithmic=True,
     neutral=None,
 )
-_MENDING = replace(_FADING, name="mending", start=(1.0, 10.0) * 2)
+_HEALING = replace(_FADING, name="healing", start=(1.0, 10.0) * 2)
 _WEAKENS = (-1.0,) * 4  # slope of a curve over what is broken to start with
 _BRISTLES = (
     Parameter(
@@ -132,7 +132,7 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     if neutral.over is ContactVariable.HEAT:
         shape = _starting((_FADING,), shape, (_CHANGES, -_CHANGES))
     elif neutral.over is ContactVariable.BROKEN:
-        shape = _starting((_BREAKING, _MENDING), shape, _WEAKENS)
+        shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
     return Family(
         effect=Effect(
             name=f"damping over {neutral.over}",
@@ -176,7 +176,7 @@ def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         grows = replace(shape[1], start=(_GROWS,))
         shape = (_RENEWAL, shape[0], grows, *shape[2:])
     elif neutral.over is ContactVariable.BROKEN:
-        shape = _starting((_BREAKING, _MENDING), shape, _WEAKENS)
+        shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
         level = replace(level, start=level.start[-1:])
     each = len(shape[0].start)
     level = replace(level, start=level.start * each) if each > 1 else level

@@ -171,13 +171,14 @@ def _torque_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> F
         places={Place.NEEDLE: 1.0},
         says=_SAYS.get(variable, variable),
         title=f"torque at the tip at {SLOW_RAD_S:g} rad/s",
-        curve=partial(_torques, curve),
+        curve=partial(torques, curve),
         x_unit=UNITS[variable],
         unit="N mm",
     )
 
 
-def _torques(curve: SmoothCurve, damping: float, level: float, *c: float) -> Points:
+def torques(curve: SmoothCurve, damping: float, level: float, *c: float) -> Points:
+    """Drag at a slow rate, and dry friction, times a curve, over its variable."""
     return curve.places, (damping * SLOW_RAD_S + level) * np.array(curve.factors(c))
 
 

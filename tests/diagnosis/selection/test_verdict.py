@@ -393,35 +393,3 @@ def test_of_two_that_are_equally_near_always_the_same_one_is_named(ahead, neares
     names = ("speed_dependent_friction", "coulomb_friction")
     each = [scored([n], 90.0 + i * ahead, **above) for i, n in enumerate(names)]
     assert verdict_on(each).best.names == (nearest,)
-
-
-BIAS = "tip_angle_bias"
-
-
-@pytest.mark.parametrize(
-    ("behind", "kind"), [(12.0, VerdictKind.UNDECIDED), (PART_LEAD + 1.0, VerdictKind.EXPLAINED)]
-)
-@pytest.mark.parametrize("filters", [("torque_low_pass",), ("torque_low_pass", "torque_butterworth")])
-def test_a_delay_is_not_taken_for_filters_by_what_a_replay_may_not_resolve(filters, behind, kind):
-    found = verdict(([BIAS, *filters], 100.0), ([BIAS, "torque_sensor_delay"], 100.0 + behind))
-    assert (found.kind, found.effects) == (kind, (BIAS,))
-    if kind is VerdictKind.UNDECIDED:
-        assert set(map(frozenset, found.confusable)) == {
-            frozenset({BIAS}),
-            frozenset({BIAS, "torque_sensor_delay"}),
-        }
-
-
-@pytest.mark.parametrize(
-    ("best", "other"),
-    [
-        (("torque_sensor_delay",), ("torque_low_pass",)),
-        (("torque_low_pass",), ("tip_sensor_delay",)),
-        (("torque_low_pass",), ("torque_sensor_delay", "stiction")),
-        (("torque_low_pass",), ("stiction",)),
-    ],
-    ids=["a filter for a delay", "of another sensor", "with more", "no delay"],
-)
-def test_what_is_no_filter_in_place_of_a_delay_is_led_as_any_other(best, other):
-    found = verdict(([BIAS, *best], 100.0), ([BIAS, *other], 112.0))
-    assert found.kind is VerdictKind.EXPLAINED

@@ -88,14 +88,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def _rate(spot: Spot, ranges: LogRanges) -> Family:
     return Family(
-        effect=Effect(
-            name=f"{spot.name} over rate",
-            title=f"drag and dry friction {spot.words}",
-            place=max(spot.places, key=lambda place: spot.places[place]),
-            parameters=(spot.drag(ranges), spot.dry(ranges)),
-            apply=partial(_apply, spot),
-            differences=(1e-2,),
-        ),
+        effect=_rubbing(spot, "rate", (spot.drag(ranges), spot.dry(ranges))),
         places=spot.places,
         says="rate",
         title=f"torque {spot.words}",
@@ -108,21 +101,24 @@ def _rate(spot: Spot, ranges: LogRanges) -> Family:
 def _direction(spot: Spot, ranges: LogRanges) -> Family:
     dry = spot.dry(ranges)
     side = replace(_ASYMMETRY, start=_ASYMMETRY.start * len(dry.start))
-    return Family(
-        effect=Effect(
-            name=f"{spot.name} over direction",
-            title=f"drag and dry friction {spot.words}, stronger one way than the other",
-            place=max(spot.places, key=lambda place: spot.places[place]),
-            parameters=(spot.drag(ranges), dry, side),
-            apply=partial(_apply, spot),
-            differences=(1e-2,),
-        ),
-        places=spot.places,
+    return replace(
+        _rate(spot, ranges),
+        effect=_rubbing(spot, "direction", (spot.drag(ranges), dry, side)),
         says="direction",
         title=f"torque {spot.words} at {SLOW_RAD_S:g} rad/s",
         curve=_both_ways,
         x_unit="-",
-        unit=spot.unit,
+    )
+
+
+def _rubbing(spot: Spot, over: str, parameters: tuple[Parameter, ...]) -> Effect:
+    return Effect(
+        name=f"{spot.name} over {over}",
+        title=f"drag and dry friction {spot.words}, which may depend on the {over}",
+        place=max(spot.places, key=lambda place: spot.places[place]),
+        parameters=parameters,
+        apply=partial(_apply, spot),
+        differences=(1e-2,),
     )
 
 

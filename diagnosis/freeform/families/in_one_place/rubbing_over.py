@@ -7,12 +7,11 @@ the inserted length, or, once a turn, of the angle of the drive shaft, as of one
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
 from diagnosis.effects.effect import Effect
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
 from diagnosis.freeform.families.interface import SLOW_RAD_S, TURN_DEG, WAVES, curve_over
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.families.tip import torques
+from diagnosis.freeform.family import Family, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
 from diagnosis.replay.curve import ActsOn
@@ -46,14 +45,10 @@ def _over(spot: Spot, variable: Variable, curve: SmoothCurve, ranges: LogRanges)
         places=spot.places,
         says=variable,
         title=f"torque {spot.words} at {SLOW_RAD_S:g} rad/s",
-        curve=partial(_torques, curve),
+        curve=partial(torques, curve),
         x_unit=UNITS[variable],
         unit=spot.unit,
     )
-
-
-def _torques(curve: SmoothCurve, damping: float, level: float, *c: float) -> Points:
-    return curve.places, (damping * SLOW_RAD_S + level) * np.array(curve.factors(c))
 
 
 def _apply(

@@ -41,7 +41,7 @@ def test_damping_over_heat_is_the_nominal_one_where_its_curve_is_level():
     assert {len(p.start) for p in FAMILIES[law].effect.parameters} == {2}
 
 
-def test_damping_over_what_is_broken_follows_what_breaks_and_what_mends_it():
+def test_damping_over_what_is_broken_follows_what_breaks_and_what_heals_it():
     law, memory = "damping over broken", (40.0, 2.0)
     assert same_readings(ANGLE, rig_of(law, *memory, *LEVEL_CURVE), NOMINAL)
     falling = (0.0, -1.0, *LEVEL_CURVE[2:])

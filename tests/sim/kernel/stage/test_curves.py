@@ -70,7 +70,7 @@ def test_age_grows_at_rest_and_tends_to_renewal_over_rate(curves, row, interpret
     assert age == pytest.approx(0.5 / 0.25)
 
 
-def test_what_slip_breaks_mends_at_rest_and_tends_to_where_both_are_even(curves, row, interpreted):
+def test_what_slip_breaks_heals_at_rest_and_tends_to_where_both_are_even(curves, row, interpreted):
     """At rest by a factor exp(-t / fading); at a rate s to x / (1 + x), x = s fading / renewal."""
     row[interpreted.memory_map.L_CONTACT] = interpreted.memory_map.BROKEN
     assert curves.past_after(0.6, 0.0, 0.1, row) == pytest.approx(0.6 / (1.0 + 0.1 / 4.0))
