@@ -34,6 +34,7 @@ COMPANION = 4.0  # parameters that an effect of the library beside a law counts 
 CHOICE = 2.0  # parameters that the choice of a plain law, among some, counts for
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
+_FAR_OFF = 1e3  # times the median of a curve, where a factor is held by the limit of its logarithm
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -186,6 +187,8 @@ def law_of(one: FreeFit) -> Law:
     curves = [_points(one, values[own])[1] for values in _values_near(fit, draws)]
     ends = np.quantile(curves, [0.025, 0.975], axis=0)
     x, y = _points(one, np.array(fit.parameterization.values(fit.x))[own])
+    told = _told(y, ends)
+    x, y, ends = x[told], y[told], ends[:, told]
     return Law(
         place=family.place,
         variable=family.says,
@@ -199,6 +202,16 @@ def law_of(one: FreeFit) -> Law:
         beside=one.beside,
         shape=family.shape,
     )
+
+
+def _told(y: Array, ends: Array) -> NDArray[np.bool_]:
+    """Mask of points that the log tells of, not those of a factor that no draw moves from its limit.
+
+    Args:
+      y, ends: the curve, (K,), and its band, (2, K).
+    """
+    held = (ends[0] == ends[1]) & (np.abs(y) > _FAR_OFF * np.median(np.abs(y)))
+    return ~held if np.ptp(ends, axis=0).any() else np.ones(y.size, bool)
 
 
 def _values_near(fit: Fit, draws: Array) -> Array:

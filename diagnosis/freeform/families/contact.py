@@ -36,7 +36,7 @@ _UNITS = {
     ContactVariable.SLIP: "deg",
     ContactVariable.AGE: "s",
     ContactVariable.HEAT: "(rad/s)^2 of late",
-    ContactVariable.BROKEN: "share",
+    ContactVariable.BROKEN: "of its structure",
 }
 _WORDS = {
     ContactVariable.SLIP: "the slip so far",

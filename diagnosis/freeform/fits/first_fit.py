@@ -68,11 +68,10 @@ def _apply(effect: Effect, kept: tuple[bool, ...], rig: RigParameters, *values: 
 
 def with_fine(fit: Fit, problem: FitProblem, family: Family) -> Fit:
     """The fit with fine coordinates at 0, of which nothing is known."""
-    of_family = np.array([owner == family.name for owner in fit.parameterization.owners], bool)
     whole = problem.parameterization(fit.names)
     kept = np.ones(len(whole.owners), bool)
     kept[np.flatnonzero([owner == family.name for owner in whole.owners])] = _kept(family)
-    if kept.size == of_family.size:
+    if kept.size == fit.x.size:
         return fit
     x = np.zeros(kept.size)
     x[kept] = fit.x

@@ -10,7 +10,15 @@ from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.fits.free_fit import FreeFit
-from diagnosis.freeform.missing import CHOICE, FLOOR, FREEDOM, LEAST_WEIGHT, PATIENCE, missing_of
+from diagnosis.freeform.missing import (
+    CHOICE,
+    FLOOR,
+    FREEDOM,
+    LEAST_WEIGHT,
+    PATIENCE,
+    _told,
+    missing_of,
+)
 
 TIP = {Place.SENSOR: 0.6, Place.NEEDLE: 0.4}
 
@@ -250,3 +258,16 @@ def test_the_curve_is_of_its_own_parameters_and_names_what_is_beside_it():
     fit = linear_fit(family, [np.eye(2)], [np.zeros(2)], x=[2.0, 7.0], beside=(other,))
     law = law_of(FreeFit(family=family, fit=fit, beside=("tip_drag",), gap_after=1.0, final=True))
     assert (law.y, law.beside) == ((2.0,), ("tip_drag",))
+
+
+def test_where_a_factor_is_held_at_its_limit_a_curve_tells_nothing():
+    """Beyond where the log has been a smooth curve may go anywhere, up to the limit of a factor."""
+    y = np.array([1.0, 1.2, 0.8, 5e4])
+    band = np.array([[0.9, 1.1, 0.7, 5e4], [1.1, 1.3, 0.9, 5e4]])
+    np.testing.assert_array_equal(_told(y, band), [True, True, True, False])
+    open_end = np.array([[0.9, 1.1, 0.7, 2.0], [1.1, 1.3, 0.9, 5e5]])
+    assert _told(y, open_end).all()
+    # A factor of 1 before an event is known, and so is a curve that has no band at all.
+    known = np.array([[1.0, 1.0, 0.4, 0.5], [1.0, 1.0, 0.6, 0.7]])
+    assert _told(np.array([1.0, 1.0, 0.5, 0.6]), known).all()
+    assert _told(y, np.stack([y, y])).all()
