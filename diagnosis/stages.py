@@ -84,7 +84,10 @@ STAGES = {
     "screening effects beside a free-form law": _coarse(
         "screening effects beside a free-form law", 0.03, 0, 0
     ),
-    "free-form laws beside an effect": _coarse("fitting free-form laws beside an effect", 0.3, 0, 0),
+    "free-form laws in pairs and beside an effect": _coarse(
+        "fitting free-form laws in pairs", 0.5, 0, 0
+    ),
+    "three free-form laws": _coarse("fitting three free-form laws", 1.0, 0, 0),
     "finalists, free-form laws": _whole("fitting the best free-form laws to the whole log", 1.5, 0, 4),
     "plain laws": _whole("fitting plain laws like the free-form ones", 1.0, 0, 2),
 }

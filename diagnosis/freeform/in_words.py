@@ -3,6 +3,8 @@
 import statistics
 
 from diagnosis.effects.effect import Place
+from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.family import Family
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing import Law, Missing
@@ -72,16 +74,32 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     law, first = missing.law, missing.depends_on[0]
     probability = missing.place[law.place]
     beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
-    family = missing.best.family
-    alone = family.of_each_trial or bool(family.effect.trial)  # of a trial that no other tells of
+    # Of a trial that no other tells of:
+    alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
     where = UNSEEN if missing.best.held_out and not alone else SEEN
-    course = f"{course_of(law)}{repeating(period_deg(missing))}"
+    first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
+    each = zip(missing.beside, more, strict=True)
+    others = "".join(
+        f" It takes another law {PLACES[o.place]}, which depends on {VARIABLES[o.variable]}: {course}."
+        for o, course in each
+    )
+    reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
-        f"{VARIABLES[law.variable]}: {course}. A free-form law of this kind{beside} "
-        f"reduces the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
+        f"{VARIABLES[law.variable]}: {first_course}.{others} {reduces} "
+        f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
     )
     return f"{told}{_beside(missing)}.{_likeness(law)}"
+
+
+def laws_of(missing: Missing) -> list[tuple[Law, float]]:
+    """The laws that are fitted, the leading one first, and the angle after which each repeats, deg.
+
+    It is 0 for a law that does not.
+    """
+    laws = (missing.law, *missing.beside) if missing.law else ()
+    families = missing.best.families[: len(laws)]
+    return [(law, _period_deg(missing.best.fit, f)) for law, f in zip(laws, families, strict=True)]
 
 
 def _likeness(law: Law) -> str:
@@ -145,9 +163,7 @@ def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
     return tuple(x for x, _ in known), tuple(y for _, y in known)
 
 
-def period_deg(missing: Missing) -> float:
-    """The angle after which the law repeats itself, deg; 0: it does not."""
-    family, fit = missing.best.family, missing.best.fit
+def _period_deg(fit: Fit, family: Family) -> float:
     if family.x_unit != "deg":
         return 0.0
     own = zip(fit.parameterization.values(fit.x), fit.parameterization.owners, strict=True)

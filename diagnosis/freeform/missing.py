@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAVES, GAP_LIMIT
 from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.prior import free_covariance, well_determined
 
@@ -30,7 +31,8 @@ Array = NDArray[np.float64]
 
 PATIENCE, FREEDOM = 0.1, 4.0
 FLOOR = 0.1  # variance beyond the noise, of that of the noise, that hardly counts
-COMPANION = 4.0  # parameters that an effect of the library beside a law counts for: two things missing
+COMPANION = 4.0  # parameters that an effect, or a law, beside a law counts for: two things missing
+SECOND = 0.5  # of the probability of the place of a law, for that of one beside it
 CHOICE = 2.0  # parameters that the choice of a plain law, among some, counts for
 LEAST_WEIGHT = 0.01
 _DRAWS, _SEED = 400, 17
@@ -85,6 +87,7 @@ class Missing:
       place: probabilities of places.
       depends_on: variables, in the order of the gaps that their laws leave.
       law: the law that leaves the smallest gap; None: none leaves clearly less than the library.
+      beside: laws that are fitted together with it.
       best: the fit of that law.
       closed: whether the law leaves little more than noise.
     """
@@ -94,6 +97,7 @@ class Missing:
     law: Law | None
     best: FreeFit
     closed: bool
+    beside: tuple[Law, ...] = ()
 
 
 def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
@@ -109,6 +113,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
         place=_places(fits, nearest_gap),
         depends_on=_dependences(ranked),
         law=law_of(best) if helps else None,
+        beside=tuple(law_of(best, other) for other in best.others) if helps else (),
         best=best,
         closed=helps and best.gap_after <= CLOSED_GAP,
     )
@@ -142,14 +147,17 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
     everywhere = LEAST_WEIGHT + math.exp(of_library - best)
     most = dict.fromkeys(Place, 0.0)
     for one, log in zip(fits, logs, strict=True):
-        for place, share in one.family.places.items():
-            most[place] = max(most[place], share * math.exp(log - best))
+        for family in one.families:
+            whole = 1.0 if family is one.family else SECOND
+            for place, share in family.places.items():
+                most[place] = max(most[place], whole * share * math.exp(log - best))
     weights = {place: everywhere + weight for place, weight in most.items()}
     return {place: weight / sum(weights.values()) for place, weight in weights.items()}
 
 
 def _log_weight(one: FreeFit, least: float) -> float:
-    freedom = well_determined(one.family, one.fit) + COMPANION * len(one.beside)
+    freedom = sum(well_determined(family, one.fit) for family in one.families)
+    freedom += COMPANION * (len(one.beside) + len(one.others))
     freedom += CHOICE * bool(one.family.shape)
     above = one.fit.gap / min(least, 1.0) if least > 0.0 else 1.0
     return _log_gap_weight(one.gap_after) + _log_gap_weight(above) - freedom / FREEDOM
@@ -162,8 +170,7 @@ def _log_gap_weight(gap: float) -> float:
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
     """The variable of the best fit, then the others in the order of their gaps."""
     found: dict[str, Dependence] = {}
-    for one in ranked:
-        family = one.family
+    for one, family in ((fit, own) for fit in ranked for own in fit.families):
         found.setdefault(
             family.says,
             Dependence(
@@ -178,15 +185,15 @@ def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
     return (first, *sorted(others, key=lambda one: one.gap_after))
 
 
-def law_of(one: FreeFit) -> Law:
-    """The curve of a fit, with a band from draws of its coordinates."""
-    family, fit = one.family, one.fit
+def law_of(one: FreeFit, family: Family | None = None) -> Law:
+    """The curve of a family of a fit, by default the leading one, with a band from draws."""
+    family, fit = family or one.family, one.fit
     own = np.array([owner == family.name for owner in fit.parameterization.owners])
     rng = np.random.default_rng(_SEED)
     draws = rng.multivariate_normal(fit.x, free_covariance(fit), size=_DRAWS, method="eigh")
-    curves = [_points(one, values[own])[1] for values in _values_near(fit, draws)]
+    curves = [_points(family, values[own])[1] for values in _values_near(fit, draws)]
     ends = np.quantile(curves, [0.025, 0.975], axis=0)
-    x, y = _points(one, np.array(fit.parameterization.values(fit.x))[own])
+    x, y = _points(family, np.array(fit.parameterization.values(fit.x))[own])
     told = _told(y, ends)
     x, y, ends = x[told], y[told], ends[:, told]
     return Law(
@@ -225,8 +232,8 @@ def _values_near(fit: Fit, draws: Array) -> Array:
     return np.clip(near, [p.low for p in parameters], [p.high for p in parameters])
 
 
-def _points(one: FreeFit, values: Array) -> tuple[Array, Array]:
-    across, up = one.family.curve(*(float(v) for v in values))
+def _points(family: Family, values: Array) -> tuple[Array, Array]:
+    across, up = family.curve(*(float(v) for v in values))
     return np.asarray(across, float), np.asarray(up, float)
 
 

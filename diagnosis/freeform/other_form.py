@@ -31,8 +31,8 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import with_family
+from diagnosis.freeform.fits.to_its_end import ITERATIONS
 from diagnosis.freeform.ranges import ranges_of
-from diagnosis.freeform.search import ITERATIONS
 from diagnosis.nominal_replay import NominalReplay
 from diagnosis.replay.replay import replay
 from diagnosis.workers import Failure, Task, Workers

@@ -28,9 +28,12 @@ def file_of(name: str) -> Path:
 def can_be_saved(missing: Missing | None) -> bool:
     """Whether a library could have the law.
 
-    Such a law closes the gap, and is not about a single event, nor about trials of this log alone.
+    Such a law closes the gap, and is not about a single event, nor about trials of this log alone; nor
+    are those beside it.
     """
-    if missing is None or missing.law is None or not missing.closed or missing.law.variable == "event":
+    if missing is None or missing.law is None or not missing.closed:
+        return False
+    if any(law.variable == "event" for law in (missing.law, *missing.beside)):
         return False
     free = _fitted(missing).free
     return free is not None and not any(c.trial for c in free.curves)
@@ -41,11 +44,11 @@ def as_file(missing: Missing | None, name: str) -> str:
     if missing is None or missing.law is None or not can_be_saved(missing):
         return ""
     rig = _fitted(missing)
-    elastic = missing.law.place == "tissue"
+    elastic = any(law.place == "tissue" for law in (missing.law, *missing.beside))
     return effect_as_text(
         SavedEffect(
             name=name,
-            title=missing.best.family.effect.title,
+            title=", and ".join(family.effect.title for family in missing.best.families),
             place=missing.law.place,
             stiffness_n_mm_per_rad_per_mm=rig.tissue_stiffness_n_mm_per_rad_per_mm if elastic else 0.0,
             time_constant_s=rig.tissue_time_constant_s if elastic else 0.0,

@@ -2,15 +2,14 @@
 
 Every family is fitted through the simulation: for one iteration on the decimated log, a few where it
 has few numbers; the most promising for a few more; the best to their end there, the strength of their
-prior estimated, alone and, if none closes the gap, beside the effects of the library that promise most
-there; the best of these on the log itself, and checked on trials that the fit has not seen. Those that
-promise far more than the least gap do not go on. Where all leave far more than noise, fewer go to the
-log itself, and not to their end.
+prior estimated, alone and, if none closes the gap, beside the effects of the library or the other laws
+that promise most there, and if that is not enough, beside a third; the best of these on the log itself,
+and checked on trials that the fit has not seen. Those that promise far more than the least gap do not go
+on. Where all leave far more than noise, fewer go to the log itself, and not to their end.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,30 +18,28 @@ from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
-from diagnosis.freeform.fits.beside import pairs_beside
 from diagnosis.freeform.fits.checked import fitted_and_checked
 from diagnosis.freeform.fits.first_fit import first_fit
-from diagnosis.freeform.fits.free_fit import FreeFit, with_family
-from diagnosis.freeform.prior import with_estimated_prior
+from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, with_family
+from diagnosis.freeform.fits.to_its_end import to_its_end
+from diagnosis.freeform.fits.together import beside_one, beside_several, distinct, unlike
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.workers import Failure, Task, Workers
+from diagnosis.workers import Workers
 
 Array = NDArray[np.float64]
 
-SCREENING, FITTING, BESIDE, FINALS = (
+SCREENING, FITTING, FINALS = (
     "screening free-form laws",
     "free-form laws",
-    "free-form laws beside an effect",
     "finalists, free-form laws",
 )
-MORE_ITERATIONS, ITERATIONS = 3, 10
+MORE_ITERATIONS = 3
 WORTH_MORE = 10  # families that get more than the first iteration
 IN_REACH = 2.5  # times the least gap that one promises
-CONTENDERS, FINALISTS, FAR_FINALISTS = 6, 4, 2
-WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 2.0, 1.3  # times the least gap; where that closes the gap
-
+CONTENDERS, FINALISTS, FAR_FINALISTS, FINALISTS_OF_ONE = 6, 4, 2, 2
+WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 1.5, 1.3  # times the least gap; where that closes the gap
 
 _SOFTER = RigParameters(damping_scale=0.95)
 
@@ -63,28 +60,32 @@ def free_form_fits(
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
     families = families_of(ranges_of(coarse, nominal, softer))
     base = fit_effects(coarse, ())
-    first = _each(SCREENING, first_fit, [(coarse, base, f) for f in families], workers)
+    first = each_fit(SCREENING, first_fit, [(coarse, base, f) for f in families], workers)
     better, rest = _promising(first, WORTH_MORE)
-    first = _each(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
+    first = each_fit(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
     near, _ = _promising(first, CONTENDERS)
-    fitted = _each(FITTING, _to_its_end, [(coarse, f, ()) for f in near], workers)
-    if fitted and min(f.fit.gap for f in fitted) > CLOSED_GAP:
-        enough = WORTH_A_FINAL**2 * min(f.fit.cost for f in fitted)
-        alone = _distinct([*fitted, *first])
-        pairs = pairs_beside(coarse, base, alone, effects, workers)
-        calls = [(coarse, f, s.names[-1:], enough, s.start) for f, s in pairs]
-        fitted += _each(BESIDE, _to_its_end, calls, workers)
+    fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
+    if _open(fitted):
+        fitted += beside_one(coarse, base, fitted, first, effects, workers)
+    if _open(fitted):
+        fitted += beside_several(coarse, base, fitted, first, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
     far = _gap_on_the_log(least, problem, coarse) > FAR_GAP
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
     worth = [f for f in fitted if f.fit.gap <= reach * least]
-    last = _distinct(sorted(worth, key=lambda f: f.score))[: FAR_FINALISTS if far else FINALISTS]
-    finals = _each(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
+    last = _few_of_each(unlike(sorted(worth, key=lambda f: f.score)))
+    last = last[: FAR_FINALISTS if far else FINALISTS]
+    finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
     names = {f.family.name for f in finals}
     fitted_names = {f.family.name for f in fitted}
     others = [f for f in (*fitted, *(f for f in first if f.family.name not in fitted_names))]
-    behind = _distinct(sorted((f for f in others if f.family.name not in names), key=lambda f: f.score))
+    behind = distinct(sorted((f for f in others if f.family.name not in names), key=lambda f: f.score))
     return (*finals, *behind)
+
+
+def _open(fits: Sequence[FreeFit]) -> bool:
+    """Whether all leave more than little."""
+    return bool(fits) and min(f.fit.gap for f in fits) > CLOSED_GAP
 
 
 def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> float:
@@ -93,42 +94,10 @@ def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> floa
     return float(np.sqrt(1.0 + max(gap**2 - 1.0, 0.0) / readings))
 
 
-def _each(
-    stage: str, function: Callable[..., FreeFit], calls: Sequence[tuple[Any, ...]], workers: Workers
-) -> list[FreeFit]:
-    tasks = [Task(effects=(), arguments=call) for call in calls]
-    return [f for f in workers.each(stage, function, tasks) if not isinstance(f, Failure)]
-
-
 def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
     own = with_family(coarse, first.family)
     fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=MORE_ITERATIONS)
     return replace(first, fit=fit, gap_after=fit.gap)
-
-
-def _to_its_end(
-    coarse: FitProblem,
-    first: FreeFit,
-    beside: tuple[str, ...],
-    enough: float = np.inf,
-    start: Array | None = None,
-) -> FreeFit:
-    """Fitted twice, unless it is given up: the second time with the strength of the prior that the first
-    one speaks for.
-
-    Args:
-      enough: cost below which it is of use.
-      start: the vector to start from; None: where the first fit ended.
-    """
-    family, problem = first.family, with_family(coarse, first.family)
-    start, names = first.fit.x if start is None else start, (family.name, *beside)
-    fit = fit_effects(problem, names, start, enough, most_iterations=ITERATIONS)
-    if fit.status.ended_early:
-        return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
-    family = with_estimated_prior(family, fit)
-    own = with_family(coarse, family)
-    fit = fit_effects(own, names, fit.x, enough, most_iterations=ITERATIONS // 2)
-    return FreeFit(family=family, fit=fit, beside=beside, gap_after=fit.gap)
 
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
@@ -149,9 +118,10 @@ def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[
     return best, [f for f in ranked if f not in best]
 
 
-def _distinct(ranked: Sequence[FreeFit]) -> list[FreeFit]:
-    """The best fit of each family."""
-    best: dict[str, FreeFit] = {}
+def _few_of_each(ranked: Sequence[FreeFit]) -> list[FreeFit]:
+    """Of each leading law the best fits, which differ in what stands beside it."""
+    kept: list[FreeFit] = []
     for f in ranked:
-        best.setdefault(f.family.name, f)
-    return list(best.values())
+        if sum(k.family.name == f.family.name for k in kept) < FINALISTS_OF_ONE:
+            kept.append(f)
+    return kept

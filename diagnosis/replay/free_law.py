@@ -24,7 +24,7 @@ Dependence on the rate, angle or place of each piece of the shaft is a law of th
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,7 @@ from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
 from models.contact import ContactCurve
 from models.drive import Drive
+from models.errors import InvalidValue
 from models.needle import Needle
 from models.tissue import Interface, Tissue
 from sim.schedule import Schedule
@@ -50,6 +51,7 @@ _TORQUES = (
     "orientation_n_mm_per_mm",
     "orientation_viscous_n_mm_s_per_mm",
 )
+_ADDED = ("curves", "throughout", "at_tip", "at_entry", "in_sheath")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
 _GAINS = (ActsOn.TIP_GAIN, ActsOn.TORQUE_GAIN)
@@ -163,6 +165,14 @@ class FreeLaw:
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
             in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
         )
+
+    def beside(self, other: "FreeLaw") -> "FreeLaw":
+        """Both laws at once: torques, angles and readings are added, factors multiplied.
+
+        Raises:
+          InvalidValue: both set a part of which a rig has one.
+        """
+        return FreeLaw(**{part.name: _either(part.name, self, other) for part in fields(FreeLaw)})
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """The parts of the law that apply to one trial."""
@@ -310,6 +320,18 @@ def _of_the_past_or_present(curve: Curve, inputs: Schedule, start_s: float, torq
         case Variable.TORQUE:
             return curve.at(torque_n_mm)
     return curve.at(of_inputs(curve.variable, inputs, start_s))
+
+
+def _either(part: str, one: FreeLaw, other: FreeLaw) -> Any:
+    """A part of two laws at once."""
+    first, second, none = (getattr(law, part) for law in (one, other, FreeLaw()))
+    if part in _ADDED:
+        return first + second
+    if second in (none, first):
+        return first
+    if first == none:
+        return second
+    raise InvalidValue(part, second, f"one law that sets it, and another one sets {first}")
 
 
 def _stronger(law: Interface, strength: float) -> Interface:

@@ -114,6 +114,7 @@ def _missing(missing: Missing) -> dict[str, Any]:
         "place": {place.value: p for place, p in missing.place.items()},
         "depends_on": [_dependence(one) for one in missing.depends_on],
         "law": None if law is None else _lists(asdict(law)),
+        "laws_beside": [_lists(asdict(other)) for other in missing.beside],
         "looks_like": _looks_like(law),
         "closed": missing.closed,
     }

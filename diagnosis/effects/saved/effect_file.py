@@ -28,7 +28,6 @@ from diagnosis.replay.rig_parameters import RigParameters
 from models.errors import InvalidValue
 from models.plain_yaml import read_record, read_yaml
 from models.record import Record
-from sim.needles.run import SimulationFailed
 
 _NAME = r"[a-z][a-z0-9_]{2,40}"
 _VERDICTS = ("none", "unknown")  # which a ranking has beside effects
@@ -100,11 +99,8 @@ def effect_as_text(saved: SavedEffect) -> str:
 
 
 def _apply(saved: SavedEffect, rig: RigParameters, strength: float) -> RigParameters:
-    if rig.free is not None:
-        raise SimulationFailed(
-            f"expected one free-form law in a rig, found {saved.name} beside another; try them apart"
-        )
-    changed = replace(rig, free=saved.law.times(strength))
+    law = saved.law.times(strength)
+    changed = replace(rig, free=law if rig.free is None else rig.free.beside(law))
     if saved.stiffness_n_mm_per_rad_per_mm == 0.0:
         return changed
     return replace(

@@ -30,11 +30,10 @@ def fitted_and_checked(
       far: whether it leaves far more than noise: it is not fitted to its end, and checked by runs half
         as fine.
     """
-    own = with_family(problem, contender.family)
+    own = with_family(problem, *contender.families)
     own = replace(own, differences_halved=True, tolerance_sigma=FINAL_SIGMA)
-    names = (contender.family.name, *contender.beside)
     iterations = FAR_ITERATIONS if far else FINAL_ITERATIONS
-    fit = fit_effects(own, names, start, most_iterations=iterations)
+    fit = fit_effects(own, contender.names, start, most_iterations=iterations)
     if len(problem.log.trials) == 1:
         return replace(contender, fit=fit, gap_after=fit.gap, final=True)
     try:

@@ -1,6 +1,9 @@
-"""A family of free-form laws fitted to a log."""
+"""A family of free-form laws fitted to a log, alone or beside others."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +12,8 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.prior import well_determined
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
 
@@ -18,7 +23,8 @@ class FreeFit:
     """A family fitted to a log.
 
     Attributes:
-      beside: effects of the library that are in the fit as well.
+      others: families of other laws that are in the fit as well, and add to it.
+      beside: effects of the library that are.
       held_out: residuals / sigma by trial that the fit has not seen; None where there are none.
       gap_after: on these (`predictive_gap`); on the trials of the fit where there are none.
       final: whether it was fitted to the log itself, not the decimated one.
@@ -26,10 +32,21 @@ class FreeFit:
 
     family: Family
     fit: Fit
+    others: tuple[Family, ...] = ()
     beside: tuple[str, ...] = ()
     held_out: tuple[Array, ...] | None = None
     gap_after: float = np.inf
     final: bool = False
+
+    @property
+    def families(self) -> tuple[Family, ...]:
+        """Those of all its laws, the leading one first."""
+        return (self.family, *self.others)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All that are fitted: laws, then effects."""
+        return (*(family.name for family in self.families), *self.beside)
 
     @property
     def score(self) -> float:
@@ -48,10 +65,27 @@ class FreeFit:
 
     def _score(self, cost: float) -> float:
         samples = self.fit.samples
-        freedom = well_determined(self.family, self.fit) + 2.0 * len(self.beside)
+        freedom = sum(well_determined(family, self.fit) for family in self.families)
+        freedom += 2.0 * (len(self.beside) + len(self.others))
         return samples * float(np.log(cost / samples)) + freedom * float(np.log(samples))
 
 
-def with_family(problem: FitProblem, family: Family) -> FitProblem:
-    """The problem, its library with a family in it."""
-    return replace(problem, library={**problem.library, family.name: family.effect})
+def each_fit(
+    stage: str, function: Callable[..., FreeFit], calls: Sequence[tuple[Any, ...]], workers: Workers
+) -> list[FreeFit]:
+    """The fits of all calls that did not fail."""
+    tasks = [Task(effects=(), arguments=call) for call in calls]
+    return [f for f in workers.each(stage, function, tasks) if not isinstance(f, Failure)]
+
+
+def with_family(problem: FitProblem, *families: Family) -> FitProblem:
+    """The problem, its library with families in it, each of which adds to the laws that others set."""
+    own = {f.name: replace(f.effect, apply=partial(_added, f.effect.apply)) for f in families}
+    return replace(problem, library={**problem.library, **own})
+
+
+def _added(apply: Callable[..., RigParameters], rig: RigParameters, *values: float) -> RigParameters:
+    changed = apply(replace(rig, free=None), *values)
+    if rig.free is None or changed.free is None:
+        return replace(changed, free=changed.free or rig.free)
+    return replace(changed, free=rig.free.beside(changed.free))

@@ -70,11 +70,11 @@ def _as_plain(problem: FitProblem, coarse: FitProblem, curve: FreeFit) -> FreeFi
 
 def fitted_near(coarse: FitProblem, curve: FreeFit, family: Family) -> FreeFit:
     """A plain law in place of the curve, fitted to the decimated log."""
-    own, names = with_family(coarse, family), (family.name, *curve.beside)
+    plain = replace(curve, family=family, final=False)
+    own = with_family(coarse, *plain.families)
     begun = np.array([p.to_fit(p.start[0]) for p in family.effect.parameters])
-    start = own.parameterization(names).joined({**curve.fit.parts, family.name: begun})
-    fit = fit_effects(own, names, start, most_iterations=ITERATIONS)
-    return replace(curve, family=family, fit=fit, final=False)
+    start = own.parameterization(plain.names).joined({**curve.fit.parts, family.name: begun})
+    return replace(plain, fit=fit_effects(own, plain.names, start, most_iterations=ITERATIONS))
 
 
 def _each_by_what_is_determined(plain: FreeFit, curve: FreeFit) -> tuple[Array, ...] | None:

@@ -2,7 +2,7 @@
 
 import math
 
-from diagnosis.freeform.in_words import PLACES, VARIABLES, period_deg
+from diagnosis.freeform.in_words import PLACES, VARIABLES, laws_of
 from diagnosis.freeform.missing import Dependence, Missing
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report import html_parts as html
@@ -13,8 +13,9 @@ from diagnosis.result import Diagnosis
 _LAW = (
     "A free-form law assumes a place and a variable; of its curve it assumes only that it is smooth. "
     "It is fitted through the simulation, as effects are; if the curve resembles a plain law, that is "
-    "fitted in its place. What this report calls free-form is predicted with this law. The law does "
-    "not name a cause: other laws of the same place and variable may fit as well."
+    "fitted in its place. Where one law is not enough, two or three are fitted together. What this "
+    "report calls free-form is predicted with them. No law names a cause: others of the same place and "
+    "variable may fit as well."
 )
 _PLACES = (
     "The probability of each place follows from the best law that may act there: from the gap that "
@@ -48,10 +49,8 @@ def missing_section(found: Diagnosis) -> list[str]:
 
 
 def _law(missing: Missing) -> list[str]:
-    if missing.law is None:
-        return []
-    picture = drawn(draw_law, describe_law, missing.law, period_deg(missing))
-    return [html.paragraph(_LAW), picture]
+    pictures = [drawn(draw_law, describe_law, law, period) for law, period in laws_of(missing)]
+    return [html.paragraph(_LAW), *pictures] if pictures else []
 
 
 def _place_table(missing: Missing) -> str:

@@ -15,7 +15,7 @@ from diagnosis.freeform.in_words import (
     PLACES,
     VARIABLES,
     course_of,
-    period_deg,
+    laws_of,
     repeating,
     what_is_missing,
 )
@@ -109,7 +109,7 @@ def test_only_a_law_of_a_periodic_family_repeats_itself():
     seen = (0.9 * angle, 0.02 * angle)
     families = families_of(covered(angle, tip=angle, torque=0.01 * angle, seen=seen))
     found = {
-        family.name: period_deg(missing_with(best=fit_of(family)))
+        family.name: laws_of(missing_with(best=fit_of(family)))[0][1]
         for family in families
         if family.says in ("tip_angle", "rate", "base_angle")
     }
@@ -136,6 +136,16 @@ def fit_of(family):
 def test_effects_beside_a_law_are_named():
     said = what_is_missing(missing_with(replace(LAW, beside=("tip_drag", "torque_bias"))), 8.9)
     assert "A free-form law of this kind, beside tip_drag and torque_bias, reduces" in said
+
+
+def test_laws_that_were_fitted_together_are_told_one_by_one():
+    other = replace(LAW, place=Place.TISSUE, variable="time", title="stiffness of the tissue")
+    best = replace(seen_fit(), others=(free_fit(1.0, name="other").family,))
+    said = what_is_missing(missing_with(beside=(other,), best=best), 8.9)
+    assert (
+        f"depends on the rate of turning: {course_of(LAW)}. It takes another law in the tissue, " in said
+    )
+    assert f"which depends on the time: {course_of(other)}. Together they reduce the residual" in said
 
 
 def test_of_a_single_trial_nothing_is_called_unseen():

@@ -12,10 +12,12 @@ from diagnosis.effects.effect import Place
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing import (
     CHOICE,
+    COMPANION,
     FLOOR,
     FREEDOM,
     LEAST_WEIGHT,
     PATIENCE,
+    SECOND,
     _told,
     missing_of,
 )
@@ -111,6 +113,33 @@ def test_the_choice_of_a_plain_law_costs():
     place = missing_of([curve, plain], 5.0).place
     assert place[Place.INTERFACE] / place[Place.TISSUE] == pytest.approx(
         (LEAST_WEIGHT + math.exp(-CHOICE / FREEDOM)) / (LEAST_WEIGHT + 1.0)
+    )
+
+
+def beside_another(gap=1.1):
+    """The fit of a law in the tissue, over time, with another along the shaft, over the rate."""
+    one = free_fit(gap, says="time", places={Place.TISSUE: 1.0})
+    level = replace(LEVEL, name="level 0")
+    other = family_of(parameters=[level], curve=lambda v: ((0.0,), (v,)), says="rate", name="other")
+    fit = linear_fit(one.family, [np.eye(2)], [np.zeros(2)], x=[2.0, 7.0], beside=(other.effect,))
+    return replace(one, fit=fit, others=(other,))
+
+
+def test_a_law_beside_another_is_told_with_it_and_counts_for_its_place_by_half():
+    found = missing_of([beside_another()], 5.0)
+    assert (found.law.y, found.law.place) == ((2.0,), Place.TISSUE)
+    assert [(law.y, law.place) for law in found.beside] == [((7.0,), Place.INTERFACE)]
+    assert [(d.variable, d.gap_after) for d in found.depends_on] == [("time", 1.1), ("rate", 1.1)]
+    assert found.place[Place.INTERFACE] / found.place[Place.TISSUE] == pytest.approx(
+        (LEAST_WEIGHT + SECOND) / (LEAST_WEIGHT + 1.0)
+    )
+
+
+def test_a_law_more_costs_its_parameters_and_what_a_second_thing_costs():
+    alone = free_fit(1.1, name="alone", says="depth", places={Place.DRIVE: 1.0})
+    place = missing_of([alone, beside_another()], 5.0).place
+    assert place[Place.TISSUE] / place[Place.DRIVE] == pytest.approx(
+        (LEAST_WEIGHT + math.exp(-(1 + COMPANION) / FREEDOM)) / (LEAST_WEIGHT + 1.0)
     )
 
 

@@ -39,6 +39,19 @@ def test_of_elastic_tissue_stiffness_and_time_constant_are_saved_with_it():
     assert content["time_constant_s"] == 0.7
 
 
+def test_laws_that_were_fitted_together_are_saved_as_one_effect():
+    """The rig of the fit has both; so has the file, with the numbers of elastic tissue of either."""
+    one, other = missing_with(STICKY), missing_with(SOFTENING, place=Place.TISSUE)
+    elastic = {"tissue_stiffness_n_mm_per_rad_per_mm": 0.4}
+    both = missing_with(STICKY.beside(SOFTENING), **elastic)
+    both = replace(both, beside=(other.law,), best=replace(both.best, others=(other.best.family,)))
+    content = yaml.safe_load(as_file(both, "soft_and_sticky"))
+    assert content["stiffness_n_mm_per_rad_per_mm"] == 0.4
+    assert content["title"] == f"{one.best.family.effect.title}, and {other.best.family.effect.title}"
+    once = replace(both, beside=(replace(other.law, variable="event"),))
+    assert as_file(once, "soft_and_sticky") == ""
+
+
 TURNS = np.concatenate([np.linspace(0, 400, 300), np.linspace(400, -200, 400)])
 SEEN = (0.5 * TURNS, 0.005 * TURNS)
 FAMILIES = families_of(covered(TURNS, tip=0.9 * TURNS, torque=0.01 * TURNS, speed=2.0, seen=SEEN))

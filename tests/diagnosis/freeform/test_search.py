@@ -1,5 +1,7 @@
 """Which free-form law closes most of a gap."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from free_forms import LEVEL, family_of, linear_fit, one_trial
@@ -7,6 +9,7 @@ from free_forms import LEVEL, family_of, linear_fit, one_trial
 from diagnosis.criteria import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
+from diagnosis.freeform.fits import together
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.search import free_form_fits
 from diagnosis.selection.screening import Screened
@@ -24,31 +27,37 @@ def fitted(monkeypatch):
         run.enough = []
         final = ended if final is None else final
 
-        def made(gaps, family, beside=(), *enough, **known):
-            seen.append((family.name, beside, known.get("final", False)))
+        def made(gaps, one, *enough, **known):
+            seen.append((one.family.name, one.names[1:], known.get("final", False)))
             run.enough += enough[:1]
-            gap = gaps[f"{family.name} + {beside[0]}" if beside else family.name]
+            gap = gaps[" + ".join(one.names)]
             if gap is None:
                 raise SimulationFailed("lost")
-            fit = linear_fit(family, [np.zeros((100, 1))], [np.full(100, gap)], x=[0.0])
-            return FreeFit(family=family, fit=fit, beside=beside, gap_after=gap, **known)
+            fit = linear_fit(one.family, [np.zeros((100, 1))], [np.full(100, gap)], x=[0.0])
+            return replace(one, fit=fit, gap_after=gap, **known)
+
+        def pairs_of_laws(_, laws, others):
+            pairs = (replace(law, others=(*law.others, o.family)) for law in laws for o in others)
+            return [pair for pair in pairs if " + ".join(pair.names) in ended]
 
         given = {
             "families_of": lambda _: [family_of(parameters=[LEVEL], name=name) for name in first],
             "replay": lambda *_, **__: nominal,
             "fit_effects": lambda *_, **__: None,
-            "first_fit": lambda _, __, family: made(first, family),
-            "_to_its_end": lambda _, one, beside, *enough: made(ended, one.family, beside, *enough),
+            "first_fit": lambda _, __, family: made(first, FreeFit(family=family, fit=None)),
+            "to_its_end": lambda _, one, *enough: made(ended, one, *enough),
             "pairs_beside": lambda _, __, laws, names, ___: [
                 (law, Screened(names=(law.family.name, name), start=np.zeros(2), cost=0.0, gain=0.0))
                 for law in laws
                 for name in names
             ],
+            "laws_beside": pairs_of_laws,
             "_some_more": lambda _, one: one,
-            "_on_the_log": lambda _, one, far: made(final, one.family, one.beside, final=True),
+            "_on_the_log": lambda _, one, far: made(final, one, final=True),
         }
         for name, function in given.items():
-            monkeypatch.setattr(search, name, function)
+            for module in (search, together):
+                monkeypatch.setattr(module, name, function, raising=False)
         return free_form_fits(problem, problem, effects, Workers())
 
     return run, seen
@@ -80,11 +89,11 @@ def test_only_laws_that_promise_no_more_than_a_few_times_the_least_gap_go_on(lea
     assert sorted(f.family.name for f in found) == sorted(gaps)  # each is told, however far it came
 
 
-def test_beside_an_effect_a_law_has_to_come_near_the_best_alone(fitted):
+def test_beside_an_effect_a_law_has_to_leave_less_than_the_best_alone(fitted):
     run, _ = fitted
     gaps = {"a": 2.0, "b": 2.5, "a + stiction": 2.1, "b + stiction": 2.6}
     run({"a": 2.0, "b": 2.5}, gaps, effects=("stiction",))
-    assert run.enough == [pytest.approx(100 * (search.WORTH_A_FINAL * 2.0) ** 2)] * 2
+    assert run.enough == [pytest.approx(100 * 2.0**2)] * 2
 
 
 def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more(fitted, monkeypatch):
@@ -128,6 +137,28 @@ def test_where_none_does_the_nearest_effects_of_the_library_stand_beside_the_bes
     ended = {"a": 2.0, "b": 3.0, "a + tip_drag": 1.0, "b + tip_drag": 2.9}
     found = run({"a": 2.0, "b": 3.0}, ended, effects=("tip_drag",))
     assert [(f.family.name, f.beside) for f in found] == [("a", ("tip_drag",)), ("b", ())]
+
+
+def test_where_no_law_closes_the_gap_two_are_fitted_and_only_where_these_do_not_three(fitted):
+    run, seen = fitted
+    alone = {"a": 2.0, "b": 2.1, "c": 2.2}
+    found = run(alone, {**alone, "a + b": 1.05, "a + b + c": 1.0})
+    assert found[0].names == ("a", "b")
+    assert ("a", ("b", "c"), False) not in seen
+    found = run(alone, {**alone, "a + b": 1.5, "a + b + c": 1.0})
+    assert found[0].names == ("a", "b", "c")
+    run(alone, {**alone, "a": 1.0, "a + b": 0.9})
+    assert seen[-1][1] == ()  # one closes the gap
+
+
+def test_of_one_leading_law_no_more_than_a_few_go_to_the_log_itself(fitted):
+    run, _ = fitted
+    alone = {f"law {i}": 1.5 for i in range(5)}
+    pairs = {f"law 0 + law {i}": 1.2 + 0.01 * i for i in range(1, 5)}
+    finals = [f.names for f in run(alone, {**alone, **pairs}) if f.final]
+    of_first = [names for names in finals if names[0] == "law 0"]
+    assert of_first == [("law 0", "law 1"), ("law 0", "law 2")]
+    assert len(of_first) == search.FINALISTS_OF_ONE < len(pairs)
 
 
 def test_what_cannot_be_simulated_is_left_out(fitted):

@@ -1,5 +1,7 @@
 """A free-form law in a rig."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -41,6 +43,33 @@ def test_a_trial_sees_what_is_of_all_trials_and_of_itself():
     every, own, other = curve(), curve(trial="a.csv"), curve(trial="b.csv")
     law = FreeLaw(curves=(every, own, other), asymmetry=0.3)
     assert law.on_trial("a.csv") == FreeLaw(curves=(every, own), asymmetry=0.3)
+
+
+def test_two_laws_at_once_add_their_readings_and_multiply_their_factors():
+    tip, torque = FreeLaw(curves=(curve(),)), FreeLaw(curves=(curve(ActsOn.TORQUE_READING),))
+    again = FreeLaw(curves=(curve(values=(0.5, 0.2, 0.1, 0.3)),))
+    read = [law.sensed(inputs(), 0.0, TIP, TORQUE) for law in (tip, torque, again)]
+    together = tip.beside(torque).beside(again).sensed(inputs(), 0.0, TIP, TORQUE)
+    for i in (0, 1):
+        np.testing.assert_allclose(together[i], sum(own[i] for own in read))
+    soft, grown = (
+        FreeLaw(curves=(curve(ActsOn.TISSUE, values=values),), tissue_varies=True)
+        for values in (VALUES, (0.5, 2.0, 1.0, 3.0))
+    )
+    factors = [law.driven(inputs(), 0.0, TORQUE).tissue_factor for law in (soft, grown)]
+    together = soft.beside(grown).driven(inputs(), 0.0, TORQUE).tissue_factor
+    np.testing.assert_allclose(together, factors[0] * factors[1])
+
+
+def test_beside_no_law_a_law_is_itself():
+    law = FreeLaw(asymmetry=0.3, creep_ratio=0.1, throughout=(LAYER,), tissue_varies=True)
+    assert law.beside(FreeLaw()) == FreeLaw().beside(law) == law
+    assert law.beside(replace(law, throughout=())) == law  # what both set alike is no contradiction
+
+
+def test_laws_that_set_the_same_part_are_refused():
+    with pytest.raises(InvalidValue, match="asymmetry"):
+        FreeLaw(asymmetry=0.3).beside(FreeLaw(asymmetry=0.2))
 
 
 def test_the_needle_feels_tissue_and_drive_angle_alone():

@@ -199,7 +199,7 @@ def test_what_is_missing_is_told_where_it_was_looked_for_alone(dry):
     report = as_json(replace(dry.found, missing=missing_with()))
     assert set(report) == KEYS | {"missing"}
     missing = json.loads(json.dumps(report, allow_nan=False), parse_constant=pytest.fail)["missing"]
-    assert set(missing) == {"place", "depends_on", "law", "looks_like", "closed"}
+    assert set(missing) == {"place", "depends_on", "law", "laws_beside", "looks_like", "closed"}
     assert set(missing["place"]) == {place.value for place in Place}
     assert {one["variable"] for one in missing["depends_on"]} <= VOCABULARY
     # What could not be simulated on an unseen trial has no gap: JSON knows no infinity.
@@ -209,6 +209,14 @@ def test_what_is_missing_is_told_where_it_was_looked_for_alone(dry):
     assert (law["place"], law["variable"], law["unit"]) == ("interface", "rate", "N mm / mm")
     for column in ("x", "y", "low", "high"):
         assert law[column] == list(getattr(LAW, column))
+
+
+def test_laws_beside_the_first_are_told_as_it_is(dry):
+    other = replace(LAW, variable="time")
+    (told,) = as_json(replace(dry.found, missing=missing_with(beside=(other,))))["missing"][
+        "laws_beside"
+    ]
+    assert told == as_json(replace(dry.found, missing=missing_with(other)))["missing"]["law"]
 
 
 def test_where_no_law_helps_there_is_none(dry):

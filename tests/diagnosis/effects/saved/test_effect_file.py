@@ -4,13 +4,12 @@ import math
 
 import pytest
 import yaml
-from saved_laws import EVERYTHING, STICKY, saved
+from saved_laws import EVERYTHING, SOFTENING, STICKY, saved
 
 from diagnosis.effects.effect import Place
 from diagnosis.effects.saved.effect_file import effect_as_text, read_effect
 from diagnosis.replay.rig_parameters import NOMINAL
 from models.errors import InvalidValue
-from sim.needles.run import SimulationFailed
 
 
 @pytest.fixture
@@ -50,10 +49,12 @@ def test_elastic_tissue_yields_more_the_stronger_it_is(written):
     assert rig.tissue_time_constant_s == 0.7
 
 
-def test_two_free_laws_in_one_rig_are_refused_by_name(written):
-    effect = written(saved())
-    with pytest.raises(SimulationFailed, match="sticky_membrane"):
-        effect.apply(effect.apply(NOMINAL, 1.0), 1.0)
+def test_two_saved_laws_stand_in_one_rig_unless_they_set_the_same_part(written):
+    sticky, soft = written(saved(STICKY)), written(saved(SOFTENING))
+    assert soft.apply(sticky.apply(NOMINAL, 1.0), 2.0).free == STICKY.beside(SOFTENING.times(2.0))
+    every = written(saved(EVERYTHING))
+    with pytest.raises(InvalidValue, match="asymmetry"):
+        every.apply(every.apply(NOMINAL, 1.0), 2.0)
 
 
 def of(*path, **changes):

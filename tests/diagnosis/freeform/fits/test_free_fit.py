@@ -1,12 +1,15 @@
 """A family fitted to a log: its score, and its place in the library of a problem."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from free_forms import family_of, free_fit, one_trial
 
 from diagnosis.freeform.fits.free_fit import with_family
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import NOMINAL
 
 
 def test_a_score_is_a_cost_in_its_own_units_and_a_penalty_for_what_data_determine():
@@ -21,6 +24,34 @@ def test_a_score_is_a_cost_in_its_own_units_and_a_penalty_for_what_data_determin
     free_given = given | {"jacobian": (np.zeros((100, 4)),)}
     four = replace(free, fit=replace(free.fit, **free_given))
     assert four.score - one.score == pytest.approx(3 * np.log(100), abs=1e-6)
+
+
+def test_a_law_more_costs_what_an_effect_does_and_what_the_data_determine_of_it():
+    one = free_fit(1.0, freedom=1)
+    given = {"by_trial": (np.full(100, 1.0),), "jacobian": (np.zeros((100, 1)),), "cost": 100.0}
+    one = replace(one, fit=replace(one.fit, **given))
+    two = replace(one, others=(one.family,))
+    assert two.score - one.score == pytest.approx(3 * np.log(100), abs=1e-6)
+    assert two.names == (one.family.name, one.family.name)
+    assert replace(two, beside=("tip_drag",)).names[-1] == "tip_drag"
+
+
+def test_families_in_one_rig_add_to_each_other():
+    problem, _ = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
+    sided, stiff = FreeLaw(asymmetry=0.2), FreeLaw(creep_ratio=0.1)
+    families = [
+        replace(own, effect=replace(own.effect, apply=partial(_with, law)))
+        for own, law in ((family_of(name="sided"), sided), (family_of(name="stiff"), stiff))
+    ]
+    library = with_family(problem, *families).library
+    both = library["stiff"].apply(library["sided"].apply(NOMINAL))
+    assert both.free == sided.beside(stiff)
+    alone = with_family(problem, families[0]).library["sided"].apply(NOMINAL)
+    assert alone.free == sided
+
+
+def _with(law, rig, *_):
+    return replace(rig, free=law)
 
 
 def test_a_family_is_fitted_as_an_effect_of_the_library():

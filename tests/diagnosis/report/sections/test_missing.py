@@ -3,7 +3,7 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-from free_forms import LAW, missing_with
+from free_forms import LAW, free_fit, missing_with
 
 from diagnosis.report.figures.law import describe_law
 from diagnosis.report.sections import missing as section
@@ -26,6 +26,15 @@ def test_the_law_is_drawn():
     assert "What is missing" in parts[0]
     assert page.count("<figure") == 1
     assert describe_law(LAW) in page
+
+
+def test_every_law_that_was_fitted_is_drawn():
+    other = replace(LAW, variable="time", title="stiffness of the tissue")
+    found = missing_with(beside=(other,))
+    found = replace(found, best=replace(found.best, others=(free_fit(1.0, name="other").family,)))
+    page = "".join(missing_section(telling(found)))
+    assert page.count("<figure") == 2
+    assert page.index(describe_law(LAW)) < page.index(describe_law(other))
 
 
 def test_where_no_law_helps_nothing_is_drawn(monkeypatch):
