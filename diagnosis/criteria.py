@@ -336,6 +336,12 @@ not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a tr
 START_SPREAD_DEG = 90.0
 """One standard deviation of what the base turned by before a late start, about the twist that is read. A
 choice, so broad that a second of any trial outweighs it."""
+START_LEFT_TIMES, START_LEFT_SHARE = 3.0, 0.5
+"""Slowest time constants of the nominal needle from the first sample on, and the share of what the best
+explanation leaves beyond noise that lies within them, from which trials may begin wound up. Derived: of
+an initial twist 5 % are left by then; what a law leaves is spread over a trial. Measured: 1.07 on a bent
+needle that had come to rest before each trial (6 % of the samples), 0.01 and 0.08 on two laws outside
+the library."""
 LEAST_DIFFERENCES = 20
 """Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
 
@@ -527,9 +533,10 @@ side and the other; more is no roughness but a fault, and the answer stays unkno
 where the drift is a line of one rate in all trials, to that share: that is a law. Another course that is
 the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in each trial."""
 DRIFT_OF_TIP_ALONE_SIGMA = 4.0
-"""What a tip sensor may drift by within a trial where nothing else is missing: noise that is correlated
-over seconds wanders so far. More is itself what the model lacks, and is told as the law that is missing.
-A choice, below two logs of a rig whose tip sensor drifts or jumps (6 sigma), and above noise (1.6)."""
+"""What a tip sensor may drift by within a trial where nothing but an offset of it is missing: noise that
+is correlated over seconds wanders so far. More is itself what the model lacks, and is told as the law
+that is missing. A choice, below three logs of two rigs whose tip sensor drifts, jumps or depends on the
+depth (4.7 and 6 sigma), and above noise (1.6)."""
 DRIFT_MOST_EFFECTS = 1
 """Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
 drift explained one was so; the others had one effect, or a law that is in no library."""

@@ -51,6 +51,22 @@ class NominalReplay:
         """The nominal rig, with the pasts of trials that began late."""
         return self.fit.parameterization.rig(self.fit.x)
 
+    def begun_as(self, problem: FitProblem, fit: Fit) -> "NominalReplay":
+        """The same where a search has found that more trials began late.
+
+        Args:
+          problem, fit: of the search: the log with pasts, and their fit to the nominal rig.
+
+        Raises:
+          SimulationFailed: the nominal rig cannot be simulated.
+        """
+        if len(late_starts_of(problem.log)) == len(late_starts_of(self.problem.log)):
+            return self
+        own = replace(self.problem, log=problem.log, nuisance=problem.nuisance)
+        predictions = replay(problem.log, fit.parameterization.rig(fit.x))
+        known = without_unused(self.log, problem.log)
+        return NominalReplay(log=known, problem=own, fit=fit, predictions=predictions)
+
 
 def replay_nominal(log: RigLog) -> NominalReplay:
     """Replay a log with its nominal rig; the noise is estimated from the residual.

@@ -89,7 +89,8 @@ def diagnose(
     heard(REPLAYING, 1, 1)
     with process_pool(workers, heard, stop) as pool, listening(stop):
         found = _searched(log, nominal, pool)
-        log = without(log, found.left_out)
+        nominal = nominal.begun_as(found.problem, found.nominal)
+        log = without(nominal.log, found.left_out)
         told = told_apart(found, pool)
         cut = bool(stop.left_out)
         heard(CHECKING, 0, 1)

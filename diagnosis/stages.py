@@ -67,6 +67,7 @@ STAGES = {
     "finer mesh": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "simpler effects": _whole("fitting simpler effects in the best", 1.0, 0, 0),
     "noise of the best": _whole("fitting with the noise that the best leaves", 1.0, 0, 0),
+    "starts of trials": _whole("fitting what wound trials up before they began", 1.0, 0, 0),
     "outliers beside the best": _whole("fitting without outliers", 1.0, 0, 0),
     "weakly coloured noise": _whole("fitting with noise of another colour", 1.0, 0, 0),
     "jumps of readings": _coarse("fitting with jumps of readings", 0.3, 0, 0),

@@ -13,7 +13,7 @@ from diagnosis.fitting.parameterization import Parameterization, parameterizatio
 from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.replay.replay import predict, residuals
+from diagnosis.replay.replay import predict, residuals_of_each
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import RigParameters
 
@@ -74,7 +74,7 @@ class FitProblem:
             predictions = predict(
                 self.log.rig, trial, rigs, self.resolution, callback_alone=callback_alone
             )
-            return [residuals(trial, p, self.noise) for p in predictions]
+            return residuals_of_each(trial, predictions, self.noise)
 
         return side_by_side(of, self.log.trials)
 

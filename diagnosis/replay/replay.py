@@ -92,14 +92,27 @@ def shape_of(
 
 def residuals(trial: PreparedTrial, prediction: Prediction, noise: Noise) -> Array:
     """Measured minus predicted / sigma, weighted and whitened, one sensor after another, (M,)."""
-    parts = []
-    for sensor in SENSORS:
-        if trial.has(sensor):
-            left = (trial.readings[sensor] - prediction[sensor]) / noise[sensor]
-            left = left * trial.weights.get(sensor, 1.0)
-            read = np.isfinite(left)
-            parts.append(noise.whitened(sensor, trial.time_s[read], left[read]))
-    return np.concatenate(parts) if parts else np.zeros(0)
+    return residuals_of_each(trial, [prediction], noise)[0]
+
+
+def residuals_of_each(
+    trial: PreparedTrial, predictions: Sequence[Prediction], noise: Noise
+) -> list[Array]:
+    """The same of several predictions, which are whitened together, (M,) each."""
+    parts = [_of_sensor(trial, sensor, predictions, noise) for sensor in SENSORS if trial.has(sensor)]
+    each = zip(*parts, strict=True) if parts else [() for _ in predictions]
+    return [np.concatenate([np.zeros(0), *own]) for own in each]
+
+
+def _of_sensor(
+    trial: PreparedTrial, sensor: str, predictions: Sequence[Prediction], noise: Noise
+) -> list[Array]:
+    read = np.isfinite(trial.readings[sensor])
+    predicted = np.stack([prediction[sensor] for prediction in predictions], axis=1)
+    left = (trial.readings[sensor][:, None] - predicted) / noise[sensor]
+    if sensor in trial.weights:
+        left *= trial.weights[sensor][:, None]
+    return list(noise.whitened(sensor, trial.time_s[read], left[read]).T)
 
 
 def _run(

@@ -47,6 +47,7 @@ from diagnosis.selection.stages.sensors.sensor_drift import (
 )
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
+from diagnosis.selection.stages.starts_left import starts_beside_the_best
 from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -72,6 +73,7 @@ STAGES: tuple[Stage, ...] = (
     richer_effects_in_the_best,
     scatter_of_the_best,
     finer_mesh,
+    starts_beside_the_best,
     noise_that_grows,
     outliers_beside_the_best,
     weakly_coloured_noise,

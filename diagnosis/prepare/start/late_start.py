@@ -11,7 +11,7 @@ class LateStart:
     """The first sample of a trial that began late.
 
     Attributes:
-      twist_deg: lead of the base over the tip, from the readings.
+      twist_deg: lead of the base over the tip, from the readings; 0: they do not tell.
       rate_deg_s: rate of the base.
       unused_s: time from the first sample for which sensor readings are not used.
     """
@@ -25,7 +25,8 @@ class LateStart:
         """The twist, the rate if the base moves, and the unused time, in words."""
         rate_deg_s = abs(self.rate_deg_s)
         moving = f" and moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
-        return f"by about {abs(self.twist_deg):.2g} deg{moving} (first {self.unused_s:.2g} s)"
+        twist = f"by about {abs(self.twist_deg):.2g} deg" if self.twist_deg else ""
+        return f"{twist}{moving} (first {self.unused_s:.2g} s)".removeprefix(" and").strip()
 
 
 def late_start_warning(starts: Mapping[str, LateStart]) -> str:

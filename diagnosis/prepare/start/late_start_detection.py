@@ -190,9 +190,18 @@ def _late(
         torque_n_mm = (torque.off_sigma - shared[_TORQUE]) * noise[_TORQUE]
         length_mm = float(trial.free_mm[0] + 0.5 * trial.inserted_mm[0])
         twist_deg = float(np.degrees(torque_n_mm * length_mm / rig.rigidity_n_mm2))
+    return begun_late(rig, trial, float(twist_deg))
+
+
+def begun_late(rig: NominalRig, trial: PreparedTrial, twist_deg: float) -> PreparedTrial:
+    """The trial with a past, and without the readings of a time in which that is not known well enough.
+
+    Args:
+      twist_deg: lead of the base over the tip at the first sample.
+    """
     unused_s = min(_forgotten_s(rig, trial), START_MOST_UNUSED * float(np.ptp(trial.time_s)))
     unused = trial.time_s < trial.time_s[0] + unused_s
-    start = LateStart(twist_deg=float(twist_deg), rate_deg_s=start_rate_deg_s(trial), unused_s=unused_s)
+    start = LateStart(twist_deg=twist_deg, rate_deg_s=start_rate_deg_s(trial), unused_s=unused_s)
     readings = {s: np.where(unused, np.nan, values) for s, values in trial.readings.items()}
     return replace(trial, late_start=start, readings=readings)
 

@@ -9,11 +9,12 @@ from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_of, prepared, proble
 
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.prepare.prepare import prepare
 from diagnosis.replay import replay as module
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
-from diagnosis.replay.replay import Prediction, predict, replay, residuals, shape_of
+from diagnosis.replay.replay import Prediction, predict, replay, residuals, residuals_of_each, shape_of
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from models.errors import InvalidValue
 from sim.needles.run import SimulationFailed
@@ -96,6 +97,18 @@ def test_residuals_are_in_sigma_sensor_after_sensor_without_what_is_missing():
     expected = [*np.full(4, 1 / TORQUE), 0.5 / TIP, 1.5 / TIP, -0.5 / TIP]
     np.testing.assert_allclose(residuals(read, prediction, NOISE), expected)
     assert residuals(ready, prediction, NOISE).size == 0
+
+
+def test_residuals_of_several_predictions_are_those_of_each():
+    """Whitened together, as coloured noise asks."""
+    colour = NoiseColour.of(share=0.8, correlation_time_s=0.05)
+    noise = replace(NOISE, colour={"tip_angle_deg": colour})
+    ready = prepared(trial(turns(2.0)))
+    predictions = predict(RIG, ready, [RigParameters(damping_scale=s) for s in (0.9, 1.0, 1.2)])
+    together = residuals_of_each(ready, predictions, noise)
+    for own, prediction in zip(together, predictions, strict=True):
+        np.testing.assert_allclose(own, residuals(ready, prediction, noise), rtol=1e-12)
+    assert not np.allclose(together[0], residuals(ready, predictions[0], NOISE))
 
 
 def test_the_shape_ends_in_the_tip_that_is_predicted():

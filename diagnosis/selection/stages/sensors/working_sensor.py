@@ -38,6 +38,8 @@ from diagnosis.selection.scoring.followed import followed
 from diagnosis.selection.stages.stage import leading_on_the_log
 from diagnosis.selection.state import SearchState
 
+_TIP_OFFSET = "tip_angle_bias"
+
 
 def drifts(state: SearchState, sensor: str) -> bool:
     """Whether a drift of the sensor is allowed for."""
@@ -71,8 +73,8 @@ def allowed_sigma(state: SearchState, sensor: str) -> float:
 
 
 def is_all_that_is_missing(state: SearchState, sensor: str) -> bool:
-    """Whether the drift is a large one of the tip, beside which no effect is missing."""
-    alone = sensor == TIP and not state.best.named
+    """Whether the drift is a large one of the tip, beside which nothing but its offset is missing."""
+    alone = sensor == TIP and {*state.best.named} <= {_TIP_OFFSET}
     return alone and range_sigma(state, sensor) > DRIFT_OF_TIP_ALONE_SIGMA
 
 

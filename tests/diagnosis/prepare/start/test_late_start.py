@@ -1,5 +1,7 @@
 """How late starts are told."""
 
+from dataclasses import replace
+
 from diagnosis.prepare.start.late_start import LateStart, late_start_warning
 
 TWISTED = LateStart(twist_deg=-34.6, rate_deg_s=0.2, unused_s=0.84)
@@ -14,6 +16,8 @@ def test_one_warning_names_every_trial_its_twist_and_what_is_not_used():
 
 def test_a_base_that_moves_is_told():
     assert MOVING.words == "by about 5 deg and moving at 42 deg/s (first 0.5 s)"
+    assert replace(MOVING, twist_deg=0.0).words == "moving at 42 deg/s (first 0.5 s)"
+    assert replace(TWISTED, twist_deg=0.0).words == f"(first {TWISTED.unused_s:.2g} s)"
 
 
 def test_trials_from_rest_raise_no_warning():

@@ -6,12 +6,14 @@ import pytest
 from diagnosis_fixtures import scored
 from drifting_logs import drifted, moved, off, searched, sliding
 
-from diagnosis.criteria import DRIFT_ALIKE_SIGMA, DRIFT_RANGE_SIGMA
+from diagnosis.criteria import DRIFT_ALIKE_SIGMA, DRIFT_OF_TIP_ALONE_SIGMA, DRIFT_RANGE_SIGMA
 from diagnosis.log.trial import SENSORS
+from diagnosis.selection.stages.sensors import working_sensor as module
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
     begins_off_zero,
     drifts,
+    is_all_that_is_missing,
     range_sigma,
     what_is_likelier,
     what_it_follows,
@@ -27,6 +29,18 @@ def test_a_drift_is_one_of_its_sensor_and_has_the_range_of_its_line(sensor):
     assert (drifts(after, sensor), drifts(after, other)) == (True, False)
     assert range_sigma(after, sensor) == pytest.approx(1.5 * 2.5, abs=1.0)
     assert range_sigma(after, other) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("names", "alone"), [((), True), (("tip_angle_bias",), True), (("tip_drag",), False)]
+)
+def test_a_large_drift_of_the_tip_is_all_that_is_missing_but_for_its_offset(names, alone, monkeypatch):
+    state = replace(searched(drifted(0.0))[1], candidates=(scored(names, 1.0),))
+    monkeypatch.setattr(module, "range_sigma", lambda *_: 1.1 * DRIFT_OF_TIP_ALONE_SIGMA)
+    assert is_all_that_is_missing(state, "tip_angle_deg") is alone
+    assert not is_all_that_is_missing(state, "base_torque_n_mm")
+    monkeypatch.setattr(module, "range_sigma", lambda *_: 0.9 * DRIFT_OF_TIP_ALONE_SIGMA)
+    assert not is_all_that_is_missing(state, "tip_angle_deg")
 
 
 @pytest.mark.parametrize("sensor", SENSORS)

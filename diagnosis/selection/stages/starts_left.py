@@ -1,0 +1,87 @@
+"""Where nothing explains a log: trials that begin wound up, as the best explanation shows.
+
+A twist at the first sample is looked for before any model is known, against a nominal rig that begins
+untwisted, and a weak one passes for an offset of the sensors. A bent needle that has come to rest, say,
+is wound up by its own curvature. Beside an explanation it shows: what that leaves beyond noise lies in
+the first moments of trials. Then all trials have a past, which is fitted, if the log is explained so.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import START_LEFT_SHARE, START_LEFT_TIMES
+from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
+from diagnosis.fitting.nuisance import late_starts_of
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.prepare.needle_memory import time_constant_s
+from diagnosis.prepare.prepared_log import PreparedTrial
+from diagnosis.prepare.start.late_start_detection import begun_late
+from diagnosis.replay.replay import replay
+from diagnosis.selection.candidate import candidate
+from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.stages.stage import leading_fitted_again
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+Array = NDArray[np.float64]
+
+STAGE = "starts of trials"
+
+
+def starts_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """The state with trials that may begin wound up, where only that explains the log."""
+    state, explained = state.rechecked()
+    if explained or share_at_the_start(state) < START_LEFT_SHARE:
+        return state
+    begun = _with_pasts(state)
+    again = begun.adding(leading_fitted_again(STAGE, state, begun.problem, workers))
+    again, explained = again.rechecked()
+    if not explained:
+        return state.noting(noted(STAGE, Decision.DROPPED, "wound up or not, no explanation holds"))
+    return again.noting(noted(STAGE, Decision.KEPT, "trials that begin wound up explain the log"))
+
+
+def share_at_the_start(state: SearchState) -> float:
+    """Of what the best leaves beyond noise, the part in the first moments of trials."""
+    problem, fit = state.problem, state.best.fit
+    plain = in_units_of(problem, fit.by_trial, problem.noise.uncoloured)
+    first, whole = 0.0, 0.0
+    for trial, parts in zip(problem.log.trials, by_trial_and_sensor(problem, plain), strict=True):
+        until_s = trial.time_s[0] + START_LEFT_TIMES * _slowest_s(problem, trial)
+        for _, time_s, left in parts:
+            beyond = left**2 - 1.0
+            first += float(beyond[time_s < until_s].sum())
+            whole += float(beyond.sum())
+    return first / whole if whole > 0.0 else 0.0
+
+
+def _slowest_s(problem: FitProblem, trial: PreparedTrial) -> float:
+    inserted_mm, free_mm = float(trial.inserted_mm[0]), float(trial.free_mm[0])
+    return time_constant_s(problem.log.rig, inserted_mm, free_mm, mode=1)
+
+
+def _with_pasts(state: SearchState) -> SearchState:
+    """The state of trials that all have a past, to which nothing but that has been fitted."""
+    problem = state.problem
+    trials = tuple(
+        trial if trial.late_start else begun_late(problem.log.rig, trial, 0.0)
+        for trial in problem.log.trials
+    )
+    log = replace(problem.log, trials=trials)
+    known = {effect.name for effect in problem.nuisance}
+    pasts = tuple(effect for effect in late_starts_of(log) if effect.name not in known)
+    problem = replace(problem, log=log, nuisance=(*problem.nuisance, *pasts))
+    nominal = fit_effects(replace(problem, nuisance=late_starts_of(log)), ())
+    rig = nominal.parameterization.rig(nominal.x)
+    return replace(
+        state,
+        problem=problem,
+        coarse=decimated(problem, replay(log, rig, problem.resolution), rig),
+        nominal=nominal,
+        candidates=(candidate(nominal),),
+        checked=None,
+    )

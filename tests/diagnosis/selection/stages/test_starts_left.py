@@ -1,0 +1,93 @@
+"""Trials that begin wound up, as the best explanation shows, where only that explains a log."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import joined, log_of, start_of_search, turns
+
+from diagnosis.criteria import START_LEFT_SHARE
+from diagnosis.log.trial import Trial
+from diagnosis.nominal_replay import replay_nominal
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.record import Decision
+from diagnosis.selection.stages.single_effects import single_effects
+from diagnosis.selection.stages.starts_left import STAGE, share_at_the_start, starts_beside_the_best
+from diagnosis.workers import Workers
+
+BENT = RigParameters(curvature_n_mm_per_mm=0.0004, curvature_phase_deg=100.0)
+RESTS_S = 4.0
+
+
+def rested(rig, seed):
+    """A log of a needle that has rested for some seconds before its first sample."""
+    rest = np.zeros(int(RESTS_S / 0.01))
+    log = log_of(rig, seed=seed, angle=np.concatenate([rest, turns(9.0)]))
+    (one,) = log.trials
+    table = one.table[one.table["time_s"] >= RESTS_S - 1e-9].reset_index(drop=True)
+    table = table.assign(time_s=table["time_s"] - table["time_s"][0])
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def searched(log, effects=("needle_curvature",)):
+    state = single_effects(start_of_search(log, effects=effects), Workers())
+    return state, starts_beside_the_best(state, Workers())
+
+
+def decisions(state):
+    return [e.decision for e in state.record if e.stage == STAGE and e.score is None]
+
+
+@pytest.fixture(scope="module")
+def bent():
+    return searched(joined(rested(BENT, 1), rested(BENT, 2)))
+
+
+def test_a_bent_needle_that_had_come_to_rest_is_explained_by_its_curvature_alone(bent):
+    before, after = bent
+    assert not before.best.floor.reached
+    assert share_at_the_start(before) > START_LEFT_SHARE
+    assert after.best.floor.reached
+    assert after.best.names == ("needle_curvature",)
+    torque, phase = after.best.fit.parts["needle_curvature"]
+    torque, phase = after.best.fit.parameterization.values(after.best.fit.x)[:2]
+    assert torque == pytest.approx(BENT.curvature_n_mm_per_mm, rel=0.1)
+    assert phase == pytest.approx(BENT.curvature_phase_deg, abs=5.0)
+    assert decisions(after) == [Decision.KEPT]
+    assert all(trial.late_start for trial in after.problem.log.trials)
+
+
+def test_readings_that_are_not_used_leave_the_log_too(bent):
+    """Where the nominal rig is replayed for the report, it has the pasts of the search."""
+    _, after = bent
+    nominal = replay_nominal(joined(rested(BENT, 1), rested(BENT, 2)))
+    begun = nominal.begun_as(after.problem, after.nominal)
+    unused = [int(np.isnan(t["tip_angle_deg"]).sum()) for t in begun.log.trials]
+    each = after.problem.log.trials
+    assert unused == [int(np.isnan(t.readings["tip_angle_deg"]).sum()) for t in each]
+    assert min(unused) > 0
+    assert begun.rig.pasts
+    assert nominal.begun_as(nominal.problem, nominal.fit) is nominal
+
+
+def test_what_is_explained_is_left_alone():
+    before, after = searched(rested(NOMINAL, 3))
+    assert after.problem is before.problem
+    assert decisions(after) == []
+
+
+def test_a_law_that_acts_all_the_time_is_no_start():
+    """Dry friction that may not be fitted."""
+    before, after = searched(rested(RigParameters(kinetic_n_mm_per_mm=0.001), 4))
+    assert not before.best.floor.reached
+    assert share_at_the_start(before) < START_LEFT_SHARE
+    assert after.problem is before.problem
+    assert decisions(after) == []
+
+
+def test_where_pasts_do_not_explain_the_log_they_are_dropped(monkeypatch):
+    module = "diagnosis.selection.stages.starts_left.share_at_the_start"
+    monkeypatch.setattr(module, lambda _: 1.0)
+    before, after = searched(rested(RigParameters(kinetic_n_mm_per_mm=0.001), 4))
+    assert after.problem is before.problem
+    assert decisions(after) == [Decision.DROPPED]
