@@ -533,10 +533,10 @@ side and the other; more is no roughness but a fault, and the answer stays unkno
 where the drift is a line of one rate in all trials, to that share: that is a law. Another course that is
 the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in each trial."""
 DRIFT_OF_TIP_ALONE_SIGMA = 4.0
-"""What a tip sensor may drift by within a trial where nothing but an offset of it is missing: noise that
-is correlated over seconds wanders so far. More is itself what the model lacks, and is told as the law
-that is missing. A choice, below three logs of two rigs whose tip sensor drifts, jumps or depends on the
-depth (4.7 and 6 sigma), and above noise (1.6)."""
+"""What a tip sensor may drift by over all trials where nothing but an offset of it is missing: noise
+that is correlated over seconds wanders so far. More, or another zero in each trial, is itself what the
+model lacks, and is told as the law that is missing. A choice, below four logs of two rigs whose tip
+sensor drifts, jumps, depends on the depth or is zeroed by hand (4.7 to 9 sigma), above noise (1.6)."""
 DRIFT_MOST_EFFECTS = 1
 """Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
 drift explained one was so; the others had one effect, or a law that is in no library."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.assessment.assess import Assessment
+from diagnosis.criteria import CLOSED_GAP
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.fits.free_fit import FreeFit
@@ -46,7 +47,9 @@ def with_what_is_missing(
         stop.leave_out(FREE_FORM)  # those that are done tell something all the same
     if not any(fit.final for fit in fits):
         return None, told
-    missing = missing_of(fits, np.inf if verdict.other_form else told.nearest.gap_after)
+    nearest = told.nearest
+    refused = verdict.other_form or (nearest.at_bound and nearest.gap_after <= CLOSED_GAP)
+    missing = missing_of(fits, np.inf if refused else nearest.gap_after)
     if missing.law is None:
         return missing, told
     explained = explained_by(missing, log, problem, nominal, told)

@@ -47,6 +47,14 @@ def drift_range_sigma(
     return max((float(np.ptp(drift)) for drift in drifts), default=0.0)
 
 
+def drift_spread_sigma(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> float:
+    """Range of the drift over all trials, in sigma of the sensor: another zero in each counts too."""
+    drifts = _by_trial(log, sensor, noise, predictions)
+    return float(np.ptp(np.concatenate([np.zeros(0), *drifts]))) if drifts else 0.0
+
+
 def drifts_alike(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> bool:
     """Whether the sensor drifts along a line in every trial, at one rate: a law, and no accident."""
     rates = []

@@ -85,6 +85,8 @@ class FreeLaw:
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       grip_play_deg: between the stops of that slip; None: there are none.
       grip_stiffness_n_mm_per_rad: of a spring that brings it back.
+      grip_of_tissue: whether it is the tissue in its holder that gives way, not the chuck: as seen from
+        the tissue that is the same, and the tip turns with it; exact without friction elsewhere.
       throughout, at_tip, at_entry: additional laws (models.tissue).
       in_sheath: additional laws of the free shaft (models.drive).
 
@@ -114,6 +116,7 @@ class FreeLaw:
     grip_torque_n_mm: float | None = None
     grip_play_deg: float | None = None
     grip_stiffness_n_mm_per_rad: float = 0.0
+    grip_of_tissue: bool = False
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
@@ -160,6 +163,7 @@ class FreeLaw:
             grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
             grip_play_deg=None if self.grip_play_deg is None else strength * self.grip_play_deg,
             grip_stiffness_n_mm_per_rad=_weaker(self.grip_stiffness_n_mm_per_rad, strength) or 0.0,
+            grip_of_tissue=self.grip_of_tissue,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
@@ -284,8 +288,8 @@ class FreeLaw:
             if curve.acts_on is ActsOn.TISSUE_ANGLE:
                 read[True] = read[True] + curve.at(of_inputs(curve.variable, inputs, start_s))
             if curve.acts_on is ActsOn.TISSUE_SLIP:
-                turned = cumulative_trapezoid(curve.at(torque_n_mm), inputs.time_s, initial=0)
-                read[True] = read[True] + turned
+                slip = _of_the_past_or_present(curve, inputs, start_s, torque_n_mm)
+                read[True] = read[True] + cumulative_trapezoid(slip, inputs.time_s, initial=0)
             if curve.acts_on in _SENSORS:
                 of_tip = curve.acts_on in _OF_TIP
                 own = tip_deg if of_tip else torque_n_mm

@@ -154,7 +154,7 @@ def _sensed(
     """
     at_s, steps_s = trial.time_s, runs[0].time_s
     shown = [
-        sensed(rig, run.inputs, run.tip_deg, run.base_torque_n_mm, float(at_s[0]))
+        sensed(rig, run.inputs, _tip_deg(rig, run), run.base_torque_n_mm, float(at_s[0]))
         for rig, run in zip(rigs, runs, strict=True)
     ]
     read = interpolated(at_s, steps_s, np.stack([signal for both in shown for signal in both], axis=-1))
@@ -162,6 +162,12 @@ def _sensed(
         _as_read(rig, Prediction(tip_angle_deg=tip, base_torque_n_mm=torque), trial, steps_s)
         for rig, tip, torque in zip(rigs, read.T[::2], read.T[1::2], strict=True)
     ]
+
+
+def _tip_deg(rig: RigParameters, run: Run) -> Array:
+    """Angle of the tip, (N,); that of a run as seen from tissue which has turned in its holder, too."""
+    turned = rig.free is not None and rig.free.grip_of_tissue
+    return run.tip_deg + run.slip_deg if turned else run.tip_deg
 
 
 def _as_read(

@@ -63,6 +63,11 @@ class Run:
         return self.inputs.drive if driven_by_angle else self.base_deg
 
     @property
+    def slip_deg(self) -> Array:
+        """Angle by which the needle has slipped in the chuck so far, deg, (N,)."""
+        return self.outputs[:, memory_map.O_CHUCK_SLIP] / units.DEG
+
+    @property
     def base_torque_n_mm(self) -> Array:
         """Torque of the drive on the needle, N mm, (N,)."""
         return self.outputs[:, memory_map.O_BASE_TORQUE] / units.N_MM

@@ -1,6 +1,6 @@
 """Free laws of the chuck, in which the needle turns where it carries more than a torque.
 
-- it slips
+- it slips; or the tissue does so in its holder, and takes the needle with it
 - it slips between stops, and a spring brings it back: play that rubs, a coupling that is soft, then
   stiff, one with hysteresis
 
@@ -34,7 +34,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.TORQUE not in ranges.ends:
         return ()
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
-    return _grip(most_n_mm), _coupling(most_n_mm)
+    return _grip(most_n_mm), _holder(most_n_mm), _coupling(most_n_mm)
 
 
 def _torque(most_n_mm: float, least: float, starts: Sequence[float]) -> Parameter:
@@ -66,6 +66,29 @@ def _grip(most_n_mm: float) -> Family:
         x_unit="deg",
         unit="N mm",
     )
+
+
+def _holder(most_n_mm: float) -> Family:
+    return Family(
+        effect=Effect(
+            name="slip of the tissue over torque",
+            title="tissue that slips in its holder beyond a torque",
+            place=Place.TISSUE,
+            parameters=(_torque(most_n_mm, _LEAST, _STARTS),),
+            apply=_apply_holder,
+            differences=(1e-2, 1e-3),
+        ),
+        places={Place.TISSUE: 1.0},
+        says="torque",
+        title="torque at which the tissue turns in its holder",
+        curve=_held,
+        x_unit="deg",
+        unit="N mm",
+    )
+
+
+def _apply_holder(rig: RigParameters, torque: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(grip_torque_n_mm=torque, grip_of_tissue=True))
 
 
 def _held(torque: float) -> Points:

@@ -58,6 +58,7 @@ _OF_DIRECTION = {
     Variable.TIP_DIRECTION: two_values,
     Variable.SLID_DIRECTION: three_values,
 }
+_SLIPS = (ActsOn.DRIVE_SLIP, ActsOn.TISSUE_SLIP)
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
 
 
@@ -84,7 +85,7 @@ class Added:
     @property
     def of_the_drive(self) -> bool:
         """Whether it is an angle of the drive, or its rate, or one that is as good as that."""
-        return self.acts_on in (ActsOn.DRIVE_ANGLE, ActsOn.DRIVE_SLIP, ActsOn.TISSUE_ANGLE)
+        return self.acts_on in (ActsOn.DRIVE_ANGLE, ActsOn.TISSUE_ANGLE, *_SLIPS)
 
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
@@ -118,6 +119,7 @@ _SHAFT = (ActsOn.DRIVE_ANGLE, TIP, "error of the drive's angle")
 _TISSUE = (ActsOn.TISSUE_ANGLE, TIP, "angle by which the tissue turns", {Place.TISSUE: 1.0})
 _SLIP = (ActsOn.DRIVE_SLIP, TIP, "slip of the needle in its chuck")
 _LOST = (ActsOn.DRIVE_SLIP, TIP, "rate at which the drive falls behind its encoder")
+_SCREW = (ActsOn.TISSUE_SLIP, TIP, "rate at which the shaft is turned with respect to the tissue")
 _BEARING = (ActsOn.DRIVE_TORQUE, TORQUE, "torque of the drive that the needle does not feel")
 _TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
 _TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
@@ -130,6 +132,7 @@ ADDED = (
     *_added(*_SLIP, DRIVE, _V.TORQUE),
     *_added(*_LOST, {Place.DRIVE: 0.6, Place.SENSOR: 0.4}, _V.RATE),
     *_added(*_TISSUE, _V.TIME, _V.TRIAL_SHARE, _V.DEPTH, _V.AXIAL_SPEED),
+    *_added(*_SCREW, {Place.INTERFACE: 0.6, Place.NEEDLE: 0.4}, _V.AXIAL_SPEED),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.ACCELERATION, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_BEARING, DRIVE, _V.TURNED_BY),
@@ -240,7 +243,7 @@ def _unit(added: Added) -> str:
         return "N mm / deg" if added.acts_on is ActsOn.DRIVE_TORQUE else "-"
     if added.acts_on in FACTORS:
         return "-"
-    if added.acts_on is ActsOn.DRIVE_SLIP:
+    if added.acts_on in _SLIPS:
         return "deg/s"
     return "N mm" if added.acts_on in (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING) else "deg"
 

@@ -19,7 +19,7 @@ from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 
-TOLD = nothing_told(nearest=SimpleNamespace(gap_after=1.01))
+TOLD = nothing_told(nearest=SimpleNamespace(gap_after=1.01, at_bound=()))
 
 
 def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None, near=TOLD):
@@ -51,6 +51,26 @@ def test_a_law_that_helps_takes_the_place_of_the_nearest_explanation(monkeypatch
     assert told is better
 
 
+@pytest.mark.parametrize(
+    ("nearest_gap", "at_bound", "told_all_the_same"),
+    [
+        (1.01, (), False),
+        (1.01, ("layered_tissue.ratio",), True),
+        (1.2, ("layered_tissue.ratio",), False),
+    ],
+)
+def test_what_is_refused_for_a_bound_leaves_little_and_explains_nothing(
+    nearest_gap, at_bound, told_all_the_same, monkeypatch
+):
+    """A law has not to leave less than that; far above the noise it has."""
+    better = nothing_told(gap=SimpleNamespace(before=5.0, after=1.0))
+    monkeypatch.setattr(unknown, "explained_by", lambda *_: better)
+    near = nothing_told(nearest=SimpleNamespace(gap_after=nearest_gap, at_bound=at_bound))
+    gap = nearest_gap - 0.005
+    missing, _, _ = missing_from(lambda *_: (free_fit(gap),), monkeypatch, near=near)
+    assert (missing.law is not None) is told_all_the_same
+
+
 @pytest.mark.parametrize(("gap", "told_all_the_same"), [(2.0, False), (1.05, True)])
 def test_a_law_that_predicts_less_than_the_nominal_rig_is_told_only_where_it_closes_the_gap(
     gap, told_all_the_same, monkeypatch
@@ -58,7 +78,7 @@ def test_a_law_that_predicts_less_than_the_nominal_rig_is_told_only_where_it_clo
     """Then the other trials leave it open, and what it predicts there is within that."""
     worse = nothing_told(gap=SimpleNamespace(before=5.0, after=5.5))
     monkeypatch.setattr(unknown, "explained_by", lambda *_: worse)
-    near = nothing_told(nearest=SimpleNamespace(gap_after=4.0))
+    near = nothing_told(nearest=SimpleNamespace(gap_after=4.0, at_bound=()))
     missing, told, _ = missing_from(lambda *_: (free_fit(gap),), monkeypatch, near=near)
     assert (missing.law is not None) is told_all_the_same
     assert told is (worse if told_all_the_same else near)
@@ -106,7 +126,7 @@ def told_of(log, nearest_gap):
     nominal = replay_nominal(log)
     coarse = decimated(nominal.problem, nominal.predictions)
     verdict = SimpleNamespace(kind=VerdictKind.UNKNOWN, other_form="")
-    told = nothing_told(nearest=SimpleNamespace(gap_after=nearest_gap))
+    told = nothing_told(nearest=SimpleNamespace(gap_after=nearest_gap, at_bound=()))
     found = (nominal.log, nominal.problem, coarse, nominal.predictions, verdict, told, (), Workers())
     return with_what_is_missing(*found)
 

@@ -1,7 +1,12 @@
 """Tissue that changes or turns with a period, as one that breathes or beats.
 
 Its torque, or dry friction beside it, swells and falls, or it turns to and fro and takes the needle
-with it, from a phase that is another one in each trial. The starting value of the period is the one
+with it, from a phase that is another one in each trial. With a the complex amplitude of a trial, whose
+size and phase are open, and b that of the second harmonic, which all trials share,
+
+    wave = Re[a* e^(i phi) + b a*^2 / |a| e^(2 i phi)],    phi = 2 pi t / period.
+
+The starting value of the period is the one
 whose waves, times what less damping or another angle of the tip would change, take most off.
 """
 
@@ -15,7 +20,7 @@ from numpy.typing import NDArray
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.changes import in_time
 from diagnosis.freeform.families.readings import TIP
-from diagnosis.freeform.family import Family, Points, of_trials
+from diagnosis.freeform.family import Family, Points, coordinates, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -27,7 +32,9 @@ Array = NDArray[np.float64]
 
 _EITHER = {Place.TISSUE: 0.6, Place.INTERFACE: 0.4}
 _LEAST_WAVES, _FASTEST_HZ = 3.0, 2.0  # in the longest trial; hearts beat twice a second
-_WAVE_PLACES, _SWELLS = 12, 0.3
+_WAVE_PLACES, _SWELLS = 16, 0.3
+_NONE = 1e-12  # of an amplitude
+_SECOND = coordinates(2, 0)  # real and imaginary part of the second harmonic
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
@@ -71,7 +78,7 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
             name="damping over time, as a wave",
             title="damping that swells and falls with a period",
             place=Place.TISSUE,
-            parameters=(_period(rate_hz), *of_trials(2 * len(trials), _SWELLS)),
+            parameters=(_period(rate_hz), *_SECOND, *of_trials(2 * len(trials), _SWELLS)),
             apply=partial(_apply_breathing, trials),
         ),
         places=_EITHER,
@@ -86,7 +93,7 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
 def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
     trials = tuple(trial.name for trial in ranges.problem.log.trials)
     level = ranges.library["coulomb_friction"].parameters[0]
-    shape = (_period(rate_hz), *of_trials(2 * len(trials)))
+    shape = (_period(rate_hz), *_SECOND, *of_trials(2 * len(trials)))
     return Family(
         effect=Effect(
             name="dry friction over time, as a wave",
@@ -113,7 +120,7 @@ def _turns(ranges: LogRanges, rate_hz: float) -> Family:
             name="tissue angle over time, as a wave",
             title="tissue that turns to and fro with a period",
             place=Place.TISSUE,
-            parameters=(_period(rate_hz), *of_trials(2 * len(trials), ranges.missing[TIP])),
+            parameters=(_period(rate_hz), *_SECOND, *of_trials(2 * len(trials), ranges.missing[TIP])),
             apply=partial(_apply_turning, trials),
         ),
         places={Place.TISSUE: 1.0},
@@ -127,7 +134,7 @@ def _turns(ranges: LogRanges, rate_hz: float) -> Family:
 
 def _to_and_fro(period_s: float, *c: float) -> Points:
     shares = np.linspace(0.0, 1.0, _WAVE_PLACES + 1)
-    return period_s * shares, _wave(shares, *c[:2])
+    return period_s * shares, _wave(shares, c[:2], c[2:4])
 
 
 def _apply_turning(
@@ -149,15 +156,21 @@ def _period(rate_hz: float) -> Parameter:
     )
 
 
-def _wave(shares: Array, cosine: float, sine: float) -> Array:
-    """A wave at shares of its period."""
-    phase = 2 * np.pi * shares
-    return np.asarray(cosine * np.cos(phase) + sine * np.sin(phase))
+def _wave(shares: Array, second: Sequence[float], own: Sequence[float]) -> Array:
+    """A wave at shares of its period.
+
+    Args:
+      second: real and imaginary part of b.
+      own: of a trial, real and imaginary part of a.
+    """
+    turn, first = np.exp(2j * np.pi * shares), complex(own[0], -own[1])
+    twice = complex(*second) * first**2 / max(abs(first), _NONE)
+    return np.asarray((first * turn + twice * turn**2).real)
 
 
 def _breath(beta: float, period_s: float, *c: float) -> Points:
     shares = np.linspace(0.0, 1.0, _WAVE_PLACES + 1)
-    return period_s * shares, beta * np.exp(_wave(shares, *c[:2]))
+    return period_s * shares, beta * np.exp(_wave(shares, c[:2], c[2:4]))
 
 
 def _apply_breathing(
@@ -181,7 +194,7 @@ def _waves(
 ) -> tuple[Curve, ...]:
     """Of each trial, a wave over the time; of factors, one of their logarithms."""
     shares = np.arange(_WAVE_PLACES) / _WAVE_PLACES
-    waves = [_wave(shares, *own) for own in zip(c[::2], c[1::2], strict=True)]
+    waves = [_wave(shares, c[:2], own) for own in zip(c[2::2], c[3::2], strict=True)]
     return tuple(
         Curve(
             acts_on=acts_on,

@@ -3,16 +3,16 @@
 A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
 than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_COURSE_SIGMA that is
 another course, and the same in every trial. Where nothing else is missing, a drift of the tip by more
-than DRIFT_OF_TIP_ALONE_SIGMA is itself what the model lacks. And it stands beside one effect at most:
-with two it takes the shape of what no library holds. Nor does it follow the axial speed, or, at the tip,
-depth, rate, direction or angle (scoring/followed); and where such a law is likelier than a drift, it is
-none.
+than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is itself what the model lacks. And it stands beside one
+effect at most: with two it takes the shape of what no library holds. Nor does it follow the axial speed,
+or, at the tip, depth, rate, direction or angle (scoring/followed); and where such a law is likelier than
+a drift, it is none.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from diagnosis.criteria import (
@@ -28,6 +28,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.prepare.noise.sensor_noise import TIP
 from diagnosis.replay.drift import (
     drift_range_sigma,
+    drift_spread_sigma,
     drifts_alike,
     drifts_by_one_course,
     least_start,
@@ -59,8 +60,17 @@ def with_few_effects(state: SearchState, beside: Sequence[str] = ()) -> SearchSt
 
 def range_sigma(state: SearchState, sensor: str) -> float:
     """Largest range of the drift beside the best within a trial, in sigma of a reading."""
+    return _of_a_reading(state, sensor, drift_range_sigma)
+
+
+def spread_sigma(state: SearchState, sensor: str) -> float:
+    """Range of that drift over all trials, in sigma of a reading."""
+    return _of_a_reading(state, sensor, drift_spread_sigma)
+
+
+def _of_a_reading(state: SearchState, sensor: str, size: Callable[..., float]) -> float:
     problem = state.problem
-    sigma = drift_range_sigma(problem.log, sensor, problem.noise, _replayed(state))
+    sigma = size(problem.log, sensor, problem.noise, _replayed(state))
     return sigma * problem.noise[sensor] / noise_of_a_reading(problem, sensor)
 
 
@@ -75,7 +85,7 @@ def allowed_sigma(state: SearchState, sensor: str) -> float:
 def is_all_that_is_missing(state: SearchState, sensor: str) -> bool:
     """Whether the drift is a large one of the tip, beside which nothing but its offset is missing."""
     alone = sensor == TIP and {*state.best.named} <= {_TIP_OFFSET}
-    return alone and range_sigma(state, sensor) > DRIFT_OF_TIP_ALONE_SIGMA
+    return alone and spread_sigma(state, sensor) > DRIFT_OF_TIP_ALONE_SIGMA
 
 
 def what_it_follows(state: SearchState, sensor: str) -> str:

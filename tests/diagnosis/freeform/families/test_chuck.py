@@ -4,15 +4,17 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import turns
+from diagnosis_fixtures import RIG, prepared, trial, turns
 from free_forms import covered, same_readings
 
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.chuck import families
+from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE, MOST_N_MM = turns(6.0), 1.0
-GRIP, COUPLING = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
+GRIP, HOLDER, COUPLING = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
 
 
 def test_a_log_without_a_torque_has_no_chuck():
@@ -22,6 +24,18 @@ def test_a_log_without_a_torque_has_no_chuck():
 @pytest.mark.parametrize(("torque_n_mm", "slips"), [(100.0, False), (0.3, True)])
 def test_a_chuck_that_holds_more_than_the_needle_takes_is_the_nominal_one(torque_n_mm, slips):
     assert same_readings(ANGLE, GRIP.effect.apply(NOMINAL, torque_n_mm), NOMINAL) is not slips
+
+
+def test_tissue_that_slips_in_its_holder_reads_the_torque_of_a_chuck_that_slips_and_turns_the_tip():
+    """Once the needle has untwisted at rest, its tip has followed the base if the tissue went along."""
+    angle = turns(12.0)
+    rigs = [family.effect.apply(NOMINAL, 0.3) for family in (GRIP, HOLDER)]
+    chuck, tissue = predict(RIG, prepared(trial(angle)), rigs)
+    np.testing.assert_array_equal(tissue.base_torque_n_mm, chuck.base_torque_n_mm)
+    assert tissue.tip_angle_deg[-1] == pytest.approx(angle[-1], abs=0.1)
+    assert abs(chuck.tip_angle_deg[-1] - angle[-1]) > 5.0
+    assert same_readings(ANGLE, HOLDER.effect.apply(NOMINAL, 100.0), NOMINAL)
+    assert (HOLDER.place, HOLDER.says) == (Place.TISSUE, "torque")
 
 
 def test_the_torque_is_looked_for_below_the_largest():

@@ -46,11 +46,10 @@ def test_it_is_of_what_the_log_has():
     assert all(family.place is Place.TISSUE for family in FAMILIES.values())
 
 
-def test_tissue_that_turns_at_one_rate_is_tissue_that_turns_by_a_line_in_time():
-    """Of tissue that turns at any torque alike: 20 deg/s for six seconds are 120 deg."""
-    rate = Curve(
-        acts_on=ActsOn.TISSUE_SLIP, variable=Variable.TORQUE, places=(-9.0, 9.0), values=(20.0, 20.0)
-    )
+@pytest.mark.parametrize("variable", [Variable.TORQUE, Variable.AXIAL_SPEED])
+def test_tissue_that_turns_at_one_rate_is_tissue_that_turns_by_a_line_in_time(variable):
+    """Of tissue that turns at any torque or speed alike: 20 deg/s for six seconds are 120 deg."""
+    rate = Curve(acts_on=ActsOn.TISSUE_SLIP, variable=variable, places=(-9.0, 9.0), values=(20.0, 20.0))
     line = Curve(
         acts_on=ActsOn.TISSUE_ANGLE, variable=Variable.TIME, places=(0.0, 6.0), values=(0.0, 120.0)
     )

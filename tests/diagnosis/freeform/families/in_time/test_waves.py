@@ -14,6 +14,7 @@ from diagnosis.replay.rig_parameters import NOMINAL
 ANGLE = turns(8.0)
 TIME = 0.01 * np.arange(ANGLE.size)
 REST = np.zeros(ANGLE.size)
+NONE = (0.0, 0.0)  # of a second harmonic
 CHANGE = 0.3 * np.sin(2.0 * TIME)
 """What less damping changes, deg; the noise is NOISE."""
 
@@ -41,19 +42,38 @@ def test_a_breath_has_a_phase_of_its_own_in_each_trial():
     family = breathing()
     assert (family.place, family.says, family.effect.trial) == (Place.TISSUE, "time", "")
     assert family.of_each_trial
-    first, second, _ = family.effect.apply(NOMINAL, 2.0, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0).free.curves
+    first, second, _ = family.effect.apply(NOMINAL, 2.0, *NONE, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0).free.curves
     at = np.array([0.0, 0.5, 1.0, 2.0, 2.5])
-    # A sine through 12 places is off by (2 pi / 12)^4 / 384 = 0.02 %; its exponential by little more.
+    # A sine through 16 places is off by (2 pi / 16)^4 / 384 = 0.006 %; its exponential by little more.
     np.testing.assert_allclose(first.at(at), np.exp(0.3 * np.cos(np.pi * at)), rtol=1e-3)
     np.testing.assert_allclose(second.at(at), np.exp(0.2 * np.sin(np.pi * at)), rtol=1e-3)
-    x, y = family.curve(2.0, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0)
+    x, y = family.curve(2.0, *NONE, 0.3, 0.0, 0.0, 0.2, 0.0, 0.0)
     assert (x[0], x[-1]) == (0.0, 2.0)
     assert y[0] == pytest.approx(y[-1])
 
 
+def test_trials_share_the_shape_of_a_wave_and_have_its_phase_each():
+    """Two harmonics: the wave of another trial is the same one, earlier by a phase, half as large."""
+    turning = next(
+        f for f in families(log_that_turns(0.6)) if f.name == "tissue angle over time, as a wave"
+    )
+    early, size, second = 0.7, 0.5, (0.3, -0.2)
+    own = [size * np.cos(early), -size * np.sin(early)]
+    curves = turning.effect.apply(NOMINAL, 2.0, *second, 1.0, 0.0, *own, 0.0, 0.0).free.curves
+    at = np.linspace(0.0, 2.0, 9)
+    first, other, none = (curve.at(at) for curve in curves)
+    phase = np.pi * at
+    b = complex(*second)
+    np.testing.assert_allclose(first, np.cos(phase) + (b * np.exp(2j * phase)).real, atol=2e-3)
+    later = phase + early
+    expected = size * (np.cos(later) + (b * np.exp(2j * later)).real)
+    np.testing.assert_allclose(other, expected, atol=2e-3)
+    np.testing.assert_array_equal(none, 0.0)
+
+
 def test_tissue_that_does_not_breathe_is_the_nominal_one():
     own = prepared(trial(ANGLE, name="trial_02.csv"))
-    still, swells = (breathing().effect.apply(NOMINAL, 2.0, *[c] * 6) for c in (0.0, 0.3))
+    still, swells = (breathing().effect.apply(NOMINAL, 2.0, *NONE, *[c] * 6) for c in (0.0, 0.3))
     found, other, expected = predict(RIG, own, [still, swells, NOMINAL])
     np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
     assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 0.1
@@ -64,13 +84,13 @@ def test_dry_friction_that_does_not_pulse_is_even_friction():
         f for f in families(log_that_breathes(0.6)) if f.name == "dry friction over time, as a wave"
     )
     own = prepared(trial(ANGLE, name="trial_02.csv"))
-    still, swells = (pulses.effect.apply(NOMINAL, 0.003, 2.0, *[c] * 6) for c in (0.0, 0.5))
+    still, swells = (pulses.effect.apply(NOMINAL, 0.003, 2.0, *NONE, *[c] * 6) for c in (0.0, 0.5))
     even = LIBRARY["coulomb_friction"].apply(NOMINAL, 0.003)
     found, other = predict(RIG, own, [still, swells])
     (expected,) = predict(RIG, own, [even])
     np.testing.assert_allclose(found.tip_angle_deg, expected.tip_angle_deg, atol=1e-6)
     assert np.abs(other.tip_angle_deg - expected.tip_angle_deg).max() > 0.1
-    _, level = pulses.curve(0.003, 2.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
+    _, level = pulses.curve(0.003, 2.0, *NONE, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
     assert level[0] == pytest.approx(0.003 * np.exp(0.5))
 
 
@@ -95,11 +115,11 @@ def test_tissue_that_turns_takes_the_needle_with_it():
         f for f in families(log_that_turns(0.6)) if f.name == "tissue angle over time, as a wave"
     )
     assert (turning.place, turning.says) == (Place.TISSUE, "time")
-    rig = turning.effect.apply(NOMINAL, 2.0, 0.0, 5.0, *[0.0] * 4)
+    rig = turning.effect.apply(NOMINAL, 2.0, *NONE, 0.0, 5.0, *[0.0] * 4)
     wave = 5.0 * np.sin(np.pi * TIME)
     with_it = prepared(trial(wave, name="trial_01.csv"))
     (found,) = predict(RIG, with_it, [rig])
-    np.testing.assert_allclose(found.tip_angle_deg, wave, atol=2e-3)  # the spline is off by 0.02 %
+    np.testing.assert_allclose(found.tip_angle_deg, wave, atol=2e-3)  # the spline is off by 0.006 %
     np.testing.assert_allclose(found.base_torque_n_mm, 0.0, atol=1e-4)
     still = prepared(trial(REST, name="trial_01.csv"))
     (held,) = predict(RIG, still, [rig])

@@ -15,6 +15,7 @@ from diagnosis.selection.stages.sensors.working_sensor import (
     drifts,
     is_all_that_is_missing,
     range_sigma,
+    spread_sigma,
     what_is_likelier,
     what_it_follows,
     with_few_effects,
@@ -36,11 +37,18 @@ def test_a_drift_is_one_of_its_sensor_and_has_the_range_of_its_line(sensor):
 )
 def test_a_large_drift_of_the_tip_is_all_that_is_missing_but_for_its_offset(names, alone, monkeypatch):
     state = replace(searched(drifted(0.0))[1], candidates=(scored(names, 1.0),))
-    monkeypatch.setattr(module, "range_sigma", lambda *_: 1.1 * DRIFT_OF_TIP_ALONE_SIGMA)
+    monkeypatch.setattr(module, "spread_sigma", lambda *_: 1.1 * DRIFT_OF_TIP_ALONE_SIGMA)
     assert is_all_that_is_missing(state, "tip_angle_deg") is alone
     assert not is_all_that_is_missing(state, "base_torque_n_mm")
-    monkeypatch.setattr(module, "range_sigma", lambda *_: 0.9 * DRIFT_OF_TIP_ALONE_SIGMA)
+    monkeypatch.setattr(module, "spread_sigma", lambda *_: 0.9 * DRIFT_OF_TIP_ALONE_SIGMA)
     assert not is_all_that_is_missing(state, "tip_angle_deg")
+
+
+def test_another_zero_in_each_trial_is_no_range_within_one_but_a_spread_over_all():
+    sensor = "tip_angle_deg"
+    _, after = searched(moved((6, 0, 0), (-2, 0, 0), (0, 0, 0), sensor=sensor), sensor)
+    assert range_sigma(after, sensor) < DRIFT_OF_TIP_ALONE_SIGMA
+    assert spread_sigma(after, sensor) == pytest.approx(8.0, abs=1.0)
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
