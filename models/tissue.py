@@ -4,7 +4,7 @@ Friction acts at the interface between shaft and tissue, against their slip s:
 
     viscous s (s^2 + plateau^2)^((exponent-1)/2)     viscous, or a power law above a plateau
     dry level [kinetic + (static - kinetic) exp(-(s/stribeck)^2)], truly sticking
-    shared s / sqrt(s^2 + (v/r)^2)                    dry, shared with axial speed v
+    shared s / sqrt(s^2 + (q v/r)^2)                  dry, shared with axial speed v, of which q counts
 
 and the tissue at the shaft may itself turn, by phi, against a Kelvin-Voigt element
 stiffness phi + stiffness time_constant dphi/dt (Section IV-A2).
@@ -47,6 +47,8 @@ class Interface(Record):
     """None: as kinetic."""
     stribeck_rad_s: Positive | None = None
     shared_n_mm_per_mm: NonNegative = 0.0
+    shared_axial_ratio: NonNegative = 1.0
+    """Share q of the axial speed: 1 by physics; less where a twist is released over a longer travel."""
     stiffness_n_mm_per_rad_per_mm: Positive | None = None
     """None: tissue that does not yield."""
     time_constant_s: NonNegative = 0.0

@@ -129,6 +129,7 @@ def _interface(law: Interface) -> Array:
     row[memory_map.L_STATIC] = law.static_level_n_mm_per_mm * _PER_MM
     row[memory_map.L_STRIBECK] = law.stribeck_rad_s or 1.0
     row[memory_map.L_SHARED] = law.shared_n_mm_per_mm * _PER_MM
+    row[memory_map.L_AXIAL] = law.shared_axial_ratio
     row[memory_map.L_STIFFNESS] = (law.stiffness_n_mm_per_rad_per_mm or 0.0) * _PER_MM
     row[memory_map.L_TIME] = law.time_constant_s
     row[memory_map.L_CURVATURE] = law.orientation_n_mm_per_mm * _PER_MM

@@ -48,6 +48,7 @@ _MOST_SIDED = 0.99  # asymmetry
 _TORQUES = (
     "viscous_n_mm_s_per_mm",
     "kinetic_n_mm_per_mm",
+    "shared_n_mm_per_mm",
     "orientation_n_mm_per_mm",
     "orientation_viscous_n_mm_s_per_mm",
 )

@@ -5,7 +5,7 @@ implicit stage of length g the site solves, all at the end of the stage,
 
     f = beta s (s^2 + plateau^2)^((p-1)/2)            viscous, power law
       + level(s) clamp(z) / z_y,   z = z* + g s       dry: elastic-plastic, z_y presliding
-      + shared Z_t / max(|Z|, z_y), Z = Z* + g (s, v/r)  dry, shared with axial sliding
+      + shared Z_t / max(|Z|, z_y), Z = Z* + g (s, q v/r)  dry, shared with axial sliding
     level(s) = kinetic + (static - kinetic) exp(-(s/stribeck)^2)
 
 and, where the tissue yields (Kelvin-Voigt, in series with all of the above),
@@ -109,7 +109,7 @@ def slip_law(
     shared = row[memory_map.L_SHARED]
     if shared > 0.0:
         turn += g * s
-        axial += g * stage.axial
+        axial += g * row[memory_map.L_AXIAL] * stage.axial
         size = math.sqrt(turn * turn + axial * axial)
         if size <= limit:
             torque += shared * turn / limit

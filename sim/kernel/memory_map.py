@@ -86,6 +86,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_STATIC,  # N m / m
     L_STRIBECK,  # rad / s
     L_SHARED,  # dry level shared with the axial motion, N m / m
+    L_AXIAL,  # share of the axial speed that this counts
     L_STIFFNESS,  # tissue in series, N m / rad / m; 0: rigid
     L_TIME,  # its time constant, s
     L_CURVATURE,  # N m / m
@@ -125,7 +126,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(53)
+) = range(54)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, HEAT, BROKEN, TWIST = (

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.tip import AT_TIP_MM
+from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve

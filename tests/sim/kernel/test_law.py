@@ -23,7 +23,9 @@ def row(interpreted):
 
     def made(**fields):
         values = [0.0] * places.COLUMNS
-        for name, value in ({"exponent": 1.0, "plateau": 1e-5, "stribeck": 1.0} | fields).items():
+        for name, value in (
+            {"exponent": 1.0, "plateau": 1e-5, "stribeck": 1.0, "axial": 1.0} | fields
+        ).items():
             values[getattr(places, f"L_{name.upper()}")] = value
         return values
 
@@ -75,6 +77,21 @@ def test_friction_shared_with_axial_sliding_points_along_the_slip(law, row):
         torque, _, old = slip_torque(law, fields, turn, old, axial)
     assert torque == pytest.approx(0.2 * turn / math.hypot(turn, axial), rel=1e-6)
     assert math.hypot(old.turn, old.axial) == pytest.approx(YIELD)
+
+
+@pytest.mark.parametrize("share", [1.0, 0.2])
+def test_sliding_releases_a_twist_over_a_travel_of_its_own(law, row, share):
+    """Slower than it slides, a twist slips by k phi / shared of the axial rate that counts.
+
+    In implicit stages, of which the first turns the presliding towards the slip.
+    """
+    shared, stiffness, axial, steps = 0.2, 5.0, 3.0, 40
+    fields = row(shared=shared, stiffness=stiffness, axial=share)
+    new = memory(law, axial=YIELD, phi=1e-4)
+    for _ in range(steps):
+        *_, new = law.site_law(0.0, fields, 0.0, new, stage(law, axial=axial), 0.0)
+    once = 1.0 + G * stiffness * share * axial / shared
+    assert 1e-4 * once**-steps <= new.phi <= 1e-4 * once ** (1 - steps)
 
 
 CASES = {

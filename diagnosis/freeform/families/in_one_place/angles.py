@@ -16,7 +16,7 @@ import numpy as np
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.angle import ALONG, waves_over
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
-from diagnosis.freeform.families.tip import AT_TIP_MM
+from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
 from diagnosis.freeform.family import Family, Points, coordinates
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw

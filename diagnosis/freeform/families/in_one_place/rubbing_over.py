@@ -9,8 +9,8 @@ from functools import partial
 
 from diagnosis.effects.effect import Effect
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
+from diagnosis.freeform.families.in_one_place.tip import torques
 from diagnosis.freeform.families.interface import SLOW_RAD_S, TURN_DEG, WAVES, curve_over
-from diagnosis.freeform.families.tip import torques
 from diagnosis.freeform.family import Family, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve

@@ -5,7 +5,7 @@ from diagnosis_fixtures import turns
 from free_forms import covered, same_readings
 
 from diagnosis.effects import LIBRARY
-from diagnosis.freeform.families.tip import families
+from diagnosis.freeform.families.in_one_place.tip import families
 from diagnosis.replay.rig_parameters import NOMINAL
 from models.tissue import RATE_POINTS
 
