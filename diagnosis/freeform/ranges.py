@@ -34,6 +34,7 @@ LEAST_RANGE = {
     Variable.PUSHED_LATELY: 0.2,
     Variable.AXIAL_DRAG: 5.0,
     Variable.AXIAL_FLOW: 20.0,
+    Variable.THRUST: 10.0,
     Variable.DEPTH: 5.0,
     Variable.ADVANCED_BY: 2.0,
     Variable.HISTORY: 0.1,

@@ -12,6 +12,8 @@ slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SL
 pushed_lately  axial speed with its sign, mm/s, as the same mean
 axial_drag     inserted length, with the sign of the axial speed, mm: what the friction of a needle that
                slides is proportional to; 0 at rest
+thrust         inserted length where the needle is pushed, with the sign of slid_direction, mm: what the
+               friction of a thrust bearing is proportional to
 axial_flow     inserted length times axial speed, mm^2/s: what the viscous drag of a sliding needle is
                proportional to
 depth          inserted length, mm
@@ -62,6 +64,7 @@ class Variable(StrEnum):
     SLID_LATELY = "slid_lately"
     PUSHED_LATELY = "pushed_lately"
     AXIAL_DRAG = "axial_drag"
+    THRUST = "thrust"
     AXIAL_FLOW = "axial_flow"
     DEPTH = "depth"
     ADVANCED_BY = "advanced_by"
@@ -88,6 +91,7 @@ UNITS = {
     Variable.SLID_LATELY: "mm/s",
     Variable.PUSHED_LATELY: "mm/s",
     Variable.AXIAL_DRAG: "mm, with the sign of the axial speed",
+    Variable.THRUST: "mm, with the sign of the direction",
     Variable.AXIAL_FLOW: "mm^2/s",
     Variable.DEPTH: "mm",
     Variable.ADVANCED_BY: "mm",
@@ -107,6 +111,7 @@ SAYS: Mapping[str, str] = {
     Variable.SLID_LATELY: "axial_speed",
     Variable.PUSHED_LATELY: "axial_speed",
     Variable.AXIAL_DRAG: "axial_speed",
+    Variable.THRUST: "axial_speed",
     Variable.AXIAL_FLOW: "axial_speed",
     Variable.ADVANCED_BY: "axial_speed",
     Variable.SLID_DIRECTION: "direction",
@@ -203,6 +208,10 @@ def _pushed_lately(inputs: Schedule, _: float) -> Array:
     return first_order(inputs.time_s, inputs.speed_mm_s, SLID_S)
 
 
+def _thrust(inputs: Schedule, start_s: float) -> Array:
+    return _slid_direction(inputs, start_s) * np.maximum(_axial_drag(inputs, start_s), 0.0)
+
+
 def _axial_drag(inputs: Schedule, _: float) -> Array:
     return np.asarray(inputs.inserted_mm * np.tanh(inputs.speed_mm_s / _SLIDES_MM_S))
 
@@ -219,6 +228,7 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.SLID_LATELY: _slid_lately,
     Variable.PUSHED_LATELY: _pushed_lately,
     Variable.AXIAL_DRAG: _axial_drag,
+    Variable.THRUST: _thrust,
     Variable.AXIAL_FLOW: lambda inputs, _: inputs.inserted_mm * inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,

@@ -50,6 +50,7 @@ SIGNED = (
     Variable.AXIAL_SPEED,
     Variable.AXIAL_DRAG,
     Variable.AXIAL_FLOW,
+    Variable.THRUST,
 )
 """Variables whose signs a machine may take differently; an angle's zero is where somebody put it."""
 _RATES = (Variable.RATE, Variable.TIP_RATE)  # friction changes fastest where these are small
@@ -135,7 +136,7 @@ ADDED = (
     *_added(*_SCREW, {Place.INTERFACE: 0.6, Place.NEEDLE: 0.4}, _V.AXIAL_SPEED),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, _V.RATE, _V.ACCELERATION, _V.SLID_DIRECTION),
     *_added(*_BEARING, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
-    *_added(*_BEARING, DRIVE, _V.TURNED_BY),
+    *_added(*_BEARING, DRIVE, _V.TURNED_BY, _V.THRUST),
     *_added(*_TIP, SENSOR, _V.TIME, _V.TIP_ANGLE, _V.AXIAL_SPEED, _V.DEPTH, _V.TIP_RATE, _V.PAST),
     *_added(*_TIP, SENSOR, _V.TRIAL_SHARE, _V.TURNED_BY, _V.RATE, _V.HISTORY),
     *_added(*_TIP, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),

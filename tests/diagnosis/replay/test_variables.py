@@ -130,3 +130,19 @@ def test_what_the_needle_does_is_known_of_its_readings():
     for when_s, deg_s in RATES_DEG_S.items():
         assert np.interp(when_s, TIME, tip_rate) == pytest.approx(np.radians(0.5 * deg_s), abs=1e-9)
         assert np.interp(when_s, TIME, torque_rate) == pytest.approx(0.01 * deg_s, abs=1e-9)
+
+
+def test_a_thrust_bearing_is_loaded_where_the_needle_is_pushed_and_turns():
+    """By the inserted length, with the sign in which the drive slides; not where it is pulled."""
+    time = np.arange(0.0, 6.0, 0.01)
+    drive = np.interp(time, [0.0, 1.5, 3.0, 4.5, 6.0], [0.0, 30.0, 0.0, 30.0, 0.0])
+    inputs = Schedule(
+        time_s=time,
+        drive=drive,
+        free_mm=np.full(time.size, 60.0),
+        inserted_mm=np.full(time.size, 80.0),
+        speed_mm_s=np.where(time < 3.0, 2.0, -2.0),
+    )
+    thrust = of_inputs(Variable.THRUST, inputs, 0.0)
+    at = np.searchsorted(time, [1.0, 2.5, 4.0, 5.5])
+    np.testing.assert_allclose(thrust[at], [80.0, -80.0, 0.0, 0.0], atol=0.01)
