@@ -632,8 +632,9 @@ STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.9
 once in a thousand logs), how many, and their share of the nominal residual beyond noise: 0.986 of a
 torque sensor that zeroes itself, 0.72 to 0.85 of three other laws that ten steps imitate. Choices."""
 FAR_GAP = 1.6
-"""Gap on the log above which free-form laws are not fitted to their end on it, and plain laws are not
-looked for in their place. A choice: no verdict rests on it."""
+"""Gap on the log above which free-form laws are not fitted to their end on it, plain laws are not looked
+for in their place, and what comes nearest is checked by runs half as fine. A choice: no verdict rests on
+it."""
 FAR_STEP = 1.5
 """Gap on held-out trials over that of the fit, from which one step from the fit is doubted, and what
 comes nearest, or a free-form law, is fitted to the other trials instead. A choice: no verdict rests on

@@ -10,7 +10,7 @@ The intervals are wider than for an explanation that reaches the noise floor, by
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.criteria import FAR_GAP
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import floor_of
@@ -140,8 +141,10 @@ def _held_out(problem: FitProblem, best: Candidate) -> tuple[HeldOut, tuple[str,
         return best.fit.by_trial, (ONE_TRIAL,)
     if best.held_out is not None:
         return best.held_out, ()
+    far = best.fit.gap > FAR_GAP  # then runs half as fine tell as much, at a quarter of the cost
+    checked = replace(problem, differences_halved=True).of_differences if far else problem
     try:
-        return held_out_or_refitted(problem, best.fit), ()
+        return held_out_or_refitted(checked, best.fit), ()
     except SimulationFailed as failed:
         warning = (
             "the gap after is that on the trials of the fit: a held-out trial cannot be simulated with "
