@@ -49,9 +49,10 @@ def beside_several(
     first: Sequence[FreeFit],
     workers: Workers,
 ) -> list[FreeFit]:
-    """Fits of the best, of which most are pairs, with one law more."""
+    """Fits of the best pairs with one law more, unless a law alone is as good as these."""
     best = unlike(sorted(fitted, key=lambda f: f.score))[:LEADING_PAIRS]
-    calls = [(coarse, more, _least(fitted)) for more in laws_beside(base, best, first)]
+    pairs = [f for f in best if len(f.names) > 1]
+    calls = [(coarse, more, _least(fitted)) for more in laws_beside(base, pairs, first)]
     return each_fit(THREE, to_its_end, calls, workers)
 
 

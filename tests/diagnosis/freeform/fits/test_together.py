@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 from free_forms import family_of, linear_fit
 
+from diagnosis.freeform.fits import together
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.fits.together import distinct, unlike
+from diagnosis.workers import Workers
 
 EYE = np.eye(8)
 
@@ -29,3 +31,14 @@ def test_of_a_law_the_best_fit_stays():
     first, again = fit_of("slid", [1.0, 2.0]), fit_of("slid", [1.0, 3.0])
     other = fit_of("turned", [5.0, 2.0])
     assert distinct([first, other, again]) == [first, other]
+
+
+def test_a_third_law_stands_beside_the_best_pairs_alone(monkeypatch):
+    """Beside the best law alone, others have been tried."""
+    one, pair = fit_of("slid", [1.0, 2.0]), fit_of("turned", [1.0, 1.0])
+    pair = replace(pair, others=(one.family,))
+    worse = replace(fit_of("age", [3.0, 3.0]), others=(one.family,))
+    seen = []
+    monkeypatch.setattr(together, "laws_beside", lambda _, pairs, first: seen.append(pairs) or [])
+    assert together.beside_several(None, None, [one, worse, pair], [one], Workers()) == []
+    assert seen == [[pair]]
