@@ -185,7 +185,8 @@ def repeating(period_deg: float) -> str:
 
 def _beside(missing: Missing) -> str:
     """The gaps that laws of other variables leave, if they were fitted to the same samples."""
-    fitted = (d for d in missing.depends_on[1:] if not d.decimated and d.gap_after < float("inf"))
-    others = list(fitted)[:_OTHERS]
-    told = ", ".join(f"{in_sigma(d.gap_after)} with {VARIABLES[d.variable]}" for d in others)
-    return f"; the best laws of other variables leave {told}" if told else ""
+    told = {law.variable for law in missing.beside}
+    rest = [d for d in missing.depends_on[1:] if d.variable not in told]
+    others = [d for d in rest if not d.decimated and d.gap_after < float("inf")][:_OTHERS]
+    each = ", ".join(f"{in_sigma(d.gap_after)} with {VARIABLES[d.variable]}" for d in others)
+    return f"; the best laws of other variables leave {each}" if each else ""

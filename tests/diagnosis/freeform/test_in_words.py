@@ -146,6 +146,7 @@ def test_laws_that_were_fitted_together_are_told_one_by_one():
         f"depends on the rate of turning: {course_of(LAW)}. It takes another law in the tissue, " in said
     )
     assert f"which depends on the time: {course_of(other)}. Together they reduce the residual" in said
+    assert "with the time" not in said  # as if that were enough
 
 
 def test_of_a_single_trial_nothing_is_called_unseen():
