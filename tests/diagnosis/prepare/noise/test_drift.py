@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import solve
 
+from diagnosis.prepare.noise import drift as module
 from diagnosis.prepare.noise.drift import Drift
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 
@@ -93,3 +94,14 @@ def test_the_start_of_a_drift_is_told_in_its_standard_deviations():
     assert abs(DRIFT.start(TIME, line)) < 3.0
     assert DRIFT.start(TIME, line + 3.0) > 5.0
     assert Drift(size_sigma=2.0, zeroed=True).start(TIME, line + 3.0) == 0.0
+
+
+@pytest.mark.parametrize("zeroed", [False, True])
+def test_directions_are_those_of_a_singular_value_decomposition(zeroed):
+    """Squares over eight decades, to rounding of their sums, and directions at right angles."""
+    time = np.sort(np.random.default_rng(2).uniform(0.0, 40.0, 4000))
+    drift = Drift(size_sigma=5.0, zeroed=zeroed)
+    directions, squares = module._directions(drift, time.tobytes())
+    lengths = np.linalg.svd(module._shapes(time, drift), compute_uv=False)
+    np.testing.assert_allclose(np.sort(squares)[::-1], lengths**2, rtol=1e-6)
+    np.testing.assert_allclose(directions.T @ directions, np.eye(squares.size), atol=1e-6)
