@@ -103,7 +103,7 @@ def test_residuals_of_several_predictions_are_those_of_each():
     """Whitened together, as coloured noise asks."""
     colour = NoiseColour.of(share=0.8, correlation_time_s=0.05)
     noise = replace(NOISE, colour={"tip_angle_deg": colour})
-    ready = prepared(trial(turns(2.0)))
+    (ready,) = problem_of(log_of(NOMINAL, seconds=3.0)).log.trials
     predictions = predict(RIG, ready, [RigParameters(damping_scale=s) for s in (0.9, 1.0, 1.2)])
     together = residuals_of_each(ready, predictions, noise)
     for own, prediction in zip(together, predictions, strict=True):
