@@ -86,10 +86,19 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     if not late_starts_of(begun):
         fit = nominal_fit(nominal_residuals(problem, predictions))
         return NominalReplay(log=log, problem=problem, fit=fit, predictions=predictions)
-    fit = fit_effects(replace(problem, nuisance=late_starts_of(begun)), ())
+    fit = fitted_pasts(problem)
     predictions = replay(begun, fit.parameterization.rig(fit.x))
     known = without_unused(log, begun)
     return NominalReplay(log=known, problem=problem, fit=fit, predictions=predictions)
+
+
+def fitted_pasts(problem: FitProblem) -> Fit:
+    """The fit of the pasts of trials that began late to the nominal rig, and of nothing else.
+
+    Raises:
+      SimulationFailed: the nominal rig cannot be simulated.
+    """
+    return fit_effects(replace(problem, nuisance=late_starts_of(problem.log)), ())
 
 
 def _nominal_gap(log: RigLog) -> float:

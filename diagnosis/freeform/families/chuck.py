@@ -69,21 +69,19 @@ def _grip(most_n_mm: float) -> Family:
 
 
 def _holder(most_n_mm: float) -> Family:
-    return Family(
-        effect=Effect(
+    """The same of the tissue."""
+    grip = _grip(most_n_mm)
+    return replace(
+        grip,
+        effect=replace(
+            grip.effect,
             name="slip of the tissue over torque",
             title="tissue that slips in its holder beyond a torque",
             place=Place.TISSUE,
-            parameters=(_torque(most_n_mm, _LEAST, _STARTS),),
             apply=_apply_holder,
-            differences=(1e-2, 1e-3),
         ),
         places={Place.TISSUE: 1.0},
-        says="torque",
         title="torque at which the tissue turns in its holder",
-        curve=_held,
-        x_unit="deg",
-        unit="N mm",
     )
 
 

@@ -53,20 +53,20 @@ def _along_the_shaft(ranges: LogRanges) -> Family:
 
 
 def _at_the_tip(ranges: LogRanges) -> Family:
-    return Family(
-        effect=Effect(
+    """The same in one place."""
+    shaft = _along_the_shaft(ranges)
+    return replace(
+        shaft,
+        effect=replace(
+            shaft.effect,
             name="holding torque at the tip over turned_by",
             title="tissue that holds the tip until it slides",
             place=Place.NEEDLE,
             parameters=_numbers(ranges, AT_TIP_MM),
             apply=_apply_at_tip,
-            differences=(1e-1, 1e-2),
         ),
         places={Place.NEEDLE: 0.6, Place.TISSUE: 0.4},
-        says="history",
         title="friction at the tip after it has turned back, until it slides",
-        curve=_twisted,
-        x_unit="deg",
         unit="N mm",
     )
 

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import START_LEFT_SHARE, START_LEFT_TIMES
 from diagnosis.fitting.decimation import decimated
-from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.nuisance import late_starts_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.nominal_replay import fitted_pasts
 from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.prepare.start.late_start_detection import begun_late
@@ -75,7 +75,7 @@ def _with_pasts(state: SearchState) -> SearchState:
     known = {effect.name for effect in problem.nuisance}
     pasts = tuple(effect for effect in late_starts_of(log) if effect.name not in known)
     problem = replace(problem, log=log, nuisance=(*problem.nuisance, *pasts))
-    nominal = fit_effects(replace(problem, nuisance=late_starts_of(log)), ())
+    nominal = fitted_pasts(problem)
     rig = nominal.parameterization.rig(nominal.x)
     return replace(
         state,
