@@ -12,7 +12,7 @@ from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.replay.along_depth import AlongDepth
-from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.variables import Variable
 from models.tissue import Interface
@@ -22,8 +22,17 @@ OVER_DEPTH = Curve(
 )
 STICKY = FreeLaw(throughout=(Interface(kinetic_n_mm_per_mm=0.001, varies=True),), curves=(OVER_DEPTH,))
 """Dry friction that grows with the inserted length."""
+GROWING = Curve(
+    acts_on=ActsOn.DRIVE_ANGLE,
+    variable=Variable.TURNED_BY,
+    places=(1.0, 3.0),
+    values=(-0.5, -0.2),
+    factor=Course(variable=Variable.TIME, places=(0.0, 20.0), values=(0.3, 1.7)),
+)
+"""Lost motion that grows in time."""
 EVERYTHING = replace(
     STICKY,
+    curves=(OVER_DEPTH, GROWING),
     tissue_varies=True,
     stiffness_varies=True,
     asymmetry=-0.2,

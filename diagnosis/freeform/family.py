@@ -30,6 +30,9 @@ class Family:
         effect, by its name.
       contains: effects of the library that it may have for a part.
       shape: name of the plain law that its curve has; empty: a curve of any form.
+      factor: what its law is multiplied by, over another variable: the same effect, told by its own
+        curve; None: nothing.
+      multiplies: whether it is such a factor.
     """
 
     effect: Effect
@@ -42,11 +45,18 @@ class Family:
     as_effect: Mapping[str, Callable[..., tuple[float, ...]]] = field(default_factory=dict)
     contains: tuple[str, ...] = ()
     shape: str = ""
+    factor: "Family | None" = None
+    multiplies: bool = False
 
     @property
     def name(self) -> str:
         """Name of its effect."""
         return self.effect.name
+
+    @property
+    def told(self) -> tuple["Family", ...]:
+        """All curves that tell its law: its own, and that of its factor."""
+        return (self,) if self.factor is None else (self, self.factor)
 
     @property
     def of_each_trial(self) -> bool:

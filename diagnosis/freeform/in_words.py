@@ -79,10 +79,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     where = UNSEEN if missing.best.held_out and not alone else SEEN
     first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
     each = zip(missing.beside, more, strict=True)
-    others = "".join(
-        f" It takes another law {PLACES[o.place]}, which depends on {VARIABLES[o.variable]}: {course}."
-        for o, course in each
-    )
+    others = "".join(f" {_more_of(law, course)}" for law, course in each)
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
     told = (
         f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
@@ -98,8 +95,16 @@ def laws_of(missing: Missing) -> list[tuple[Law, float]]:
     It is 0 for a law that does not.
     """
     laws = (missing.law, *missing.beside) if missing.law else ()
-    families = missing.best.families[: len(laws)]
-    return [(law, _period_deg(missing.best.fit, f)) for law, f in zip(laws, families, strict=True)]
+    each = zip(laws, missing.best.told[: len(laws)], strict=True)
+    return [(law, 0.0 if law.multiplies else _period_deg(missing.best.fit, f)) for law, f in each]
+
+
+def _more_of(law: Law, course: str) -> str:
+    """A sentence on a law beside the leading one, or on its factor."""
+    of = VARIABLES[law.variable]
+    if law.multiplies:
+        return f"It is multiplied by a factor that depends on {of}: {course}."
+    return f"It takes another law {PLACES[law.place]}, which depends on {of}: {course}."
 
 
 def _likeness(law: Law) -> str:

@@ -64,6 +64,7 @@ class Law:
     Attributes:
       beside: effects of the library that are fitted together with it.
       shape: name of the plain law that it was fitted as; empty: a curve of any form.
+      multiplies: whether it is a factor of the law before it.
     """
 
     place: Place
@@ -77,6 +78,7 @@ class Law:
     high: tuple[float, ...]
     beside: tuple[str, ...] = ()
     shape: str = ""
+    multiplies: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,7 +89,7 @@ class Missing:
       place: probabilities of places.
       depends_on: variables, in the order of the gaps that their laws leave.
       law: the law that leaves the smallest gap; None: none leaves clearly less than the library.
-      beside: laws that are fitted together with it.
+      beside: laws that are fitted together with it, and factors of these and of it.
       best: the fit of that law.
       closed: whether the law leaves little more than noise.
     """
@@ -113,7 +115,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
         place=_places(fits, nearest_gap),
         depends_on=_dependences(ranked),
         law=law_of(best) if helps else None,
-        beside=tuple(law_of(best, other) for other in best.others) if helps else (),
+        beside=tuple(law_of(best, other) for other in best.told[1:]) if helps else (),
         best=best,
         closed=helps and best.gap_after <= CLOSED_GAP,
     )
@@ -170,7 +172,7 @@ def _log_gap_weight(gap: float) -> float:
 def _dependences(ranked: Sequence[FreeFit]) -> tuple[Dependence, ...]:
     """The variable of the best fit, then the others in the order of their gaps."""
     found: dict[str, Dependence] = {}
-    for one, family in ((fit, own) for fit in ranked for own in fit.families):
+    for one, family in ((fit, own) for fit in ranked for own in fit.told):
         found.setdefault(
             family.says,
             Dependence(
@@ -208,6 +210,7 @@ def law_of(one: FreeFit, family: Family | None = None) -> Law:
         high=_numbers(ends[1]),
         beside=one.beside,
         shape=family.shape,
+        multiplies=family.multiplies,
     )
 
 

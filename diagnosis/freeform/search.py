@@ -21,6 +21,7 @@ from diagnosis.freeform.families import families_of
 from diagnosis.freeform.fits.checked import fitted_and_checked
 from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, with_family
+from diagnosis.freeform.fits.growing import growing
 from diagnosis.freeform.fits.to_its_end import to_its_end
 from diagnosis.freeform.fits.together import beside_one, beside_several, distinct, unlike
 from diagnosis.freeform.ranges import ranges_of
@@ -58,13 +59,17 @@ def free_form_fits(
     """
     nominal = replay(coarse.log, resolution=coarse.resolution)
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
-    families = families_of(ranges_of(coarse, nominal, softer))
+    ranges = ranges_of(coarse, nominal, softer)
+    families = families_of(ranges)
     base = fit_effects(coarse, ())
     first = each_fit(SCREENING, first_fit, [(coarse, base, f) for f in families], workers)
     better, rest = _promising(first, WORTH_MORE)
     first = each_fit(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
     near, _ = _promising(first, CONTENDERS)
     fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
+    if _open(fitted):
+        alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
+        fitted += growing(coarse, alone, ranges, workers)
     if _open(fitted):
         fitted += beside_one(coarse, base, fitted, first, effects, workers)
     if _open(fitted):

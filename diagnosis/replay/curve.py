@@ -18,6 +18,8 @@ A curve over the turn, or the advance, since the last reversal adds hysteresis (
 
 One over the lag of a reading gives the rate at which it follows: straight up to the last place, and
 level.
+
+What a curve adds may be multiplied by a course over another variable: play that grows in time.
 """
 
 from dataclasses import dataclass, replace
@@ -31,7 +33,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 from diagnosis.replay.sensing.bearing import stopped_at
 from diagnosis.replay.sensing.filters import first_order
 from diagnosis.replay.sensing.limited_rate import lag_at_limited_rate
-from diagnosis.replay.variables import Variable
+from diagnosis.replay.variables import OF_INPUTS, Variable
 from models.errors import InvalidValue
 
 Array = NDArray[np.float64]
@@ -67,26 +69,22 @@ FACTORS = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Curve:
-    """A curve of one variable.
+class Course:
+    """Values over a variable.
 
     Attributes:
       places: values of the variable, increasing.
       values: values of the curve at the places.
       period: period of the variable; 0: none.
-      trial: the only trial that it applies to; empty: all.
 
     Raises:
-      InvalidValue: places do not increase or span more than the period, there are not as many values,
-        or a factor is not positive.
+      InvalidValue: places do not increase or span more than the period, or there are not as many values.
     """
 
-    acts_on: ActsOn
     variable: Variable
     places: tuple[float, ...]
     values: tuple[float, ...]
     period: float = 0.0
-    trial: str = ""
 
     def __post_init__(self) -> None:
         places = np.asarray(self.places, float)
@@ -95,12 +93,6 @@ class Curve:
         if len(self.values) != places.size or not np.isfinite(self.values).all():
             raise InvalidValue(
                 "values", self.values, f"{places.size} finite numbers, one for each place"
-            )
-        if self.acts_on in FACTORS and min(self.values) <= 0:
-            raise InvalidValue(
-                "values",
-                self.values,
-                f"factors above 0, because the curve multiplies the {self.acts_on}",
             )
         if self.period and self.period <= places[-1] - places[0]:
             raise InvalidValue("period", self.period, "0, or more than the places span")
@@ -111,6 +103,34 @@ class Curve:
         if self.period:
             return np.asarray(through(self.places[0] + np.mod(x - self.places[0], self.period)))
         return np.asarray(through(np.clip(x, self.places[0], self.places[-1])))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curve(Course):
+    """A curve of one variable that acts on something.
+
+    Attributes:
+      trial: the only trial that it applies to; empty: all.
+      factor: what it adds is multiplied by, over another variable of the inputs; None: nothing.
+
+    Raises:
+      InvalidValue: as a course, or a factor is not positive, or would multiply a factor.
+    """
+
+    acts_on: ActsOn
+    trial: str = ""
+    factor: Course | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        multiplies = f"because the curve multiplies the {self.acts_on}"
+        if self.acts_on in FACTORS and min(self.values) <= 0:
+            raise InvalidValue("values", self.values, f"factors above 0, {multiplies}")
+        if self.factor and self.acts_on in (*FACTORS, ActsOn.ORIENTATION):
+            raise InvalidValue("factor", self.factor, f"none, {multiplies}")
+        if self.factor and self.factor.variable not in OF_INPUTS:
+            expected = f"a course over one of {', '.join(OF_INPUTS)}"
+            raise InvalidValue("factor", self.factor.variable, expected)
 
     def with_hysteresis(self, values: Array) -> Array:
         """Hysteresis to add to an angle or a torque, (N,): stop operators (Prandtl-Ishlinskii)."""

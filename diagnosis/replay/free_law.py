@@ -33,7 +33,8 @@ from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Curve
-from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle
+from diagnosis.replay.sensing.curve_signals import on_gain, on_needle, on_reading
+from diagnosis.replay.variables import Variable
 from models.contact import ContactCurve
 from models.drive import Drive
 from models.errors import InvalidValue
@@ -55,6 +56,7 @@ _TORQUES = (
 _ADDED = ("curves", "throughout", "at_tip", "at_entry", "in_sheath")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
+_OF_TISSUE = (ActsOn.TISSUE_ANGLE, ActsOn.TISSUE_SLIP)  # whose turn the tip shows, too
 _GAINS = (ActsOn.TIP_GAIN, ActsOn.TORQUE_GAIN)
 _SENSORS = (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING, *_OF_TIP, ActsOn.TORQUE_GAIN)
 
@@ -259,7 +261,7 @@ class FreeLaw:
             return inputs
         found: dict[ActsOn, list[Array]] = {what: [] for what in ActsOn}
         for curve in curves:
-            found[curve.acts_on].append(_of_the_past_or_present(curve, inputs, start_s, torque_n_mm))
+            found[curve.acts_on].append(on_needle(curve, inputs, start_s, torque_n_mm))
         one, none = np.ones(inputs.time_s.size), np.zeros(inputs.time_s.size)
         factor = math.prod(found[ActsOn.TISSUE], start=one)
         factor = np.maximum(factor / math.prod(found[ActsOn.STIFFNESS], start=one), _LEAST_FACTOR)
@@ -283,48 +285,20 @@ class FreeLaw:
         """Terms to add to the readings of tip and torque, (N,) each."""
         read = {True: np.zeros(tip_deg.size), False: np.zeros(torque_n_mm.size)}
         for curve in self.curves:
-            if curve.acts_on is ActsOn.STIFFNESS:
-                more = torque_n_mm * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
-                read[False] = read[False] + more
-            if curve.acts_on is ActsOn.TISSUE_ANGLE:
-                read[True] = read[True] + curve.at(of_inputs(curve.variable, inputs, start_s))
+            of_tip = curve.acts_on in (*_OF_TIP, *_OF_TISSUE)
+            own = tip_deg if of_tip else torque_n_mm
+            if curve.acts_on in (ActsOn.STIFFNESS, *_GAINS):
+                more = on_gain(curve, inputs, start_s, own)
+            elif curve.acts_on in _SENSORS:
+                more = on_reading(curve, inputs, start_s, own, tip_deg, torque_n_mm)
+            elif curve.acts_on in _OF_TISSUE:
+                more = on_needle(curve, inputs, start_s, torque_n_mm)
+            else:
+                continue
             if curve.acts_on is ActsOn.TISSUE_SLIP:
-                slip = _of_the_past_or_present(curve, inputs, start_s, torque_n_mm)
-                read[True] = read[True] + cumulative_trapezoid(slip, inputs.time_s, initial=0)
-            if curve.acts_on in _SENSORS:
-                of_tip = curve.acts_on in _OF_TIP
-                own = tip_deg if of_tip else torque_n_mm
-                if curve.acts_on in _GAINS:
-                    more = own * (curve.at(of_inputs(curve.variable, inputs, start_s)) - 1.0)
-                elif curve.variable is Variable.PAST:
-                    more = curve.of_past(inputs.time_s, own)
-                elif curve.variable is Variable.LAG:
-                    more = curve.behind(inputs.time_s, own)
-                elif curve.variable is Variable.TURNED_BY:
-                    of_drive = curve.acts_on is ActsOn.DRIVE_TORQUE
-                    more = curve.with_hysteresis(inputs.drive if of_drive else own)
-                elif curve.variable in OF_THE_NEEDLE:
-                    more = curve.at(of_needle(curve.variable, inputs.time_s, tip_deg, torque_n_mm))
-                else:
-                    more = curve.at(of_inputs(curve.variable, inputs, start_s))
-                read[of_tip] = read[of_tip] + more
+                more = cumulative_trapezoid(more, inputs.time_s, initial=0)
+            read[of_tip] = read[of_tip] + more
         return read[True], read[False]
-
-
-def _of_the_past_or_present(curve: Curve, inputs: Schedule, start_s: float, torque_n_mm: Array) -> Array:
-    """Values of a curve that acts on the needle, (N,)."""
-    match curve.variable:
-        case Variable.TURNED_BY:
-            return curve.with_hysteresis(inputs.drive)
-        case Variable.ADVANCED_BY:
-            return curve.with_hysteresis(inputs.inserted_mm)
-        case Variable.LAG:
-            return curve.behind(inputs.time_s, inputs.drive)
-        case Variable.PAST:
-            return curve.creep(inputs.time_s, torque_n_mm)
-        case Variable.TORQUE:
-            return curve.at(torque_n_mm)
-    return curve.at(of_inputs(curve.variable, inputs, start_s))
 
 
 def _either(part: str, one: FreeLaw, other: FreeLaw) -> Any:

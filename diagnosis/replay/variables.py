@@ -140,7 +140,7 @@ def of_inputs(variable: Variable, inputs: Schedule, start_s: float) -> Array:
     Args:
       start_s: start of the trial; earlier inputs are its past.
     """
-    return _OF_INPUTS[variable](inputs, start_s)
+    return OF_INPUTS[variable](inputs, start_s)
 
 
 def of_needle(variable: Variable, time_s: Array, tip_deg: Array, torque_n_mm: Array) -> Array:
@@ -216,7 +216,7 @@ def _axial_drag(inputs: Schedule, _: float) -> Array:
     return np.asarray(inputs.inserted_mm * np.tanh(inputs.speed_mm_s / _SLIDES_MM_S))
 
 
-_OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
+OF_INPUTS: Mapping[Variable, Callable[[Schedule, float], Array]] = {
     Variable.TIME: lambda inputs, start_s: inputs.time_s - start_s,
     Variable.TRIAL_SHARE: _trial_share,
     Variable.BASE_ANGLE: lambda inputs, _: inputs.drive,
@@ -233,3 +233,4 @@ _OF_INPUTS: dict[Variable, Callable[[Schedule, float], Array]] = {
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,
 }
+"""How each variable follows from the inputs of a trial and its start, s."""

@@ -44,6 +44,11 @@ class FreeFit:
         return (self.family, *self.others)
 
     @property
+    def told(self) -> tuple[Family, ...]:
+        """All curves that tell its laws: each law, then the factor that it may have."""
+        return tuple(curve for family in self.families for curve in family.told)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """All that are fitted: laws, then effects."""
         return (*(family.name for family in self.families), *self.beside)

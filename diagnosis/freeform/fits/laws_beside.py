@@ -74,16 +74,28 @@ def _promises(law: Fit, others: Sequence[_Other]) -> list[float]:
     """Scores as of a FreeFit, which the law could come to beside each of the others."""
     basis, _ = np.linalg.qr(law.slopes)
     left = law.residual - basis @ (basis.T @ law.residual)
-    return [_promised(basis, left, law.samples, other) for other in others]
+    return [_promised(basis, left, law.samples, other.columns, other.weights) for other in others]
 
 
-def _promised(basis: Array, left: Array, samples: int, other: _Other) -> float:
-    rows = len(other.columns)  # those of the prior, which follow, do not change
-    within = basis[:rows].T @ other.columns
-    squares = other.columns.T @ other.columns - within.T @ within
-    squares[np.diag_indices_from(squares)] += _ROUNDING * np.sum(other.columns**2, axis=0) + 1e-12
-    whole = squares + np.diag(other.weights**2)
-    along = other.columns.T @ left[:rows]
+def promised_score(law: Fit, columns: Array, weights: Array) -> float:
+    """Score as of a FreeFit that a law could come to with more coordinates.
+
+    Args:
+      columns: what each of these changes of residuals, (N, k).
+      weights: of their prior, (k,).
+    """
+    basis, _ = np.linalg.qr(law.slopes)
+    left = law.residual - basis @ (basis.T @ law.residual)
+    return _promised(basis, left, law.samples, columns, weights)
+
+
+def _promised(basis: Array, left: Array, samples: int, columns: Array, weights: Array) -> float:
+    rows = len(columns)  # those of the prior, which follow, do not change
+    within = basis[:rows].T @ columns
+    squares = columns.T @ columns - within.T @ within
+    squares[np.diag_indices_from(squares)] += _ROUNDING * np.sum(columns**2, axis=0) + 1e-12
+    whole = squares + np.diag(weights**2)
+    along = columns.T @ left[:rows]
     solved = np.linalg.solve(whole, np.column_stack([along, squares]))
     cost = max(float(left @ left - along @ solved[:, 0]), 1e-12)
     freedom = float(np.trace(solved[:, 1:]))

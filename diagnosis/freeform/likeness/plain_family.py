@@ -100,8 +100,16 @@ def plain_family(family: Family, values: Array, law: Law, found: Recognised) -> 
         parameters=tuple(own),
         apply=partial(_apply, through),
     )
-    points, shape = partial(_points, through), found.shape.name
-    return replace(family, effect=effect, curve=points, as_effect={}, contains=(), shape=shape)
+    return replace(
+        family,
+        effect=effect,
+        curve=partial(_points, through),
+        as_effect={},
+        contains=(),
+        shape=found.shape.name,
+        factor=family.factor
+        and replace(family.factor, effect=effect, curve=partial(_factor_points, through, family.factor)),
+    )
 
 
 def _through(family: Family, values: Array, law: Law, found: Recognised) -> _Through | None:
@@ -166,3 +174,8 @@ def _apply(through: _Through, rig: RigParameters, *plain: float) -> RigParameter
 
 def _points(through: _Through, *plain: float) -> Points:
     return through.x, through.wanted(plain)
+
+
+def _factor_points(through: _Through, factor: Family, *plain: float) -> Points:
+    """The curve of the factor, which a plain law does not change."""
+    return factor.curve(*(float(v) for v in through.coordinates(plain)))

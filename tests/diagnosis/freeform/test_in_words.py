@@ -149,6 +149,17 @@ def test_laws_that_were_fitted_together_are_told_one_by_one():
     assert "with the time" not in said  # as if that were enough
 
 
+def test_that_a_law_grows_with_another_variable_is_told():
+    factor = replace(LAW, variable="time", title="factor of the friction", unit="-", multiplies=True)
+    law = seen_fit()
+    best = replace(law, family=replace(law.family, factor=replace(law.family, multiplies=True)))
+    said = what_is_missing(missing_with(beside=(factor,), best=best), 8.9)
+    assert (
+        f"It is multiplied by a factor that depends on the time: {course_of(factor)}. Together" in said
+    )
+    assert "another law" not in said
+
+
 def test_of_a_single_trial_nothing_is_called_unseen():
     said = what_is_missing(missing_with(), 8.9)
     assert "not seen" not in said

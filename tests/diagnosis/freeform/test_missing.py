@@ -289,6 +289,21 @@ def test_the_curve_is_of_its_own_parameters_and_names_what_is_beside_it():
     assert (law.y, law.beside) == ((2.0,), ("tip_drag",))
 
 
+def test_of_a_law_that_grows_both_variables_are_told_the_factor_behind_it():
+    """The factor is a curve of the same effect, which the law before it is multiplied by."""
+    family = family_of(parameters=[LEVEL, LEVEL], curve=lambda level, _: ((0.0,), (level,)))
+    factor = replace(
+        family, says="depth", curve=lambda _, slope: ((0.0,), (1.0 + slope,)), multiplies=True
+    )
+    family = replace(family, factor=factor)
+    fit = linear_fit(family, [np.eye(2)], [np.zeros(2)], x=[2.0, 0.5])
+    found = missing_of([FreeFit(family=family, fit=fit, gap_after=1.0, final=True)], 5.0)
+    assert [one.variable for one in found.depends_on] == ["time", "depth"]
+    assert (found.law.y, found.law.multiplies) == ((2.0,), False)
+    (told,) = found.beside
+    assert (told.variable, told.y, told.multiplies) == ("depth", (1.5,), True)
+
+
 def test_where_a_factor_is_held_at_its_limit_a_curve_tells_nothing():
     """Beyond where the log has been a smooth curve may go anywhere, up to the limit of a factor."""
     y = np.array([1.0, 1.2, 0.8, 5e4])

@@ -46,6 +46,12 @@ def fitted(monkeypatch):
             "fit_effects": lambda *_, **__: None,
             "first_fit": lambda _, __, family: made(first, FreeFit(family=family, fit=None)),
             "to_its_end": lambda _, one, *enough: made(ended, one, *enough),
+            "growing": lambda _, laws, *__: [
+                made(ended, replace(law, family=family_of(parameters=[LEVEL], name=name)))
+                for law in laws
+                for name in ended
+                if name.startswith(f"{law.family.name}, growing")
+            ],
             "pairs_beside": lambda _, __, laws, names, ___: [
                 (law, Screened(names=(law.family.name, name), start=np.zeros(2), cost=0.0, gain=0.0))
                 for law in laws
@@ -149,6 +155,16 @@ def test_where_no_law_closes_the_gap_two_are_fitted_and_only_where_these_do_not_
     assert found[0].names == ("a", "b", "c")
     run(alone, {**alone, "a": 1.0, "a + b": 0.9})
     assert seen[-1][1] == ()  # one closes the gap
+
+
+def test_a_law_that_grows_is_tried_before_two_laws_are(fitted):
+    run, seen = fitted
+    alone, grown = {"a": 2.0, "b": 2.1}, "a, growing with time"
+    found = run(alone, {**alone, grown: 1.05, "a + b": 1.0})
+    assert found[0].names == (grown,)
+    assert ("a", ("b",), False) not in seen
+    found = run(alone, {**alone, grown: 1.5, "a + b": 1.0})
+    assert found[0].names == ("a", "b")
 
 
 def test_of_one_leading_law_no_more_than_a_few_go_to_the_log_itself(fitted):

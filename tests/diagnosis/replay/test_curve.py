@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.curve import FACTORS, ActsOn, Course, Curve
 from diagnosis.replay.variables import Variable
+from models.errors import InvalidValue
 
 TIME = np.arange(0, 10, 0.01)
 PLACES, VALUES = (0.0, 2.0, 3.0, 8.0), (1.0, 1.0, 4.0, 2.0)
@@ -70,3 +71,23 @@ def test_what_creeps_follows_a_torque_with_each_of_its_time_constants():
     since_s = np.maximum(TIME - 2.0, 0.0)
     expected = 0.4 * (-3.0 * (1.0 - np.exp(-since_s / 0.5)) - (1.0 - np.exp(-since_s / 2.0)))
     np.testing.assert_allclose(own.creep(TIME, torque), expected, atol=0.4 * (3.0 / 0.5 + 0.5) * 0.01)
+
+
+GROWS = Course(variable=Variable.TIME, places=(0.0, 5.0), values=(0.0, 2.0))
+
+
+@pytest.mark.parametrize("acts_on", [*FACTORS, ActsOn.ORIENTATION])
+def test_a_curve_that_multiplies_has_no_factor(acts_on):
+    with pytest.raises(InvalidValue, match="because the curve multiplies"):
+        curve(acts_on, factor=GROWS)
+
+
+def test_a_factor_is_over_a_variable_of_the_inputs():
+    with pytest.raises(InvalidValue, match="factor"):
+        curve(factor=Course(variable=Variable.TORQUE, places=(0.0, 5.0), values=(0.0, 2.0)))
+
+
+def test_a_strength_leaves_the_factor_as_it_is():
+    twice = curve(factor=GROWS).times(2.0)
+    assert twice.factor == GROWS
+    assert twice.values == tuple(2.0 * value for value in VALUES)

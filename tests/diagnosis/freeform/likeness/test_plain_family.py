@@ -9,11 +9,13 @@ from free_forms import covered, family_of
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import kind_of
+from diagnosis.freeform.fits.grown import grown_over
 from diagnosis.freeform.likeness.likeness import Recognised
 from diagnosis.freeform.likeness.plain_family import plain_family
 from diagnosis.freeform.likeness.shapes import OF_ANY
 from diagnosis.freeform.missing import Law
 from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
 
 LINE = next(shape for shape in OF_ANY if shape.name == "straight line")
 APPROACH = next(shape for shape in OF_ANY if shape.name == "exponential approach")
@@ -129,6 +131,23 @@ def test_nor_has_one_with_as_many_parameters():
     family = family_of(family_of().effect.parameters[:2], curve=lambda a, b: ((0.0, 1.0), (a, b)))
     law = law_of(family, np.array([0.0, 1.0]))
     assert plain_family(family, np.zeros(2), law, Recognised(shape=LINE, values=np.zeros(2))) is None
+
+
+def test_a_plain_law_keeps_the_factor_that_it_is_multiplied_by():
+    base = next(f for f in SHAPED if f.name == "tip reading over tip_angle")
+    family = grown_over(base, Variable.TIME, 0.0, 7.0)
+    values = np.append(started(base), [0.0] * (len(family.effect.parameters) - started(base).size))
+    values[started(base).size] = 0.4
+    law, line = line_near(base, started(base))
+    plain = plain_family(family, values, law, Recognised(shape=LINE, values=line))
+    own = [p.start[0] for p in plain.effect.parameters]
+    (curve,) = plain.effect.apply(RigParameters(), *own).free.curves
+    x, y = plain.factor.curve(*own)
+    np.testing.assert_allclose(curve.factor.values, y)
+    np.testing.assert_allclose(y, family.factor.curve(*values)[1])
+    assert plain.factor.name == plain.name
+    assert np.ptp(y) > 0.5
+    assert x[-1] == 7.0
 
 
 def test_it_goes_to_another_process():

@@ -1,0 +1,89 @@
+"""Which law grows with what: found by its slopes, then fitted."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import coarse_of, log_of
+
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.freeform.families.readings import families
+from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.freeform.fits.growing import GROWN_OF_ONE, growing, promise_of, start_of
+from diagnosis.freeform.fits.grown import all_grown, grown_over
+from diagnosis.freeform.ranges import ranges_of
+from diagnosis.replay.curve import ActsOn, Course, Curve
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.replay import replay
+from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.variables import Variable
+from diagnosis.workers import Workers
+
+NAME = "tip reading over direction"
+END_S = 12.0
+
+
+@pytest.fixture(scope="module")
+def grown():
+    """A log whose tip reads 4 deg behind the direction of turning at the end, nothing at the start.
+
+    The coarse problem, its ranges, the fit of that law as if it did not grow, and the gap of the true
+    rig: decimation leaves more than noise of a jump.
+    """
+    of_time = Course(variable=Variable.TIME, places=(0.0, END_S), values=(0.0, 2.0))
+    curve = Curve(
+        acts_on=ActsOn.TIP_READING,
+        variable=Variable.DIRECTION,
+        places=(-1.0, 1.0),
+        values=(2.0, -2.0),
+        factor=of_time,
+    )
+    true = replace(NOMINAL, free=FreeLaw(curves=(curve,)))
+    coarse = coarse_of(log_of(true, seconds=END_S))
+    ranges = ranges_of(coarse, replay(coarse.log, resolution=coarse.resolution))
+    family = {f.name: f for f in families(ranges)}[NAME]
+    fit = fit_effects(with_family(coarse, family), (family.name,))
+    left = np.concatenate([own for (own,) in coarse.residuals([true])])
+    return coarse, ranges, FreeFit(family=family, fit=fit, gap_after=fit.gap), np.sqrt(np.mean(left**2))
+
+
+def test_a_law_that_grows_in_time_is_promised_most_and_fitted_to_the_noise(grown):
+    coarse, ranges, law, true_gap = grown
+    assert law.fit.gap > 2.0 * true_gap
+    found = growing(coarse, [law], ranges, Workers())
+    assert len(found) == GROWN_OF_ONE
+    best = min(found, key=lambda f: f.score)
+    assert best.family.name == f"{NAME}, growing with time"
+    assert best.fit.gap < 1.02 * true_gap
+    own = np.array([owner == best.family.name for owner in best.fit.parameterization.owners])
+    values = np.array(best.fit.parameterization.values(best.fit.x))[own]
+    time_s, factor = best.family.factor.curve(*values)
+    _, size = best.family.curve(*values)
+    at = dict(zip(("forwards", "backwards"), np.interp([4.0, END_S], time_s, factor), strict=True))
+    assert size[1] * at["forwards"] == pytest.approx(-2.0 * 2.0 * 4.0 / END_S, abs=0.3)
+    assert size[0] * at["backwards"] == pytest.approx(2.0 * 2.0, abs=0.3)
+
+
+def test_growing_promises_more_than_the_law_leaves_alone(grown):
+    coarse, ranges, law, _ = grown
+    promised = {f.name: promise_of(coarse, law, f) for f in all_grown(law.family, ranges)}
+    assert min(promised, key=promised.get) == f"{NAME}, growing with time"
+    assert min(promised.values()) < law.score
+
+
+def test_a_fit_starts_from_the_law_that_does_not_grow(grown):
+    coarse, ranges, law, _ = grown
+    family = all_grown(law.family, ranges)[0]
+    start = start_of(coarse, law, family)
+    parts = with_family(coarse, family).parameterization((family.name,)).parts(start)
+    size = len(law.family.effect.parameters)
+    np.testing.assert_array_equal(parts[family.name][:size], law.fit.parts[law.family.name])
+    assert not parts[family.name][size:].any()
+
+
+def test_what_may_not_grow_is_left_out(grown):
+    coarse, ranges, law, _ = grown
+    again = grown_over(law.family, Variable.TIME, 0.0, END_S)
+    fit = fit_effects(with_family(coarse, again), (again.name,), start_of(coarse, law, again))
+    twice = FreeFit(family=again, fit=fit, gap_after=fit.gap)
+    assert growing(coarse, [twice], ranges, Workers()) == []
