@@ -3,7 +3,6 @@
 - damping times a curve of time, axial speed, depth, or place along the shaft, or of the base angle,
   also once a turn
 - nominal damping, and dry friction as a curve of these, or of the base angle
-- damping times a curve of the rate, and dry friction
 - damping and dry friction that differ between the directions
 """
 
@@ -15,14 +14,14 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points, coordinates_of
-from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
+from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
-from models.tissue import RATE_POINTS, Interface
+from models.tissue import Interface
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
 LATELY = (Variable.SLID_LATELY, Variable.PUSHED_LATELY)
@@ -30,11 +29,10 @@ DAMPING_OVER = (*OVER, *LATELY, Variable.BASE_ANGLE)
 FRICTION_OVER = (*OVER, *LATELY, Variable.BASE_ANGLE)
 FADING = (Variable.TIME, Variable.HISTORY)
 SLOW_RAD_S = 0.03
-SLOWEST, FASTEST = 0.003, 1.25  # ends of a curve over rate, in the fastest slip of the nominal shaft
 LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 TURN_DEG, WAVES = 360.0, 8
-_PLACES = {Place.INTERFACE: 1.0}
+INTERFACE = {Place.INTERFACE: 1.0}
 _WHEN = dict.fromkeys(LATELY, " after sliding")
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
 
@@ -48,7 +46,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     turn = (
         (_damping_over(Variable.BASE_ANGLE, periodic_curve(TURN_DEG, WAVES), ranges),) if turned else ()
     )
-    return (*damping, *turn, *friction, _rate(ranges), _direction(ranges), _position(ranges))
+    return (*damping, *turn, *friction, _direction(ranges), _position(ranges))
 
 
 def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
@@ -59,7 +57,8 @@ def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
     return smooth_curve(*ends, fading=variable in FADING)
 
 
-def _level(ranges: LogRanges) -> Parameter:
+def level_of(ranges: LogRanges) -> Parameter:
+    """The level of dry friction, with its starts."""
     return ranges.library["coulomb_friction"].parameters[0]
 
 
@@ -75,7 +74,7 @@ def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> 
             parameters=coordinates_of(curve),
             apply=partial(_apply_damping, variable, curve),
         ),
-        places=_PLACES,
+        places=INTERFACE,
         says=SAYS.get(variable, variable),
         title="damping along the shaft" + _WHEN.get(variable, ""),
         curve=partial(_damping, curve, beta),
@@ -104,11 +103,11 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
             name=f"dry friction over {variable}",
             title=f"dry friction that changes with {variable}",
             place=Place.INTERFACE,
-            parameters=(_level(ranges), *_from_neutral(coordinates_of(curve), _level(ranges))),
+            parameters=(level_of(ranges), *from_neutral(coordinates_of(curve), level_of(ranges))),
             apply=partial(_apply_friction, variable, curve),
             differences=(1e-2,),
         ),
-        places=_PLACES,
+        places=INTERFACE,
         says=SAYS.get(variable, variable),
         title="dry friction along the shaft" + _WHEN.get(variable, ""),
         curve=partial(_dry_level, curve),
@@ -121,7 +120,7 @@ def _dry_level(curve: SmoothCurve, level: float, *c: float) -> Points:
     return curve.places, level * np.exp(curve.values(c))
 
 
-def _from_neutral(own: Sequence[Parameter], level: Parameter) -> tuple[Parameter, ...]:
+def from_neutral(own: Sequence[Parameter], level: Parameter) -> tuple[Parameter, ...]:
     """The parameters with as many starts as the level has, all neutral."""
     return tuple(replace(p, start=(0.0,) * len(level.start)) for p in own)
 
@@ -135,60 +134,6 @@ def _apply_friction(
     )
 
 
-def rates_of(ranges: LogRanges) -> tuple[float, float]:
-    """Lowest and highest rate of a curve over the rate of each piece of shaft, rad/s."""
-    fastest = max(ranges.fastest_slip_rad_s, LEAST_RANGE[Variable.RATE])
-    return SLOWEST * fastest, FASTEST * fastest
-
-
-def _rate(ranges: LogRanges) -> Family:
-    rates = rates_of(ranges)
-    curve = smooth_curve(0.0, 1.0, RATE_POINTS)
-    beta = ranges.damping_n_mm_s_per_mm
-
-    return Family(
-        effect=Effect(
-            name="friction over rate",
-            title="friction that changes with the rate of turning",
-            place=Place.INTERFACE,
-            parameters=(_level(ranges), *_from_neutral(coordinates_of(curve), _level(ranges))),
-            apply=partial(_apply_rate, curve, rates),
-            differences=(1e-2,),
-        ),
-        places=_PLACES,
-        says="rate",
-        title="friction along the shaft",
-        curve=partial(_friction, curve, rates, beta),
-        x_unit="rad/s",
-        unit="N mm / mm",
-        as_effect={"shear_thinning": partial(_power_law, curve, rates, _level(ranges).low)},
-        contains=("coulomb_friction", "stiction"),
-    )
-
-
-def _power_law(
-    curve: SmoothCurve, rates: tuple[float, float], level: float, exponent: float, plateau: float
-) -> tuple[float, ...]:
-    """The least dry friction, and the coordinates of a power law that is viscous below its plateau."""
-    at = np.geomspace(*rates, RATE_POINTS)
-    return level, *curve.coordinates(0.5 * (exponent - 1.0) * np.log(at**2 + plateau**2))
-
-
-def _friction(
-    curve: SmoothCurve, rates: tuple[float, float], beta: float, level: float, *c: float
-) -> Points:
-    at = np.geomspace(*rates, RATE_POINTS)
-    return at, level + beta * at * np.exp(curve.values(c))
-
-
-def _apply_rate(
-    curve: SmoothCurve, rates: tuple[float, float], rig: RigParameters, level: float, *c: float
-) -> RigParameters:
-    law = Interface(kinetic_n_mm_per_mm=level)
-    free = FreeLaw(rate_curve=curve.factors(c), rate_range_rad_s=rates, throughout=(law,))
-    return replace(rig, free=free)
-
-
 def _direction(ranges: LogRanges) -> Family:
     beta = ranges.damping_n_mm_s_per_mm
 
@@ -198,14 +143,14 @@ def _direction(ranges: LogRanges) -> Family:
             title="friction that is stronger one way than the other",
             place=Place.INTERFACE,
             parameters=(
-                _level(ranges),
+                level_of(ranges),
                 _SIDE,
                 replace(_SIDE, name="viscous asymmetry", start=(0.0, 0.0, 0.0)),
             ),
             apply=_apply_direction,
             differences=(1e-2,),
         ),
-        places=_PLACES,
+        places=INTERFACE,
         says="direction",
         title=f"friction along the shaft at {SLOW_RAD_S:g} rad/s",
         curve=partial(_both_ways, beta),

@@ -17,8 +17,8 @@ from diagnosis.freeform.families.interface import (
     TURN_DEG,
     WAVES,
     curve_over,
-    rates_of,
 )
+from diagnosis.freeform.families.over_rate.friction import rates_of
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve, smooth_curve

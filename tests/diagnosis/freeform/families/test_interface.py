@@ -8,7 +8,6 @@ from free_forms import DAMPING, covered, same_readings
 from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.interface import SLOW_RAD_S, families
 from diagnosis.replay.rig_parameters import NOMINAL
-from models.tissue import RATE_POINTS
 
 ANGLE = turns(6.0)
 RANGES = covered(ANGLE, tip=ANGLE, speed=-1.0 * (np.arange(ANGLE.size) > ANGLE.size // 2))
@@ -40,11 +39,6 @@ def test_damping_times_a_constant_is_damping_of_another_size(name):
 def test_dry_friction_times_one_is_that_of_the_library(name):
     assert same_readings(ANGLE, rig_of(name, LEVEL), DRY)
     assert same_readings(ANGLE, rig_of(name, LEVEL / SCALE, straight=np.log(SCALE)), DRY)
-
-
-def test_friction_over_rate_is_dry_and_viscous_where_its_curve_is_level():
-    assert same_readings(ANGLE, rig_of("friction over rate", LEVEL), DRY)
-    assert same_readings(ANGLE, rig_of("friction over rate", 1e-12, straight=np.log(SCALE)), THICK)
 
 
 def test_friction_as_strong_both_ways_is_that_of_the_library():
@@ -80,8 +74,6 @@ def test_curves_are_told_in_the_units_of_the_needle():
     assert ways == (-1.0, 1.0)
     slow = DAMPING * SLOW_RAD_S
     assert both == pytest.approx([0.5 * LEVEL + 1.2 * slow, 1.5 * LEVEL + 0.8 * slow])
-    rates, torque = FAMILIES["friction over rate"].curve(LEVEL, *[0.0] * RATE_POINTS)
-    np.testing.assert_allclose(torque, LEVEL + DAMPING * np.asarray(rates))
     place, damping = FAMILIES["damping over position"].curve(*[0.0] * 6)
     np.testing.assert_allclose(damping, DAMPING)
     assert (place[0], place[-1]) == pytest.approx((1 / 12, 11 / 12))

@@ -1,0 +1,1 @@
+"""Free laws over the rate at which each piece of shaft slips."""

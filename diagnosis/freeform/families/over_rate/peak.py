@@ -1,0 +1,101 @@
+"""Damping that is stronger, or weaker, around one rate of slipping,
+
+    damping = nominal (1 + height exp(-(ln(rate / at) / width)^2)),
+
+as of rubber and gels, whose friction peaks at a rate (Grosch, Proc. R. Soc. Lond. A 274 (1963)). A curve
+over all rates of a log is too coarse for that.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import INTERFACE
+from diagnosis.freeform.families.over_rate.friction import rates_of
+from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from models.tissue import RATE_POINTS
+
+_LOWEST, _HIGHEST = -0.95, 20.0  # height of a peak
+_NARROWEST, _WIDEST = 0.2, 2.0  # in the logarithm of the rate
+_HEIGHTS, _WIDTH = (0.5, -0.3), 0.7  # to start with
+_AT = (0.25, 0.5, 0.75)  # of the logarithm of the rates
+_REACH = 2.5  # widths either side, beyond which nothing of a peak is left: 0.2 %
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """The law."""
+    return (_peak(ranges),)
+
+
+def _peak(ranges: LogRanges) -> Family:
+    beta = ranges.damping_n_mm_s_per_mm
+    return Family(
+        effect=Effect(
+            name="damping over rate, around one rate",
+            title="damping that is stronger or weaker around one rate of turning",
+            place=Place.INTERFACE,
+            parameters=_parameters(*rates_of(ranges)),
+            apply=_apply,
+        ),
+        places=INTERFACE,
+        says="rate",
+        title="damping along the shaft",
+        curve=partial(_damping, beta),
+        x_unit="rad/s",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _parameters(slowest_rad_s: float, fastest_rad_s: float) -> tuple[Parameter, ...]:
+    starts = [
+        (height, slowest_rad_s * (fastest_rad_s / slowest_rad_s) ** share)
+        for height in _HEIGHTS
+        for share in _AT
+    ]
+    heights, rates = zip(*starts, strict=True)
+    height = Parameter(name="height", unit="-", low=_LOWEST, high=_HIGHEST, start=heights)
+    rate = Parameter(
+        name="rate",
+        unit="rad/s",
+        low=slowest_rad_s,
+        high=fastest_rad_s,
+        start=rates,
+        logarithmic=True,
+        neutral=None,
+    )
+    width = Parameter(
+        name="width",
+        unit="-",
+        low=_NARROWEST,
+        high=_WIDEST,
+        start=(_WIDTH,) * len(rates),
+        logarithmic=True,
+        neutral=None,
+    )
+    return height, rate, width
+
+
+def _rates(rate_rad_s: float, width: float) -> tuple[float, float]:
+    reach = float(np.exp(_REACH * width))
+    return rate_rad_s / reach, rate_rad_s * reach
+
+
+def _factors(height: float) -> tuple[float, ...]:
+    """At `RATE_POINTS` rates from end to end."""
+    widths = np.linspace(-_REACH, _REACH, RATE_POINTS)
+    return tuple(float(f) for f in 1.0 + height * np.exp(-(widths**2)))
+
+
+def _damping(beta: float, height: float, rate_rad_s: float, width: float) -> Points:
+    rates = np.geomspace(*_rates(rate_rad_s, width), RATE_POINTS)
+    return rates, beta * np.array(_factors(height))
+
+
+def _apply(rig: RigParameters, height: float, rate_rad_s: float, width: float) -> RigParameters:
+    free = FreeLaw(rate_curve=_factors(height), rate_range_rad_s=_rates(rate_rad_s, width))
+    return replace(rig, free=free)

@@ -1,0 +1,38 @@
+"""Friction over the rate: where it becomes an effect of the library, it is that."""
+
+import numpy as np
+from diagnosis_fixtures import turns
+from free_forms import DAMPING, covered, same_readings
+
+from diagnosis.effects import LIBRARY
+from diagnosis.freeform.families.over_rate.friction import families, rates_of
+from diagnosis.replay.rig_parameters import NOMINAL
+from models.tissue import RATE_POINTS
+
+ANGLE = turns(6.0)
+RANGES = covered(ANGLE, tip=ANGLE)
+(FAMILY,) = families(RANGES)
+LEVEL, SCALE = 0.001, 1.2
+DRY = LIBRARY["coulomb_friction"].apply(NOMINAL, LEVEL)
+THICK = LIBRARY["damping_error"].apply(NOMINAL, SCALE)
+
+
+def rig_of(level, straight=0.0):
+    return FAMILY.effect.apply(NOMINAL, level, straight, *[0.0] * (RATE_POINTS - 1))
+
+
+def test_friction_is_dry_and_viscous_where_its_curve_is_level():
+    assert same_readings(ANGLE, rig_of(LEVEL), DRY)
+    assert same_readings(ANGLE, rig_of(1e-12, straight=np.log(SCALE)), THICK)
+
+
+def test_the_curve_is_the_torque_of_a_mm_of_shaft():
+    rates, torque = FAMILY.curve(LEVEL, *[0.0] * RATE_POINTS)
+    np.testing.assert_allclose(torque, LEVEL + DAMPING * np.asarray(rates))
+    np.testing.assert_allclose((rates[0], rates[-1]), rates_of(RANGES))
+
+
+def test_rates_reach_beyond_the_fastest_slip_of_the_nominal_shaft():
+    low, high = rates_of(RANGES)
+    assert low < 0.01 * RANGES.fastest_slip_rad_s
+    assert high > RANGES.fastest_slip_rad_s
