@@ -14,7 +14,8 @@ either direction, a factor that varies in time, and one of what the contact has 
 torque may also depend on the shaft's angle: of a bent shaft, and of one that is not round,
 
     orientation sin(cycles theta - phase)
-    orientation_viscous s cos(cycles theta - phase).
+    orientation_viscous s cos(cycles theta - phase)
+    orientation_dry (1 + cos(cycles theta - phase))       more of the dry level.
 """
 
 import numpy as np
@@ -55,6 +56,7 @@ class Interface(Record):
     orientation_n_mm_per_mm: NonNegative = 0.0
     orientation_viscous_n_mm_s_per_mm: NonNegative = 0.0
     """At 1 rad/s, N mm s / rad per mm; beside at least as much viscous torque, it damps at any angle."""
+    orientation_dry_n_mm_per_mm: NonNegative = 0.0
     orientation_phase_deg: float = 0.0
     orientation_cycles: Positive = 1.0
     """In one turn of the shaft."""

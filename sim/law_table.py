@@ -23,6 +23,7 @@ _TORQUES_PER_LENGTH = [
     memory_map.L_STIFFNESS,
     memory_map.L_CURVATURE,
     memory_map.L_WAVE,
+    memory_map.L_KEYED,
 ]
 _REMEMBERED = {
     ContactVariable.SLIP: (memory_map.SLIP_SO_FAR, units.DEG),
@@ -134,6 +135,7 @@ def _interface(law: Interface) -> Array:
     row[memory_map.L_TIME] = law.time_constant_s
     row[memory_map.L_CURVATURE] = law.orientation_n_mm_per_mm * _PER_MM
     row[memory_map.L_WAVE] = law.orientation_viscous_n_mm_s_per_mm * _PER_MM
+    row[memory_map.L_KEYED] = law.orientation_dry_n_mm_per_mm * _PER_MM
     row[memory_map.L_PHASE] = law.orientation_phase_deg * units.DEG
     row[memory_map.L_CYCLES] = law.orientation_cycles
     row[memory_map.L_ASYMMETRY] = law.asymmetry

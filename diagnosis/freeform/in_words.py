@@ -13,6 +13,7 @@ from diagnosis.in_sigma import in_sigma
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
+from models.tissue import Interface
 
 PLACES = {
     Place.INTERFACE: "between shaft and tissue",
@@ -177,10 +178,15 @@ def _period_deg(fit: Fit, family: Family) -> float:
     waves = [
         _TURN_DEG / law.orientation_cycles
         for law in (*free.throughout, *free.at_tip, *free.at_entry, *free.in_sheath)
-        if law.orientation_n_mm_per_mm and law.orientation_cycles.is_integer()  # else over many turns
+        if _has_waves(law) and law.orientation_cycles.is_integer()  # else over many turns
     ]
     curves = (curve.period for curve in free.curves if curve.variable is not Variable.TIME)
     return max([*curves, *waves], default=0.0)
+
+
+def _has_waves(law: Interface) -> bool:
+    """Whether a torque or a dry friction of a law repeats over the angle of the shaft."""
+    return bool(law.orientation_n_mm_per_mm or law.orientation_dry_n_mm_per_mm)
 
 
 def repeating(period_deg: float) -> str:

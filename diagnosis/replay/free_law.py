@@ -52,6 +52,7 @@ _TORQUES = (
     "shared_n_mm_per_mm",
     "orientation_n_mm_per_mm",
     "orientation_viscous_n_mm_s_per_mm",
+    "orientation_dry_n_mm_per_mm",
 )
 _ADDED = ("curves", "throughout", "at_tip", "at_entry", "in_sheath")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive

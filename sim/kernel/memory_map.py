@@ -91,8 +91,9 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_TIME,  # its time constant, s
     L_CURVATURE,  # N m / m
     L_WAVE,  # viscous torque times a wave over the angle, N m s / rad / m
+    L_KEYED,  # dry level times 1 + a wave over the angle, N m / m
     L_PHASE,  # rad
-    L_CYCLES,  # of both in one turn
+    L_CYCLES,  # of all three in one turn
     L_LOAD,  # dry level over the torque that the shaft carries there
     L_SHAPED,  # 1: one of the following is not neutral
     L_VARIES,  # which part of it is times the input's factor; 0: none
@@ -126,7 +127,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(54)
+) = range(55)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, HEAT, BROKEN, TWIST = (

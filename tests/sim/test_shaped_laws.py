@@ -193,6 +193,19 @@ def test_damping_may_depend_on_the_angle() -> None:
     np.testing.assert_allclose(run.base_torque_n_mm[later][:-1], expected[later][:-1], rtol=1e-2)
 
 
+def test_dry_friction_may_depend_on_the_angle() -> None:
+    """At the tip alone, while it slips: level + w (1 + cos(theta - phase))."""
+    law = Interface(kinetic_n_mm_per_mm=0.4, orientation_dry_n_mm_per_mm=0.2, orientation_phase_deg=20.0)
+    damped = Interface(viscous_n_mm_s_per_mm=0.1)
+    run = turned(Tissue(layers=(Layer(interface=Interface()),), at_tip=(law, damped)))
+    tip = np.radians(run.tip_deg)
+    expected = 0.4 + 0.2 * (1.0 + np.cos(tip - math.radians(20.0)))
+    expected = expected + 0.1 * np.gradient(tip, run.time_s)
+    later = run.time_s > 0.5 * run.time_s[-1]  # inertia has long settled
+    assert np.ptp(expected[later]) > 0.1 * np.max(expected)
+    np.testing.assert_allclose(run.base_torque_n_mm[later][:-1], expected[later][:-1], rtol=1e-2)
+
+
 def test_the_curve_has_as_many_places_in_the_model_as_in_the_kernel() -> None:
     assert RATE_POINTS == memory_map.CURVE_POINTS
     with pytest.raises(InvalidValue, match=r"rate_curve.*12 factors"):

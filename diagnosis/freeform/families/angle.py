@@ -3,7 +3,8 @@
 - at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
   one and two waves per turn
 - at the tip: a torque towards one angle that depends on the axial speed, as of a bevel that is pushed
-- along the inserted shaft: damping that depends on the angle, as of a shaft that is not round
+- along the inserted shaft: damping, or dry friction, that depends on the angle, as of a shaft that is
+  not round
 """
 
 import math
@@ -15,6 +16,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
+from diagnosis.freeform.families.interface import level_of
 from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve
@@ -33,7 +35,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that depend on the angle of the shaft; none if it hardly turns."""
     if Variable.BASE_ANGLE not in ranges.ends:
         return ()
-    found = [_angle(ranges, tip=True), _angle(ranges, tip=False), _uneven_damping(ranges)]
+    found = [_angle(ranges, tip=True), _angle(ranges, tip=False)]
+    found += [_uneven_damping(ranges), _uneven_friction(ranges)]
     if Variable.AXIAL_SPEED in ranges.ends:
         found.append(_pushed(ranges))
     return tuple(found)
@@ -159,9 +162,67 @@ def _damping_wave(cycles: int, sine: float, cosine: float) -> Interface:
 
 def _kept_below(beta: float, c: Sequence[float]) -> list[float]:
     """Waves that leave some damping at any angle."""
-    most = sum(math.hypot(a, b) for a, b in zip(c[::2], c[1::2], strict=True))
+    most = _sum_of_sizes(c)
     share = min(1.0, _MOST_UNEVEN * beta / most) if most > 0.0 else 1.0
     return [share * own for own in c]
+
+
+def _uneven_friction(ranges: LogRanges) -> Family:
+    """Dry friction of each piece of shaft over its own angle: never less than at its easiest angle."""
+    return Family(
+        effect=Effect(
+            name="dry friction along the shaft over tip_angle",
+            title="dry friction that depends on the angle of the shaft",
+            place=Place.INTERFACE,
+            parameters=_level_and_waves(level_of(ranges)),
+            apply=_apply_uneven_friction,
+            differences=(1e-2,),
+        ),
+        places={Place.INTERFACE: 0.6, Place.NEEDLE: 0.4},
+        says="tip_angle",
+        title="dry friction along the shaft",
+        curve=_friction_over_a_turn,
+        x_unit="deg",
+        unit="N mm / mm",
+    )
+
+
+def _level_and_waves(level: Parameter) -> tuple[Parameter, ...]:
+    """Starts in four directions: at no wave, its size has no slope."""
+    towards = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
+    starts = [(size, size * sine, size * cosine) for size in level.start for sine, cosine in towards]
+    levels, sines, cosines = zip(*starts, strict=True)
+    sine, cosine, *others = coordinates(2 * len(ALONG), 0, level.start[-1])
+    return (
+        replace(level, start=levels),
+        replace(sine, start=sines),
+        replace(cosine, start=cosines),
+        *(replace(p, start=(0.0,) * len(starts)) for p in others),
+    )
+
+
+def _friction_over_a_turn(level: float, *c: float) -> Points:
+    angle, waves = _over_a_turn(ALONG, *c)
+    return angle, level + _sum_of_sizes(c) + np.asarray(waves)
+
+
+def _sum_of_sizes(c: Sequence[float]) -> float:
+    return sum(math.hypot(a, b) for a, b in zip(c[::2], c[1::2], strict=True))
+
+
+def _apply_uneven_friction(rig: RigParameters, level: float, *c: float) -> RigParameters:
+    waves = zip(ALONG, c[::2], c[1::2], strict=True)
+    first, *others = (_friction_wave(*own) for own in waves)
+    return replace(rig, free=FreeLaw(throughout=(first.but(kinetic_n_mm_per_mm=level), *others)))
+
+
+def _friction_wave(cycles: int, sine: float, cosine: float) -> Interface:
+    """One wave and its size: a sin x + b cos x + hypot(a, b), which is nowhere below 0."""
+    return Interface(
+        orientation_dry_n_mm_per_mm=math.hypot(sine, cosine),
+        orientation_phase_deg=math.degrees(math.atan2(sine, cosine)),
+        orientation_cycles=float(cycles),
+    )
 
 
 def _over_a_turn(waves: Sequence[int], *c: float) -> Points:

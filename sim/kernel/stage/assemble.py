@@ -30,6 +30,7 @@ def is_linear(row: Array) -> bool:
         and row[memory_map.L_STIFFNESS] == 0.0
         and row[memory_map.L_CURVATURE] == 0.0
         and row[memory_map.L_WAVE] == 0.0
+        and row[memory_map.L_KEYED] == 0.0
         and row[memory_map.L_LOAD] == 0.0
         and row[memory_map.L_POINT] == 0.0
         and row[memory_map.L_SHAPED] == 0.0
@@ -134,7 +135,7 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
     g, n = frame.g, omega.size - 1
     is_point, place, fraction = row[memory_map.L_POINT] != 0.0, int(w.point[r, 0]), w.point[r, 1]
     load, curvature, wave = row[memory_map.L_LOAD], row[memory_map.L_CURVATURE], row[memory_map.L_WAVE]
-    cycles, phase = row[memory_map.L_CYCLES], row[memory_map.L_PHASE]
+    cycles, phase, keyed = row[memory_map.L_CYCLES], row[memory_map.L_PHASE], row[memory_map.L_KEYED]
     factor = frame.factor if row[memory_map.L_VARIES] != 0.0 else 1.0
     if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES:
         curvature, wave = factor * curvature, factor * wave
@@ -155,6 +156,9 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         rate = left * omega[e] + right * omega[e + 1]
         at_tip = e == n - 1 and right > 1.0 - _AT_END
         extra = load * abs(tip_torque if at_tip else spring[e] * twist)
+        angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
+        if keyed > 0.0:
+            extra += keyed * (1.0 + math.cos(angle))
         old = Memory(
             before[slot, k, memory_map.Z_DRY],
             before[slot, k, memory_map.Z_TURN],
@@ -174,11 +178,12 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         stored += 0.5 * stiffness * new.phi * new.phi
         recoverable += stiffness * new.phi * (rate + advected - slip)
         if curvature != 0.0 or wave != 0.0:
-            angle = cycles * (left * theta[e] + right * theta[e + 1] + g * rate) - phase
             sine, cosine, turning = math.sin(angle), math.cos(angle), rate + advected
             torque += curvature * sine + wave * cosine * turning
             slope += g * cycles * (curvature * cosine - wave * sine * turning) + wave * cosine
             recoverable += weight * curvature * sine * rate
+        if keyed > 0.0:
+            slope -= g * cycles * keyed * math.sin(angle) * new.dry / frame.yield_angle
         tilt = g * per_length
         rhs[e] -= to_left * torque
         rhs[e + 1] -= to_right * torque

@@ -12,10 +12,11 @@ from diagnosis.replay.rig_parameters import NOMINAL
 ANGLE = turns(6.0)
 SLIDING = covered(ANGLE, tip=ANGLE, speed=2.0 * np.sin(np.linspace(0, 9, ANGLE.size)))
 FAMILIES = {family.name: family for family in families(SLIDING)}
-TIP_ANGLE, ALONG, UNEVEN, PUSHED = (
+TIP_ANGLE, ALONG, UNEVEN, KEYED, PUSHED = (
     "tip torque over tip_angle",
     "torque along the shaft over tip_angle",
     "damping along the shaft over tip_angle",
+    "dry friction along the shaft over tip_angle",
     "tip torque towards one angle over axial_speed",
 )
 
@@ -83,6 +84,32 @@ def test_uneven_damping_is_told_as_damping_and_stays_positive():
         for law in laws
     )
     assert told == pytest.approx(beta * (0.3 * np.sin(2 * at) + 0.2 * np.cos(2 * at)))
+
+
+def test_friction_over_the_angle_is_a_level_and_what_waves_add_to_it():
+    """Never below the level, which it reaches at the easiest angle of a single wave."""
+    angles, level = FAMILIES[KEYED].curve(0.002, 0.0, 0.0, 0.0003, 0.0004)
+    x = 2 * np.radians(angles)
+    np.testing.assert_allclose(level, 0.0025 + 0.0003 * np.sin(x) + 0.0004 * np.cos(x))
+    # Points every 7.5 deg: 15 deg of this wave.
+    assert 0.002 <= min(level) < 0.002 + 0.0005 * (1.0 - np.cos(np.radians(7.5)))
+    laws = FAMILIES[KEYED].effect.apply(NOMINAL, 0.002, 0.0, 0.0, 0.0003, 0.0004).free.throughout
+    at = np.radians(30.0)
+    told = sum(
+        law.kinetic_n_mm_per_mm
+        + law.orientation_dry_n_mm_per_mm
+        * (1.0 + np.cos(law.orientation_cycles * at - np.radians(law.orientation_phase_deg)))
+        for law in laws
+    )
+    assert told == pytest.approx(0.0025 + 0.0003 * np.sin(2 * at) + 0.0004 * np.cos(2 * at))
+
+
+def test_friction_whose_waves_are_none_is_that_of_the_library():
+    flat = FAMILIES[KEYED].effect.apply(NOMINAL, 0.001, 0.0, 0.0, 0.0, 0.0)
+    dry = LIBRARY["coulomb_friction"].apply(NOMINAL, 0.001)
+    assert same_readings(ANGLE, flat, dry)
+    wave = FAMILIES[KEYED].effect.apply(NOMINAL, 0.0005, 0.0005, 0.0, 0.0, 0.0)
+    assert not same_readings(ANGLE, wave, dry)
 
 
 def test_a_needle_that_hardly_turns_has_no_law_of_its_angle():

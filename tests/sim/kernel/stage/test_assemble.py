@@ -29,6 +29,9 @@ TISSUES = {
         orientation_viscous_n_mm_s_per_mm=0.01,
         orientation_cycles=2.0,
     ),
+    "keyed": Tissue.uniform(
+        kinetic_n_mm_per_mm=0.01, orientation_dry_n_mm_per_mm=0.01, orientation_phase_deg=30.0
+    ),
     "entry": Tissue.uniform(viscous_n_mm_s_per_mm=0.02, entry_friction_n_mm=0.1),
 }
 BENT = NITINOL.but(curvature_n_mm_per_mm=0.003, curvature_phase_deg=40, load_coefficient=0.3)
