@@ -22,7 +22,7 @@ def bounded_least_squares(matrix: Array, wanted: Array, low: Array, high: Array)
 
 def promised_reduction(slopes: Array, residual: Array, low: Array, high: Array) -> float:
     """What a step between `low` and `high` takes off the sum of squares, by the linear model."""
-    basis, root = np.linalg.qr(slopes)
-    seen = basis.T @ residual
+    whole = np.linalg.qr(np.column_stack([slopes, residual]), mode="r")[: slopes.shape[1]]
+    root, seen = whole[:, :-1], whole[:, -1]  # of the residual, what lies along the slopes
     step = bounded_least_squares(root, -seen, low, high)
     return float(seen @ seen - np.sum((seen + root @ step) ** 2))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from diagnosis.effects import FITTED
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, far_for
-from diagnosis.fitting.objective import Objective
+from diagnosis.fitting.objective import NearStart, Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
 from diagnosis.fitting.problem import FitProblem
 
@@ -101,6 +101,7 @@ def fit_effects(
     *,
     most_iterations: int = _MOST_ITERATIONS,
     slopes: Array | None = None,
+    near: NearStart | None = None,
     from_a_fit: bool = False,
     to_the_end: bool = False,
 ) -> Fit:
@@ -111,6 +112,7 @@ def fit_effects(
       enough: cost below which the fit is of use; it is given up if it cannot get there.
       most_iterations: largest number of Gauss-Newton iterations.
       slopes: Jacobian of residuals and prior, (N, n), from a similar fit; None: it is computed.
+      near: what is known about the start; None: it is simulated.
       from_a_fit: whether it starts where another fit ended: finite differences are small at once.
       to_the_end: whether it goes on where it is slow far above the noise.
 
@@ -127,6 +129,8 @@ def fit_effects(
     differences = max((e.differences for e in parameterization.all), key=len)
     for difference in differences[-1:] if from_a_fit or slopes is not None else differences:
         objective = Objective(problem, parameterization, difference, slopes)
+        if near is not None:
+            objective.learn_from(x, near)
         far = np.inf if to_the_end else far_for(leading=problem.callback_alone)
         stopping = Stopping(objective, problem.tolerance_sigma, enough, far=far)
         x, status = _minimised(objective, x, stopping, most_iterations)

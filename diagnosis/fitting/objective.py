@@ -14,6 +14,7 @@ those on the log itself.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,19 @@ _FAR = 0.1  # of the effects' entries, after which the slopes of the nuisance ar
 _NEAR = 0.02  # of all entries, within which the slopes are the same for one more step
 _MISSED = 0.3  # of a change of the residuals, up to which slopes foretold it
 _KEPT = 16  # vectors whose residuals are kept: more than a search along one direction takes
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NearStart:
+    """What a fit without the effects says about the start of a fit with them.
+
+    Attributes:
+      of_nuisance: its slopes along the nuisance, without the prior, (N, k).
+      by_trial: its residuals / sigma, if the effects change nothing at the start; None: they may.
+    """
+
+    of_nuisance: Array
+    by_trial: tuple[Array, ...] | None
 
 
 class Objective:
@@ -64,6 +78,16 @@ class Objective:
         self._moving = np.flatnonzero(free | parameterization.about_one_trial)
         self._rows: int | None = None
         self._known: dict[bytes, tuple[Array, ...]] = {}
+
+    def learn_from(self, x: Array, near: NearStart) -> None:
+        """Take for known what a fit without the effects says near a vector, (n,)."""
+        slopes = near.of_nuisance
+        rows, size = slopes.shape[0], x.size
+        self.slopes, self._fresh_at = np.zeros((rows + size, size)), x
+        self.slopes[:rows, size - slopes.shape[1] :] = slopes
+        self.slopes[rows:] = np.diag(self.parameterization.weights)
+        if near.by_trial is not None:
+            self._known[x.tobytes()] = near.by_trial
 
     def by_trial(self, x: Array) -> tuple[Array, ...]:
         """Residuals / sigma at one vector, (n,), one array per trial, for the iterations of a fit.

@@ -1,7 +1,8 @@
 """The first fit of a family to the decimated log: from where screening leads, without fine coordinates.
 
 Each coordinate costs a simulation. The fine ones of a smooth curve hardly change it unless it is rough:
-the promise of a family shows without them, and later fits have them all.
+the promise of a family shows without them, and later fits have them all. Slopes along the nuisance,
+which moves by a few per cent, are those of the rig without the law.
 """
 
 from dataclasses import replace
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.objective import NearStart
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
@@ -34,13 +36,23 @@ def first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
       SimulationFailed: the rig with the law cannot be simulated.
     """
     problem = with_family(coarse, without_fine(family))
-    start = screen(problem, base, family.name)[0].start
+    neutral = _starts_neutral(family)
+    if neutral:
+        start = problem.parameterization((family.name,)).joined(base.parts)
+    else:
+        start = screen(problem, base, family.name)[0].start
+    near = NearStart(of_nuisance=np.vstack(base.jacobian), by_trial=base.by_trial if neutral else None)
     problem = replace(problem, differences_halved=True)
     few = len(family.effect.parameters) <= FEW_NUMBERS
     iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
-    fit = fit_effects(problem, (family.name,), start, most_iterations=iterations)
+    fit = fit_effects(problem, (family.name,), start, most_iterations=iterations, near=near)
     fit = with_fine(fit, with_family(coarse, family), family)
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
+
+
+def _starts_neutral(family: Family) -> bool:
+    """Whether it starts from no law at all: a curve does."""
+    return all(not p.logarithmic and set(p.start) == {0.0} for p in family.effect.parameters)
 
 
 def without_fine(family: Family) -> Family:

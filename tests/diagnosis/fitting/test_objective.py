@@ -8,7 +8,7 @@ from diagnosis_fixtures import log_of, problem_of
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
-from diagnosis.fitting.objective import Objective
+from diagnosis.fitting.objective import NearStart, Objective
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import RigParameters
 from sim.needles.run import SimulationFailed
@@ -158,6 +158,29 @@ def test_slopes_that_foretold_a_step_hold_for_one_more_and_learn_what_they_misse
     farther = there + step
     objective.jacobian(farther, objective(farther))
     assert len(objective.problem.rigs) == before + 3
+
+
+def test_what_a_fit_without_the_effects_knows_of_the_start_is_not_simulated_again():
+    """Its slopes along the nuisance, and its residuals where the effects change nothing."""
+    problem, x = ClosedForm(), middle()
+    known = (np.array([1.0, 2.0]), np.array([3.0]))
+    objective = Objective(problem, DRAG)
+    objective.learn_from(x, NearStart(of_nuisance=np.array([[0.1], [0.2], [0.3]]), by_trial=known))
+    at_x = objective(x)
+    np.testing.assert_array_equal(at_x[:3], [1.0, 2.0, 3.0])
+    assert problem.rigs == []
+    slopes = objective.jacobian(x, at_x)
+    assert len(problem.rigs) == 1  # the step along the drag
+    weight = 1.0 / SCATTER["stiffness_error"]
+    np.testing.assert_array_equal(slopes[:, 1], [0.1, 0.2, 0.3, 0.0, weight])
+
+
+def test_where_effects_change_something_at_the_start_it_is_simulated():
+    problem, x = ClosedForm(), middle()
+    objective = Objective(problem, DRAG)
+    objective.learn_from(x, NearStart(of_nuisance=np.zeros((3, 1)), by_trial=None))
+    np.testing.assert_array_equal(objective(x), Objective(ClosedForm(), DRAG)(x))
+    assert len(problem.rigs) == 1
 
 
 def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():

@@ -5,6 +5,7 @@ from diagnosis_fixtures import log_of, problem_of
 from free_forms import CURVE, family_of
 
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families.interface import families
 from diagnosis.freeform.family import coordinates_of
 from diagnosis.freeform.fits.first_fit import first_fit, with_fine, without_fine
@@ -58,6 +59,30 @@ def test_a_first_fit_is_one_of_the_whole_family_of_whose_fine_coordinates_nothin
     more = fit_effects(with_family(problem, family), (family.name,), found.fit.x, most_iterations=3)
     assert more.cost <= found.fit.cost * 1.001
     assert with_fine(more, with_family(problem, family), family) is more
+
+
+def test_a_curve_starts_from_the_fit_without_it_whose_runs_are_known(monkeypatch):
+    """Only its own coordinates, and where they lead, are simulated; no start, no nuisance."""
+    problem = problem_of(log_of(RigParameters(damping_scale=1.3), seconds=8.0))
+    ranges = ranges_of(problem, replay(problem.log))
+    family = next(f for f in families(ranges) if f.name == "damping over time")
+    base = fit_effects(problem, ())
+    simulated = []
+    residuals = FitProblem.residuals
+
+    def counted(problem, rigs, **known):
+        simulated.extend(rigs)
+        return residuals(problem, rigs, **known)
+
+    monkeypatch.setattr(FitProblem, "residuals", counted)
+    first_fit(problem, base, family)
+    differences = [rig for rig in simulated if rig.stiffness_scale == base_rig(base).stiffness_scale]
+    coordinates = len(without_fine(family).effect.parameters)
+    assert len(differences) == 1 + coordinates  # the start, half as fine, and a step along each
+
+
+def base_rig(base):
+    return base.parameterization.rig(base.x)
 
 
 def problem_size(problem, family):
