@@ -1,9 +1,10 @@
-"""Free laws of drag and dry friction outside of the tissue: where the shaft enters it, or in its sheath.
+"""Free laws of drag and dry friction in one place: where the shaft enters the tissue, in its sheath, or
+at the tip.
 
-- over the rate: two numbers
+- over the rate: two numbers; at the tip a curve, which is in tip.py
 - over the direction: the same, stronger one way than the other
 
-A seal, a puncture, a guide tube or a bearing along the free shaft. That of the tip is in tip.py.
+A seal, a puncture, a guide tube or a bearing along the free shaft; a tip that rubs on bone.
 """
 
 from collections.abc import Mapping
@@ -78,12 +79,21 @@ SHEATH = Spot(
     law="in_sheath",
     unit="N mm / mm",
 )
+AT_THE_TIP = Spot(
+    name="tip torque",
+    words="at the tip",
+    places={Place.NEEDLE: 1.0},
+    like="entry_friction",
+    law="at_tip",
+    unit="N mm",
+)
 SPOTS = (ENTRY, SHEATH)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """Both laws of each spot."""
-    return tuple(law(spot, ranges) for spot in SPOTS for law in (_rate, _direction))
+    """Both laws of each spot, and that of the direction at the tip."""
+    both = tuple(law(spot, ranges) for spot in SPOTS for law in (_rate, _direction))
+    return (*both, _direction(AT_THE_TIP, ranges))
 
 
 def _rate(spot: Spot, ranges: LogRanges) -> Family:

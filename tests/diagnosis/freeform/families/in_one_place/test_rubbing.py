@@ -38,6 +38,12 @@ def test_drag_and_friction_are_told_as_torques(spot):
     np.testing.assert_allclose(torque, [0.06, 0.14])
 
 
+def test_drag_alone_at_the_tip_is_that_of_the_library():
+    drag = LIBRARY["tip_drag"].apply(NOMINAL, 0.2)
+    assert same_readings(ANGLE, rig_of("tip torque over direction", 0.2, 0.0, 0.0), drag)
+    assert not same_readings(ANGLE, rig_of("tip torque over direction", 0.2, 0.1, 0.0), drag)
+
+
 def test_what_they_depend_on_has_a_word_and_all_start_with_some_drag():
     assert {family.says for family in FAMILIES.values()} == {"rate", "direction"} <= VOCABULARY
     for family in FAMILIES.values():
