@@ -1,7 +1,8 @@
-"""Free laws of what follows at a limited rate: the tip sensor, or the needle in its chuck.
+"""Free laws of what follows at a limited rate: the tip or torque sensor, or the needle in its chuck.
 
 A tracker that smooths what it sees, or a camera that looks for the tip near where it was, is late by a
-time constant, and by more where the tip turns fast. So is a chuck that a clutch or a slow motor turns.
+time constant, and by more where the tip turns fast. So are an amplifier of limited slew rate, and a
+chuck that a clutch or a slow motor turns.
 """
 
 from collections.abc import Mapping
@@ -11,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.readings import DRIVE, SENSOR, TIP
+from diagnosis.freeform.families.readings import DRIVE, SENSOR, TIP, TORQUE
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import ActsOn, Curve
@@ -25,16 +26,30 @@ _SHARES = (0.7, 0.4, 0.2, 0.4, 0.2)  # of the fastest turn, to start with
 
 @dataclass(frozen=True, kw_only=True)
 class _Follower:
-    """What follows: what its curve acts on, the rate that it is to follow, and words."""
+    """What follows: what its curve acts on, the rate that it is to follow, its unit, and words.
+
+    Attributes:
+      per_rate: of what follows, in its unit, over what the rate is of.
+    """
 
     acts_on: ActsOn
     rate: Variable
     places: Mapping[Place, float]
     words: str
+    unit: str = "deg"
+    per_rate: float = float(np.degrees(1.0))
 
 
 _TIP = _Follower(
     acts_on=ActsOn.TIP_READING, rate=Variable.TIP_RATE, places=SENSOR, words="the tip sensor"
+)
+_TORQUE = _Follower(
+    acts_on=ActsOn.TORQUE_READING,
+    rate=Variable.TORQUE_RATE,
+    places=SENSOR,
+    words="the torque sensor",
+    unit="N mm",
+    per_rate=1.0,
 )
 _CHUCK = _Follower(
     acts_on=ActsOn.DRIVE_ANGLE, rate=Variable.RATE, places=DRIVE, words="the needle in its chuck"
@@ -42,22 +57,23 @@ _CHUCK = _Follower(
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """Both, where they turn; the tip sensor, if it was read."""
-    followers = (_TIP, _CHUCK) if TIP in ranges.missing else (_CHUCK,)
-    return tuple(_limited(one, ranges) for one in followers if one.rate in ranges.ends)
+    """All that move; the sensors, if they were read."""
+    sensors = {TIP: _TIP, TORQUE: _TORQUE}
+    read = [own for sensor, own in sensors.items() if sensor in ranges.missing]
+    return tuple(_limited(one, ranges) for one in (*read, _CHUCK) if one.rate in ranges.ends)
 
 
 def _limited(follower: _Follower, ranges: LogRanges) -> Family:
-    fastest_deg_s = float(np.degrees(max(abs(end) for end in ranges.ends[follower.rate])))
+    fastest = follower.per_rate * max(abs(end) for end in ranges.ends[follower.rate])
     time = Parameter(
         name="time", unit="s", low=1e-3, high=3.0, start=_TIMES_S, logarithmic=True, neutral=None
     )
     rate = Parameter(
         name="rate",
-        unit="deg/s",
-        low=0.01 * fastest_deg_s,
-        high=3.0 * fastest_deg_s,
-        start=tuple(share * fastest_deg_s for share in _SHARES),
+        unit=f"{follower.unit}/s",
+        low=0.01 * fastest,
+        high=3.0 * fastest,
+        start=tuple(share * fastest for share in _SHARES),
         logarithmic=True,
         neutral=None,
     )
@@ -74,17 +90,17 @@ def _limited(follower: _Follower, ranges: LogRanges) -> Family:
         says="rate",
         title=f"rate at which {follower.words} follows",
         curve=_follows,
-        x_unit="deg of lag",
-        unit="deg/s",
+        x_unit=f"{follower.unit} of lag",
+        unit=f"{follower.unit}/s",
     )
 
 
-def _follows(time_s: float, rate_deg_s: float) -> Points:
-    lag_deg = time_s * rate_deg_s
-    return (0.0, lag_deg, 2.0 * lag_deg), (0.0, rate_deg_s, rate_deg_s)
+def _follows(time_s: float, per_s: float) -> Points:
+    lag = time_s * per_s
+    return (0.0, lag, 2.0 * lag), (0.0, per_s, per_s)
 
 
-def _apply(acts_on: ActsOn, rig: RigParameters, time_s: float, rate_deg_s: float) -> RigParameters:
-    places, values = (0.0, time_s * rate_deg_s), (0.0, rate_deg_s)
+def _apply(acts_on: ActsOn, rig: RigParameters, time_s: float, per_s: float) -> RigParameters:
+    places, values = (0.0, time_s * per_s), (0.0, per_s)
     curve = Curve(acts_on=acts_on, variable=Variable.LAG, places=places, values=values)
     return replace(rig, free=FreeLaw(curves=(curve,)))
