@@ -22,7 +22,8 @@ def bounded_least_squares(matrix: Array, wanted: Array, low: Array, high: Array)
 
 def promised_reduction(slopes: Array, residual: Array, low: Array, high: Array) -> float:
     """What a step between `low` and `high` takes off the sum of squares, by the linear model."""
-    whole = np.linalg.qr(np.column_stack([slopes, residual]), mode="r")[: slopes.shape[1]]
-    root, seen = whole[:, :-1], whole[:, -1]  # of the residual, what lies along the slopes
+    size = slopes.shape[1]
+    whole = np.asarray(np.linalg.qr(np.column_stack([slopes, residual]), mode="r"))
+    root, seen = whole[:size, :size], whole[:size, size]  # of the residual, what lies along the slopes
     step = bounded_least_squares(root, -seen, low, high)
     return float(seen @ seen - np.sum((seen + root @ step) ** 2))

@@ -1,14 +1,15 @@
 """A law that changes with the depth, as layers of tissue.
 
 The parts are equally thick. They either share the inserted length, and grow with it, or lie at fixed
-depths below the surface, as layers of a real tissue do: a shallow trial then meets only the first.
+depths below the surface, as layers of a real tissue do: a shallow trial then meets only the first. Or
+the second of two begins at the depth at which a trial began.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 from models.errors import InvalidValue
-from models.tissue import Interface, Layer
+from models.tissue import THINNEST_MM, Interface, Layer
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,9 +22,10 @@ class AlongDepth:
       friction_n_mm_per_mm: dry friction in addition to the nominal one.
       thickness_mm: of each part; the last takes the rest. 0: the parts share the inserted length.
       thicknesses_mm: of each part but the last, where they differ; empty: they do not.
+      from_start: whether there are two parts, the first down to where a trial began.
 
     Raises:
-      InvalidValue: a factor of the damping, or a thickness, is not allowed.
+      InvalidValue: a factor of the damping, a thickness, or the number of parts is not allowed.
     """
 
     damping: tuple[float, ...] = ()
@@ -31,6 +33,7 @@ class AlongDepth:
     friction_n_mm_per_mm: tuple[float, ...] = ()
     thickness_mm: float = 0.0
     thicknesses_mm: tuple[float, ...] = ()
+    from_start: bool = False
 
     def __post_init__(self) -> None:
         if min(self.damping, default=1.0) <= 0:
@@ -46,6 +49,9 @@ class AlongDepth:
             expected = f"{self.parts - 1} thicknesses above 0, of all parts but the last"
             raise InvalidValue("thicknesses_mm", self.thicknesses_mm, expected)
 
+        if self.from_start and (self.parts != 2 or self.thickness_mm or self.thicknesses_mm):
+            raise InvalidValue("from_start", True, "two parts without a thickness, or False")
+
     @property
     def parts(self) -> int:
         """Number of parts; 0: nothing changes with the depth."""
@@ -59,10 +65,20 @@ class AlongDepth:
             friction_n_mm_per_mm=tuple(strength * level for level in self.friction_n_mm_per_mm),
             thickness_mm=self.thickness_mm,
             thicknesses_mm=self.thicknesses_mm,
+            from_start=self.from_start,
         )
 
+    def in_trial(self, begun_mm: float) -> "AlongDepth":
+        """That of a trial which began at a depth: its first part is so thick."""
+        if not self.from_start:
+            return self
+        return replace(self, from_start=False, thicknesses_mm=(max(begun_mm, THINNEST_MM),))
+
     def layers(self, law: Interface) -> tuple[Layer, ...]:
-        """Layers of tissue, each with the law of the nominal one, changed."""
+        """Layers of tissue, each with the law of the nominal one, changed.
+
+        Those from the start of a trial are of one in particular (`in_trial`); else they share.
+        """
         elastic = law.stiffness_n_mm_per_rad_per_mm
         each = zip_longest(self.damping, self.stiffness, self.friction_n_mm_per_mm)
         *upper, last = (

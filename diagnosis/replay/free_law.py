@@ -186,6 +186,11 @@ class FreeLaw:
         """The parts of the law that apply to one trial."""
         return self._with(tuple(c for c in self.curves if c.trial in ("", trial)))
 
+    def begun_at(self, depth_mm: float) -> "FreeLaw":
+        """The law in a trial that began at a depth."""
+        along = self.along_depth.in_trial(depth_mm)
+        return self if along is self.along_depth else replace(self, along_depth=along)
+
     def without_sensors(self) -> "FreeLaw":
         """The parts of the law that act on the needle, without those of the sensors."""
         return self._with(self._of_the_needle())

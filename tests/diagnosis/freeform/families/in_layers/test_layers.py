@@ -8,8 +8,8 @@ from diagnosis_fixtures import turns
 from free_forms import DAMPING, covered, same_readings
 
 from diagnosis.effects import LIBRARY
+from diagnosis.freeform.families.in_layers.layers import FINE, families
 from diagnosis.freeform.families.interface import PARTS
-from diagnosis.freeform.families.layers import FINE, families
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.variables import Variable
 
