@@ -1,9 +1,11 @@
 """A verdict that knows what else would have changed the readings in the same way.
 
 Equivalent sets of as many effects as the chosen one, or of fewer, become candidates: scores decide as
-among all others. Larger ones are named beside it: one cause is likelier than several that happen to
-be equal, and no log can tell. Imperfections of sensors, which have no name in a verdict, may take the
-place of effects in candidates: a low-pass filter of the torque is nearly a delay.
+among all others. So do these without stiffness and damping, which scatter by a few per cent from rig to
+rig: beside a gain of the torque by 1.012, a stiffness of 1.0005 is none. Larger ones are named beside
+it: one cause is likelier than several that happen to be equal, and no log can tell. Imperfections of
+sensors, which have no name in a verdict, may take the place of effects in candidates: a low-pass filter
+of the torque is nearly a delay.
 """
 
 from collections.abc import Sequence
@@ -12,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import SIMPLE_LEAD
+from diagnosis.criteria import SCATTER, SIMPLE_LEAD
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
@@ -102,9 +104,17 @@ def _with_equals(told: ToldApart, workers: Workers) -> tuple[ToldApart, list[tup
     effects = [name for name in told.state.effects if name not in open_]
     equal = equivalent_sets(told.coarse, verdict.best, effects, workers) if verdict.effects else ()
     few = [e for e in equal if len(e.names) <= len(verdict.effects)]
+    few += _without_scatter(few)
     wider = _fitted(told.state, verdict.best, few, workers)
     last = told if wider is told.state else _judged(wider, told.checked, told.forms)
     return last, [e.names for e in equal]
+
+
+def _without_scatter(equal: Sequence[Equivalent]) -> list[Equivalent]:
+    """Sets with stiffness or damping, left to their scatter, each once."""
+    left = [(e, tuple(name for name in e.names if name not in SCATTER)) for e in equal]
+    fewer = {frozenset(names): (e, names) for e, names in left if 0 < len(names) < len(e.names)}
+    return [replace(e, names=names, parts={n: e.parts[n] for n in names}) for e, names in fewer.values()]
 
 
 def _judged(

@@ -51,6 +51,27 @@ def test_one_cause_is_named_with_the_two_beside_it(gain):
     assert [frozenset(names) for names in found.confusable] == [{"torque_scale"}, ALIKE]
 
 
+def test_one_cause_is_named_beside_a_stiffness_that_is_within_its_scatter():
+    """1 % of stiffness is no error: the gain alone explains what two effects that differ by it do."""
+    rig = RigParameters(torque_scale=1.1, stiffness_scale=1.01)
+    found = verdict_of(rig, *sorted(ALIKE), damping_error=1.1, stiffness_error=1.111)
+    assert (found.kind, found.effects) == (VerdictKind.EXPLAINED, ("torque_scale",))
+
+
+def test_sets_are_left_to_the_scatter_of_stiffness_and_damping_once_each():
+    parts = {name: np.ones(1) for name in EFFECTS}
+    sets = [
+        ("torque_scale", "stiffness_error"),
+        ("damping_error", "torque_scale"),
+        ("damping_error", "stiffness_error"),
+        ("coulomb_friction", "torque_scale"),
+    ]
+    equal = [Equivalent(names=names, parts={n: parts[n] for n in names}, cost=0.0) for names in sets]
+    (left,) = module._without_scatter(equal)
+    assert left.names == ("torque_scale",)
+    assert list(left.parts) == ["torque_scale"]
+
+
 def test_after_a_stop_what_was_left_out_is_noted(gain):
     stop = StopSignal()
     stop.request(StopReason.INTERRUPTED)
