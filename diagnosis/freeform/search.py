@@ -102,7 +102,7 @@ def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> floa
 def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
     own = with_family(coarse, first.family)
     fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=MORE_ITERATIONS)
-    return replace(first, fit=fit, gap_after=fit.gap)
+    return replace(first, fit=fit.with_its_promise(), gap_after=fit.gap)
 
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:

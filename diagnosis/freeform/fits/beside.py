@@ -5,7 +5,7 @@ leaves, and d what an effect at a start changes of the readings without the law,
 
     promised cost = min over x and a >= 0 of |r + J x + a d|^2,
 
-which takes one QR factorisation a law, and no simulation. The effects of the pairs that promise most
+which takes no simulation. The effects of the pairs that promise most
 are then simulated beside their laws (selection.screening), since both may be far from small.
 """
 
@@ -19,6 +19,7 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.parameterization import starts
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.freeform.fits.linear_model import linear_model
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.workers import Failure, Task, Workers
 
@@ -104,15 +105,11 @@ def _changes(coarse: FitProblem, base: Fit, name: str) -> Array:
 
 def promised_costs(law: Fit, changes: Array) -> Array:
     """The cost that each change, (N, k), could leave beside a law, (k,)."""
-    basis, _ = np.linalg.qr(law.slopes)
-    residual = law.residual
-    left = residual - basis @ (basis.T @ residual)
-    rows = len(changes)  # the prior's, which follow, do not change
-    within = basis[:rows].T @ changes
-    size = np.maximum(np.sum(changes**2, axis=0) - np.sum(within**2, axis=0), 1e-12)
-    along = changes.T @ left[:rows]
+    model = linear_model(law)
+    squares, along = model.beyond(changes)
+    size = np.maximum(np.diag(squares), 1e-12)
     amount = np.clip(-along / size, 0.0, MOST)
-    return np.asarray(left @ left + 2.0 * amount * along + amount**2 * size)
+    return np.asarray(model.cost + 2.0 * amount * along + amount**2 * size)
 
 
 def _screened_beside(coarse: FitProblem, law: FreeFit, name: str) -> Screened:

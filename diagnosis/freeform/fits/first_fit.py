@@ -46,7 +46,7 @@ def first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
     few = len(family.effect.parameters) <= FEW_NUMBERS
     iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
     fit = fit_effects(problem, (family.name,), start, most_iterations=iterations, near=near)
-    fit = with_fine(fit, with_family(coarse, family), family)
+    fit = with_fine(fit, with_family(coarse, family), family).with_its_promise()
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 
 

@@ -84,9 +84,10 @@ def _grown(
     x_unit: str,
 ) -> Family:
     name = f"{family.name}, growing with {by}" if by != _OF_TRIALS else f"{family.name}, growing {by}"
+    starts = len(family.effect.parameters[0].start)
     parameters = (
         *family.effect.parameters,
-        *(replace(p, name=f"{p.name} of the factor") for p in more),
+        *(replace(p, name=f"{p.name} of the factor", start=starts * p.start) for p in more),
     )
     effect = replace(family.effect, name=name, title=name, parameters=parameters, apply=apply)
     own = replace(

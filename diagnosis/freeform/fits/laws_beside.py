@@ -5,7 +5,7 @@ slopes of the other law's first fit, d what that changed of the readings, and W 
 
     promised cost = min over x, y, a of |r + J x + K y + a d|^2 + |W y|^2 + a^2,
 
-which takes one QR factorisation a law, and no simulation. Of the pairs of all laws with those that leave
+which takes no simulation. Of the pairs of all laws with those that leave
 least alone, the few that promise most are fitted.
 """
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.fits.free_fit import FreeFit
+from diagnosis.freeform.fits.linear_model import LinearModel, linear_model
 from diagnosis.replay.free_law import FreeLaw
 from models.errors import InvalidValue
 
@@ -72,9 +73,8 @@ def _other(base: Fit, one: FreeFit) -> _Other:
 
 def _promises(law: Fit, others: Sequence[_Other]) -> list[float]:
     """Scores as of a FreeFit, which the law could come to beside each of the others."""
-    basis, _ = np.linalg.qr(law.slopes)
-    left = law.residual - basis @ (basis.T @ law.residual)
-    return [_promised(basis, left, law.samples, other.columns, other.weights) for other in others]
+    model = linear_model(law)
+    return [_promised(model, law.samples, other.columns, other.weights) for other in others]
 
 
 def promised_score(law: Fit, columns: Array, weights: Array) -> float:
@@ -84,20 +84,15 @@ def promised_score(law: Fit, columns: Array, weights: Array) -> float:
       columns: what each of these changes of residuals, (N, k).
       weights: of their prior, (k,).
     """
-    basis, _ = np.linalg.qr(law.slopes)
-    left = law.residual - basis @ (basis.T @ law.residual)
-    return _promised(basis, left, law.samples, columns, weights)
+    return _promised(linear_model(law), law.samples, columns, weights)
 
 
-def _promised(basis: Array, left: Array, samples: int, columns: Array, weights: Array) -> float:
-    rows = len(columns)  # those of the prior, which follow, do not change
-    within = basis[:rows].T @ columns
-    squares = columns.T @ columns - within.T @ within
+def _promised(model: LinearModel, samples: int, columns: Array, weights: Array) -> float:
+    squares, along = model.beyond(columns)
     squares[np.diag_indices_from(squares)] += _ROUNDING * np.sum(columns**2, axis=0) + 1e-12
     whole = squares + np.diag(weights**2)
-    along = columns.T @ left[:rows]
     solved = np.linalg.solve(whole, np.column_stack([along, squares]))
-    cost = max(float(left @ left - along @ solved[:, 0]), 1e-12)
+    cost = max(model.cost - float(along @ solved[:, 0]), 1e-12)
     freedom = float(np.trace(solved[:, 1:]))
     return samples * float(np.log(cost / samples)) + freedom * float(np.log(samples))
 

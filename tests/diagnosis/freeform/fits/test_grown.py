@@ -5,6 +5,7 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered, same_readings
 
+from diagnosis.fitting.parameterization import starts
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.families.readings import families
 from diagnosis.freeform.fits.grown import VARIABLES, all_grown, grown_in_trials, grown_over, may_grow
@@ -69,6 +70,15 @@ def test_factors_and_laws_of_other_kinds_do_not_grow():
     assert not may & {"tip gain over time", "damping over time", "stiffness over torque"}
     assert not may_grow(None)
     assert not may_grow(FreeLaw())
+
+
+def test_a_law_that_grows_starts_where_the_law_does_without_growing():
+    slow = next(f for f in families_of(RANGES) if f.name == "drive slip over rate, beyond a level")
+    family = grown_over(slow, Variable.TIME, 0.0, 4.0)
+    of_law, begun = starts(slow.effect), starts(family.effect)
+    assert len(of_law) == len(begun) > 1
+    for one, other in zip(of_law, begun, strict=True):
+        np.testing.assert_array_equal(other, [*one, *[0.0] * (other.size - one.size)])
 
 
 def test_what_grows_once_does_not_grow_again():
