@@ -4,7 +4,8 @@ Each call returns, in order, its value, or a `Failure` if it could not be simula
 Other errors are raised, from workers too. Worker processes end with this one, however it ends.
 
 Cores that no other process computes on are used by threads within calls (diagnosis.cores). Libraries of
-linear algebra get one thread per process: with one per core in each, they would wait for each other.
+linear algebra get one thread per process, this one included: with one per core in each, they would wait
+for each other.
 Results do not depend on any of this.
 """
 
@@ -151,7 +152,7 @@ def process_pool(count: int, progress: Heard = unheard, stop: StopSignal = NEVER
     others, cores = active_children(), Cores(count=count)
     pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(stop, cores))
     try:
-        with sharing(cores):
+        with sharing(cores), threadpool_limits(1):
             yield Workers(pool=pool, count=count, progress=progress, stop=stop)
     finally:
         pool.shutdown(wait=False, cancel_futures=True)

@@ -49,11 +49,14 @@ def threads_of_libraries():
     return max(library["num_threads"] for library in threadpool_info())
 
 
-def test_libraries_use_one_thread_in_each_process_however_many_they_have_here():
+def test_libraries_use_one_thread_in_each_process_however_many_they_have_outside():
+    """In this one, too: its threads would wait for the workers on every small product."""
     asked = [Task(effects=(), arguments=()) for _ in range(4)]
-    with threadpool_limits(2), process_pool(2) as two:
+    with threadpool_limits(2):
+        with process_pool(2) as two:
+            assert threads_of_libraries() == 1
+            assert two.each("", threads_of_libraries, asked) == [1] * 4
         assert threads_of_libraries() == 2
-        assert two.each("", threads_of_libraries, asked) == [1] * 4
 
 
 def test_a_call_is_its_value_or_a_failure_that_names_the_effects():

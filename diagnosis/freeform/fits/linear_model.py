@@ -10,6 +10,7 @@ precise enough to tell what is worth a fit.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +37,7 @@ class LinearModel:
     root: Array
     left: Array
 
-    @property
+    @cached_property
     def cost(self) -> float:
         """Cost that the fit could come to by itself."""
         return float(self.left @ self.left)
