@@ -26,10 +26,10 @@ _SHARES = (0.7, 0.4, 0.2, 0.4, 0.2)  # of the fastest turn, to start with
 
 @dataclass(frozen=True, kw_only=True)
 class _Follower:
-    """What follows: what its curve acts on, the rate that it is to follow, its unit, and words.
+    """What follows: what its curve acts on, the rate that it is to follow, and words.
 
     Attributes:
-      per_rate: of what follows, in its unit, over what the rate is of.
+      unit: of what follows: deg, for a rate in rad/s, or that of the rate.
     """
 
     acts_on: ActsOn
@@ -37,7 +37,6 @@ class _Follower:
     places: Mapping[Place, float]
     words: str
     unit: str = "deg"
-    per_rate: float = float(np.degrees(1.0))
 
 
 _TIP = _Follower(
@@ -49,7 +48,6 @@ _TORQUE = _Follower(
     places=SENSOR,
     words="the torque sensor",
     unit="N mm",
-    per_rate=1.0,
 )
 _CHUCK = _Follower(
     acts_on=ActsOn.DRIVE_ANGLE, rate=Variable.RATE, places=DRIVE, words="the needle in its chuck"
@@ -64,7 +62,9 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _limited(follower: _Follower, ranges: LogRanges) -> Family:
-    fastest = follower.per_rate * max(abs(end) for end in ranges.ends[follower.rate])
+    fastest = max(abs(end) for end in ranges.ends[follower.rate])
+    if follower.unit == "deg":
+        fastest = float(np.degrees(fastest))
     time = Parameter(
         name="time", unit="s", low=1e-3, high=3.0, start=_TIMES_S, logarithmic=True, neutral=None
     )
