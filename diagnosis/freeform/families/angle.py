@@ -66,7 +66,7 @@ def _angle(ranges: LogRanges, *, tip: bool) -> Family:
 
 def _level(ranges: LogRanges) -> float:
     """Of strong friction, N mm / mm."""
-    return ranges.library["coulomb_friction"].parameters[0].start[-1]
+    return level_of(ranges).start[-1]
 
 
 def _pushed(ranges: LogRanges) -> Family:

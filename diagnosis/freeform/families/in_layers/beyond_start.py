@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import level_of
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.along_depth import AlongDepth
@@ -33,7 +34,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _beyond_start(ranges: LogRanges) -> Family:
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = level_of(ranges)
     little = level.start[0]
     return Family(
         effect=Effect(
