@@ -134,8 +134,9 @@ def fit_effects(
     differences = max((e.differences for e in parameterization.all), key=len)
     for difference in differences[-1:] if from_a_fit or slopes is not None else differences:
         objective = Objective(problem, parameterization, difference, slopes)
-        if near is not None:
+        if near is not None:  # with the next difference, the fit is no longer at its start
             objective.learn_from(x, near)
+            near = None
         far = np.inf if to_the_end else far_for(leading=problem.callback_alone)
         stopping = Stopping(objective, problem.tolerance_sigma, enough, far=far)
         x, status = _minimised(objective, x, stopping, most_iterations)

@@ -11,6 +11,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting import fit as module
 from diagnosis.fitting.fit import completed, fit_effects, nominal_fit
 from diagnosis.fitting.fit_status import FitStatus, Stopping, Termination
+from diagnosis.fitting.objective import NearStart
 from diagnosis.fitting.parameterization import parameterization_of, starts
 from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -147,3 +148,17 @@ def test_a_needle_at_an_end_of_the_legal_range_can_be_fitted(modulus):
     sigma = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": 0.0}
     fit = fit_effects(problem_of(log, sigma=sigma), ("stiffness_error",), most_iterations=3)
     assert np.isfinite(fit.cost)
+
+
+def test_what_is_known_of_the_start_is_not_taken_for_where_the_fit_has_gone(dry, monkeypatch):
+    """Of an effect that is fitted with wide differences, then with narrow ones from there."""
+    effect = replace(LIBRARY["tip_drag"], differences=(1e-1, 1e-3))
+    problem = replace(dry, library={**dry.library, "tip_drag": effect})
+    start, known = start_of(problem, "tip_drag"), []
+    monkeypatch.setattr(module.Objective, "learn_from", lambda _, x, near: known.append((x, near)))
+    near = NearStart(of_nuisance=np.zeros((0, 0)), by_trial=None)
+    fit = fit_effects(problem, ("tip_drag",), start, near=near)
+    assert not np.allclose(fit.x, start)
+    ((at, given),) = known
+    np.testing.assert_array_equal(at, start)
+    assert given is near
