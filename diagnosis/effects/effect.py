@@ -98,25 +98,26 @@ class Parameter:
 
     def towards_neutral(self, value: float, share: float) -> float:
         """A value moved towards the neutral one, so that the effect has this share of its strength."""
-        match self.neutral:
-            case None:
-                return value
-            case math.inf:
-                return value / share
-            case 1.0:
-                return float(value**share)
-        return value * share
+        if self.neutral is None:
+            return value
+        if math.isinf(self.neutral):
+            return value / share
+        if self._is_a_factor:
+            return float(value**share)
+        return self.neutral + (value - self.neutral) * share
 
     def distance_from_neutral(self, value: float) -> float:
         """Strength of the effect at a value, which `towards_neutral` scales; NaN for a shape."""
-        match self.neutral:
-            case None:
-                return math.nan
-            case math.inf:
-                return 1.0 / abs(value)
-            case 1.0:
-                return abs(math.log(value))
-        return abs(value)
+        if self.neutral is None:
+            return math.nan
+        if math.isinf(self.neutral):
+            return 1.0 / abs(value)
+        return abs(math.log(value)) if self._is_a_factor else abs(value - self.neutral)
+
+    @property
+    def _is_a_factor(self) -> bool:
+        """Whether twice and half are as far from neutral."""
+        return self.logarithmic and self.neutral == 1.0
 
 
 def slopes_at(parameters: Sequence[Parameter], x: NDArray[np.float64]) -> NDArray[np.float64]:

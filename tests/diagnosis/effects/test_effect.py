@@ -26,6 +26,15 @@ def test_an_effect_at_no_strength_is_the_nominal_rig(name):
         assert gone > 1e6 if math.isinf(p.neutral) else gone == pytest.approx(p.neutral, abs=1e-8)
 
 
+@pytest.mark.parametrize("value", [-1.0, 0.0, 0.4, 1.0, 3.0])
+def test_a_gain_that_may_be_zero_or_negative_goes_straight_to_one(value):
+    """A sensor that clips, or reads the other way beyond a level: no power of its gain is a real one."""
+    gain = Parameter(name="gain", unit="-", low=-2.0, high=5.0, start=(0.5,), neutral=1.0)
+    weaker = gain.towards_neutral(value, 0.25)
+    assert weaker == pytest.approx(1.0 + 0.25 * (value - 1.0))
+    assert gain.distance_from_neutral(weaker) == pytest.approx(0.25 * abs(value - 1.0))
+
+
 def test_an_effect_is_weakened_in_the_coordinates_of_a_fit():
     part = np.array([math.log(3.0), 0.35])
     weak = LIBRARY["layered_tissue"].weakened(part, 0.2)

@@ -2,9 +2,12 @@
 
 import math
 
-from free_forms import LEVEL, family_of
+import numpy as np
+import pytest
+from free_forms import LEVEL, covered, family_of
 
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import FARTHEST, coordinates, coordinates_of, kind_of
 from diagnosis.freeform.smooth_curve import smooth_curve
 
@@ -30,3 +33,19 @@ def test_other_priors_are_those_of_the_coordinates_alone():
 def test_a_family_is_where_it_most_likely_lives():
     family = family_of(places={Place.SENSOR: 0.4, Place.NEEDLE: 0.6}, name="twist")
     assert (family.place, family.name) == (Place.NEEDLE, "twist")
+
+
+TURNS = np.concatenate([np.linspace(0, 400, 300), np.linspace(400, -200, 400)])
+SEEN = (0.5 * TURNS, 0.005 * TURNS)
+FAMILIES = families_of(covered(TURNS, tip=0.9 * TURNS, torque=0.01 * TURNS, speed=2.0, seen=SEEN))
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
+def test_whatever_a_family_allows_may_be_weakened(family):
+    """A screening weakens what it found: the result is a number within the bounds, also at these."""
+    for p in family.effect.parameters:
+        for value in (p.low, p.high, *p.start):
+            weaker = p.towards_neutral(value, 0.3)
+            assert isinstance(weaker, float)
+            assert min(p.low, p.neutral or 0.0) <= weaker
+            assert math.isinf(p.neutral or 0.0) or weaker <= max(p.high, p.neutral or 0.0)
