@@ -133,6 +133,9 @@ OUTLIER_MOST_LEFT, OUTLIER_LEFT_SHARE = 0.01, 0.3
 fewer quiet readings between them (a tenth of a second of most logs: what lasts longer is an event); the
 share of a sensor's readings that they come to at most; and what they have to be of what is left beyond
 noise."""
+UNSAMPLED_SIGMA = 1.0
+"""By which the motion of the base between its samples may matter before readings count for less: as much
+as the noise, at the worst of all samples (derived)."""
 GROWING_LOG_LIKELIHOOD, GROWING_LEAST, GROWING_MOST = 50.0, 1.3, 20.0
 """Noise that grows with rate or torque: twice the gain of the logarithm of the likelihood by growing
 (derived: chi-square of one number comes to 16 once in 16 000 sensors of normal noise; a choice, three

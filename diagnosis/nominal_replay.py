@@ -23,6 +23,7 @@ from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.start.late_start_detection import with_late_starts, without_unused
+from diagnosis.replay.accuracy.unsampled_motion import weighted_by_unsampled_motion
 from diagnosis.replay.replay import Prediction, replay, residuals
 from diagnosis.replay.rig_parameters import RigParameters
 
@@ -80,6 +81,8 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     told = far_claims(log.trials, log.rig.sensors.by_column())
     left = _residuals(prepared, predictions)
     noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded, prepared.means_of)
+    prepared, unsampled = weighted_by_unsampled_motion(prepared, predictions, noise)
+    noise = replace(noise, warnings=(*noise.warnings, *unsampled))
     begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
     library = library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)

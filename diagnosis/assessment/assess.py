@@ -20,8 +20,12 @@ from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
+from diagnosis.replay.accuracy.numerical_error import (
+    numerical_error,
+    numerical_warnings,
+    refinement_change,
+)
 from diagnosis.replay.drift import drift_ranges_sigma, with_drift
-from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
 from diagnosis.replay.replay import Prediction, replay
 from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
 from diagnosis.replay.twist import ShaftTwist, shaft_twist

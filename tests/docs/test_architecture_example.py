@@ -16,7 +16,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.replay.numerical_error import refinement_change
+from diagnosis.replay.accuracy.numerical_error import refinement_change
 from diagnosis.replay.replay import predict, replay
 from diagnosis.replay.resolution import Resolution
 

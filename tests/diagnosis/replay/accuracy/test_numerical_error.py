@@ -7,7 +7,11 @@ import pytest
 from diagnosis_fixtures import log_of, problem_of
 
 from diagnosis.criteria import NUMERICAL_ERROR_WARNED
-from diagnosis.replay.numerical_error import numerical_error, numerical_warnings, refinement_change
+from diagnosis.replay.accuracy.numerical_error import (
+    numerical_error,
+    numerical_warnings,
+    refinement_change,
+)
 from diagnosis.replay.replay import replay
 from diagnosis.replay.resolution import COARSE, FINE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
