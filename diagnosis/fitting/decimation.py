@@ -8,8 +8,9 @@ The changes due to effects are slow compared with the samples. Samples are avera
 so that the residual of the nominal rig on the decimated log is the mean of that on the
 log. Sums of squares / sigma^2 are preserved, at a tenth of the cost: a mean of few readings, of a sensor
 that was read less often than others or lost some, counts for less. Where the coarse needle does not
-follow the nominal rig, for its base turns fast or its noise is small, windows are half as long: what an
-effect changes would be as wrong. Of a long log they are twice as long where it follows closely.
+follow the nominal rig, for its base turns fast or its noise is small, windows are shorter, by up to
+half: what an effect changes would be as wrong. Of a long log they are up to twice as long where it
+follows closely.
 """
 
 from collections.abc import Sequence
@@ -32,6 +33,7 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 Array = NDArray[np.float64]
 
 _SAME_S = 1e-9
+_WIDER, _NARROWER = (2.0, 1.5, 1.25), (0.75, 0.5)  # windows that are tried, over the usual ones
 _TOLERANCE_SIGMA = 0.3  # of fits that only tell which ones to do again on the log itself
 
 
@@ -55,10 +57,13 @@ def decimated(
 
 def _tried(log: PreparedLog) -> list[tuple[Resolution, float]]:
     """Resolutions, widest windows first, and up to which error of the coarse needle each is taken."""
-    wider, finer = (replace(COARSE, step_s=times * COARSE.step_s) for times in (2.0, 0.5))
-    tried = [(COARSE, DECIMATION_SIGMA), (finer, DECIMATION_SIGMA)]
+    tried = [(COARSE, DECIMATION_SIGMA), *((_times(t), DECIMATION_SIGMA) for t in _NARROWER)]
     long = sum(float(np.ptp(trial.time_s)) for trial in log.trials) > LONG_LOG_S
-    return [(wider, WIDE_SIGMA), *tried] if long else tried
+    return [*((_times(t), WIDE_SIGMA) for t in _WIDER), *tried] if long else tried
+
+
+def _times(factor: float) -> Resolution:
+    return replace(COARSE, step_s=factor * COARSE.step_s)
 
 
 def _decimated(
@@ -82,6 +87,7 @@ def _decimated(
         resolution=resolution,
         tolerance_sigma=_TOLERANCE_SIGMA,
         callback_alone=True,
+        differences_halved=True,
     )
     return decimated, max(_error_sigma(*one, step_s, noise) for one in each)
 

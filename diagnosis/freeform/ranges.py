@@ -37,6 +37,8 @@ LEAST_RANGE = {
     Variable.THRUST: 10.0,
     Variable.DEPTH: 5.0,
     Variable.ADVANCED_BY: 2.0,
+    Variable.SLID: 5.0,
+    Variable.TRAVELLED: 5.0,
     Variable.HISTORY: 0.1,
     Variable.TIP_ANGLE: 20.0,
     Variable.TIP_RATE: 0.05,

@@ -1,11 +1,12 @@
 """Which free-form law closes most of a gap that no effect of the library explains.
 
-Every family is fitted through the simulation: for one iteration on the decimated log, a few where it
-has few numbers; the most promising for a few more; the best to their end there, the strength of their
-prior estimated, alone and, if none closes the gap, beside the effects of the library or the other laws
-that promise most there, and if that is not enough, beside a third; the best of these on the log itself,
-and checked on trials that the fit has not seen. Those that promise far more than the least gap do not go
-on. Where all leave far more than noise, fewer go to the log itself, and not to their end.
+Every family is fitted through the simulation: for one iteration on the decimated log with a rougher
+needle, a few where it has few numbers; the most promising for a few more; the best to their end on the
+decimated log, the strength of their prior estimated, alone and, if none closes the gap, beside the
+effects of the library or the other laws that promise most there, and if that is not enough, beside a
+third; the best of these on the log itself, and checked on trials that the fit has not seen. Those that
+promise far more than the least gap do not go on. Where all leave far more than noise, fewer go to the
+log itself, and not to their end.
 """
 
 from collections.abc import Sequence
@@ -22,6 +23,7 @@ from diagnosis.freeform.fits.checked import fitted_and_checked
 from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, with_family
 from diagnosis.freeform.fits.growing import growing
+from diagnosis.freeform.fits.rougher import rougher
 from diagnosis.freeform.fits.to_its_end import to_its_end
 from diagnosis.freeform.fits.together import beside_one, beside_several, distinct, unlike
 from diagnosis.freeform.ranges import ranges_of
@@ -62,9 +64,10 @@ def free_form_fits(
     ranges = ranges_of(coarse, nominal, softer)
     families = families_of(ranges)
     base = fit_effects(coarse, ())
-    first = each_fit(SCREENING, first_fit, [(coarse, base, f) for f in families], workers)
+    rough = rougher(coarse, base)
+    first = each_fit(SCREENING, first_fit, [(rough, base, f) for f in families], workers)
     better, rest = _promising(first, WORTH_MORE)
-    first = each_fit(SCREENING, _some_more, [(coarse, f) for f in better], workers) + rest
+    first = each_fit(SCREENING, _some_more, [(rough, f) for f in better], workers) + rest
     near, _ = _promising(first, CONTENDERS)
     fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
     if _open(fitted):
@@ -99,8 +102,8 @@ def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> floa
     return float(np.sqrt(1.0 + max(gap**2 - 1.0, 0.0) / readings))
 
 
-def _some_more(coarse: FitProblem, first: FreeFit) -> FreeFit:
-    own = with_family(coarse, first.family)
+def _some_more(rough: FitProblem, first: FreeFit) -> FreeFit:
+    own = with_family(rough, first.family)
     fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=MORE_ITERATIONS)
     return replace(first, fit=fit.with_its_promise(), gap_after=fit.gap)
 

@@ -85,6 +85,7 @@ class FreeLaw:
       shaft_damping_s: damping of the shaft's material over its stiffness (models.needle).
       joint_play_deg: play of a joint in the shaft (models.needle); 0: there is none.
       joint_from_tip_mm: where it is.
+      tip_inertia_kg_m2: of what turns with its tip, besides that of the rig.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
       grip_play_deg: between the stops of that slip; None: there are none.
@@ -116,6 +117,7 @@ class FreeLaw:
     shaft_damping_s: float = 0.0
     joint_play_deg: float = 0.0
     joint_from_tip_mm: float = 0.0
+    tip_inertia_kg_m2: float = 0.0
     contact: ContactCurve | None = None
     grip_torque_n_mm: float | None = None
     grip_play_deg: float | None = None
@@ -164,6 +166,7 @@ class FreeLaw:
             shaft_damping_s=strength * self.shaft_damping_s,
             joint_play_deg=strength * self.joint_play_deg,
             joint_from_tip_mm=self.joint_from_tip_mm,
+            tip_inertia_kg_m2=strength * self.tip_inertia_kg_m2,
             grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
             grip_play_deg=None if self.grip_play_deg is None else strength * self.grip_play_deg,
             grip_stiffness_n_mm_per_rad=_weaker(self.grip_stiffness_n_mm_per_rad, strength) or 0.0,
@@ -215,6 +218,7 @@ class FreeLaw:
             damping_time_s=self.shaft_damping_s,
             joint_play_deg=self.joint_play_deg,
             joint_from_tip_mm=self.joint_from_tip_mm,
+            tip_inertia_kg_m2=needle.tip_inertia_kg_m2 + self.tip_inertia_kg_m2,
         )
         return changed
 

@@ -18,6 +18,8 @@ axial_flow     inserted length times axial speed, mm^2/s: what the viscous drag 
                proportional to
 depth          inserted length, mm
 advanced_by    advance since the needle last moved the other way, mm
+slid           how far the needle has slid since the start of the trial, into the tissue less back, mm
+travelled      the same, in both directions together, mm
 history        total angle that the drive shaft has turned so far, in both directions, turns
 tip_angle      deg
 tip_rate       rad/s
@@ -35,6 +37,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 from scipy.ndimage import uniform_filter1d
 
 from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, stopped_at
@@ -68,6 +71,8 @@ class Variable(StrEnum):
     AXIAL_FLOW = "axial_flow"
     DEPTH = "depth"
     ADVANCED_BY = "advanced_by"
+    SLID = "slid"
+    TRAVELLED = "travelled"
     HISTORY = "history"
     TIP_ANGLE = "tip_angle"
     TIP_RATE = "tip_rate"
@@ -95,6 +100,8 @@ UNITS = {
     Variable.AXIAL_FLOW: "mm^2/s",
     Variable.DEPTH: "mm",
     Variable.ADVANCED_BY: "mm",
+    Variable.SLID: "mm",
+    Variable.TRAVELLED: "mm",
     Variable.HISTORY: "turns",
     Variable.TIP_ANGLE: "deg",
     Variable.TIP_RATE: "rad/s",
@@ -114,6 +121,8 @@ SAYS: Mapping[str, str] = {
     Variable.THRUST: "axial_speed",
     Variable.AXIAL_FLOW: "axial_speed",
     Variable.ADVANCED_BY: "axial_speed",
+    Variable.SLID: "axial_speed",
+    Variable.TRAVELLED: "history",
     Variable.SLID_DIRECTION: "direction",
     Variable.TIP_RATE: "rate",
     Variable.TIP_DIRECTION: "direction",
@@ -200,6 +209,20 @@ def _history(inputs: Schedule, _: float) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(inputs.drive)))]) / 360.0
 
 
+def _slid(inputs: Schedule, start_s: float) -> Array:
+    return _since_start(inputs.speed_mm_s, inputs, start_s)
+
+
+def _travelled(inputs: Schedule, start_s: float) -> Array:
+    return _since_start(np.abs(inputs.speed_mm_s), inputs, start_s)
+
+
+def _since_start(per_s: Array, inputs: Schedule, start_s: float) -> Array:
+    """Integral of a rate from the start of the trial on, (N,)."""
+    whole = np.asarray(cumulative_trapezoid(per_s, inputs.time_s, initial=0), float)
+    return np.asarray(whole - np.interp(start_s, inputs.time_s, whole))
+
+
 def _slid_lately(inputs: Schedule, _: float) -> Array:
     return first_order(inputs.time_s, np.abs(inputs.speed_mm_s), SLID_S)
 
@@ -232,5 +255,7 @@ OF_INPUTS: Mapping[Variable, Callable[[Schedule, float], Array]] = {
     Variable.AXIAL_FLOW: lambda inputs, _: inputs.inserted_mm * inputs.speed_mm_s,
     Variable.DEPTH: lambda inputs, _: inputs.inserted_mm,
     Variable.HISTORY: _history,
+    Variable.SLID: _slid,
+    Variable.TRAVELLED: _travelled,
 }
 """How each variable follows from the inputs of a trial and its start, s."""

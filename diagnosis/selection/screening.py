@@ -6,7 +6,8 @@ bounds, tells which effects are worth a fit. Fits begin where this linear model 
 that leave least: as many as the effect has parameters, since fits of several may end in a local minimum.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.parameterization import starts
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection
+from diagnosis.replay.rig_parameters import RigParameters
 
 Array = NDArray[np.float64]
 
@@ -52,10 +54,13 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
     parameterization = problem.parameterization((*base.names, name))
     # What the nuisance has found already costs no more than its prior to name.
     found = [base.parts[name]] if name in base.parts else []
-    share = _WEAK if floor_of(base.by_trial).reached else 1.0
+    explained = floor_of(base.by_trial).reached
+    share = _WEAK if explained else 1.0
     own = [*found, *(effect.weakened(start, share) for start in starts(effect)[:most_starts])]
     columns = [parameterization.joined(base.parts | {name: s}) for s in own]
-    runs = problem.residuals([parameterization.rig(x) for x in columns], callback_alone=True)
+    # What is left to find beside an explanation is as small as what rougher runs are off.
+    exact = replace(problem, differences_halved=False) if explained else problem
+    runs = _changed(exact, base, [parameterization.rig(x) for x in columns])
     projection = Projection(base, name)
     without = projection.reachable().cost
     screened = []
@@ -68,6 +73,18 @@ def screen(problem: FitProblem, base: Fit, name: str, most_starts: int | None = 
         screened.append(Screened(names=(*base.names, name), start=begin, cost=there.cost, gain=gain))
     best = sorted(screened, key=lambda s: s.cost)
     return best[: len(effect.parameters)]
+
+
+def _changed(problem: FitProblem, base: Fit, rigs: Sequence[RigParameters]) -> list[list[Array]]:
+    """Residuals of rigs, by trial: those of the fit, and by how much runs differ from its own."""
+    if problem.of_differences is problem:
+        return problem.residuals(rigs, callback_alone=True)
+    here = base.parameterization.rig(base.x)
+    runs = problem.of_differences.residuals([here, *rigs], callback_alone=True)
+    return [
+        [known + (there - own) for there in others]
+        for known, (own, *others) in zip(base.by_trial, runs, strict=True)
+    ]
 
 
 def neutral_start(problem: FitProblem, one: Screened) -> Array:

@@ -128,7 +128,7 @@ _V = Variable
 ADDED = (
     *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.BASE_ANGLE, _V.DIRECTION),
     *_added(*_SHAFT, DRIVE, _V.BASE_ANGLE, period_deg=TURN_DEG),
-    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.DEPTH, _V.AXIAL_SPEED),
+    *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.DEPTH, _V.AXIAL_SPEED, _V.SLID),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),
     *_added(*_LOST, {Place.DRIVE: 0.6, Place.SENSOR: 0.4}, _V.RATE),
@@ -151,8 +151,16 @@ ADDED = (
     *_added(*_TORQUE, SENSOR, _V.TRIAL_SHARE, _V.HISTORY, _V.AXIAL_DRAG, _V.AXIAL_FLOW),
     *_added(*_TORQUE, SENSOR, _V.TURNED_BY),
     *_added(*_TORQUE, SENSOR, _V.TIP_ANGLE, period_deg=TURN_DEG),
-    *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME, _V.DEPTH),
-    *_added(ActsOn.TORQUE_GAIN, TORQUE, "gain of the torque sensor", SENSOR, _V.TIME, _V.DEPTH),
+    *_added(ActsOn.TIP_GAIN, TIP, "gain of the tip sensor", SENSOR, _V.TIME, _V.DEPTH, _V.AXIAL_SPEED),
+    *_added(
+        ActsOn.TORQUE_GAIN,
+        TORQUE,
+        "gain of the torque sensor",
+        SENSOR,
+        _V.TIME,
+        _V.DEPTH,
+        _V.AXIAL_SPEED,
+    ),
 )
 
 

@@ -1,4 +1,4 @@
-"""The first fit of a family to the decimated log: from where screening leads, without fine coordinates.
+"""The first fit of a family, for a rougher needle: from where screening leads, without fine coordinates.
 
 Each coordinate costs a simulation. The fine ones of a smooth curve hardly change it unless it is rough:
 the promise of a family shows without them, and later fits have them all. Slopes along the nuisance,
@@ -26,7 +26,7 @@ FIRST_ITERATIONS, FEW_ITERATIONS = 1, 3
 FEW_NUMBERS = 5  # of a law that takes more iterations at once: it costs little, and is no curve
 
 
-def first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
+def first_fit(rough: FitProblem, base: Fit, family: Family) -> FreeFit:
     """The family fitted for one iteration, a few where it has few numbers.
 
     Args:
@@ -35,18 +35,17 @@ def first_fit(coarse: FitProblem, base: Fit, family: Family) -> FreeFit:
     Raises:
       SimulationFailed: the rig with the law cannot be simulated.
     """
-    problem = with_family(coarse, without_fine(family))
+    problem = with_family(rough, without_fine(family))
     neutral = _starts_neutral(family)
     if neutral:
         start = problem.parameterization((family.name,)).joined(base.parts)
     else:
         start = screen(problem, base, family.name)[0].start
     near = NearStart(of_nuisance=np.vstack(base.jacobian), by_trial=base.by_trial if neutral else None)
-    problem = replace(problem, differences_halved=True)
     few = len(family.effect.parameters) <= FEW_NUMBERS
     iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
     fit = fit_effects(problem, (family.name,), start, most_iterations=iterations, near=near)
-    fit = with_fine(fit, with_family(coarse, family), family).with_its_promise()
+    fit = with_fine(fit, with_family(rough, family), family).with_its_promise()
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 
 

@@ -25,7 +25,6 @@ def to_its_end(
       enough: cost below which it is of use.
       start: the vector to start from; None: where the fit of the contender, or screening, ended.
     """
-    coarse = replace(coarse, differences_halved=True)
     own, names = with_family(coarse, *contender.families), contender.names
     start = _start(own, contender) if start is None else start
     fit = fit_effects(own, names, start, enough, most_iterations=ITERATIONS)

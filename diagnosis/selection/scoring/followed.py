@@ -21,7 +21,11 @@ from diagnosis.replay.variables import Variable, of_needle
 Array = NDArray[np.float64]
 Course = Callable[[PreparedTrial, Prediction], Sequence[Array]]
 
-_OF_TORQUE: dict[str, Course] = {"axial speed": lambda trial, _: [trial.speed_mm_s]}
+_OF_BOTH: dict[str, Course] = {"axial speed": lambda trial, _: [trial.speed_mm_s]}
+_OF_TORQUE: dict[str, Course] = {
+    "angle of the base": lambda trial, _: [trial.base_motion_deg - trial.base_motion_deg[0]],
+    "turn of the base": lambda trial, _: _circle(trial.base_motion_deg),
+}
 _OF_TIP: dict[str, Course] = {
     "depth": lambda trial, _: [trial.inserted_mm - trial.inserted_mm[0]],
     "rate of the tip": lambda trial, one: [_of_tip(Variable.TIP_RATE, trial, one)],
@@ -30,7 +34,7 @@ _OF_TIP: dict[str, Course] = {
     "angle of the tip over time": lambda trial, one: [one[TIP], _share(trial.time_s) * one[TIP]],
 }
 COURSES: Mapping[str, Mapping[str, Course]] = MappingProxyType(
-    {TORQUE: _OF_TORQUE, TIP: _OF_TORQUE | _OF_TIP}
+    {TORQUE: _OF_BOTH | _OF_TORQUE, TIP: _OF_BOTH | _OF_TIP}
 )
 """Courses of a trial by which a reading may be off, each by a size of its own: by sensor, in words."""
 

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import RIG, log_of, prepared
+from diagnosis_fixtures import NOISE, RIG, log_of, prepared, problem_of
 from scipy.signal import lfilter
 
+from diagnosis.fitting import decimation
 from diagnosis.fitting.decimation import decimated, decimated_noise
 from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
@@ -58,6 +59,29 @@ def test_readings_of_a_rare_sensor_weigh_as_they_do_on_the_log(every):
     gain = [w - r for w, r in zip(wrong, right, strict=True)]
     assert gain[1] == pytest.approx(gain[0], rel=0.05)
     assert right[1] < 1.1 * right[0]  # less where a window between two readings has a part of both
+
+
+@pytest.mark.parametrize(
+    ("seconds", "error_sigma", "step_s"),
+    [
+        (12.0, 0.4, 0.04),
+        (12.0, 0.6, 0.03),
+        (12.0, 3.0, 0.02),
+        (200.0, 0.02, 0.08),
+        (200.0, 0.11, 0.06),
+        (200.0, 0.16, 0.05),
+        (200.0, 0.4, 0.04),
+    ],
+)
+def test_windows_are_as_wide_as_the_coarse_needle_can_follow(seconds, error_sigma, step_s, monkeypatch):
+    """Its error, here that of windows of 40 ms, goes with their square; a long log has wider ones."""
+
+    def with_error(problem, _, __, resolution):
+        return resolution, error_sigma * (resolution.step_s / 0.04) ** 2
+
+    monkeypatch.setattr(decimation, "_decimated", with_error)
+    problem = problem_of(log_of(NOMINAL, seconds=seconds), sigma=NOISE.sigma)
+    assert decimated(problem, ()).step_s == pytest.approx(step_s)
 
 
 def test_what_the_coarse_nominal_rig_misses_is_the_mean_of_what_the_fine_one_does():
@@ -198,7 +222,7 @@ def test_windows_are_shorter_where_the_coarse_needle_does_not_follow(noise_sigma
 
 @pytest.mark.parametrize(
     ("noise_sigma", "seconds", "step_s"),
-    [(5.0, 160.0, 0.08), (0.5, 160.0, 0.04), (5.0, 140.0, 0.04)],
+    [(5.0, 160.0, 0.08), (0.5, 160.0, 0.05), (5.0, 140.0, 0.04)],
     ids=["long, and followed closely", "long, and not so", "short"],
 )
 def test_windows_are_longer_of_a_long_log_that_the_coarse_needle_follows_closely(

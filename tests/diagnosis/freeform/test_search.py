@@ -44,6 +44,7 @@ def fitted(monkeypatch):
             "families_of": lambda _: [family_of(parameters=[LEVEL], name=name) for name in first],
             "replay": lambda *_, **__: nominal,
             "fit_effects": lambda *_, **__: None,
+            "rougher": lambda coarse, _: coarse,
             "first_fit": lambda _, __, family: made(first, FreeFit(family=family, fit=None)),
             "to_its_end": lambda _, one, *enough: made(ended, one, *enough),
             "growing": lambda _, laws, *__: [

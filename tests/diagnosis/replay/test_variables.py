@@ -146,3 +146,12 @@ def test_a_thrust_bearing_is_loaded_where_the_needle_is_pushed_and_turns():
     thrust = of_inputs(Variable.THRUST, inputs, 0.0)
     at = np.searchsorted(time, [1.0, 2.5, 4.0, 5.5])
     np.testing.assert_allclose(thrust[at], [80.0, -80.0, 0.0, 0.0], atol=0.01)
+
+
+def test_how_far_the_needle_has_slid_counts_from_the_start_of_the_trial():
+    """Into the tissue at 2 mm/s up to 3 s, back at 1 mm/s from there on; the trial begins after 1 s."""
+    moving = replace(inputs(), speed_mm_s=np.where(TIME < 3.0, 2.0, -1.0))
+    slid, travelled = (of_inputs(v, moving, 1.0) for v in (Variable.SLID, Variable.TRAVELLED))
+    at = np.searchsorted(TIME, [1.0, 2.0, 3.0, 5.0])
+    np.testing.assert_allclose(slid[at], [0.0, 2.0, 4.0, 2.0], atol=2.0 * STEP_S)
+    np.testing.assert_allclose(travelled[at], [0.0, 2.0, 4.0, 6.0], atol=2.0 * STEP_S)

@@ -1,5 +1,7 @@
 """What an effect could explain at best, before a fit."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import coarse_of, log_of, problem_of
@@ -55,6 +57,17 @@ def test_a_fit_begins_where_the_linear_model_leads(dry):
     assert abs(begun["damping_error"][0]) < 0.2 * abs(taken_over)
     left = coarse.residuals([parameterization.rig(best.start)])
     assert sum(float(r[0] @ r[0]) for r in left) < 0.1 * base.cost
+
+
+@pytest.mark.parametrize("name", ["coulomb_friction", "tip_drag", "tissue_viscoelasticity"])
+def test_runs_half_as_fine_promise_the_same(dry, name):
+    """What changes is off by a few per cent: so is what is gained, of all that is missing."""
+    coarse, base = dry
+    assert coarse.of_differences.resolution == coarse.resolution.halved
+    rough = screen(coarse, base, name)[0]
+    fine = screen(replace(coarse, differences_halved=False), base, name)[0]
+    assert rough.cost == pytest.approx(fine.cost, abs=0.03 * base.cost)
+    assert rough.gain == pytest.approx(fine.gain, abs=0.03 * base.cost)
 
 
 def test_an_effect_begins_no_stronger_than_three_times_a_start():

@@ -5,8 +5,8 @@ than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_C
 another course, and the same in every trial. Where nothing else is missing, a drift of the tip by more
 than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is itself what the model lacks. And it stands beside one
 effect at most: with two it takes the shape of what no library holds. Nor does it follow the axial speed,
-or, at the tip, depth, rate, direction or angle (scoring/followed); and where such a law is likelier than
-a drift, it is none.
+the angle of the base (torque), or depth, rate, direction or angle of the tip (scoring/followed); and
+where such a law is likelier than a drift, it is none.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """

@@ -28,7 +28,7 @@ def problem():
 
 
 def courses(trial):
-    """What each law adds to the tip, in sigma, (N,)."""
+    """What each law adds to the tip or the torque, in sigma, (N,)."""
     turned_deg, share = trial.base_motion_deg, trial.time_s / trial.time_s[-1]
     rate = np.gradient(turned_deg, trial.time_s)
     return {
@@ -38,6 +38,8 @@ def courses(trial):
         "direction of the tip": np.where(trial.time_s > 5.0, -1.0, 1.0) * (trial.time_s > 1.0),
         "angle of the tip": np.cos(np.deg2rad(turned_deg - 40.0)),
         "angle of the tip over time": turned_deg / 45.0 * (1.0 + share),
+        "angle of the base": turned_deg / 45.0,
+        "turn of the base": np.sin(np.deg2rad(turned_deg + 30.0)),
     }
 
 
@@ -46,16 +48,17 @@ def most_followed(problem, sensor=TIP):
     return max(followed(problem, fit, sensor), key=lambda law: law.gain)
 
 
-@pytest.mark.parametrize("name", COURSES[TIP])
-def test_a_law_of_the_tip_is_told_by_its_variable(problem, name):
+@pytest.mark.parametrize(("sensor", "name"), [(s, name) for s in SENSORS for name in COURSES[s]])
+def test_a_law_of_a_sensor_is_told_by_its_variable(problem, sensor, name):
     (one,) = problem.log.trials
     law = courses(one)[name]
-    off = {**one.readings, TIP: one.readings[TIP] + problem.noise[TIP] * law}
+    off = {**one.readings, sensor: one.readings[sensor] + problem.noise[sensor] * law}
     moved = replace(problem, log=replace(problem.log, trials=(replace(one, readings=off),)))
-    found = most_followed(moved)
+    found = most_followed(moved, sensor)
     assert found.name == name
     assert found.gain > 25.0
-    assert found.parameters == (2 if "angle" in name else 1)
+    several = ("angle of the tip", "angle of the tip over time", "turn of the base")
+    assert found.parameters == (2 if name in several else 1)
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
@@ -85,6 +88,6 @@ def test_what_a_fit_answers_to_is_not_counted():
     assert taken_off(fit, np.column_stack([beside, beside])) == pytest.approx(9.0)
 
 
-def test_the_torque_may_follow_the_axial_speed_alone():
-    """Depth, rate and angle move it by what the needle does."""
-    assert [*COURSES[TORQUE]] == ["axial speed"]
+def test_the_torque_follows_no_course_of_the_needle():
+    """Depth, rate and direction move it by what the needle does; of the base, elastic tissue alone."""
+    assert [*COURSES[TORQUE]] == ["axial speed", "angle of the base", "turn of the base"]
