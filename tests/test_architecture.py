@@ -49,6 +49,7 @@ UNITS = (
     "_n_mm",
     "_mm2",
     "_kg_m",
+    "_kg_m2",
     *("_mm_s", "_sigma"),
 )
 PER = ("_per_",)
