@@ -74,9 +74,9 @@ def free_form_fits(
         alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
         fitted += growing(coarse, alone, ranges, workers)
     if _open(fitted):
-        fitted += beside_one(coarse, base, fitted, first, effects, workers)
+        fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
     if _open(fitted):
-        fitted += beside_several(coarse, base, fitted, first, workers)
+        fitted += beside_several(coarse, rough, base, fitted, first, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
     far = _gap_on_the_log(least, problem, coarse) > FAR_GAP
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL

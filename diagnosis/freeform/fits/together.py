@@ -2,11 +2,13 @@
 
 A law that is not in the list may come near as the sum, or the product, of some that are. The pairs that
 promise most are fitted, of two laws and of a law and an effect of the library; if none of these closes
-the gap, the best have one law more.
+the gap, the best have one law more. All are fitted for a rougher needle first, a quarter of the cost,
+and those that leave least there on the decimated log itself.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -20,30 +22,37 @@ from diagnosis.workers import Workers
 
 PAIRS, THREE = "free-form laws in pairs and beside an effect", "three free-form laws"
 LEADING, LEADING_PAIRS = 12, 2  # fits beside which another law is looked for: of one law, of several
+WORTH_MORE = 3  # of those for a rougher needle
 _SAME = 1e-4  # in sigma; of a cost
 
 
 def beside_one(
     coarse: FitProblem,
+    rough: FitProblem,
     base: Fit,
     fitted: Sequence[FreeFit],
     first: Sequence[FreeFit],
     effects: Sequence[str],
     workers: Workers,
 ) -> list[FreeFit]:
-    """Fits of one law with an effect of the library, or with another law."""
-    alone = distinct([*fitted, *first])
+    """Fits of one law with an effect of the library, or with another law.
+
+    Args:
+      rough: the decimated log for a rougher needle.
+    """
+    alone, least = distinct([*fitted, *first]), _least(fitted)
     with_effects = [
-        (coarse, replace(law, beside=found.names[-1:]), _least(fitted), found.start)
+        (rough, replace(law, beside=found.names[-1:]), least, found.start)
         for law, found in pairs_beside(coarse, base, alone, effects, workers)
     ]
     pairs = laws_beside(base, unlike(alone)[:LEADING], first)
-    with_laws = [(coarse, pair, _least(fitted)) for pair in pairs]
-    return each_fit(PAIRS, to_its_end, [*with_effects, *with_laws], workers)
+    with_laws = [(rough, pair, least) for pair in pairs]
+    return _fitted(PAIRS, coarse, [*with_effects, *with_laws], least, workers)
 
 
 def beside_several(
     coarse: FitProblem,
+    rough: FitProblem,
     base: Fit,
     fitted: Sequence[FreeFit],
     first: Sequence[FreeFit],
@@ -52,8 +61,21 @@ def beside_several(
     """Fits of the best pairs with one law more, unless a law alone is as good as these."""
     best = unlike(sorted(fitted, key=lambda f: f.score))[:LEADING_PAIRS]
     pairs = [f for f in best if len(f.names) > 1]
-    calls = [(coarse, more, _least(fitted)) for more in laws_beside(base, pairs, first)]
-    return each_fit(THREE, to_its_end, calls, workers)
+    calls = [(rough, more, _least(fitted)) for more in laws_beside(base, pairs, first)]
+    return _fitted(THREE, coarse, calls, _least(fitted), workers)
+
+
+def _fitted(
+    stage: str,
+    coarse: FitProblem,
+    calls: Sequence[tuple[Any, ...]],
+    enough: float,
+    workers: Workers,
+) -> list[FreeFit]:
+    """The best of the fits that calls make for a rougher needle, fitted to the decimated log itself."""
+    roughly = sorted(each_fit(stage, to_its_end, calls, workers), key=lambda f: f.score)
+    best = [(coarse, f, enough, f.fit.x) for f in roughly[:WORTH_MORE]]
+    return each_fit(stage, to_its_end, best, workers)
 
 
 def _least(fits: Sequence[FreeFit]) -> float:

@@ -40,5 +40,29 @@ def test_a_third_law_stands_beside_the_best_pairs_alone(monkeypatch):
     worse = replace(fit_of("age", [3.0, 3.0]), others=(one.family,))
     seen = []
     monkeypatch.setattr(together, "laws_beside", lambda _, pairs, first: seen.append(pairs) or [])
-    assert together.beside_several(None, None, [one, worse, pair], [one], Workers()) == []
+    assert together.beside_several(None, None, None, [one, worse, pair], [one], Workers()) == []
     assert seen == [[pair]]
+
+
+def test_the_best_of_a_rougher_needle_are_fitted_to_the_log_from_where_they_ended(monkeypatch):
+    """Each as any other fit: it has to leave less than the best so far."""
+    pair = replace(fit_of("slid", [1.0, 2.0]), others=(family_of(name="turned"),))
+    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.WORTH_MORE + 2)}
+    more = [replace(pair, others=(*pair.others, family_of(name=name))) for name in reversed(lefts)]
+    seen = []
+
+    def ended(problem, one, enough, start=None):
+        seen.append((problem, one.names[-1], enough, start))
+        left = np.array(lefts[one.names[-1]])
+        fit = replace(one.fit, by_trial=(left,), cost=float(left @ left))
+        return replace(one, fit=fit, gap_after=fit.gap)
+
+    monkeypatch.setattr(together, "laws_beside", lambda *_: more)
+    monkeypatch.setattr(together, "to_its_end", ended)
+    found = together.beside_several("coarse", "rough", None, [pair], [pair], Workers())
+    best = list(lefts)[: together.WORTH_MORE]
+    assert [f.names[-1] for f in found] == best
+    assert [own[:2] for own in seen[: len(lefts)]] == [("rough", name) for name in reversed(lefts)]
+    assert [own[:2] for own in seen[len(lefts) :]] == [("coarse", name) for name in best]
+    assert {own[2] for own in seen} == {pair.fit.cost}
+    assert all(start is pair.fit.x for *_, start in seen[len(lefts) :])
