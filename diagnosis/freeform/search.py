@@ -5,8 +5,8 @@ needle, a few where it has few numbers; the most promising for a few more; the b
 decimated log, the strength of their prior estimated, alone and, if none closes the gap, beside the
 effects of the library or the other laws that promise most there, and if that is not enough, beside a
 third; the best of these on the log itself, and checked on trials that the fit has not seen. Those that
-promise far more than the least gap do not go on. Where all leave far more than noise, fewer go to the
-log itself, and not to their end.
+promise far more than the least gap do not go on. Where all leave far more than noise, there is no third
+law, and fewer go to the log itself, and not to their end.
 """
 
 from collections.abc import Sequence
@@ -75,10 +75,10 @@ def free_form_fits(
         fitted += growing(coarse, alone, ranges, workers)
     if _open(fitted):
         fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
-    if _open(fitted):
+    if _open(fitted) and not _far(fitted, problem, coarse):
         fitted += beside_several(coarse, rough, base, fitted, first, workers)
     least = min((f.fit.gap for f in fitted), default=np.inf)
-    far = _gap_on_the_log(least, problem, coarse) > FAR_GAP
+    far = _far(fitted, problem, coarse)
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
     worth = [f for f in fitted if f.fit.gap <= reach * least]
     last = _few_of_each(unlike(sorted(worth, key=lambda f: f.score)))
@@ -94,6 +94,12 @@ def free_form_fits(
 def _open(fits: Sequence[FreeFit]) -> bool:
     """Whether all leave more than little."""
     return bool(fits) and min(f.fit.gap for f in fits) > CLOSED_GAP
+
+
+def _far(fits: Sequence[FreeFit], problem: FitProblem, coarse: FitProblem) -> bool:
+    """Whether all leave far more than noise."""
+    least = min((f.fit.gap for f in fits), default=np.inf)
+    return _gap_on_the_log(least, problem, coarse) > FAR_GAP
 
 
 def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> float:

@@ -15,7 +15,9 @@ EFFECT = Effect(
     title="a low-pass filter in the torque sensor",
     place=Place.SENSOR,
     parameters=(
-        Parameter(name="time_constant", unit="s", low=0.0, high=0.15, start=(0.01, 0.04), scale=0.02),
+        Parameter(
+            name="time_constant", unit="s", low=0.0, high=0.5, start=(0.01, 0.04, 0.15), scale=0.02
+        ),
     ),
     apply=_apply,
     needs="base_torque_n_mm",

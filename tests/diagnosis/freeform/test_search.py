@@ -158,6 +158,14 @@ def test_where_no_law_closes_the_gap_two_are_fitted_and_only_where_these_do_not_
     assert seen[-1][1] == ()  # one closes the gap
 
 
+def test_no_third_law_is_tried_where_two_leave_far_more_than_noise(fitted):
+    run, seen = fitted
+    alone, far = {"a": 3.0, "b": 3.1, "c": 3.2}, FAR_GAP + 0.1
+    found = run(alone, {**alone, "a + b": far, "a + b + c": 1.0})
+    assert found[0].names == ("a", "b")
+    assert ("a", ("b", "c"), False) not in seen
+
+
 def test_a_law_that_grows_is_tried_before_two_laws_are(fitted):
     run, seen = fitted
     alone, grown = {"a": 2.0, "b": 2.1}, "a, growing with time"
