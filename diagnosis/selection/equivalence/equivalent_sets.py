@@ -121,7 +121,8 @@ def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
     open_ = (*sensors, *(e for e in coarse.nuisance if e.name in CONVENTIONS))
     own = {name: best.fit.parts[name] for name in best.named}
     kept = {e.name: best.fit.parts[e.name] for e in open_}
-    problem = replace(coarse, nuisance=open_)
+    # Without noise, slopes of runs half as fine would lead nowhere near the end.
+    problem = replace(coarse, nuisance=open_, differences_halved=False)
     rig = _rig(problem, own | kept)
     trials = tuple(_reading(problem, trial, rig) for trial in coarse.log.trials)
     problem = replace(problem, log=replace(coarse.log, trials=trials))
