@@ -42,7 +42,7 @@ def fit_in_turn(
     problem: FitProblem, names: Sequence[str], start: Array | None = None, enough: float = np.inf
 ) -> Fit:
     """Fit with slopes from runs half as fine, a quarter of the cost; then, where that comes near the
-    noise, from there with slopes of its own. The decimated log is coarse enough as it is.
+    noise, from there with slopes of its own. On the decimated log all fits have rough slopes.
 
     Raises:
       SimulationFailed: as `fit_effects`.

@@ -61,13 +61,13 @@ def test_a_fit_begins_where_the_linear_model_leads(dry):
 
 @pytest.mark.parametrize("name", ["coulomb_friction", "tip_drag", "tissue_viscoelasticity"])
 def test_runs_half_as_fine_promise_the_same(dry, name):
-    """What changes is off by a few per cent: so is what is gained, of all that is missing."""
+    """What an effect changes is off by 1 to 5 %, mostly along itself, which its size takes up."""
     coarse, base = dry
     assert coarse.of_differences.resolution == coarse.resolution.halved
     rough = screen(coarse, base, name)[0]
     fine = screen(replace(coarse, differences_halved=False), base, name)[0]
-    assert rough.cost == pytest.approx(fine.cost, abs=0.03 * base.cost)
-    assert rough.gain == pytest.approx(fine.gain, abs=0.03 * base.cost)
+    assert rough.cost == pytest.approx(fine.cost, abs=0.01 * base.cost)
+    assert rough.gain == pytest.approx(fine.gain, abs=0.01 * base.cost)
 
 
 def test_an_effect_begins_no_stronger_than_three_times_a_start():

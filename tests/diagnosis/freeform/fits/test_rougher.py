@@ -29,13 +29,23 @@ def test_the_rig_without_a_law_leaves_the_same(both):
     np.testing.assert_allclose(left(rough, rig), np.concatenate(base.by_trial), atol=1e-6)
 
 
-def test_a_law_changes_it_as_it_changes_the_finer_needle(both):
-    """Within 10 %: half as fine, errors of second order are four times as large, 2 to 8 % here."""
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"kinetic_n_mm_per_mm": 0.001},
+        {"kinetic_n_mm_per_mm": 0.003},
+        {"tip_drag_n_mm_s_per_rad": 0.1},
+        {"backlash_deg": 4.0},
+    ],
+    ids=str,
+)
+def test_a_law_changes_it_as_it_changes_the_finer_needle(both, law):
+    """Measured 1.4, 0.9, 1.2 and 4.5 %: the limit is twice the largest."""
     coarse, base, rough = both
     rig = base.parameterization.rig(base.x)
-    law = replace(rig, kinetic_n_mm_per_mm=0.001)
-    fine, coarser = (left(p, law) - left(p, rig) for p in (coarse, rough))
-    assert np.linalg.norm(coarser - fine) < 0.1 * np.linalg.norm(fine)
+    changed = replace(rig, **law)
+    fine, coarser = (left(p, changed) - left(p, rig) for p in (coarse, rough))
+    assert np.linalg.norm(coarser - fine) < 0.09 * np.linalg.norm(fine)
 
 
 def test_it_is_half_as_fine_in_all_its_runs(both):
