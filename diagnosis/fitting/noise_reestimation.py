@@ -8,8 +8,8 @@ heavy, it may be larger by what they add.
 
 Whether the noise is white at all is tested on the residual of a fitted effect, and again on that of
 the best explanation: the residual of the nominal rig contains too much else
-(`prepare/noise/noise_spectrum`). Differences of whitened residuals give the size of coloured noise as
-those of residuals do for white noise.
+(`prepare/noise/spectrum`). Differences of whitened residuals give the size of coloured noise as those of
+residuals do for white noise.
 """
 
 from collections.abc import Sequence

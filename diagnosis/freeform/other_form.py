@@ -6,8 +6,9 @@ may look like tissue that is stiffer further in. So an effect may name free-form
 (`Effect.other_forms`). Each is fitted in place of the effect, on the decimated log; and where it leaves
 clearly less, on the log itself. If it leaves less there too, the effect explains nothing. Nor does it if
 the law alone leaves about as little as the effect together with others: these only compensated for its
-wrong form. (Stiffness and damping do not count as such others, because every fit has them; nor does dry
-friction against a curve over the rate, which has it for a part.)
+wrong form. (Stiffness and damping do not count as such others, because every fit has them, unless they
+are off by too much: elastic tissue and these two together imitate a gain of the torque sensor. Nor does
+dry friction count against a curve over the rate, which has it for a part.)
 
 A law that has the parameters of the effect, and a curve besides, or a curve that may be that of the
 effect, starts where the effect is. Then a single step shows whether it promises anything.
@@ -35,6 +36,7 @@ from diagnosis.freeform.fits.to_its_end import ITERATIONS
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.nominal_replay import NominalReplay
 from diagnosis.replay.replay import replay
+from diagnosis.selection.candidate import candidate
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
@@ -83,7 +85,7 @@ def _leaves_less(problem: FitProblem, coarse: FitProblem, best: Fit, name: str, 
     )
     alone = (*(n for n in others if n in SCATTER), family.name)
     compensated = len(alone) <= len(others) and not set(others) & set(family.contains)
-    return (compensated and fits.leaves(alone, 1 / SECOND_LEAVES)) or fits.leaves(
+    return (compensated and fits.leaves(alone, 1 / SECOND_LEAVES, fewer=True)) or fits.leaves(
         (*others, family.name), SECOND_LEAVES
     )
 
@@ -105,14 +107,20 @@ class _Comparison:
     family: Family
     replaced: str
 
-    def leaves(self, names: tuple[str, ...], share: float) -> bool:
-        """Whether a set with the family is at the floor, and leaves at most a share of the cost."""
+    def leaves(self, names: tuple[str, ...], share: float, *, fewer: bool = False) -> bool:
+        """Whether a set with the family is at the floor, and leaves at most a share of the cost.
+
+        Args:
+          fewer: whether it has to need fewer effects.
+        """
         form = self._on_the_decimated_log(names, share * self.known.cost)
         if form is None or form.cost > share * self.known.cost:
             return False
         known = _from(self.known, self.known.names, self.problem)
         form = _from(form, names, with_family(self.problem, self.family))
         if form.cost >= share * known.cost or not floor_of(form.by_trial).small:
+            return False
+        if fewer and _needs(form) >= _needs(known):
             return False
         return form.cost < self._whole(known).cost / SECOND_LEAVES
 
@@ -143,6 +151,11 @@ class _Comparison:
         own = {parameter.name for parameter in self.coarse.library[self.replaced].parameters}
         places = {parameter.name for parameter in self.family.effect.parameters}
         return self.replaced in self.family.as_effect or own <= places
+
+
+def _needs(fit: Fit) -> int:
+    """The number of its effects, with stiffness and damping where they are off by too much."""
+    return len(fit.names) + len(candidate(fit).scatter_named)
 
 
 def _begun(known: Fit, problem: FitProblem, name: str, family: Family) -> Array:

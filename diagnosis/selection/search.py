@@ -6,8 +6,8 @@ noise floor, every pair of a leading effect with any other is screened, and so o
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, noise may
-grow with rate or torque, outliers may be left, noise may be weakly coloured, the torque may drift,
-readings may jump, and those of the tip may drift.
+grow with rate or torque, outliers may be left, noise may be weakly coloured or of 1/f, the torque
+may drift, readings may jump, and those of the tip may drift.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -30,6 +30,7 @@ from diagnosis.selection.stages.richer_effects import (
 )
 from diagnosis.selection.stages.sensors.coloured_noise import (
     coloured_noise,
+    flicker_noise,
     noise_of_the_best,
     weakly_coloured_noise,
 )
@@ -77,6 +78,7 @@ STAGES: tuple[Stage, ...] = (
     noise_that_grows,
     outliers_beside_the_best,
     weakly_coloured_noise,
+    flicker_noise,
     drift_of_the_torque_sensor,
     jumps_of_readings,
     drift_of_the_tip_sensor,

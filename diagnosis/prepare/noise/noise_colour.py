@@ -84,9 +84,11 @@ class NoiseColour(Colour):
 
     Attributes:
       parts: that are correlated, the one with most of the variance first; the rest is white.
+      flicker: whether together they stand for flicker noise.
     """
 
     parts: tuple[ColouredPart, ...]
+    flicker: bool = False
 
     @classmethod
     def of(cls, *, share: float, correlation_time_s: float) -> "NoiseColour":
@@ -101,6 +103,8 @@ class NoiseColour(Colour):
     @property
     def in_words(self) -> str:
         """The times over which noise is correlated, or the frequencies at which it oscillates."""
+        if self.flicker:
+            return "as that of 1/f noise"
         each = (
             f"at {part.frequency_hz:.2g} Hz"
             if part.frequency_hz
@@ -126,7 +130,7 @@ class NoiseColour(Colour):
         total = 1 - self.share + fast + sum(sizes)
         each = zip(slow, sizes, strict=True)
         parts = tuple(replace(part, share=size / total) for part, size in each)
-        return float(np.sqrt(total)), NoiseColour(parts=parts) if parts else None
+        return float(np.sqrt(total)), replace(self, parts=parts) if parts else None
 
     def _filtered(self, time_s: Array, columns: Array, *, restored: bool) -> tuple[Array, float]:
         table = np.array([(p.share, p.correlation_time_s, p.frequency_hz) for p in self.parts])

@@ -25,7 +25,8 @@ from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.drift import AllowedDrift, Drift
 from diagnosis.prepare.noise.growing_noise import GrowingNoise
-from diagnosis.prepare.noise.noise_spectrum import noise_colour
+from diagnosis.prepare.noise.spectrum.flicker import flicker_noise
+from diagnosis.prepare.noise.spectrum.noise_spectrum import noise_colour
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
@@ -48,6 +49,7 @@ class Noise:
       most: largest noise that may be coloured: more is what the model lacks.
       means_of: number of readings that a sample is the mean of.
       colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
+      flicker: whether coloured noise may be flicker noise.
       drifts: drift that sensors may have within a trial.
       grows: how the noise of sensors grows, whose samples then have weights.
     """
@@ -60,6 +62,7 @@ class Noise:
     most: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
     colour_chi_square: float = COLOUR_CHI_SQUARE
+    flicker: bool = False
     drifts: Mapping[str, AllowedDrift] = field(default_factory=dict)
     grows: Mapping[str, GrowingNoise] = field(default_factory=dict)
 
@@ -104,7 +107,8 @@ class Noise:
         """
         sigma, colour, most = dict(self.sigma), {}, most_parts or {}
         for sensor, parts in left.items():
-            found = noise_colour(
+            slow = flicker_noise(parts, self.means_of) if self.flicker else None
+            found = slow or noise_colour(
                 parts, least_share, self.means_of, self.colour_chi_square, most.get(sensor, 1)
             )
             if found and found[0] <= self.most.get(sensor, np.inf):

@@ -96,6 +96,13 @@ def test_two_effects_that_are_there_stand():
     assert form_of(*fitted(both, ("layered_tissue", "torque_bias"))) is None
 
 
+def test_a_gain_of_the_torque_sensor_stands_though_stiffness_damping_and_tissue_imitate_it():
+    """These are three effects, and the gain and the tissue are two."""
+    elastic = LIBRARY["tissue_viscoelasticity"].apply(NOMINAL, 0.3, 0.3)
+    both = replace(elastic, torque_scale=0.965)
+    assert form_of(*fitted(both, ("tissue_viscoelasticity", "torque_scale"))) is None
+
+
 def test_an_effect_stands_beside_an_imperfection_that_is_there():
     """Without the filter of the torque, a stiffness that changes takes the place of a part of it."""
     elastic = LIBRARY["tissue_viscoelasticity"].apply(RigParameters(torque_low_pass_s=0.0025), 0.06, 0.2)

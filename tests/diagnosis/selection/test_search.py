@@ -49,6 +49,7 @@ def test_the_stages_are_these_in_this_order():
         "noise_that_grows",
         "outliers_beside_the_best",
         "weakly_coloured_noise",
+        "flicker_noise",
         "drift_of_the_torque_sensor",
         "jumps_of_readings",
         "drift_of_the_tip_sensor",

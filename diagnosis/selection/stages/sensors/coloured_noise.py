@@ -2,13 +2,14 @@
 
 Where that is another, effects are fitted once more, from where they are; and again at the end, in the
 noise that the best of them leaves. Where nothing explains a log, and the best leaves little, a colour
-that shows less is allowed for if it does.
+that shows less is allowed for if it does; where a colour shows, that it may go on as 1 / f.
 """
 
 from dataclasses import replace
 
-from diagnosis.criteria import COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP
+from diagnosis.criteria import COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP, FLICKER_GAP
 from diagnosis.fitting.noise_reestimation import with_colour
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.record import Decision, dropped, noted
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.single_effects import single_effects
@@ -17,6 +18,7 @@ from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 STAGE, OF_THE_BEST, WEAK = "coloured noise", "noise of the best", "weakly coloured noise"
+FLICKER = "flicker noise"
 
 
 def coloured_noise(state: SearchState, workers: Workers) -> SearchState:
@@ -60,9 +62,29 @@ def weakly_coloured_noise(state: SearchState, workers: Workers) -> SearchState:
     noise = with_colour(replace(state.problem, noise=asked), state.best.fit)
     if noise.same(state.problem.noise):
         return state
+    return _kept_if_it_explains(WEAK, state, noise, workers)
+
+
+def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
+    """The state with coloured noise that goes on as 1 / f, where only that explains the log."""
+    state, explained = state.rechecked()
+    if explained or not state.problem.noise.colour:
+        return state
+    asked = replace(state.problem.noise, flicker=True)
+    noise = with_colour(replace(state.problem, noise=asked), state.best.fit)
+    if noise.same(state.problem.noise):
+        return state
+    left = min(c.fit.gap for c in state.renoised(noise).candidates)
+    if left > FLICKER_GAP:
+        return state
+    return _kept_if_it_explains(FLICKER, state, noise, workers)
+
+
+def _kept_if_it_explains(stage: str, state: SearchState, noise: Noise, workers: Workers) -> SearchState:
+    """The leading explanations fitted again in another noise, if one of them explains the log there."""
     begun = state.renoised(noise)
-    made = leading_fitted_again(WEAK, state, begun.problem, workers)
+    made = leading_fitted_again(stage, state, begun.problem, workers)
     again, explained = replace(begun, candidates=()).adding(made).rechecked()
     if explained:
-        return again.noting(noted(WEAK, Decision.KEPT, "with it the log is explained"))
-    return state.noting(noted(WEAK, Decision.DROPPED, "no explanation reaches the noise with it"))
+        return again.noting(noted(stage, Decision.KEPT, "with it the log is explained"))
+    return state.noting(noted(stage, Decision.DROPPED, "no explanation reaches the noise with it"))

@@ -78,6 +78,44 @@ def test_what_an_effect_leaves_is_no_noise():
     assert after.problem.noise.colour == state.problem.noise.colour
 
 
+def with_one_over_f(rig, seconds=60.0):
+    """A rig whose tip has noise with a density as 1 / f, of four times the claim."""
+    log = log_of(rig, seconds=seconds)
+    (one,) = log.trials
+    size = len(one.table)
+    waves = np.fft.rfft(np.random.default_rng(3).normal(size=size))
+    waves[0] = 0.0
+    waves[1:] /= np.sqrt(np.arange(1, waves.size))
+    noise = np.fft.irfft(waves, size)
+    more = 4.0 * TIP * noise / noise.std()
+    table = one.table.assign(tip_angle_deg=one.table["tip_angle_deg"] + more)
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def test_noise_may_go_on_as_one_over_f_where_only_that_explains_the_log():
+    """Noise that is forgotten in tenths of a second leaves what is slow of it."""
+    state = start_of_search(with_one_over_f(NOMINAL), effects=())
+    state = module.coloured_noise(module.nominal_rig(state, Workers()), Workers())
+    assert set(state.problem.noise.colour) == {"tip_angle_deg"}
+    assert not state.rechecked()[1]
+    after = module.flicker_noise(state, Workers())
+    assert after.problem.noise.colour["tip_angle_deg"].flicker
+    assert after.rechecked()[1]
+    assert module.flicker_noise(after, Workers()).problem is after.problem  # it is explained
+
+
+def test_what_an_effect_leaves_is_no_noise_of_one_over_f(monkeypatch):
+    """Nor is it looked at where all noise is white."""
+    dry = with_one_over_f(RigParameters(kinetic_n_mm_per_mm=6e-4))
+    state = module.nominal_rig(start_of_search(dry, effects=()), Workers())
+    state = module.coloured_noise(state, Workers())
+    after = module.flicker_noise(state, Workers())
+    assert after.problem is state.problem
+    white = state.renoised(replace(state.problem.noise, colour={}))
+    monkeypatch.setattr(module, "with_colour", None)
+    assert module.flicker_noise(white, Workers()).problem is white.problem
+
+
 def test_the_best_is_fitted_in_the_noise_that_it_leaves(dry_start):
     """Noise that was taken for coloured takes slow residuals for noise: other values are best in it."""
     noise = dry_start.problem.noise

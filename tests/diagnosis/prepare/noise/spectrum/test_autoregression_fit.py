@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, lfilter, sosfilt
 
-from diagnosis.prepare.noise.autoregression_fit import autoregression
+from diagnosis.prepare.noise.spectrum.autoregression_fit import autoregression
 
 RATE_HZ, SIZE = 100, 2000
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import butter, lfilter, sosfilt
 
 from diagnosis.prepare.noise.autoregression import Autoregression
-from diagnosis.prepare.noise.noise_spectrum import noise_colour
+from diagnosis.prepare.noise.spectrum.noise_spectrum import noise_colour
 
 RATE_HZ = 100
 

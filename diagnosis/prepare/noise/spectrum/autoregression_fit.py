@@ -26,8 +26,8 @@ from diagnosis.criteria import (
     COLOUR_WINDOWS,
 )
 from diagnosis.prepare.noise.autoregression import Autoregression
-from diagnosis.prepare.noise.missing_values import completed
-from diagnosis.prepare.noise.periodograms import (
+from diagnosis.prepare.noise.spectrum.missing_values import completed
+from diagnosis.prepare.noise.spectrum.periodograms import (
     MEAN,
     QUANTILE,
     even,

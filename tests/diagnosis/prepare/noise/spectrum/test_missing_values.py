@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 from diagnosis.prepare.noise.autoregression import Autoregression
-from diagnosis.prepare.noise.missing_values import completed
+from diagnosis.prepare.noise.spectrum.missing_values import completed
 
 SIZE, DRAWS = 60, 4000
 

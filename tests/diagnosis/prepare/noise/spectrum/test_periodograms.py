@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagnosis.prepare.noise.periodograms import (
+from diagnosis.prepare.noise.spectrum.periodograms import (
     MEAN,
     QUANTILE,
     even,

@@ -1,0 +1,1 @@
+"""The noise of a sensor from the spectrum of residuals of its readings."""

@@ -1,0 +1,157 @@
+"""Levels of a spectrum in bands of frequencies, and what models of the noise are expected to show there.
+
+The residual is cut into windows of 2 s, a parabola is subtracted from each, and a low quantile of the
+periodograms is used in each band (`periodograms`). Missing samples count as zeros; the autocorrelation
+of the windows takes this into account in the spectrum that a model of the noise is expected to show.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from diagnosis.criteria import (
+    COLOUR_ABOVE_HZ,
+    COLOUR_LONGEST_S,
+    COLOUR_WINDOW_S,
+    COLOUR_WINDOWS,
+)
+from diagnosis.prepare.noise.noise_colour import ColouredPart, covariances_of_means
+from diagnosis.prepare.noise.spectrum.periodograms import (
+    MEAN,
+    QUANTILE,
+    even,
+    periodogram,
+    step_of,
+    taper_of,
+    trend,
+    windows_of,
+)
+
+Array = NDArray[np.float64]
+
+_BANDS = 12
+_TIMES = 32  # correlation times that are tried
+_SCATTER = np.sqrt(QUANTILE / (1 - QUANTILE)) / MEAN  # of ln(quantile), times sqrt(samples)
+_INDEPENDENT = 0.8  # of the periodograms of half overlapping windows, at neighbouring frequencies
+_FEWEST_BANDS = 4
+_MASKS, _IN_BAND = 12, 8  # windows and frequencies that stand for all
+_SHORTEST = 0.4  # steps, the shortest correlation time that is tried
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NoiseLevels:
+    """Levels of bands, (B,), the standard deviations of their logarithms, and how to predict them."""
+
+    levels: Array
+    error: Array
+    lag_weights: Array
+    step_s: float
+
+    @property
+    def lags_s(self) -> Array:
+        """Lags of the autocovariances that predict levels, (L,)."""
+        return np.asarray(self.step_s * np.arange(self.lag_weights.shape[1]), float)
+
+    @property
+    def white(self) -> Array:
+        """Levels that white noise of variance 1 is expected to show, (B,)."""
+        return self.expected((self.lags_s == 0).astype(float))
+
+    def expected(self, covariances: Array) -> Array:
+        """Levels that noise of given autocovariances at lags 0, 1, ... is expected to show, (B,)."""
+        return self.lag_weights @ covariances
+
+    def fitted(self, columns: Array) -> tuple[float, Array]:
+        """Chi-square of the best non-negative sum of columns, (B, C), and its coefficients, (C,)."""
+        size = self.levels
+        for _ in range(4):  # scatter is a share of what is expected, not of what was found
+            weights = 1 / (self.error * size)
+            coefficients, _ = nnls(columns * weights[:, None], self.levels * weights)
+            size = np.sqrt(size * np.maximum(columns @ coefficients, 1e-12 * size))
+        ratio = np.log(self.levels / np.maximum(columns @ coefficients, 1e-300))
+        return float(np.sum((ratio / self.error) ** 2)), coefficients
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NoiseShape:
+    """A part of the noise of any size, and what it adds to the levels of a spectrum, (B,).
+
+    Attributes:
+      part: with the share of one whose readings have the variance 1.
+      variance_ratio: of samples, which may be means of readings, to that of readings.
+    """
+
+    part: ColouredPart
+    variance_ratio: float
+    levels: Array
+
+
+def processes(spectrum: NoiseLevels, means_of: int) -> list[NoiseShape]:
+    """Ornstein-Uhlenbeck processes of all correlation times that are tried.
+
+    Args:
+      means_of: number of readings that a sample is the mean of.
+    """
+    times_s = np.geomspace(_SHORTEST * spectrum.step_s, COLOUR_LONGEST_S, _TIMES)
+    return [process(spectrum, float(time_s), means_of) for time_s in times_s]
+
+
+def process(spectrum: NoiseLevels, time_s: float, means_of: int) -> NoiseShape:
+    """An Ornstein-Uhlenbeck process of a correlation time."""
+    covariances, later = covariances_of_means(spectrum.lags_s, time_s, spectrum.step_s, means_of)
+    part = ColouredPart(share=later, correlation_time_s=time_s)
+    return NoiseShape(
+        part=part, variance_ratio=float(covariances[0]), levels=spectrum.expected(covariances)
+    )
+
+
+def spectrum_of(parts: Sequence[tuple[Array, Array]]) -> NoiseLevels | None:
+    """The spectrum of all trials; None: they are too short."""
+    step_s = step_of(parts)
+    if np.isnan(step_s):
+        return None
+    size = round(COLOUR_WINDOW_S / step_s)
+    evens = [even(time_s, values, step_s) for time_s, values in parts]
+    taper, cut = taper_of(size), windows_of(evens, step_s)
+    frequencies = np.fft.rfftfreq(size, step_s)
+    edges = np.geomspace(COLOUR_ABOVE_HZ, max(frequencies[-1], COLOUR_ABOVE_HZ) * 1.001, _BANDS + 1)
+    inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]
+    bands = [own for own in inside if own.size]
+    if len(cut) < COLOUR_WINDOWS or len(bands) < _FEWEST_BANDS:
+        return None
+    squares = np.array([periodogram(values, taper) for values in cut])
+    levels = np.array([np.quantile(squares[:, own], QUANTILE) / MEAN for own in bands])
+    if not (levels > 0).all():
+        return None
+    count = np.array([_INDEPENDENT * len(cut) * own.size for own in bands])
+    return NoiseLevels(
+        levels=levels,
+        error=_SCATTER / np.sqrt(count),
+        lag_weights=_lag_weights(cut, taper, bands),
+        step_s=step_s,
+    )
+
+
+def _lag_weights(cut: Sequence[Array], taper: Array, bands: Sequence[NDArray[np.int_]]) -> Array:
+    """Weights with which autocovariances at lags 0, 1, ... give the expected levels of bands, (B, L)."""
+    masks = list({np.isfinite(one).tobytes(): one for one in cut}.values())
+    looked_at = masks[:: max(len(masks) // _MASKS, 1)]
+    each = []
+    for values in looked_at:
+        known, weights, scale = trend(values, taper)
+        base, inverse = known, np.linalg.pinv(known)
+        size = values.size
+        rows = []
+        for own in bands:
+            some = own[:: max(own.size // _IN_BAND, 1)]
+            waves = np.exp(-2j * np.pi * np.outer(some, np.arange(size)) / size) * weights
+            waves = waves - (waves @ base) @ inverse
+            power = np.mean(np.abs(np.fft.fft(waves, 2 * size)) ** 2, axis=0)
+            overlap = np.fft.ifft(power).real[:size] / scale
+            rows.append(np.where(np.arange(size) == 0, overlap, 2 * overlap))
+        each.append(np.array(rows))
+    return np.asarray(np.mean(each, axis=0))

@@ -1,0 +1,86 @@
+"""Flicker noise: as 1 / f, made from a spectrum of its own."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from diagnosis.prepare.noise.spectrum.flicker import flicker_noise
+
+RATE_HZ, SECONDS = 100, 40.0
+SIZE = round(SECONDS * RATE_HZ)
+
+
+def one_over_f(rng):
+    """Of variance 1, with the power of each frequency as 1 / f from 1 / SECONDS on."""
+    waves = np.fft.rfft(rng.normal(size=SIZE))
+    waves[0] = 0.0
+    waves[1:] /= np.sqrt(np.arange(1, waves.size))
+    values = np.fft.irfft(waves, SIZE)
+    return values / values.std()
+
+
+def trials(seed, share=1.0, count=4):
+    rng = np.random.default_rng(seed)
+    time_s = np.arange(SIZE) / RATE_HZ
+    return [
+        (time_s, np.sqrt(share) * one_over_f(rng) + np.sqrt(1 - share) * rng.normal(size=SIZE))
+        for _ in range(count)
+    ]
+
+
+@pytest.mark.parametrize("share", [0.5, 1.0])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_it_is_found_with_its_size_though_most_of_it_is_below_the_bands(seed, share):
+    sigma, colour = flicker_noise(trials(seed, share))
+    # A low quantile of 160 windows tells the level of a band to some per cent. The slowest process has
+    # the correlation time of a wave of a trial, and half of its power is slower: 1/16 of the variance.
+    assert sigma == pytest.approx(1.0, abs=0.15)
+    assert colour.share == pytest.approx(share, abs=0.15)
+    assert colour.in_words == "as that of 1/f noise"
+
+
+def test_its_parts_have_a_density_as_one_over_f():
+    _, colour = flicker_noise(trials(3))
+    times_s = np.array([part.correlation_time_s for part in colour.parts])
+    shares = np.array([part.share for part in colour.parts])
+    frequency = np.geomspace(1.0 / SECONDS, 0.1 * RATE_HZ, 40)
+    # Lorentzians, the transforms of exp(-|t| / tau).
+    each = 4 * shares * times_s / (1 + (2 * np.pi * frequency[:, None] * times_s) ** 2)
+    power = frequency * each.sum(axis=1)
+    within = (frequency > 1.5 / SECONDS) & (frequency < 0.05 * RATE_HZ)
+    # A factor of 3.3 between neighbouring times makes waves of 1 %; ends take off some.
+    assert power[within].max() / power[within].min() < 1.35
+
+
+def test_it_leaves_white_noise_with_means_over_seconds_that_are_no_larger():
+    parts = trials(4)
+    sigma, colour = flicker_noise(parts)
+    white = [colour.whitened(time_s, values / sigma) for time_s, values in parts]
+    blocks = np.concatenate([own.reshape(-1, 200).mean(axis=1) for own in white])
+    assert np.std(np.concatenate(white)) == pytest.approx(1.0, abs=0.05)
+    # 80 blocks: the root mean square of their means scatters by 8 %.
+    assert np.sqrt(200 * np.mean(blocks**2)) < 1.3
+
+
+def test_white_noise_and_noise_that_is_forgotten_at_once_are_not_like_that():
+    rng = np.random.default_rng(5)
+    time_s = np.arange(SIZE) / RATE_HZ
+    white = [(time_s, rng.normal(size=SIZE)) for _ in range(4)]
+    assert flicker_noise(white) is None
+    for kept in (0.5, 0.8, 0.95):
+        noise = lfilter([np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=(4, SIZE)))
+        assert flicker_noise([(time_s, values) for values in noise]) is None
+
+
+def test_what_is_slow_does_not_change_it():
+    (alone, _), parts = flicker_noise(trials(6)), trials(6)
+    for time_s, values in parts:
+        values[:] += 5 * np.sin(2 * np.pi * 0.1 * time_s)
+    sigma, _ = flicker_noise(parts)
+    assert sigma == pytest.approx(alone, rel=0.05)
+
+
+def test_too_few_windows_tell_nothing():
+    time_s = np.arange(300) / RATE_HZ
+    assert flicker_noise([(time_s, np.random.default_rng(7).normal(size=300))]) is None
+    assert flicker_noise([]) is None
