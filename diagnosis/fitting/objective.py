@@ -34,14 +34,16 @@ _KEPT = 16  # vectors whose residuals are kept: more than a search along one dir
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class NearStart:
-    """What a fit without the effects says about the start of a fit with them.
+    """What another fit says about the start of a fit.
+
+    One without the effects says what the slopes along the nuisance are; one that ended there, all.
 
     Attributes:
-      of_nuisance: its slopes along the nuisance, without the prior, (N, k).
-      by_trial: its residuals / sigma, if the effects change nothing at the start; None: they may.
+      slopes: along the last k entries of the vector, without the prior, (N, k).
+      by_trial: residuals / sigma, if they are the same at the start; None: they may differ.
     """
 
-    of_nuisance: Array
+    slopes: Array
     by_trial: tuple[Array, ...] | None
 
 
@@ -80,12 +82,14 @@ class Objective:
         self._known: dict[bytes, tuple[Array, ...]] = {}
 
     def learn_from(self, x: Array, near: NearStart) -> None:
-        """Take for known what a fit without the effects says near a vector, (n,)."""
-        slopes = near.of_nuisance
+        """Take for known what another fit says near a vector, (n,)."""
+        slopes = near.slopes
         rows, size = slopes.shape[0], x.size
         self.slopes, self._fresh_at = np.zeros((rows + size, size)), x
         self.slopes[:rows, size - slopes.shape[1] :] = slopes
         self.slopes[rows:] = np.diag(self.parameterization.weights)
+        if slopes.shape[1] == size:
+            self._taken_at = x  # they hold for the first step
         if near.by_trial is not None:
             self._known[x.tobytes()] = near.by_trial
 
@@ -161,9 +165,10 @@ class Objective:
             return slopes
         if self._taken_at is None:
             return None
-        step, moved = x - self._taken_at, at_x - self._rows_there
+        step = x - self._taken_at
         if np.abs(step).max(initial=0.0) < _NEAR:
             return slopes
+        moved = at_x - self._rows_there
         missed = moved - slopes @ step
         if not self.problem.callback_alone:  # intervals need slopes that no step has bent
             return None

@@ -38,6 +38,7 @@ MOST = 3.0  # times its start, that an effect is taken for
 
 def pairs_beside(
     coarse: FitProblem,
+    rough: FitProblem,
     base: Fit,
     laws: Sequence[FreeFit],
     effects: Sequence[str],
@@ -47,10 +48,11 @@ def pairs_beside(
 
     Args:
       coarse: the decimated log.
+      rough: the same for a rougher needle.
       base: its fit without law and effect.
       laws: the fits of laws alone.
     """
-    pairs = _promising(coarse, base, laws, effects, workers)
+    pairs = _promising(rough, base, laws, effects, workers)
     tasks = [Task(effects=(name,), arguments=(coarse, law, name)) for law, name in pairs]
     each = zip(pairs, workers.each(SCREENING_BESIDE, _screened_beside, tasks), strict=True)
     found = [(law, s) for (law, _), s in each if not isinstance(s, Failure)]
@@ -58,14 +60,14 @@ def pairs_beside(
 
 
 def _promising(
-    coarse: FitProblem,
+    rough: FitProblem,
     base: Fit,
     laws: Sequence[FreeFit],
     effects: Sequence[str],
     workers: Workers,
 ) -> list[tuple[FreeFit, str]]:
     """The pairs that the linear model promises most of."""
-    tasks = [Task(effects=(name,), arguments=(coarse, base, name)) for name in effects]
+    tasks = [Task(effects=(name,), arguments=(rough, base, name)) for name in effects]
     each = zip(effects, workers.each(SCREENING_ALONE, _changes, tasks), strict=True)
     known = {name: rows for name, rows in each if not isinstance(rows, Failure)}
     if not known:
@@ -92,12 +94,12 @@ def _few_of_each(
     return kept
 
 
-def _changes(coarse: FitProblem, base: Fit, name: str) -> Array:
+def _changes(rough: FitProblem, base: Fit, name: str) -> Array:
     """What an effect at its starts changes of the residuals without a law, (N, starts)."""
-    parameterization = coarse.parameterization((*base.names, name))
-    each = [base.parts | {name: start} for start in starts(coarse.library[name])[:STARTS]]
+    parameterization = rough.parameterization((*base.names, name))
+    each = [base.parts | {name: start} for start in starts(rough.library[name])[:STARTS]]
     rigs = [parameterization.rig(parameterization.joined(parts)) for parts in each]
-    runs = coarse.residuals(rigs, callback_alone=True)
+    runs = rough.residuals(rigs, callback_alone=True)
     return np.concatenate(
         [np.stack(run, axis=1) - was[:, None] for run, was in zip(runs, base.by_trial, strict=True)]
     )

@@ -41,7 +41,7 @@ def first_fit(rough: FitProblem, base: Fit, family: Family) -> FreeFit:
         start = problem.parameterization((family.name,)).joined(base.parts)
     else:
         start = screen(problem, base, family.name)[0].start
-    near = NearStart(of_nuisance=np.vstack(base.jacobian), by_trial=base.by_trial if neutral else None)
+    near = NearStart(slopes=np.vstack(base.jacobian), by_trial=base.by_trial if neutral else None)
     few = len(family.effect.parameters) <= FEW_NUMBERS
     iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
     fit = fit_effects(problem, (family.name,), start, most_iterations=iterations, near=near)

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.objective import NearStart
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
 from diagnosis.freeform.prior import with_estimated_prior
@@ -13,7 +14,16 @@ from diagnosis.selection.screening import screen
 
 Array = NDArray[np.float64]
 
-ITERATIONS = 10
+ITERATIONS, FIRST_ITERATIONS = 10, 4
+
+
+def begun_only(
+    coarse: FitProblem, contender: FreeFit, enough: float = np.inf, start: Array | None = None
+) -> FreeFit:
+    """Fitted for the first iterations; the arguments are those of `to_its_end`."""
+    own = with_family(coarse, *contender.families)
+    fit = _fitted(own, contender, enough, start, FIRST_ITERATIONS)
+    return replace(contender, fit=fit.with_its_promise(), gap_after=fit.gap)
 
 
 def to_its_end(
@@ -26,14 +36,41 @@ def to_its_end(
       start: the vector to start from; None: where the fit of the contender, or screening, ended.
     """
     own, names = with_family(coarse, *contender.families), contender.names
-    start = _start(own, contender) if start is None else start
-    fit = fit_effects(own, names, start, enough, most_iterations=ITERATIONS)
+    fit = _fitted(own, contender, enough, start, ITERATIONS)
     if fit.status.ended_early:
         return replace(contender, fit=fit, gap_after=fit.gap)
     family, *others = (with_estimated_prior(f, fit) for f in contender.families)
-    own = with_family(coarse, family, *others)
-    fit = fit_effects(own, names, fit.x, enough, most_iterations=ITERATIONS // 2)
+    own, near = with_family(coarse, family, *others), near_its_end(fit, by_trial=True)
+    fit = fit_effects(
+        own, names, fit.x, enough, most_iterations=ITERATIONS // 2, near=near, from_a_fit=True
+    )
     return replace(contender, family=family, others=tuple(others), fit=fit, gap_after=fit.gap)
+
+
+def near_its_end(fit: Fit, *, by_trial: bool = False) -> NearStart | None:
+    """What a fit says of one that starts where it ended; None: it has no slopes.
+
+    Args:
+      by_trial: whether the residuals are the same, too.
+    """
+    slopes = np.vstack(fit.jacobian)
+    return (
+        NearStart(slopes=slopes, by_trial=fit.by_trial if by_trial else None) if slopes.any() else None
+    )
+
+
+def _fitted(
+    own: FitProblem, contender: FreeFit, enough: float, start: Array | None, iterations: int
+) -> Fit:
+    """From a start, or with the slopes of its fit where that has all laws."""
+    if start is None and contender.fit.names == contender.names:
+        x, near = contender.fit.x, near_its_end(contender.fit)
+        ended = near is not None
+        return fit_effects(
+            own, contender.names, x, enough, most_iterations=iterations, near=near, from_a_fit=ended
+        )
+    start = _start(own, contender) if start is None else start
+    return fit_effects(own, contender.names, start, enough, most_iterations=iterations)
 
 
 def _start(problem: FitProblem, contender: FreeFit) -> Array:

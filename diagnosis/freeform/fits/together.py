@@ -2,8 +2,8 @@
 
 A law that is not in the list may come near as the sum, or the product, of some that are. The pairs that
 promise most are fitted, of two laws and of a law and an effect of the library; if none of these closes
-the gap, the best have one law more. All are fitted for a rougher needle first, a quarter of the cost,
-and those that leave least there on the decimated log itself.
+the gap, the best have one law more. All are fitted for a rougher needle first, a quarter of the cost: for
+a few iterations, the most promising to their end, and those that leave least on the decimated log itself.
 """
 
 from collections.abc import Sequence
@@ -17,12 +17,12 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.fits.beside import pairs_beside
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit
 from diagnosis.freeform.fits.laws_beside import laws_beside
-from diagnosis.freeform.fits.to_its_end import to_its_end
+from diagnosis.freeform.fits.to_its_end import begun_only, to_its_end
 from diagnosis.workers import Workers
 
 PAIRS, THREE = "free-form laws in pairs and beside an effect", "three free-form laws"
 LEADING, LEADING_PAIRS = 12, 2  # fits beside which another law is looked for: of one law, of several
-WORTH_MORE = 3  # of those for a rougher needle
+WORTH_AN_END, WORTH_MORE = 6, 3  # of those for a rougher needle
 _SAME = 1e-4  # in sigma; of a cost
 
 
@@ -43,11 +43,11 @@ def beside_one(
     alone, least = distinct([*fitted, *first]), _least(fitted)
     with_effects = [
         (rough, replace(law, beside=found.names[-1:]), least, found.start)
-        for law, found in pairs_beside(coarse, base, alone, effects, workers)
+        for law, found in pairs_beside(coarse, rough, base, alone, effects, workers)
     ]
     pairs = laws_beside(base, unlike(alone)[:LEADING], first)
     with_laws = [(rough, pair, least) for pair in pairs]
-    return _fitted(PAIRS, coarse, [*with_effects, *with_laws], least, workers)
+    return _fitted(PAIRS, coarse, rough, [*with_effects, *with_laws], least, workers)
 
 
 def beside_several(
@@ -62,19 +62,22 @@ def beside_several(
     best = unlike(sorted(fitted, key=lambda f: f.score))[:LEADING_PAIRS]
     pairs = [f for f in best if len(f.names) > 1]
     calls = [(rough, more, _least(fitted)) for more in laws_beside(base, pairs, first)]
-    return _fitted(THREE, coarse, calls, _least(fitted), workers)
+    return _fitted(THREE, coarse, rough, calls, _least(fitted), workers)
 
 
 def _fitted(
     stage: str,
     coarse: FitProblem,
+    rough: FitProblem,
     calls: Sequence[tuple[Any, ...]],
     enough: float,
     workers: Workers,
 ) -> list[FreeFit]:
     """The best of the fits that calls make for a rougher needle, fitted to the decimated log itself."""
-    roughly = sorted(each_fit(stage, to_its_end, calls, workers), key=lambda f: f.score)
-    best = [(coarse, f, enough, f.fit.x) for f in roughly[:WORTH_MORE]]
+    begun = sorted(each_fit(stage, begun_only, calls, workers), key=lambda f: f.promise)
+    ends = [(rough, f, enough) for f in begun[:WORTH_AN_END]]
+    roughly = sorted(each_fit(stage, to_its_end, ends, workers), key=lambda f: f.score)
+    best = [(coarse, f, enough) for f in roughly[:WORTH_MORE]]
     return each_fit(stage, to_its_end, best, workers)
 
 

@@ -156,7 +156,7 @@ def test_what_is_known_of_the_start_is_not_taken_for_where_the_fit_has_gone(dry,
     problem = replace(dry, library={**dry.library, "tip_drag": effect})
     start, known = start_of(problem, "tip_drag"), []
     monkeypatch.setattr(module.Objective, "learn_from", lambda _, x, near: known.append((x, near)))
-    near = NearStart(of_nuisance=np.zeros((0, 0)), by_trial=None)
+    near = NearStart(slopes=np.zeros((0, 0)), by_trial=None)
     fit = fit_effects(problem, ("tip_drag",), start, near=near)
     assert not np.allclose(fit.x, start)
     ((at, given),) = known

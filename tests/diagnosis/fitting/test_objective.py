@@ -165,7 +165,7 @@ def test_what_a_fit_without_the_effects_knows_of_the_start_is_not_simulated_agai
     problem, x = ClosedForm(), middle()
     known = (np.array([1.0, 2.0]), np.array([3.0]))
     objective = Objective(problem, DRAG)
-    objective.learn_from(x, NearStart(of_nuisance=np.array([[0.1], [0.2], [0.3]]), by_trial=known))
+    objective.learn_from(x, NearStart(slopes=np.array([[0.1], [0.2], [0.3]]), by_trial=known))
     at_x = objective(x)
     np.testing.assert_array_equal(at_x[:3], [1.0, 2.0, 3.0])
     assert problem.rigs == []
@@ -178,9 +178,26 @@ def test_what_a_fit_without_the_effects_knows_of_the_start_is_not_simulated_agai
 def test_where_effects_change_something_at_the_start_it_is_simulated():
     problem, x = ClosedForm(), middle()
     objective = Objective(problem, DRAG)
-    objective.learn_from(x, NearStart(of_nuisance=np.zeros((3, 1)), by_trial=None))
+    objective.learn_from(x, NearStart(slopes=np.zeros((3, 1)), by_trial=None))
     np.testing.assert_array_equal(objective(x), Objective(ClosedForm(), DRAG)(x))
     assert len(problem.rigs) == 1
+
+
+def test_slopes_of_a_fit_that_ended_at_the_start_hold_for_the_first_step_alone():
+    """With its prior, which may be another one."""
+    problem, x = ClosedForm(), middle()
+    objective = Objective(problem, DRAG)
+    known = np.array([[0.1, 0.4], [0.2, 0.5], [0.3, 0.6]])
+    objective.learn_from(x, NearStart(slopes=known, by_trial=None))
+    slopes = objective.jacobian(x, objective(x))
+    np.testing.assert_array_equal(slopes[:3], known)
+    np.testing.assert_array_equal(slopes[3:], np.diag(DRAG.weights))
+    assert len(problem.rigs) == 1  # the residuals at the start
+    there = x + np.array([0.2, 0.0])
+    after = objective.jacobian(there, objective(there))
+    np.testing.assert_allclose(
+        after[:, 0], Objective(ClosedForm(), DRAG).jacobian(there, objective(there))[:, 0]
+    )
 
 
 def test_slopes_of_what_one_trial_alone_shows_are_taken_again_every_time():

@@ -53,7 +53,8 @@ def fitted(monkeypatch):
                 for name in ended
                 if name.startswith(f"{law.family.name}, growing")
             ],
-            "pairs_beside": lambda _, __, laws, names, ___: [
+            "begun_only": lambda _, one, *enough: made(ended, one, *enough),
+            "pairs_beside": lambda _, __, ___, laws, names, ____: [
                 (law, Screened(names=(law.family.name, name), start=np.zeros(2), cost=0.0, gain=0.0))
                 for law in laws
                 for name in names
@@ -100,7 +101,9 @@ def test_beside_an_effect_a_law_has_to_leave_less_than_the_best_alone(fitted):
     run, _ = fitted
     gaps = {"a": 2.0, "b": 2.5, "a + stiction": 2.1, "b + stiction": 2.6}
     run({"a": 2.0, "b": 2.5}, gaps, effects=("stiction",))
-    assert run.enough == [pytest.approx(100 * 2.0**2)] * 4  # for a rougher needle, and after it
+    assert (
+        run.enough == [pytest.approx(100 * 2.0**2)] * 6
+    )  # begun and ended for a rougher needle, and after it
 
 
 def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more(fitted, monkeypatch):

@@ -76,7 +76,7 @@ def screened(monkeypatch):
         monkeypatch.setattr(beside, "_screened_beside", simulated)
         monkeypatch.setattr(beside, "_changes", lambda *_: np.zeros((SAMPLES, 1)))
         monkeypatch.setattr(beside, "promised_costs", promised)
-        pairs = pairs_beside(problem, base, laws, effects, Workers())
+        pairs = pairs_beside(problem, problem, base, laws, effects, Workers())
         return [(law.family.name, s.names[-1]) for law, s in pairs]
 
     return run, seen

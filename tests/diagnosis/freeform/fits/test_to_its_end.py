@@ -10,7 +10,7 @@ from free_forms import priors
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.fits.first_fit import first_fit
-from diagnosis.freeform.fits.to_its_end import to_its_end
+from diagnosis.freeform.fits.to_its_end import begun_only, to_its_end
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -54,3 +54,15 @@ def test_a_fit_that_would_be_of_no_use_is_given_up(found):
     given_up = to_its_end(problem, damping, enough=1e-3)
     assert given_up.fit.status.ended_early
     np.testing.assert_array_equal(priors(given_up.family), priors(damping.family))
+
+
+def test_it_goes_on_from_where_a_few_iterations_ended_and_stays_where_it_is_at_its_end(found):
+    problem, (damping, reading) = found
+    both = replace(damping, others=(reading.family,))
+    begun = begun_only(problem, both)
+    ended = to_its_end(problem, begun)
+    assert begun.fit.names == both.names
+    assert ended.fit.gap <= begun.fit.gap + 1e-3  # with another prior
+    assert ended.fit.gap == pytest.approx(to_its_end(problem, both).fit.gap, abs=1e-3)
+    again = to_its_end(problem, ended)
+    assert again.fit.gap == pytest.approx(ended.fit.gap, abs=1e-3)

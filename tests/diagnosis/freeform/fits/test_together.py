@@ -1,6 +1,7 @@
 """Laws that leave the same count once."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from free_forms import family_of, linear_fit
@@ -44,25 +45,29 @@ def test_a_third_law_stands_beside_the_best_pairs_alone(monkeypatch):
     assert seen == [[pair]]
 
 
-def test_the_best_of_a_rougher_needle_are_fitted_to_the_log_from_where_they_ended(monkeypatch):
+def test_the_most_promising_of_a_rougher_needle_are_fitted_on_from_where_they_ended(monkeypatch):
     """Each as any other fit: it has to leave less than the best so far."""
     pair = replace(fit_of("slid", [1.0, 2.0]), others=(family_of(name="turned"),))
-    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.WORTH_MORE + 2)}
+    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.WORTH_AN_END + 2)}
     more = [replace(pair, others=(*pair.others, family_of(name=name))) for name in reversed(lefts)]
     seen = []
 
-    def ended(problem, one, enough, start=None):
-        seen.append((problem, one.names[-1], enough, start))
+    def fitted(how, problem, one, enough):
+        seen.append((how, problem, one.names[-1], enough))
         left = np.array(lefts[one.names[-1]])
-        fit = replace(one.fit, by_trial=(left,), cost=float(left @ left))
+        flat = (np.zeros((left.size, one.fit.x.size)),)
+        fit = replace(one.fit, by_trial=(left,), jacobian=flat, cost=float(left @ left))
         return replace(one, fit=fit, gap_after=fit.gap)
 
     monkeypatch.setattr(together, "laws_beside", lambda *_: more)
-    monkeypatch.setattr(together, "to_its_end", ended)
+    for how in ("begun_only", "to_its_end"):
+        monkeypatch.setattr(together, how, partial(fitted, how))
     found = together.beside_several("coarse", "rough", None, [pair], [pair], Workers())
-    best = list(lefts)[: together.WORTH_MORE]
-    assert [f.names[-1] for f in found] == best
-    assert [own[:2] for own in seen[: len(lefts)]] == [("rough", name) for name in reversed(lefts)]
-    assert [own[:2] for own in seen[len(lefts) :]] == [("coarse", name) for name in best]
-    assert {own[2] for own in seen} == {pair.fit.cost}
-    assert all(start is pair.fit.x for *_, start in seen[len(lefts) :])
+    names = list(lefts)
+    assert [f.names[-1] for f in found] == names[: together.WORTH_MORE]
+    assert [own[:3] for own in seen] == [
+        *(("begun_only", "rough", name) for name in reversed(names)),
+        *(("to_its_end", "rough", name) for name in names[: together.WORTH_AN_END]),
+        *(("to_its_end", "coarse", name) for name in names[: together.WORTH_MORE]),
+    ]
+    assert {own[3] for own in seen} == {pair.fit.cost}
