@@ -2,8 +2,8 @@
 
 A law that is not in the list may come near as the sum, or the product, of some that are. The pairs that
 promise most are fitted, of two laws and of a law and an effect of the library; if none of these closes
-the gap, the best have one law more. All are fitted for a rougher needle first, a quarter of the cost: for
-a few iterations, the most promising to their end, and those that leave least on the decimated log itself.
+the gap, the best have one law more. All are fitted for a rougher needle first, a quarter of the cost,
+for a few iterations, then the most promising to their end; those that leave least on the decimated log.
 """
 
 from collections.abc import Sequence
