@@ -380,9 +380,12 @@ oscillator has to be better than a process: three for each of its two more param
 COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP = 10.0, 1.3
 """Chi-square that is enough where only that explains the log (derived: once in 150 sensors by chance),
 and what white noise may leave of such a colour: that of half of the variance leaves 1.4."""
-FLICKER_GAP = 1.1
+FLICKER_GAP, FLICKER_ABOVE_HZ, FLICKER_COMMON_SIGMA = 1.1, 0.5, 3.0
 """Residual that a leading explanation may leave in noise of 1/f before it is fitted in it: a needle that
-lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what is asked of free-form laws."""
+lacks nothing else left 1.00 and 1.05 in two such logs, and 1.1 is what is asked of free-form laws. The
+frequency from which on noise of 1/f is looked for that begins near 1 Hz: three waves of it in windows of
+6 s. And the correlation of what is left of tip and torque, in its standard deviations, that noise of two
+sensors may have by chance (derived: once in 370)."""
 COLOURED_BLOCK_S = 2.0
 """Blocks whose means have to be those of noise, too, where it is coloured: seven times the longest
 correlation time, so that they are as good as independent. Coloured noise is strong where effects are,

@@ -33,6 +33,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import heaviness, white_noise
 from diagnosis.prepare.noise.sensor_noise import Noise
+from diagnosis.prepare.noise.spectrum.flicker import Flicker, flicker_noise
 
 Array = NDArray[np.float64]
 Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals, (N,) or (N, n)
@@ -43,16 +44,32 @@ def with_colour(problem: FitProblem, best: Fit) -> Noise:
 
     Of several parts where it is little more than noise: what a model lacks of a rig that swings is none.
     """
-    plain = problem.noise.uncoloured
-    in_sigma = by_sensor(problem, in_units_of(problem, best.by_trial, plain))
-    left = {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
+    plain, left = problem.noise.uncoloured, _in_units_of_sensors(problem, best)
     claims = problem.log.rig.sensors.by_column()  # a filter hides most of what differences show
     gaps = {
-        s: floor_of([v for _, v in parts]).gap * plain[s] / max(plain[s], claims[s])
-        for s, parts in in_sigma.items()
+        s: floor_of([v / plain[s] for _, v in parts]).gap * plain[s] / max(plain[s], claims[s])
+        for s, parts in left.items()
     }
     few = {s: COLOUR_MOST_PARTS if gap <= COLOUR_PARTS_GAP else 1 for s, gap in gaps.items()}
     return problem.noise.with_colour(left, most_parts=few)
+
+
+def flicker_left(problem: FitProblem, best: Fit, above_hz: float) -> dict[str, Flicker]:
+    """Flicker noise in what a fit leaves, by sensor, for those that show any.
+
+    Args:
+      above_hz: frequency above which it is looked at.
+    """
+    left = _in_units_of_sensors(problem, best)
+    each = {s: flicker_noise(parts, problem.noise.means_of, above_hz) for s, parts in left.items()}
+    return {s: own for s, own in each.items() if own}
+
+
+def _in_units_of_sensors(problem: FitProblem, best: Fit) -> dict[str, list[tuple[Array, Array]]]:
+    """Times and what a fit leaves, by sensor and trial."""
+    plain = problem.noise.uncoloured
+    in_sigma = by_sensor(problem, in_units_of(problem, best.by_trial, plain))
+    return {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:

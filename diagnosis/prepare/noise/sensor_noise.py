@@ -49,7 +49,7 @@ class Noise:
       most: largest noise that may be coloured: more is what the model lacks.
       means_of: number of readings that a sample is the mean of.
       colour_chi_square: by which white noise has to fit a spectrum worse for noise to be coloured.
-      flicker: whether coloured noise may be flicker noise.
+      flicker: sensors whose noise is flicker noise, and the frequency, Hz, above which it is looked at.
       drifts: drift that sensors may have within a trial.
       grows: how the noise of sensors grows, whose samples then have weights.
     """
@@ -62,7 +62,7 @@ class Noise:
     most: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
     colour_chi_square: float = COLOUR_CHI_SQUARE
-    flicker: bool = False
+    flicker: Mapping[str, float] = field(default_factory=dict)
     drifts: Mapping[str, AllowedDrift] = field(default_factory=dict)
     grows: Mapping[str, GrowingNoise] = field(default_factory=dict)
 
@@ -107,8 +107,7 @@ class Noise:
         """
         sigma, colour, most = dict(self.sigma), {}, most_parts or {}
         for sensor, parts in left.items():
-            slow = flicker_noise(parts, self.means_of) if self.flicker else None
-            found = slow or noise_colour(
+            found = self._flicker(sensor, parts) or noise_colour(
                 parts, least_share, self.means_of, self.colour_chi_square, most.get(sensor, 1)
             )
             if found and found[0] <= self.most.get(sensor, np.inf):
@@ -116,6 +115,11 @@ class Noise:
             elif sensor in self.colour:  # it was taken for coloured, and is not
                 sigma[sensor] = self.white[sensor]
         return replace(self, sigma=sigma, colour=colour)
+
+    def _flicker(self, sensor: str, parts: Sequence[TimedArray]) -> tuple[float, Colour] | None:
+        above_hz = self.flicker.get(sensor)
+        found = flicker_noise(parts, self.means_of, above_hz) if above_hz else None
+        return found.noise if found else None
 
     def growing(self, found: Mapping[str, GrowingNoise]) -> "Noise":
         """The noise of which that of some sensors also grows."""

@@ -109,16 +109,26 @@ def process(spectrum: NoiseLevels, time_s: float, means_of: int) -> NoiseShape:
     )
 
 
-def spectrum_of(parts: Sequence[tuple[Array, Array]]) -> NoiseLevels | None:
-    """The spectrum of all trials; None: they are too short."""
+def spectrum_of(
+    parts: Sequence[tuple[Array, Array]],
+    above_hz: float = COLOUR_ABOVE_HZ,
+    window_s: float = COLOUR_WINDOW_S,
+) -> NoiseLevels | None:
+    """The spectrum of all trials; None: they are too short.
+
+    Args:
+      parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
+      above_hz: frequency at which bands begin.
+      window_s: of the windows.
+    """
     step_s = step_of(parts)
     if np.isnan(step_s):
         return None
-    size = round(COLOUR_WINDOW_S / step_s)
+    size = round(window_s / step_s)
     evens = [even(time_s, values, step_s) for time_s, values in parts]
-    taper, cut = taper_of(size), windows_of(evens, step_s)
+    taper, cut = taper_of(size), windows_of(evens, step_s, window_s=window_s)
     frequencies = np.fft.rfftfreq(size, step_s)
-    edges = np.geomspace(COLOUR_ABOVE_HZ, max(frequencies[-1], COLOUR_ABOVE_HZ) * 1.001, _BANDS + 1)
+    edges = np.geomspace(above_hz, max(frequencies[-1], above_hz) * 1.001, _BANDS + 1)
     inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]
     bands = [own for own in inside if own.size]
     if len(cut) < COLOUR_WINDOWS or len(bands) < _FEWEST_BANDS:

@@ -28,15 +28,19 @@ def step_of(parts: Sequence[tuple[Array, Array]]) -> float:
 
 
 def windows_of(
-    evens: Sequence[Array], step_s: float, filled: Sequence[Array] | None = None
+    evens: Sequence[Array],
+    step_s: float,
+    filled: Sequence[Array] | None = None,
+    window_s: float = COLOUR_WINDOW_S,
 ) -> list[Array]:
     """Windows with half overlap that have enough samples, (N,) each; NaN where none was read.
 
     Args:
       evens: values at even steps by trial.
       filled: the same with something else where none was read, to be cut into the same windows.
+      window_s: of each.
     """
-    size = round(COLOUR_WINDOW_S / step_s)
+    size = round(window_s / step_s)
     found = []
     for values, shown in zip(evens, filled or evens, strict=True):
         starts = range(0, values.size - size + 1, max(size // 2, 1))

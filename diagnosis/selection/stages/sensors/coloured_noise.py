@@ -2,15 +2,28 @@
 
 Where that is another, effects are fitted once more, from where they are; and again at the end, in the
 noise that the best of them leaves. Where nothing explains a log, and the best leaves little, a colour
-that shows less is allowed for if it does; where a colour shows, that it may go on as 1 / f.
+that shows less is allowed for if it does; and noise may go on as 1 / f. Where it shows that at
+frequencies at which effects leave little, that is enough; where it begins below, both sensors have to
+show it, what is left of them must have nothing in common, and little may be left.
 """
 
 from dataclasses import replace
 
-from diagnosis.criteria import COLOUR_WEAK_CHI_SQUARE, COLOUR_WEAK_GAP, FLICKER_GAP
-from diagnosis.fitting.noise_reestimation import with_colour
+from diagnosis.criteria import (
+    COLOUR_ABOVE_HZ,
+    COLOUR_CHI_SQUARE,
+    COLOUR_OPEN,
+    COLOUR_WEAK_CHI_SQUARE,
+    COLOUR_WEAK_GAP,
+    FLICKER_ABOVE_HZ,
+    FLICKER_COMMON_SIGMA,
+    FLICKER_GAP,
+)
+from diagnosis.fitting.noise_reestimation import flicker_left, with_colour
+from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.record import Decision, dropped, noted
+from diagnosis.selection.scoring.common_part import common_part
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import leading_fitted_again, run_stages, stopped_in
@@ -66,18 +79,45 @@ def weakly_coloured_noise(state: SearchState, workers: Workers) -> SearchState:
 
 
 def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
-    """The state with coloured noise that goes on as 1 / f, where only that explains the log."""
-    state, explained = state.rechecked()
-    if explained or not state.problem.noise.colour:
-        return state
-    asked = replace(state.problem.noise, flicker=True)
-    noise = with_colour(replace(state.problem, noise=asked), state.best.fit)
-    if noise.same(state.problem.noise):
-        return state
-    left = min(c.fit.gap for c in state.renoised(noise).candidates)
-    if left > FLICKER_GAP:
-        return state
-    return _kept_if_it_explains(FLICKER, state, noise, workers)
+    """The state with noise that goes on as 1 / f, where only that explains the log."""
+    for sensors in (_coloured_flicker, _slow_flicker):
+        state, explained = state.rechecked()
+        if explained:
+            break
+        allowed = sensors(state)
+        noise = replace(state.problem.noise, flicker=allowed)
+        noise = with_colour(replace(state.problem, noise=noise), state.best.fit)
+        if allowed and _may_explain(state.renoised(noise), apart=sensors is _slow_flicker):
+            state = _kept_if_it_explains(FLICKER, state, noise, workers)
+    return state
+
+
+def _coloured_flicker(state: SearchState) -> dict[str, float]:
+    """Sensors whose noise shows it where effects leave little, and the frequency above which that is."""
+    found = flicker_left(state.problem, state.best.fit, COLOUR_ABOVE_HZ)
+    told = (s for s, own in found.items() if own.gain_cost >= COLOUR_CHI_SQUARE >= own.behind_cost)
+    return dict.fromkeys(told, COLOUR_ABOVE_HZ)
+
+
+def _slow_flicker(state: SearchState) -> dict[str, float]:
+    """The same where all of it is slow: both sensors have to show it, and little else may be left."""
+    if state.best.fit.gap > COLOUR_WEAK_GAP:
+        return {}
+    found = flicker_left(state.problem, state.best.fit, FLICKER_ABOVE_HZ)
+    gains = [own.gain_cost for own in found.values()]
+    told = len(gains) == len(SENSORS) and min(gains) >= COLOUR_OPEN and sum(gains) >= COLOUR_CHI_SQUARE
+    return dict.fromkeys(found, FLICKER_ABOVE_HZ) if told else {}
+
+
+def _may_explain(state: SearchState, *, apart: bool) -> bool:
+    """Whether a leading explanation leaves little in that noise.
+
+    Args:
+      apart: whether what it leaves of tip and torque has to have nothing in common.
+    """
+    best = min((c.fit for c in state.candidates), key=lambda fit: fit.gap)
+    alike = abs(common_part(state.problem, best)) > FLICKER_COMMON_SIGMA if apart else False
+    return best.gap <= FLICKER_GAP and not alike
 
 
 def _kept_if_it_explains(stage: str, state: SearchState, noise: Noise, workers: Workers) -> SearchState:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import TIP, log_of, start_of_search
+from diagnosis_fixtures import TIP, TORQUE, log_of, start_of_search
 from scipy.signal import lfilter
 
 from diagnosis.criteria import COLOUR_CHI_SQUARE
@@ -78,23 +78,45 @@ def test_what_an_effect_leaves_is_no_noise():
     assert after.problem.noise.colour == state.problem.noise.colour
 
 
-def with_one_over_f(rig, seconds=60.0):
-    """A rig whose tip has noise with a density as 1 / f, of four times the claim."""
+def one_over_f(size, rng, begins_hz=np.inf, rate_hz=100.0):
+    """Of variance 1, with a density as 1 / f, beside white noise above a frequency."""
+    waves = np.fft.rfft(rng.normal(size=size))
+    frequency = np.fft.rfftfreq(size, 1.0 / rate_hz)
+    waves[0] = 0.0
+    waves[1:] *= np.sqrt(1.0 / begins_hz + 1.0 / frequency[1:])
+    noise = np.fft.irfft(waves, size)
+    return noise / noise.std()
+
+
+def with_more(rig, seconds=60.0, **noise):
+    """The log of a rig, and noise besides, by sensor."""
     log = log_of(rig, seconds=seconds)
     (one,) = log.trials
-    size = len(one.table)
-    waves = np.fft.rfft(np.random.default_rng(3).normal(size=size))
-    waves[0] = 0.0
-    waves[1:] /= np.sqrt(np.arange(1, waves.size))
-    noise = np.fft.irfft(waves, size)
-    more = 4.0 * TIP * noise / noise.std()
-    table = one.table.assign(tip_angle_deg=one.table["tip_angle_deg"] + more)
+    table = one.table.assign(**{s: one.table[s] + own(len(one.table)) for s, own in noise.items()})
     return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def of_the_tip(rig):
+    """With noise as 1 / f of four times the claim."""
+    rng = np.random.default_rng(3)
+    return with_more(rig, tip_angle_deg=lambda size: 4.0 * TIP * one_over_f(size, rng))
+
+
+def of_both(rig, *, alike=False):
+    """Both sensors have noise that is as 1 / f below 1 Hz, twice the claim."""
+    rng = np.random.default_rng(4)
+    tip, torque = (one_over_f(6000, rng, begins_hz=1.0) for _ in range(2))
+    torque = 0.7 * torque + 0.7 * tip if alike else torque
+    return with_more(
+        rig,
+        tip_angle_deg=lambda size: 2.0 * TIP * tip[:size],
+        base_torque_n_mm=lambda size: 2.0 * TORQUE * torque[:size],
+    )
 
 
 def test_noise_may_go_on_as_one_over_f_where_only_that_explains_the_log():
     """Noise that is forgotten in tenths of a second leaves what is slow of it."""
-    state = start_of_search(with_one_over_f(NOMINAL), effects=())
+    state = start_of_search(of_the_tip(NOMINAL), effects=())
     state = module.coloured_noise(module.nominal_rig(state, Workers()), Workers())
     assert set(state.problem.noise.colour) == {"tip_angle_deg"}
     assert not state.rechecked()[1]
@@ -104,16 +126,35 @@ def test_noise_may_go_on_as_one_over_f_where_only_that_explains_the_log():
     assert module.flicker_noise(after, Workers()).problem is after.problem  # it is explained
 
 
-def test_what_an_effect_leaves_is_no_noise_of_one_over_f(monkeypatch):
-    """Nor is it looked at where all noise is white."""
-    dry = with_one_over_f(RigParameters(kinetic_n_mm_per_mm=6e-4))
+def test_what_an_effect_leaves_is_no_noise_of_one_over_f():
+    dry = of_the_tip(RigParameters(kinetic_n_mm_per_mm=6e-4))
     state = module.nominal_rig(start_of_search(dry, effects=()), Workers())
     state = module.coloured_noise(state, Workers())
+    assert module.flicker_noise(state, Workers()).problem is state.problem
+
+
+def test_slow_noise_of_one_over_f_in_both_sensors_explains_a_log():
+    state = module.nominal_rig(start_of_search(of_both(NOMINAL), effects=()), Workers())
+    state = module.coloured_noise(state, Workers())
+    assert not state.rechecked()[1]
     after = module.flicker_noise(state, Workers())
-    assert after.problem is state.problem
-    white = state.renoised(replace(state.problem.noise, colour={}))
-    monkeypatch.setattr(module, "with_colour", None)
-    assert module.flicker_noise(white, Workers()).problem is white.problem
+    assert after.rechecked()[1]
+    assert set(after.problem.noise.flicker) == {"tip_angle_deg", TORQUE_NAME}
+
+
+def test_what_tip_and_torque_have_in_common_is_no_noise():
+    state = module.nominal_rig(start_of_search(of_both(NOMINAL, alike=True), effects=()), Workers())
+    state = module.coloured_noise(state, Workers())
+    assert module.flicker_noise(state, Workers()).problem is state.problem
+
+
+def test_slow_noise_of_one_sensor_alone_may_be_an_effect():
+    rng = np.random.default_rng(4)
+    log = with_more(NOMINAL, tip_angle_deg=lambda size: 2.0 * TIP * one_over_f(size, rng, begins_hz=1.0))
+    state = module.coloured_noise(
+        module.nominal_rig(start_of_search(log, effects=()), Workers()), Workers()
+    )
+    assert module.flicker_noise(state, Workers()).problem is state.problem
 
 
 def test_the_best_is_fitted_in_the_noise_that_it_leaves(dry_start):

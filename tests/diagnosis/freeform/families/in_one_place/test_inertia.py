@@ -5,7 +5,7 @@ import pytest
 from diagnosis_fixtures import RIG
 from free_forms import VOCABULARY, covered
 
-from diagnosis.freeform.families.inertia import families
+from diagnosis.freeform.families.in_one_place.inertia import families
 from diagnosis.replay.rig_parameters import NOMINAL
 from models import units
 
