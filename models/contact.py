@@ -7,6 +7,8 @@ Its torque is multiplied by a curve over one of
     heat    of slipping of late, (rad/s)^2: d heat / dt = (slip rate^2 - heat) / fading
     broken  share of its structure that slip has broken:
             d broken / dt = (1 - broken) |slip rate| / renewal - broken / fading
+    turned  angle by which the shaft has slipped there since it turned back, deg: it grows with the slip
+            one way; the other way it is forgotten within a slip of `renewal`, and grows again
 
 (Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979). The last is Moore's law of thixotropy;
 Moore, Trans. Brit. Ceramic Soc. 58 (1959)), or the stiffness of yielding tissue
@@ -39,6 +41,7 @@ class ContactVariable(StrEnum):
     AGE = "age"
     HEAT = "heat"
     BROKEN = "broken"
+    TURNED = "turned_by"
     TWIST = "twist"
 
 
@@ -52,7 +55,8 @@ class ContactCurve(Record):
     last: Positive
     """Place of the last factor, in the same unit."""
     renewal_deg: Positive = 1.0
-    """Slip that renews a contact, or breaks its structure by a factor e: of age and broken alone."""
+    """Slip that renews a contact, breaks its structure by a factor e, or after which it has turned back:
+    of age, broken and turned alone."""
     fading_s: Positive = 1.0
     """In which heat fades, or structure heals, by a factor e: of heat and broken alone."""
 

@@ -30,6 +30,7 @@ _REMEMBERED = {
     ContactVariable.AGE: (memory_map.AGE, 1.0),
     ContactVariable.HEAT: (memory_map.HEAT, 1.0),
     ContactVariable.BROKEN: (memory_map.BROKEN, 1.0),
+    ContactVariable.TURNED: (memory_map.TURNED, units.DEG),
     ContactVariable.TWIST: (memory_map.TWIST, units.DEG),
 }
 

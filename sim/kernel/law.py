@@ -123,7 +123,7 @@ def slip_law(
         factor = 1.0 + (asymmetry if torque > 0.0 else -asymmetry)
         factor *= stage.factor if row[memory_map.L_VARIES] == memory_map.TORQUE_VARIES else 1.0
         if 0.0 < row[memory_map.L_CONTACT] < memory_map.TWIST:
-            factor *= contact_factor(past, row)[0]
+            factor *= contact_factor(abs(past), row)[0]
             past = past_after(past, s, g, row)
         torque, slope = torque * factor, slope * factor
     return torque, slope, Memory(dry, turn, axial, old.phi, past)

@@ -115,7 +115,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT,  # what the curve of the following is over; 0: there is none
     L_CONTACT_SCALE,  # of the curve over that, rad, s or (rad/s)^2
     L_CONTACT_STEP,  # of log(1 + it / scale) between places of the curve
-    L_RENEWAL,  # slip that renews a contact or breaks its structure, rad
+    L_RENEWAL,  # slip that renews a contact, breaks its structure or turns it back, rad
     L_FADING,  # time in which its heat fades, or its structure heals, s
     L_CONTACT_0,  # log factors at these places of the torque, or of the tissue's stiffness
     L_CONTACT_1,
@@ -130,12 +130,13 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
 ) = range(55)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
-SLIP_SO_FAR, AGE, HEAT, BROKEN, TWIST = (
+SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, TWIST = (
     1.0,
     2.0,
     3.0,
     4.0,
     5.0,
+    6.0,
 )  # what the curve is over; of the last PHI is the memory
 TORQUE_VARIES, STIFFNESS_VARIES = 1.0, 2.0  # with the torque varies the stiffness, too
 

@@ -113,7 +113,8 @@ def _next_stage(
     start, end = w.start, w.end
     for r in range(law.shape[0]):
         if not is_linear(law[r]):
-            _carry_sites(before[r], start[r], end[r], frame.yield_angle, kept, carried)
+            signed = law[r, memory_map.L_CONTACT] == memory_map.TURNED
+            _carry_sites(before[r], start[r], end[r], frame.yield_angle, signed, kept, carried)
 
 
 @embedded
@@ -127,9 +128,9 @@ def _hold_sites(before: Array, start: Array, end: Array) -> None:
 
 @embedded
 def _carry_sites(
-    before: Array, start: Array, end: Array, limit: float, kept: float, carried: float
+    before: Array, start: Array, end: Array, limit: float, signed: bool, kept: float, carried: float
 ) -> None:
-    """The memory of a row's sites, (n, 2, SITE) each."""
+    """The memory of a row's sites, (n, 2, SITE) each; what they have been through may have a sign."""
     for e in range(before.shape[0]):
         for k in range(2):
             for j in range(memory_map.SITE):
@@ -138,7 +139,8 @@ def _carry_sites(
             dry, turn = start[e, k, memory_map.Z_DRY], start[e, k, memory_map.Z_TURN]
             axial = start[e, k, memory_map.Z_AXIAL]
             start[e, k, memory_map.Z_DRY] = min(max(dry, -limit), limit)
-            start[e, k, memory_map.PAST] = max(start[e, k, memory_map.PAST], 0.0)
+            if not signed:
+                start[e, k, memory_map.PAST] = max(start[e, k, memory_map.PAST], 0.0)
             size = math.sqrt(turn * turn + axial * axial)
             if size > limit:
                 start[e, k, memory_map.Z_TURN] = turn * limit / size

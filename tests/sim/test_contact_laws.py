@@ -56,6 +56,26 @@ def factor(own, at):
 
 
 @ARRANGEMENTS
+def test_friction_follows_the_slip_since_it_turned_back(arrangement):
+    """Forwards by 180 deg, and back: what came before is forgotten within a few renewals of 0.3 deg."""
+    bites = curve("turned_by", 20.0, 180.0, -1.2, renewal_deg=0.3)
+    time_s, rate = np.arange(0, 8, STEP_S), 0.25 * np.pi
+    angle_deg = np.degrees(rate) * np.minimum(time_s, 8.0 - time_s)
+    tissue = Tissue.uniform(viscous_n_mm_s_per_mm=0.02, contact=bites)
+    run = turned(tissue, time_s, angle_deg, arrangement=arrangement)
+    # The way forwards, z, falls as (z + d) exp(-slip / d) - d: to 0 after d ln(1 + 180 / d) = 1.9 deg.
+    forgetting_deg = 0.3 * np.log1p(180.0 / 0.3)
+    slip_deg = np.degrees(rate) * np.where(run.time_s < 4.0, run.time_s, run.time_s - 4.0)
+    since_deg = slip_deg - np.where(run.time_s < 4.0, 0.0, forgetting_deg)
+    later = (run.time_s > 0.2) & ((run.time_s < 3.99) | (since_deg > 2.0))
+    exact = 0.02 * LENGTH_MM * rate * np.where(run.time_s < 4.0, 1.0, -1.0)
+    exact = exact * factor(bites, np.maximum(since_deg, 0.0))
+    # The factor is late by a stage, 0.2 %; steps of 0.45 deg are coarse for 0.3: 0.2 deg, 0.6 %.
+    np.testing.assert_allclose(run.base_torque_n_mm[later], exact[later], rtol=8e-3)
+    assert run.base_torque_n_mm[30] / -run.base_torque_n_mm[-1] > 2.0
+
+
+@ARRANGEMENTS
 @pytest.mark.parametrize("rate", [0.8, -0.8])
 def test_friction_follows_the_slip_so_far_in_both_directions(arrangement, rate):
     """The factor is that of the start of a stage: late by h, so off by h d log f / dt < 0.15 %."""

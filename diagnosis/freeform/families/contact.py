@@ -4,6 +4,7 @@
 - damping times a curve of the heat of slipping, which fades: warmed tissue
 - damping, or dry friction, times a curve of the share of its structure that slip has broken, which heals
   in time: thixotropic tissue, a gel
+- damping, or dry friction, times a curve of the slip since it turned back: tissue that bites
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
 - dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
   Automatic Control 40 (1995))
@@ -37,12 +38,14 @@ _UNITS = {
     ContactVariable.AGE: "s",
     ContactVariable.HEAT: "(rad/s)^2 of late",
     ContactVariable.BROKEN: "of its structure",
+    ContactVariable.TURNED: "deg since it turned back",
 }
 _WORDS = {
     ContactVariable.SLIP: "the slip so far",
     ContactVariable.AGE: "the age of the contact",
     ContactVariable.HEAT: "how fast it has slipped of late",
     ContactVariable.BROKEN: "the share of its structure that slip has broken",
+    ContactVariable.TURNED: "the slip since it turned back",
 }
 _FADING = Parameter(
     name="fading", unit="s", low=0.1, high=60.0, start=(1.0, 5.0), logarithmic=True, neutral=None
@@ -60,6 +63,8 @@ _BREAKING = Parameter(
     neutral=None,
 )
 _HEALING = replace(_FADING, name="healing", start=(1.0, 10.0) * 2)
+_BITES = (-2.0, 2.0)  # slope of a curve over the slip since it turned back to start with
+_TURNS_BACK_DEG = 0.3  # slip after which it counts as turned back
 _WEAKENS = (-1.0,) * 4  # slope of a curve over what is broken to start with
 _BRISTLES = (
     Parameter(
@@ -95,6 +100,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
             _bristles(ranges),
             _bonds(ranges),
         ]
+    if {Variable.HISTORY, Variable.BASE_ANGLE} <= ranges.ends.keys():
+        found += [over(_turned(ranges), ranges) for over in (_damping_over, _friction_over)]
     if Variable.TIME in ranges.ends:
         found.append(_friction_over(_age(ranges), ranges))
     return tuple(found)
@@ -117,6 +124,14 @@ def _heat(ranges: LogRanges) -> ContactCurve:
     return _neutral(ContactVariable.HEAT, fastest**2 / _FIRST_PART, fastest**2)
 
 
+def _turned(ranges: LogRanges) -> ContactCurve:
+    """A neutral curve over the slip since it turned back that the motions of a log can make."""
+    low, high = ranges.ends[Variable.BASE_ANGLE]
+    neutral = _neutral(ContactVariable.TURNED, (high - low) / _FIRST_PART, high - low)
+    turned: ContactCurve = neutral.but(renewal_deg=_TURNS_BACK_DEG)
+    return turned
+
+
 def _broken_share() -> ContactCurve:
     """A neutral curve over the share of its structure that slip has broken."""
     return _neutral(ContactVariable.BROKEN, 1.0, 1.0)
@@ -133,6 +148,8 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         shape = _starting((_FADING,), shape, (_CHANGES, -_CHANGES))
     elif neutral.over is ContactVariable.BROKEN:
         shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
+    elif neutral.over is ContactVariable.TURNED:
+        shape = _starting((), shape, _BITES)
     return Family(
         effect=Effect(
             name=f"damping over {neutral.over}",
@@ -177,6 +194,9 @@ def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         shape = (_RENEWAL, shape[0], grows, *shape[2:])
     elif neutral.over is ContactVariable.BROKEN:
         shape = _starting((_BREAKING, _HEALING), shape, _WEAKENS)
+        level = replace(level, start=level.start[-1:])
+    elif neutral.over is ContactVariable.TURNED:
+        shape = _starting((), shape, _BITES)
         level = replace(level, start=level.start[-1:])
     each = len(shape[0].start)
     level = replace(level, start=level.start * each) if each > 1 else level

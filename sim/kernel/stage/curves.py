@@ -7,6 +7,7 @@ remembers, beside its presliding, one of
     its age            d past / dt = 1 - past |s| / renewal
     its heat           d past / dt = (s^2 - past) / fading
     what is broken     d past / dt = (1 - past) |s| / renewal - past / fading
+    its turn one way   d past / dt = s - past |s| / renewal (the last term while s is against past)
 
 or its tissue is as stiff as a curve over its twist says.
 """
@@ -83,7 +84,8 @@ def _grown(b: float, low: float, high: float, power: float) -> float:
 
 @embedded
 def past_after(past: float, s: float, g: float, row: Array) -> float:
-    """Slip so far, rad, age, s, heat, or broken share after a stage of length g, by backward Euler."""
+    """Slip so far, or one way, rad, age, s, heat, or broken share after a stage of length g, by backward
+    Euler."""
     if row[memory_map.L_CONTACT] == memory_map.SLIP_SO_FAR:
         return past + g * abs(s)
     if row[memory_map.L_CONTACT] == memory_map.HEAT:
@@ -92,4 +94,6 @@ def past_after(past: float, s: float, g: float, row: Array) -> float:
     slips = g * abs(s) / row[memory_map.L_RENEWAL]
     if row[memory_map.L_CONTACT] == memory_map.BROKEN:
         return (past + slips) / (1.0 + slips + g / row[memory_map.L_FADING])
+    if row[memory_map.L_CONTACT] == memory_map.TURNED:
+        return (past / (1.0 + slips) if past * s < 0.0 else past) + g * s
     return (past + g) / (1.0 + slips)

@@ -78,3 +78,17 @@ def test_what_slip_breaks_heals_at_rest_and_tends_to_where_both_are_even(curves,
     for _ in range(2000):
         broken = curves.past_after(broken, -0.25, 0.1, row)
     assert broken == pytest.approx(2.0 / 3.0)
+
+
+def test_turning_back_forgets_the_way_before_within_a_renewal_and_counts_anew(curves, row, interpreted):
+    """Back by x, z > 0 falls as (z + d) exp(-x / d) - d, to 0 at x = d ln(1 + z / d); then by x."""
+    row[interpreted.memory_map.L_CONTACT] = interpreted.memory_map.TURNED
+    renewal = row[interpreted.memory_map.L_RENEWAL]
+    turned = 0.0
+    for _ in range(200):
+        turned = curves.past_after(turned, 0.25, 0.1, row)
+    assert turned == pytest.approx(200 * 0.025)
+    zero, steps, back = renewal * math.log1p(turned / renewal), 200_000, 10.0
+    for _ in range(steps):
+        turned = curves.past_after(turned, -back / steps, 1.0, row)
+    assert turned == pytest.approx(zero - back, rel=1e-3)
