@@ -640,6 +640,9 @@ STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.9
 """Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
 once in a thousand logs), how many, and their share of the nominal residual beyond noise: 0.986 of a
 torque sensor that zeroes itself, 0.72 to 0.85 of three other laws that ten steps imitate. Choices."""
+FINAL_NUMBERS = 90
+"""Numbers that free-form laws may have in all that go to the log itself, if they are more than two: each
+is a simulation of it. A choice that saves time."""
 FAR_GAP = 1.6
 """Gap on the log above which free-form laws are not fitted to their end on it, plain laws are not looked
 for in their place, and what comes nearest is checked by runs half as fine. A choice: no verdict rests on

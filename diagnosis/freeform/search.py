@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP, FAR_GAP
+from diagnosis.criteria import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
@@ -42,6 +42,7 @@ MORE_ITERATIONS = 3
 WORTH_MORE = 10  # families that get more than the first iteration
 IN_REACH = 2.5  # times the least gap that one promises
 CONTENDERS, FINALISTS, FAR_FINALISTS, FINALISTS_OF_ONE = 6, 4, 2, 2
+FEWEST_FINALISTS = 2
 WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 1.5, 1.3  # times the least gap; where that closes the gap
 
 _SOFTER = RigParameters(damping_scale=0.95)
@@ -82,7 +83,7 @@ def free_form_fits(
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
     worth = [f for f in fitted if f.fit.gap <= reach * least]
     last = _few_of_each(unlike(sorted(worth, key=lambda f: f.score)))
-    last = last[: FAR_FINALISTS if far else FINALISTS]
+    last = last[: FAR_FINALISTS if far else _affordable(last)]
     finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
     names = {f.family.name for f in finals}
     fitted_names = {f.family.name for f in fitted}
@@ -130,6 +131,12 @@ def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[
     reach *= min((f.promised_gap for f in fits), default=np.inf)
     best = [f for f in ranked[:most] if f.promised_gap <= reach]
     return best, [f for f in ranked if f not in best]
+
+
+def _affordable(ranked: Sequence[FreeFit]) -> int:
+    """How many go to the log itself: each number of a law is a simulation of it."""
+    numbers = np.cumsum([f.fit.x.size for f in ranked[:FINALISTS]])
+    return max(FEWEST_FINALISTS, int(np.sum(numbers <= FINAL_NUMBERS)))
 
 
 def _few_of_each(ranked: Sequence[FreeFit]) -> list[FreeFit]:

@@ -3,7 +3,7 @@
 A law that is not in the list may come near as the sum, or the product, of some that are. The pairs that
 promise most are fitted, of two laws and of a law and an effect of the library; if none of these closes
 the gap, the best have one law more. All are fitted for a rougher needle first, a quarter of the cost,
-for a few iterations, then the most promising to their end; those that leave least on the decimated log.
+for a few iterations; the most promising pairs to their end there; the best on the decimated log.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from diagnosis.workers import Workers
 
 PAIRS, THREE = "free-form laws in pairs and beside an effect", "three free-form laws"
 LEADING, LEADING_PAIRS = 12, 2  # fits beside which another law is looked for: of one law, of several
-WORTH_AN_END, WORTH_MORE = 6, 3  # of those for a rougher needle
+WORTH_AN_END, WORTH_MORE, THREE_WORTH_MORE = 6, 3, 2  # of those for a rougher needle
 _SAME = 1e-4  # in sigma; of a cost
 
 
@@ -47,7 +47,9 @@ def beside_one(
     ]
     pairs = laws_beside(base, unlike(alone)[:LEADING], first)
     with_laws = [(rough, pair, least) for pair in pairs]
-    return _fitted(PAIRS, coarse, rough, [*with_effects, *with_laws], least, workers)
+    begun = _begun(PAIRS, [*with_effects, *with_laws], workers)
+    roughly = _ended(PAIRS, rough, begun[:WORTH_AN_END], least, workers)
+    return _ended(PAIRS, coarse, roughly[:WORTH_MORE], least, workers)
 
 
 def beside_several(
@@ -61,24 +63,22 @@ def beside_several(
     """Fits of the best pairs with one law more, unless a law alone is as good as these."""
     best = unlike(sorted(fitted, key=lambda f: f.score))[:LEADING_PAIRS]
     pairs = [f for f in best if len(f.names) > 1]
-    calls = [(rough, more, _least(fitted)) for more in laws_beside(base, pairs, first)]
-    return _fitted(THREE, coarse, rough, calls, _least(fitted), workers)
+    least = _least(fitted)
+    begun = _begun(THREE, [(rough, more, least) for more in laws_beside(base, pairs, first)], workers)
+    return _ended(THREE, coarse, begun[:THREE_WORTH_MORE], least, workers)
 
 
-def _fitted(
-    stage: str,
-    coarse: FitProblem,
-    rough: FitProblem,
-    calls: Sequence[tuple[Any, ...]],
-    enough: float,
-    workers: Workers,
+def _begun(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> list[FreeFit]:
+    """Fits that calls begin for a rougher needle, most promising first."""
+    return sorted(each_fit(stage, begun_only, calls, workers), key=lambda f: f.promise)
+
+
+def _ended(
+    stage: str, problem: FitProblem, fits: Sequence[FreeFit], enough: float, workers: Workers
 ) -> list[FreeFit]:
-    """The best of the fits that calls make for a rougher needle, fitted to the decimated log itself."""
-    begun = sorted(each_fit(stage, begun_only, calls, workers), key=lambda f: f.promise)
-    ends = [(rough, f, enough) for f in begun[:WORTH_AN_END]]
-    roughly = sorted(each_fit(stage, to_its_end, ends, workers), key=lambda f: f.score)
-    best = [(coarse, f, enough) for f in roughly[:WORTH_MORE]]
-    return each_fit(stage, to_its_end, best, workers)
+    """Fits of a problem from where others ended, best first."""
+    calls = [(problem, f, enough) for f in fits]
+    return sorted(each_fit(stage, to_its_end, calls, workers), key=lambda f: f.score)
 
 
 def _least(fits: Sequence[FreeFit]) -> float:

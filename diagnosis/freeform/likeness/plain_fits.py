@@ -1,9 +1,9 @@
 """Plain laws in place of the free-form curves that resemble them, fitted through the simulation.
 
 A plain law has few parameters, so it also tells what happens where no other trial has been. The curves
-of the likeliest fits are looked at; where one resembles plain laws, these are fitted to the decimated
-log, and the best of them to the log in its place. It is dropped if it leaves more than its fewer
-parameters are worth.
+of the likeliest fits are looked at, of two laws at most: what is made of three is no plain law. Where
+one resembles plain laws, these are fitted to the decimated log, and the best of them to the log in its
+place. It is dropped if it leaves more than its fewer parameters are worth.
 
 A trial is predicted by the plain law if the other trials determine that; if they do not, by the curve,
 whose prior knows how little they tell.
@@ -30,6 +30,7 @@ from diagnosis.workers import Task, Workers
 Array = NDArray[np.float64]
 
 STAGE = "plain laws"
+MOST_LAWS = 2
 MOST, SHAPES = 2, 4  # fits that are looked at, and plain laws that are tried of each, likeliest first
 ITERATIONS = 10  # on the decimated log
 DETERMINED = 100.0  # variance of a prediction, in that of the noise, mean over a trial
@@ -44,6 +45,7 @@ def with_plain_laws(
       problem, coarse: the log itself, and decimated.
     """
     near = [f for f in likelier_first(fits) if f.final and f.fit.gap <= FAR_GAP][:MOST]
+    near = [f for f in near if len(f.families) <= MOST_LAWS]
     tasks = [Task(effects=f.fit.names, arguments=(problem, coarse, f)) for f in near]
     found = zip(near, workers.each(STAGE, _as_plain, tasks), strict=True)
     plain = [(curve, f) for curve, f in found if isinstance(f, FreeFit)]

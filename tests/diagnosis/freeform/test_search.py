@@ -193,3 +193,14 @@ def test_what_cannot_be_simulated_is_left_out(fitted):
     run, _ = fitted
     assert [f.family.name for f in run({"a": None, "b": 2.0}, {"b": 1.05})] == ["b"]
     assert run({"a": None}, {}) == ()
+
+
+@pytest.mark.parametrize(
+    ("numbers", "go_on"), [(10, search.FINALISTS), (30, 3), (60, search.FEWEST_FINALISTS)]
+)
+def test_fewer_of_laws_with_many_numbers_go_to_the_log_itself(numbers, go_on):
+    """Each number is a simulation: 90 in all, and two laws in any case."""
+    family = family_of(parameters=[replace(LEVEL, name=f"{i}") for i in range(numbers)])
+    fit = linear_fit(family, [np.zeros((100, numbers))], [np.zeros(100)], x=np.zeros(numbers))
+    ranked = [FreeFit(family=family, fit=fit)] * 6
+    assert search._affordable(ranked) == go_on

@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+import pytest
 from free_forms import family_of, linear_fit
 
 from diagnosis.freeform.fits import together
@@ -45,29 +46,60 @@ def test_a_third_law_stands_beside_the_best_pairs_alone(monkeypatch):
     assert seen == [[pair]]
 
 
-def test_the_most_promising_of_a_rougher_needle_are_fitted_on_from_where_they_ended(monkeypatch):
+@pytest.fixture
+def fits_of(monkeypatch):
+    """Fits that leave what is given by the name of their last law, and how they were asked for."""
+
+    def given(lefts):
+        seen = []
+
+        def fitted(how, problem, one, enough, *_):
+            seen.append((how, problem, one.names[-1], enough))
+            left = np.array(lefts[one.names[-1]])
+            flat = (np.zeros((left.size, one.fit.x.size)),)
+            fit = replace(one.fit, by_trial=(left,), jacobian=flat, cost=float(left @ left))
+            return replace(one, fit=fit, gap_after=fit.gap)
+
+        for how in ("begun_only", "to_its_end"):
+            monkeypatch.setattr(together, how, partial(fitted, how))
+        return seen
+
+    return given
+
+
+def with_last(law, lefts):
+    """A law beside each of others, the worst first."""
+    return [replace(law, others=(*law.others, family_of(name=name))) for name in reversed(lefts)]
+
+
+def test_the_most_promising_pairs_go_on_for_a_rougher_needle_and_the_best_of_them_beyond(
+    fits_of, monkeypatch
+):
     """Each as any other fit: it has to leave less than the best so far."""
-    pair = replace(fit_of("slid", [1.0, 2.0]), others=(family_of(name="turned"),))
-    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.WORTH_AN_END + 2)}
-    more = [replace(pair, others=(*pair.others, family_of(name=name))) for name in reversed(lefts)]
-    seen = []
-
-    def fitted(how, problem, one, enough):
-        seen.append((how, problem, one.names[-1], enough))
-        left = np.array(lefts[one.names[-1]])
-        flat = (np.zeros((left.size, one.fit.x.size)),)
-        fit = replace(one.fit, by_trial=(left,), jacobian=flat, cost=float(left @ left))
-        return replace(one, fit=fit, gap_after=fit.gap)
-
-    monkeypatch.setattr(together, "laws_beside", lambda *_: more)
-    for how in ("begun_only", "to_its_end"):
-        monkeypatch.setattr(together, how, partial(fitted, how))
-    found = together.beside_several("coarse", "rough", None, [pair], [pair], Workers())
-    names = list(lefts)
+    law = fit_of("slid", [1.0, 2.0])
+    lefts = {f"second {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.WORTH_AN_END + 2)}
+    seen, names = fits_of(lefts), list(lefts)
+    monkeypatch.setattr(together, "laws_beside", lambda *_: with_last(law, lefts))
+    monkeypatch.setattr(together, "pairs_beside", lambda *_: [])
+    found = together.beside_one("coarse", "rough", None, [law], [law], (), Workers())
     assert [f.names[-1] for f in found] == names[: together.WORTH_MORE]
     assert [own[:3] for own in seen] == [
         *(("begun_only", "rough", name) for name in reversed(names)),
         *(("to_its_end", "rough", name) for name in names[: together.WORTH_AN_END]),
         *(("to_its_end", "coarse", name) for name in names[: together.WORTH_MORE]),
+    ]
+    assert {own[3] for own in seen} == {law.fit.cost}
+
+
+def test_of_three_laws_the_most_promising_are_fitted_to_the_decimated_log_at_once(fits_of, monkeypatch):
+    pair = replace(fit_of("slid", [1.0, 2.0]), others=(family_of(name="turned"),))
+    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.THREE_WORTH_MORE + 2)}
+    seen, names = fits_of(lefts), list(lefts)
+    monkeypatch.setattr(together, "laws_beside", lambda *_: with_last(pair, lefts))
+    found = together.beside_several("coarse", "rough", None, [pair], [pair], Workers())
+    assert [f.names[-1] for f in found] == names[: together.THREE_WORTH_MORE]
+    assert [own[:3] for own in seen] == [
+        *(("begun_only", "rough", name) for name in reversed(names)),
+        *(("to_its_end", "coarse", name) for name in names[: together.THREE_WORTH_MORE]),
     ]
     assert {own[3] for own in seen} == {pair.fit.cost}

@@ -98,6 +98,13 @@ def test_a_curve_that_resembles_nothing_stays_alone(refitted):
     assert refitted.shapes == []
 
 
+def test_what_is_made_of_three_laws_is_no_plain_law(refitted):
+    curve = curve_fit_of(line)
+    three = replace(curve, others=(curve.family, curve.family))
+    assert refitted.of(three) == (three,)
+    assert refitted.shapes == []
+
+
 def test_only_fits_to_the_log_itself_are_looked_at(refitted):
     curve = replace(curve_fit_of(line), final=False)
     assert refitted.of(curve) == (curve,)
