@@ -128,7 +128,8 @@ def spectrum_of(
     evens = [even(time_s, values, step_s) for time_s, values in parts]
     taper, cut = taper_of(size), windows_of(evens, step_s, window_s=window_s)
     frequencies = np.fft.rfftfreq(size, step_s)
-    edges = np.geomspace(above_hz, max(frequencies[-1], above_hz) * 1.001, _BANDS + 1)
+    # The last, of half the sampling rate, has no phase: it scatters more, and its low quantile is lower.
+    edges = np.geomspace(above_hz, max(frequencies[-1], 1.001 * above_hz), _BANDS + 1)
     inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]
     bands = [own for own in inside if own.size]
     if len(cut) < COLOUR_WINDOWS or len(bands) < _FEWEST_BANDS:
