@@ -132,8 +132,12 @@ def leading_on_the_log(state: SearchState) -> list[Candidate]:
 
 
 def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, workers: Workers) -> Made:
-    """The leading explanations on the log itself, fitted to another problem from where they are."""
-    leading = {frozenset(c.names): c for c in reversed(leading_on_the_log(state))}
+    """The leading explanations on the log itself, fitted to another problem from where they are.
+
+    With the nominal rig among them: effects that lead by what the other problem explains are not there.
+    """
+    nominal = sorted((c for c in state.candidates if not c.names), key=lambda c: c.score)[:1]
+    leading = {frozenset(c.names): c for c in reversed([*leading_on_the_log(state), *nominal])}
     calls = [
         (problem, c.names, problem.parameterization(c.names).joined(c.fit.parts))
         for c in leading.values()

@@ -112,3 +112,20 @@ def test_effects_behind_a_part_of_their_own_crowd_out_no_rival():
     better = scored(["torque_low_pass", "stiction"], 4.0)
     ranked = module.simplest_first([*idle, first, better, rival])
     assert ranked == [first, better, rival, *idle]
+
+
+def test_the_nominal_rig_is_fitted_again_with_the_leading_explanations(still_start, monkeypatch):
+    """Whatever leads before outliers are left out leads by these."""
+    leading = ["stiction", "tip_drag", "torque_bias", "coulomb_friction", "chuck_backlash"]
+    nominal = (scored([], 50.0), scored([], 40.0))
+    others = tuple(scored([name], 10.0 + i) for i, name in enumerate(leading))
+    seen = []
+
+    def fit_all(_, calls, __):
+        seen.extend(names for _, names, _ in calls)
+        return [], ()
+
+    monkeypatch.setattr(module, "fit_all", fit_all)
+    state = replace(still_start, candidates=(*nominal, *others))
+    module.leading_fitted_again("any", state, state.problem, Workers())
+    assert sorted(seen) == sorted([(), *((name,) for name in leading[: module.FINALISTS])])
