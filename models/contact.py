@@ -7,12 +7,12 @@ Its torque is multiplied by a curve over one of
     heat    of slipping of late, (rad/s)^2: d heat / dt = (slip rate^2 - heat) / fading
     broken  share of its structure that slip has broken:
             d broken / dt = (1 - broken) |slip rate| / renewal - broken / fading
-    turned  angle by which the shaft has slipped there since it turned back, deg: it grows with the slip
+    turned_by
+            angle by which the shaft has slipped there since it turned back, deg: it grows with the slip
             one way; the other way it is forgotten within a slip of `renewal`, and grows again
 
-(Dieterich's law of ageing; Dieterich, J. Geophys. Res. 84 (1979). The last is Moore's law of thixotropy;
-Moore, Trans. Brit. Ceramic Soc. 58 (1959)), or the stiffness of yielding tissue
-by one over
+(age: Dieterich's law of ageing, J. Geophys. Res. 84 (1979); broken: Moore's law of thixotropy, Trans.
+Brit. Ceramic Soc. 58 (1959)), or the stiffness of yielding tissue by one over
 
     twist   angle by which the tissue is twisted there, either way, deg: tissue that hardens or softens
 
@@ -56,7 +56,7 @@ class ContactCurve(Record):
     """Place of the last factor, in the same unit."""
     renewal_deg: Positive = 1.0
     """Slip that renews a contact, breaks its structure by a factor e, or after which it has turned back:
-    of age, broken and turned alone."""
+    of age, broken and turned_by alone."""
     fading_s: Positive = 1.0
     """In which heat fades, or structure heals, by a factor e: of heat and broken alone."""
 

@@ -7,7 +7,6 @@ from diagnosis.assessment.assess import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.fits.checked import in_predicted_sigma
 from diagnosis.freeform.in_words import next_step
 from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
@@ -41,8 +40,7 @@ def explained_by(
     explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
     left = trial_residuals(log, explained, problem.noise)
     plain = problem.noise.uncoloured
-    held_out = missing.best.held_out
-    after = in_predicted_sigma(fit, held_out) if held_out else fit.by_trial
+    after = missing.best.held_out or fit.by_trial
     return replace(
         told,
         gap=gap_reduction(

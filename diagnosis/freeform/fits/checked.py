@@ -50,12 +50,8 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
     That is the noise and what the other trials leave open of the curve: where none of them has been,
     its law says nothing, and nothing is held against it. Of a law that they determine it is the gap.
     """
-    return float(np.sqrt(np.mean(np.concatenate(in_predicted_sigma(fit, held_out)) ** 2)))
-
-
-def in_predicted_sigma(fit: Fit, held_out: Sequence[Array]) -> tuple[Array, ...]:
-    """Residuals of held-out trials over their predictive standard deviation, (N,) each."""
-    return tuple(left / np.sqrt(1.0 + left_open(fit, i)) for i, left in enumerate(held_out))
+    squares = [left**2 / (1.0 + left_open(fit, i)) for i, left in enumerate(held_out)]
+    return float(np.sqrt(np.mean(np.concatenate(squares))))
 
 
 def left_open(fit: Fit, trial: int) -> Array:

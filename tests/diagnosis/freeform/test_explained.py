@@ -9,7 +9,6 @@ from free_forms import linear_fit, missing_with, nothing_told
 
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.families.readings import families
-from diagnosis.freeform.fits import checked
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.log.trial import SENSORS
@@ -45,34 +44,19 @@ def told():
     )
     best = FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
     before = nothing_told(next_experiment="look closer", imperfections={"torque_clock": {}})
-    missing = missing_with(best=best)
-    found = explained_by(missing, log, problem, nominal, before)
-    return log, nominal, before, found, missing, problem
+    return log, nominal, before, explained_by(missing_with(best=best), log, problem, nominal, before)
 
 
 def test_the_gap_is_that_before_and_with_the_law(told):
-    _, _, _, found, *_ = told
+    *_, found = told
     # Half of the readings are off by 10 sigma u, u even in 0 ... 1: mean square 1 + 100 / 6.
     assert found.gap.before == pytest.approx(np.sqrt(1 + 100 / 6), rel=0.05)
     # 800 samples: the root mean square of noise is known to 1 / sqrt(1600).
     assert found.gap.after == pytest.approx(1.0, abs=3.5 / 40)
 
 
-def test_the_gap_after_is_on_trials_that_the_fit_has_not_seen_in_the_sigma_of_their_prediction(
-    told, monkeypatch
-):
-    """What the other trials leave open of the law is noise of the prediction."""
-    log, nominal, before, _, missing, problem = told
-    best = missing.best
-    held_out = tuple(5.0 * left for left in best.fit.by_trial)
-    monkeypatch.setattr(checked, "left_open", lambda fit, _: np.full(fit.by_trial[0].size, 24.0))
-    unseen = missing_with(best=replace(best, held_out=held_out))
-    gap = explained_by(unseen, log, problem, nominal, before).gap
-    assert gap.after == pytest.approx(best.fit.gap, rel=1e-6)
-
-
 def test_explained_readings_are_with_the_law(told):
-    log, nominal, _, found, *_ = told
+    log, nominal, _, found = told
     (law,), (without,) = found.explained, nominal
     np.testing.assert_allclose(law["tip_angle_deg"], without["tip_angle_deg"])
     drift = law["base_torque_n_mm"] - without["base_torque_n_mm"]
@@ -81,7 +65,7 @@ def test_explained_readings_are_with_the_law(told):
 
 
 def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
-    _, _, before, found, *_ = told
+    *_, before, found = told
     for sensor in SENSORS:
         assert found.breakdown_after.signal[sensor] == pytest.approx(1.0, abs=3.5 / np.sqrt(800))
     assert found.shape_after is not None
@@ -93,7 +77,7 @@ def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
 
 def test_imperfections_of_sensors_are_those_that_the_law_allows_for(told):
     """Not those of the nearest explanation, whose clock made up for what is missing."""
-    _, _, before, found, *_ = told
+    *_, before, found = told
     assert before.imperfections
     assert found.imperfections == {}
     assert found.reading_jumps == ()

@@ -68,11 +68,17 @@ def _ahead(fastest: float, level: float, share: float) -> tuple[tuple[float, ...
 
 
 def _apply(fastest: float, rig: RigParameters, level: float, share: float) -> RigParameters:
-    places, ahead = _ahead(fastest, level, share)
+    return running_ahead(rig, *_ahead(fastest, level, share))
+
+
+def running_ahead(
+    rig: RigParameters, rates: tuple[float, ...], ahead: tuple[float, ...]
+) -> RigParameters:
+    """The rig whose drive turns faster than its encoder, by so many deg/s at rates that are read."""
     curve = Curve(
         acts_on=ActsOn.DRIVE_SLIP,
         variable=Variable.RATE,
-        places=places,
+        places=rates,
         values=tuple(-value for value in ahead),
     )
     return replace(rig, free=FreeLaw(curves=(curve,)))

@@ -6,14 +6,12 @@
 so that its error adds up with every turn and back.
 """
 
-from dataclasses import replace
 from functools import partial
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.sensors.losing_counts import running_ahead
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.replay.curve import ActsOn, Curve
-from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 from models import units
@@ -61,11 +59,4 @@ def _ahead(
 
 
 def _apply(fastest: float, rig: RigParameters, forwards: float, backwards: float) -> RigParameters:
-    places, ahead = _ahead(fastest, forwards, backwards)
-    curve = Curve(
-        acts_on=ActsOn.DRIVE_SLIP,
-        variable=Variable.RATE,
-        places=places,
-        values=tuple(-value for value in ahead),
-    )
-    return replace(rig, free=FreeLaw(curves=(curve,)))
+    return running_ahead(rig, *_ahead(fastest, forwards, backwards))

@@ -85,9 +85,11 @@ def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
         if explained:
             break
         allowed = sensors(state)
+        if not allowed:
+            continue
         noise = replace(state.problem.noise, flicker=allowed)
         noise = with_colour(replace(state.problem, noise=noise), state.best.fit)
-        if allowed and _may_explain(state.renoised(noise), apart=sensors is _slow_flicker):
+        if _may_explain(state.renoised(noise), apart=sensors is _slow_flicker):
             state = _kept_if_it_explains(FLICKER, state, noise, workers)
     return state
 
