@@ -446,6 +446,10 @@ white residual in 4000 is above."""
 NOISE_TRUST = 0.08
 """Noise re-estimated from the residual may differ from the first estimate (good to 2 %) by this share;
 beyond, something fast is left in the residual."""
+NOISE_LEAST_WEIGHT, NOISE_LEAST_ROWS = 0.8, 200
+"""Noise is estimated where readings have this weight at least, if there are so many of them: where a
+prediction is not exact, what is left is not all noise. Derived: its error is then 0.75 sigma at most;
+the noise of 200 white readings is told to 5 %."""
 NOISE_HEAVY, NOISE_HEAVIEST = 1.05, 1.4
 """Standard deviation of noise / that of its core, from which its tails are heavy, and by which they may
 add to that at most. Measured: normal noise of 1200 samples came to 1.04 in 1 of 400. Student's t with 3

@@ -18,11 +18,16 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.lost_counts import with_counts_restored
 from diagnosis.prepare.motion.averaging import averaged
-from diagnosis.prepare.noise.sensor_noise import estimate_noise
+from diagnosis.prepare.noise.sensor_noise import Noise, estimate_noise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
 from diagnosis.prepare.start.late_start_detection import with_late_starts, without_unused
+from diagnosis.replay.accuracy.uncertain_times import (
+    errors_by_times,
+    warnings_of_times,
+    weighted_by_errors,
+)
 from diagnosis.replay.accuracy.unsampled_motion import weighted_by_unsampled_motion
 from diagnosis.replay.replay import Prediction, replay, residuals
 from diagnosis.replay.rig_parameters import RigParameters
@@ -78,11 +83,16 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     log = averaged(with_counts_restored(log, _nominal_gap))
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
-    told = far_claims(log.trials, log.rig.sensors.by_column())
-    left = _residuals(prepared, predictions)
-    noise = estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded, prepared.means_of)
+    noise = _noise(log, prepared, predictions, base_sigma_deg)
+    by_times = errors_by_times(prepared, predictions)
+    if by_times:  # what scatters by its time is no noise
+        quieter = weighted_by_errors(prepared, by_times.fast, noise)
+        noise = _noise(log, quieter, predictions, base_sigma_deg)
+        noise = replace(noise, warnings=(*noise.warnings, *warnings_of_times(by_times, noise)))
+        prepared = weighted_by_errors(prepared, by_times.whole, noise)
     prepared, unsampled = weighted_by_unsampled_motion(prepared, predictions, noise)
     noise = replace(noise, warnings=(*noise.warnings, *unsampled))
+    left = _residuals(prepared, predictions)
     begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
     library = library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
@@ -113,12 +123,24 @@ def _nominal_gap(log: RigLog) -> float:
     return float(np.sqrt(np.nanmean(np.concatenate(each) ** 2))) if each else 0.0
 
 
+def _noise(
+    log: RigLog, prepared: PreparedLog, predictions: Sequence[Prediction], base_sigma_deg: float
+) -> Noise:
+    """Noise of the sensors, from what the nominal rig leaves."""
+    left = _residuals(prepared, predictions)
+    told = far_claims(log.trials, log.rig.sensors.by_column())
+    return estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded, prepared.means_of)
+
+
 def _residuals(
     log: PreparedLog, predictions: Sequence[Prediction]
 ) -> dict[str, list[tuple[Array, Array]]]:
-    """Times, and measured minus nominal in units of the sensor, by sensor and trial."""
+    """Times, and weighted measured minus nominal in units of the sensor, by sensor and trial."""
     each = list(zip(log.trials, predictions, strict=True))
-    return {s: [(t.time_s, t.readings[s] - p[s]) for t, p in each if t.has(s)] for s in SENSORS}
+    return {
+        s: [(t.time_s, t.weights.get(s, 1.0) * (t.readings[s] - p[s])) for t, p in each if t.has(s)]
+        for s in SENSORS
+    }
 
 
 def at_samples(problem: FitProblem, predictions: Sequence[Prediction]) -> list[Prediction]:

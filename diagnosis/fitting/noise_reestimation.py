@@ -24,6 +24,8 @@ from diagnosis.criteria import (
     COLOURED_BLOCK_S,
     NOISE_HEAVIEST,
     NOISE_HEAVY,
+    NOISE_LEAST_ROWS,
+    NOISE_LEAST_WEIGHT,
     NOISE_TRUST,
     SLOW_BLOCK,
 )
@@ -68,17 +70,48 @@ def flicker_left(problem: FitProblem, best: Fit, above_hz: float) -> dict[str, F
 def _in_units_of_sensors(problem: FitProblem, best: Fit) -> dict[str, list[tuple[Array, Array]]]:
     """Times and what a fit leaves, by sensor and trial."""
     plain = problem.noise.uncoloured
-    in_sigma = by_sensor(problem, in_units_of(problem, best.by_trial, plain))
+    in_sigma = _of_exact_predictions(problem, in_units_of(problem, best.by_trial, plain))
     return {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors, from the residual of the best fit."""
     first = with_colour(problem, best) if problem.noise.colour else problem.noise
-    left = by_sensor(problem, in_units_of(problem, best.by_trial, first))
+    left = _of_exact_predictions(problem, in_units_of(problem, best.by_trial, first))
     change = {s: _change([values for _, values in own]) for s, own in left.items()}
     sigma = {s: max(own * change.get(s, 1.0), first.least.get(s, 0.0)) for s, own in first.sigma.items()}
     return replace(first, sigma=sigma)
+
+
+def _of_exact_predictions(
+    problem: FitProblem, by_trial: Sequence[Array]
+) -> dict[str, list[tuple[Array, Array]]]:
+    """Times and residuals by sensor and trial, NaN where readings count less; there they are no noise.
+
+    All of them where too few count in full.
+    """
+    found, full = by_sensor(problem, by_trial), by_sensor(problem, _weights(problem))
+    for sensor, parts in found.items():
+        kept = [weight > NOISE_LEAST_WEIGHT for _, weight in full[sensor]]
+        if sum(own.sum() for own in kept) >= NOISE_LEAST_ROWS:
+            found[sensor] = [
+                (t, np.where(own, r, np.nan)) for (t, r), own in zip(parts, kept, strict=True)
+            ]
+    return found
+
+
+def _weights(problem: FitProblem) -> list[Array]:
+    """Weights of the residuals of each trial."""
+    return [
+        np.concatenate(
+            [
+                np.broadcast_to(trial.weights.get(s, 1.0), trial.time_s.shape)[np.isfinite(own)]
+                for s, own in ((s, trial.readings[s]) for s in SENSORS if trial.has(s))
+            ]
+            or [np.zeros(0)]
+        )
+        for trial in problem.log.trials
+    ]
 
 
 def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, NoiseFloor]:

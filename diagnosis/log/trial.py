@@ -28,10 +28,12 @@ class FileRows:
     Attributes:
       stamps_s: their time stamps in the file.
       taken_s: the times at which they were taken.
+      errors_s: what these may be off by, by example, (K, N); None: they are exact.
     """
 
     stamps_s: Array
     taken_s: Array
+    errors_s: Array | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

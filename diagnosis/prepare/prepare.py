@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
@@ -14,6 +15,8 @@ from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.noise.rounding import rounded_noise, steps_of, without_repeats
 from diagnosis.prepare.noise.sensor_noise import BASE, base_noise_deg
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+
+Array = NDArray[np.float64]
 
 
 def prepare(log: RigLog) -> tuple[PreparedLog, float]:
@@ -65,4 +68,13 @@ def _prepared(trial: Trial, filled: Trial, sigma_deg: float) -> PreparedTrial:
         tip_torque_n_mm=filled["tip_torque_n_mm"] if filled.has("tip_torque_n_mm") else None,
         readings={sensor: filled[sensor] for sensor in SENSORS if filled.has(sensor)},
         logged=np.isin(filled["time_s"], trial["time_s"]),
+        time_errors_s=_time_errors_s(trial, filled["time_s"]),
     )
+
+
+def _time_errors_s(trial: Trial, time_s: Array) -> Array | None:
+    """What times may be off by, by example, (K, N); None: they are exact."""
+    rows = trial.file_rows
+    if rows.errors_s is None:
+        return None
+    return np.stack([np.interp(time_s, rows.taken_s, own) for own in rows.errors_s])

@@ -5,7 +5,7 @@ base (`base_motion_deg` here): a replay is driven by the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -38,6 +38,7 @@ class PreparedTrial:
       inertia: the share of inertia in its base torque.
       late_start: None: it begins untwisted and at rest.
       weights: by sensor, those of its residuals; 1 for other sensors.
+      time_errors_s: what `time_s` may be off by, by example, (K, N); None: they are exact.
     """
 
     name: str
@@ -52,10 +53,16 @@ class PreparedTrial:
     inertia: InertiaTorque = InertiaTorque()  # noqa: RUF009 - frozen
     late_start: LateStart | None = None
     weights: Mapping[str, Array] = field(default_factory=dict)
+    time_errors_s: Array | None = None
 
     def has(self, sensor: str) -> bool:
         """Whether the trial has readings of this sensor."""
         return sensor in self._measured
+
+    def counting_less(self, errors_sigma: Mapping[str, Array]) -> "PreparedTrial":
+        """The trial with weights of its readings for errors of their prediction, by sensor, (N,)."""
+        weights = {s: self.weights.get(s, 1.0) / np.sqrt(1.0 + e**2) for s, e in errors_sigma.items()}
+        return replace(self, weights={**self.weights, **weights})
 
     # A fit asks thousands of times for the same; nothing of a trial ever changes.
     @cached_property

@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 from scipy.optimize import nnls
 
 from diagnosis.criteria import (
@@ -30,6 +31,7 @@ from diagnosis.criteria import (
     JITTER_MOST_BEYOND,
     JITTER_MOST_STEPS,
 )
+from diagnosis.log.times.adaptive_curve import Scatter, adaptive_curve
 from diagnosis.log.trial import FileRows, Trial
 
 Array = NDArray[np.float64]
@@ -47,6 +49,7 @@ _BINS, _STEPS = 8, 10
 _MAD = 0.6745  # median size of a normal distribution, in sigma
 _EFFICIENCY = 0.37  # of a median of squares beside their mean
 _OUTLIER_SIGMA = 4.0
+_EXAMPLES = 4
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,6 +67,7 @@ class _Beside:
     rate: Array
     gain: Array
     moves: Mask
+    rows: Counts
     step_s: float
 
     @property
@@ -71,18 +75,9 @@ class _Beside:
         """By how much samples that move are late if all that is off were jitter, s, (M,)."""
         return self.off[self.moves] / self.rate[self.moves]
 
-
-@dataclass(frozen=True, kw_only=True)
-class _Scatter:
-    """What readings of the base scatter by, by themselves and in time, and how certain that is."""
-
-    noise_deg: float
-    jitter_s: float
-    certainty_sigma: float
-
-    def variance(self, own: _Beside) -> Array:
+    def variance(self, scatter: Scatter) -> Array:
         """Of what readings are off by, deg^2, (N,)."""
-        return (own.rate**2 * self.jitter_s**2 + self.noise_deg**2) * own.gain**2
+        return (self.rate**2 * scatter.jitter_s**2 + scatter.noise_deg**2) * self.gain**2
 
 
 def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
@@ -91,9 +86,9 @@ def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]
     told = [own for own in each if own is not None]
     if not told:
         return list(trials), []
-    scatter, step_s = _scatter(told), float(np.median([own.step_s for own in told]))
+    (scatter, certainty_sigma), step_s = _scatter(told), float(np.median([own.step_s for own in told]))
     jitters = JITTER_LEAST_STEPS < scatter.jitter_s / step_s < JITTER_MOST_STEPS
-    certain = scatter.certainty_sigma > JITTER_CERTAIN_SIGMA
+    certain = certainty_sigma > JITTER_CERTAIN_SIGMA
     if not jitters or not certain or _alike(told) > JITTER_MOST_ALIKE:
         return list(trials), []
     if _beyond(told, scatter) > JITTER_MOST_BEYOND:
@@ -152,12 +147,16 @@ def _in_window(base: Array, rows: Counts, width: int, step_s: float) -> _Beside:
         rate=rate,
         gain=1 / np.sqrt(left),
         moves=known & (np.abs(rate) > _MOVING * np.abs(rate).max()),
+        rows=rows,
         step_s=step_s,
     )
 
 
-def _scatter(told: Sequence[_Beside]) -> _Scatter:
-    """From medians in bins of the rate, variance = noise^2 + rate^2 jitter^2, against noise alone."""
+def _scatter(told: Sequence[_Beside]) -> tuple[Scatter, float]:
+    """From medians in bins of the rate, variance = noise^2 + rate^2 jitter^2, against noise alone.
+
+    Returns: the scatter, and how certain its part in time is, sigma.
+    """
     size = np.concatenate([np.abs(own.off[own.moves]) / own.gain[own.moves] for own in told])
     rate = np.concatenate([np.abs(own.rate[own.moves]) for own in told])
     bins = np.array_split(np.argsort(rate), _BINS)
@@ -173,11 +172,8 @@ def _scatter(told: Sequence[_Beside]) -> _Scatter:
         both = slopes @ parts
     gained = _likelihood(variance, both, count) - _likelihood(variance, alone, count)
     noise, jitter = np.sqrt(parts)
-    return _Scatter(
-        noise_deg=float(noise),
-        jitter_s=float(jitter),
-        certainty_sigma=float(np.sqrt(max(2 * gained, 0.0))),
-    )
+    found = Scatter(noise_deg=float(noise), jitter_s=float(jitter))
+    return found, float(np.sqrt(max(2 * gained, 0.0)))
 
 
 def _likelihood(variance: Array, model: Array, count: Array) -> float:
@@ -197,24 +193,47 @@ def _alike(told: Sequence[_Beside]) -> float:
     return products / squares if squares > 0 else 0.0
 
 
-def _beyond(told: Sequence[_Beside], scatter: _Scatter) -> float:
+def _beyond(told: Sequence[_Beside], scatter: Scatter) -> float:
     """Share of samples that neither scatter explains: where the curve, and not the time, is wrong."""
-    far = [own.off**2 > _OUTLIER_SIGMA**2 * scatter.variance(own) for own in told]
+    far = [own.off**2 > _OUTLIER_SIGMA**2 * own.variance(scatter) for own in told]
     moving = np.concatenate([own.moves for own in told])
     return float(np.mean(np.concatenate(far)[moving]))
 
 
-def _moved(trial: Trial, own: _Beside, scatter: _Scatter) -> Trial:
-    """A trial with its samples at the likeliest times.
+def _moved(trial: Trial, own: _Beside, scatter: Scatter) -> Trial:
+    """A trial with its samples at the likeliest times, and examples of their errors."""
+    stamps_s = trial["time_s"]
+    taken_s = stamps_s + _late_s(_finer(trial[_BASE], own, scatter), scatter)
+    motion = PchipInterpolator(taken_s, trial[_BASE])
+    draws = np.random.default_rng(0).normal(size=(_EXAMPLES, 2, stamps_s.size))
+    most_s = JITTER_MOST_STEPS * own.step_s
+    late_s = np.clip(scatter.jitter_s * draws[:, 0], -most_s, most_s)
+    base = motion(stamps_s + late_s) + scatter.noise_deg * draws[:, 1]
+    found = np.stack([_late_s(_finer(each, own, scatter), scatter) for each in base])
+    rows = FileRows(stamps_s=trial.file_rows.stamps_s, taken_s=taken_s, errors_s=found - late_s)
+    return replace(trial, table=trial.table.assign(time_s=taken_s), rows=rows)
+
+
+def _finer(base: Array, own: _Beside, scatter: Scatter) -> _Beside:
+    """The readings beside a curve that follows corners."""
+    curve = adaptive_curve(base, own.rows, own.step_s, scatter)
+    left = 1 - curve.own_share
+    return replace(
+        own,
+        off=(base - curve.angle_deg) / left,
+        rate=np.nan_to_num(curve.rate_deg_s),
+        gain=1 / np.sqrt(left),
+    )
+
+
+def _late_s(own: _Beside, scatter: Scatter) -> Array:
+    """By how much samples are likely late, (N,).
 
     What is off by more than both scatters stays, and what noise tells more of than time.
     """
-    variance = scatter.variance(own)
+    variance = own.variance(scatter)
     known = np.isfinite(own.off) & (own.off**2 < _OUTLIER_SIGMA**2 * variance)
     known &= np.abs(own.rate) * scatter.jitter_s > scatter.noise_deg
     share = own.rate * scatter.jitter_s**2 / np.maximum(variance, np.finfo(float).tiny)
     late_s = np.where(known, share * np.nan_to_num(own.off), 0.0)
-    late_s = np.clip(late_s, -JITTER_MOST_STEPS * own.step_s, JITTER_MOST_STEPS * own.step_s)
-    taken_s = trial["time_s"] + late_s
-    rows = FileRows(stamps_s=trial.file_rows.stamps_s, taken_s=taken_s)
-    return replace(trial, table=trial.table.assign(time_s=taken_s), rows=rows)
+    return np.clip(late_s, -JITTER_MOST_STEPS * own.step_s, JITTER_MOST_STEPS * own.step_s)

@@ -57,7 +57,7 @@ def weighted_by_unsampled_motion(
     if not rare:
         return log, ()
     trials = (
-        _weighted(trial, {s: own[s] for s in rare if s in own})
+        trial.counting_less({s: own[s] for s in rare if s in own})
         for trial, own in zip(log.trials, errors, strict=True)
     )
     return replace(log, trials=tuple(trials)), tuple(_warning(s, size) for s, size in rare.items())
@@ -91,11 +91,6 @@ def _errors_sigma(
         left = with_half / np.maximum(with_quarter, _NO_CHANGE)
         errors[sensor] = np.asarray(with_half * np.clip(left, _SMOOTH, _CORNER))
     return errors
-
-
-def _weighted(trial: PreparedTrial, errors: dict[str, Array]) -> PreparedTrial:
-    weights = {s: trial.weights.get(s, 1.0) / np.sqrt(1.0 + e**2) for s, e in errors.items()}
-    return replace(trial, weights={**trial.weights, **weights})
 
 
 def _warning(sensor: str, error_sigma: float) -> str:

@@ -50,6 +50,20 @@ def test_what_is_far_off_is_not_believed(problem):
     assert noise["tip_angle_deg"] == pytest.approx((1 - NOISE_TRUST) * TIP)
 
 
+@pytest.mark.parametrize("weight", [0.5, 0.9])
+def test_readings_whose_prediction_errs_are_no_noise(problem, weight):
+    """Half of the readings of the tip leave less, and count only if they have most of their weight."""
+    rows = left(1.0, 1.0)
+    rows[SAMPLES + SAMPLES // 2 :] *= 0.8
+    weights = np.repeat([1.0, weight], [SAMPLES // 2, SAMPLES - SAMPLES // 2])
+    trials = (replace(problem.log.trials[0], weights={"tip_angle_deg": weights}),)
+    weighted = replace(problem, log=replace(problem.log, trials=trials))
+    noise = reestimated_noise(weighted, fit_of((), by_trial=[rows]))
+    expected = 1.0 if weight < 0.8 else np.sqrt((1 + 0.8**2) / 2)
+    assert noise["tip_angle_deg"] / TIP == pytest.approx(max(expected, 1 - NOISE_TRUST), abs=0.05)
+    assert noise["base_torque_n_mm"] / TORQUE == pytest.approx(1.0, abs=0.05)
+
+
 def test_heavy_tails_add_to_what_is_believed(problem):
     """Of a core of the first estimate: then as large as first differences are."""
     tails = 0.75 * np.random.default_rng(4).standard_t(3, size=SAMPLES)
