@@ -570,6 +570,10 @@ PART_LEAD, NEARLY = 30.0, 1.1
 """Score by which an explanation has to lead a part of it at the noise floor, for every effect more, if
 that shifts over trials, samples are means, or the part is above the floor by up to this factor: one more
 effect may take up what a replay does not resolve. A choice; in 4000 samples, an effect of 0.1 sigma."""
+LAG_LITTLE = 1.0
+"""Sigma, root mean square of the change of readings, below which a filter of a sensor beside effects
+does little: whether it is a filter or a delay is then no second cause, and does not make the effects
+undecided. A choice: as much as noise."""
 NOMINAL_LEAD = 10.0
 """Cost by which scatter of stiffness and damping has to improve on the exact nominal rig to be told."""
 

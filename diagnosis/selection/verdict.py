@@ -25,7 +25,7 @@ from diagnosis.criteria import (
 )
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.delay_or_filter import takes_for_a_filter
+from diagnosis.selection.delay_or_filter import lags_little, takes_for_a_filter
 
 NOTHING, UNEXPLAINED = "none", "unknown"
 """What a ranking has beside effects: the nominal rig, and what the library does not hold."""
@@ -283,14 +283,16 @@ def _less_likely(best: Candidate, other: Candidate, reached: float) -> bool:
     """Whether less of a lead than SIMPLE_LEAD decides, so that the other is only named beside the best.
 
     It is a richer form of the best, which the data do not ask for; or behind by what stiffness and
-    damping would have to be off for it, which is known and no noise.
+    damping would have to be off for it, which is known and no noise; or a delay for a filter that does
+    little.
 
     Args:
       reached: score of the best.
     """
     richer = _nested(best, other) and best.fit.size < other.fit.size
     more_scatter = other.fit.prior - best.fit.prior > NESTED_LEAD and other.score > best.score
-    return more_scatter or (richer and other.score - reached > NESTED_LEAD)
+    behind = richer and other.score - reached > NESTED_LEAD
+    return more_scatter or behind or lags_little(best, other)
 
 
 def _nested(one: Candidate, other: Candidate) -> bool:

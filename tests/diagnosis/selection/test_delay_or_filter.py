@@ -1,19 +1,33 @@
 """A delay of a sensor, or filters in its place."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from diagnosis_fixtures import scored
 
 from diagnosis.criteria import PART_LEAD
-from diagnosis.selection.delay_or_filter import takes_for_a_filter
+from diagnosis.effects import IMPERFECTIONS
+from diagnosis.selection.delay_or_filter import lags_little, takes_for_a_filter
 from diagnosis.selection.verdict import VerdictKind, verdict_on
+
+BIAS = "tip_angle_bias"
+STRONG_SIGMA = 2.0
+
+
+def lagging(names, score, changes_sigma=STRONG_SIGMA):
+    """A candidate at the noise floor whose filters change readings by so much."""
+    one = scored(names, score)
+    own = np.isin(one.fit.parameterization.owners, [name for name in names if name in IMPERFECTIONS])
+    x = np.where(own, 0.5, one.fit.x)
+    rows = np.zeros((one.fit.samples, x.size))
+    rows[:, own] = changes_sigma / 0.5 / max(own.sum(), 1)
+    return replace(one, fit=replace(one.fit, x=x, jacobian=(rows,)))
 
 
 def verdict(*each):
-    """On candidates at the noise floor, by names and score."""
-    return verdict_on(sorted((scored(*one) for one in each), key=lambda c: c.score))
-
-
-BIAS = "tip_angle_bias"
+    """On candidates at the noise floor, by names, score and what their filters change."""
+    return verdict_on(sorted((lagging(*one) for one in each), key=lambda c: c.score))
 
 
 @pytest.mark.parametrize(
@@ -44,3 +58,29 @@ def test_what_is_no_filter_in_place_of_a_delay_is_led_as_any_other(best, other):
     assert not takes_for_a_filter(scored([BIAS, *best], 100.0), scored([BIAS, *other], 112.0))
     found = verdict(([BIAS, *best], 100.0), ([BIAS, *other], 112.0))
     assert found.kind is VerdictKind.EXPLAINED
+
+
+@pytest.mark.parametrize(
+    ("filtered_sigma", "kind"), [(0.9, VerdictKind.EXPLAINED), (1.1, VerdictKind.UNDECIDED)]
+)
+def test_a_lag_that_does_little_beside_an_effect_is_no_second_cause(filtered_sigma, kind):
+    filtered = ([BIAS, "torque_low_pass"], 100.0, filtered_sigma)
+    found = verdict(filtered, ([BIAS, "torque_sensor_delay"], 102.0))
+    assert (found.kind, found.effects) == (kind, (BIAS,))
+    assert {*map(frozenset, found.confusable)} == {
+        frozenset({BIAS}),
+        frozenset({BIAS, "torque_sensor_delay"}),
+    }
+
+
+def test_where_the_delay_is_likelier_it_stays_open():
+    filtered = lagging([BIAS, "torque_low_pass"], 100.0, 0.5)
+    delayed = lagging([BIAS, "torque_sensor_delay"], 98.0)
+    assert not lags_little(filtered, delayed)
+    assert verdict_on([delayed, filtered]).kind is VerdictKind.UNDECIDED
+
+
+def test_a_filter_beside_nothing_else_stays_open():
+    one = lagging(["torque_low_pass"], 100.0, 0.5)
+    other = lagging(["torque_sensor_delay"], 102.0)
+    assert not lags_little(one, other)
