@@ -362,6 +362,9 @@ right explanation leaves passes for less. What effects leave of the nominal rig 
 The spectrum is taken from at least so many windows of so many seconds, from the frequency on above which
 effects leave little; colours within so much chi-square of the best are open. Physical: what is
 correlated for longer is drift and not noise."""
+UNEVEN_ROWS = 0.1
+"""Spread of the middle half of the steps between rows / their median, from which noise may be correlated
+from row to row rather than in time. Derived: below, rows lie nearly evenly and both are the same."""
 COLOUR_MOST = 3.0
 """Coloured noise / the larger of the claim and of the scatter from sample to sample, at most, where
 these two agree: then the noise is white as claimed. What a late torque and friction in the bearing left

@@ -26,7 +26,7 @@ from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.drift import AllowedDrift, Drift
 from diagnosis.prepare.noise.growing_noise import GrowingNoise
 from diagnosis.prepare.noise.spectrum.flicker import flicker_noise
-from diagnosis.prepare.noise.spectrum.noise_spectrum import noise_colour
+from diagnosis.prepare.noise.spectrum.time_or_rows import colour_in_time_or_rows
 
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
@@ -107,7 +107,7 @@ class Noise:
         """
         sigma, colour, most = dict(self.sigma), {}, most_parts or {}
         for sensor, parts in left.items():
-            found = self._flicker(sensor, parts) or noise_colour(
+            found = self._flicker(sensor, parts) or colour_in_time_or_rows(
                 parts, least_share, self.means_of, self.colour_chi_square, most.get(sensor, 1)
             )
             if found and found[0] <= self.most.get(sensor, np.inf):

@@ -86,7 +86,7 @@ def noise_colour(
         if cost - best < asked:
             break
         open_ = [own for own in there if own.cost <= best + COLOUR_OPEN]
-        kept = min(open_, key=lambda own: _unlikeliness(parts, own.colour))
+        kept = min(open_, key=lambda own: unlikeliness(parts, own.colour))
         found, chosen, cost = (kept.sigma, kept.colour), list(kept.shapes), kept.cost
         asked = COLOUR_CHI_SQUARE
     if found is None or found[1].share < least_share:
@@ -136,11 +136,11 @@ def _likelier(
     if other is None:
         return found
     order, samples = other[1].coefficients.size, sum(np.isfinite(values).sum() for _, values in parts)
-    lead = _unlikeliness(parts, found[1]) - _unlikeliness(parts, other[1])
+    lead = unlikeliness(parts, found[1]) - unlikeliness(parts, other[1])
     return other if lead > COLOUR_CHI_SQUARE + order * np.log(samples) else found
 
 
-def _unlikeliness(parts: Sequence[tuple[Array, Array]], colour: Colour) -> float:
+def unlikeliness(parts: Sequence[tuple[Array, Array]], colour: Colour) -> float:
     """-2 log(likelihood) of residuals whose noise has a colour, and any size."""
     squares, uncertainty, samples = 0.0, 0.0, 0
     for time_s, values in parts:
