@@ -90,7 +90,10 @@ def _of_exact_predictions(
 
     All of them where too few count in full.
     """
-    found, full = by_sensor(problem, by_trial), by_sensor(problem, _weights(problem))
+    found = by_sensor(problem, by_trial)
+    if not any(trial.weights for trial in problem.log.trials):
+        return found
+    full = by_sensor(problem, _weights(problem))
     for sensor, parts in found.items():
         kept = [weight > NOISE_LEAST_WEIGHT for _, weight in full[sensor]]
         if sum(own.sum() for own in kept) >= NOISE_LEAST_ROWS:

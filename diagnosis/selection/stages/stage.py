@@ -134,15 +134,24 @@ def leading_on_the_log(state: SearchState) -> list[Candidate]:
 def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, workers: Workers) -> Made:
     """The leading explanations on the log itself, fitted to another problem from where they are.
 
-    With the nominal rig among them: effects that lead by what the other problem explains are not there.
+    With their best parts among them, and the nominal rig: effects that lead by what the other problem
+    explains are not there.
     """
-    nominal = sorted((c for c in state.candidates if not c.names), key=lambda c: c.score)[:1]
-    leading = {frozenset(c.names): c for c in reversed([*leading_on_the_log(state), *nominal])}
+    found = [*leading_on_the_log(state), *_parts_of_the_leading(state)]
+    leading = {frozenset(c.names): c for c in reversed(found)}
     calls = [
         (problem, c.names, problem.parameterization(c.names).joined(c.fit.parts))
         for c in leading.values()
     ]
     return fit_all(stage, calls, workers)
+
+
+def _parts_of_the_leading(state: SearchState) -> list[Candidate]:
+    """The best candidates with some of the effects of leading ones, and the best with none."""
+    leading = leading_on_the_log(state)
+    ranked = sorted(state.candidates, key=lambda c: c.score)
+    parts = [c for c in ranked if c.names and any({*c.names} < {*one.names} for one in leading)]
+    return parts[: FINALISTS // 2] + [c for c in ranked if not c.names][:1]
 
 
 def fitted_again(

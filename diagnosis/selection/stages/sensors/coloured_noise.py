@@ -125,7 +125,7 @@ def _may_explain(state: SearchState, *, apart: bool) -> bool:
 def _kept_if_it_explains(stage: str, state: SearchState, noise: Noise, workers: Workers) -> SearchState:
     """The leading explanations fitted again in another noise, if one of them explains the log there."""
     begun = state.renoised(noise)
-    made = leading_fitted_again(stage, state, begun.problem, workers)
+    made = leading_fitted_again(stage, begun, begun.problem, workers)
     again, explained = replace(begun, candidates=()).adding(made).rechecked()
     if explained:
         return again.noting(noted(stage, Decision.KEPT, "with it the log is explained"))
