@@ -88,7 +88,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
     alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and _alike(best, c)]
-    late = [c for c in at_floor if c.score - reached <= PART_LEAD and takes_for_a_filter(best, c)]
+    late = [c for c in candidates if takes_for_a_filter(best, c) and _may_be_it(best, c, reached)]
     alike += [c for c in late if c not in alike]
     leading = [
         c for c in candidates if c.score < reached and (_alike(best, c) or _clearly_leads(c, reached))
@@ -247,6 +247,18 @@ def _alike(best: Candidate, other: Candidate) -> bool:
 def _is_part(one: Candidate, best: Candidate) -> bool:
     """Whether it is the best without some of its effects, and not at the noise floor."""
     return {*one.names} < {*best.names} and not one.floor.reached
+
+
+def _may_be_it(best: Candidate, late: Candidate, reached: float) -> bool:
+    """Whether a delay in place of the filters of the best is led by what a replay may not resolve.
+
+    Where the best says nothing else, any delay at the floor may be the one cause that there is.
+
+    Args:
+      reached: score of the best.
+    """
+    near = late.explains and late.score - reached <= PART_LEAD
+    return near or (not best.named and late.floor.reached)
 
 
 def _clearly_leads(one: Candidate, reached: float) -> bool:

@@ -84,3 +84,23 @@ def test_a_filter_beside_nothing_else_stays_open():
     one = lagging(["torque_low_pass"], 100.0, 0.5)
     other = lagging(["torque_sensor_delay"], 102.0)
     assert not lags_little(one, other)
+
+
+@pytest.mark.parametrize(
+    ("beside", "gap", "kind"),
+    [
+        ([], 1.01, VerdictKind.UNDECIDED),
+        ([], 1.2, VerdictKind.NONE),
+        ([BIAS], 1.01, VerdictKind.EXPLAINED),
+    ],
+    ids=["alone", "above the floor", "beside an effect"],
+)
+def test_nothing_but_a_filter_is_never_told_where_a_delay_is_at_the_floor(beside, gap, kind):
+    """However far it is behind: it would be the one cause that there is."""
+    filtered = lagging([*beside, "torque_low_pass"], 100.0)
+    delayed = lagging([*beside, "torque_sensor_delay"], 300.0)
+    delayed = replace(delayed, floor=replace(delayed.floor, gap=gap))
+    found = verdict_on([filtered, delayed])
+    assert (found.kind, found.effects) == (kind, tuple(beside))
+    if kind is VerdictKind.UNDECIDED:
+        assert set(found.confusable) == {(), ("torque_sensor_delay",)}
