@@ -34,7 +34,8 @@ from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import Verdict, VerdictKind, provisional, refuted
+from diagnosis.selection.verdicts.changed import provisional, refuted
+from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stages import ASSESSING, CHECKING, REPLAYING, in_words
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
 from diagnosis.workers import Workers, process_pool

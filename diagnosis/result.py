@@ -12,7 +12,7 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.record import Decision, RecordEntry
-from diagnosis.selection.verdict import Verdict
+from diagnosis.selection.verdicts.verdict import Verdict
 from diagnosis.stopping import EarlyStop
 from sim.recording.html_table import html_table
 

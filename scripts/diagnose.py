@@ -25,7 +25,7 @@ from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StoppedEarly, StopSignal
 from scripts.exit_codes import ExitCode
 from scripts.output_folder import output_folder

@@ -7,7 +7,7 @@ import pandas as pd
 from scipy.optimize import lsq_linear
 
 from diagnosis.assessment.identifiability import testable_effects
-from diagnosis.effects import FITTED
+from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.fit import Fit, nominal_fit
 from diagnosis.fitting.fit_status import FitStatus, Termination
@@ -32,7 +32,7 @@ from diagnosis.replay.replay import predict
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import check
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import verdict_on
+from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.workers import Workers
 
 TIP, TORQUE, BASE = 0.25, 0.01, 0.02
@@ -198,3 +198,16 @@ def sets_screened(stage, state, monkeypatch, *, explained):
     monkeypatch.setitem(stage.__globals__, "screen_all", screen_all)
     stage(state, Workers())
     return asked
+
+
+def verdict_of(*each):
+    """The verdict on candidates at the noise floor, by names and score."""
+    return verdict_on(sorted((scored(*one) for one in each), key=lambda c: c.score))
+
+
+def held(names, score):
+    """A candidate of which one parameter stopped at a bound."""
+    one = scored(names, score)
+    (effect,) = names
+    bound = f"{effect}.{LIBRARY[effect].reported[0].name}"
+    return replace(one, fit=replace(one.fit, status=replace(one.fit.status, at_bound=(bound,))))

@@ -14,7 +14,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
-from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stopping import stopping
 
 _WITHOUT_AXIS = "at two rates and two amplitudes, with reversals and with rests of two lengths"

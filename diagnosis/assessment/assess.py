@@ -35,7 +35,7 @@ from diagnosis.residuals.residual_shape import ResidualShape, residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.contributions import strongest_first
-from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StopSignal
 from diagnosis.workers import Failure, Workers
 from sim.needles.run import SimulationFailed

@@ -26,7 +26,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.nominal_replay import nominal_residuals
 from diagnosis.replay.replay import Prediction
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.verdict import Verdict, VerdictKind
+from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 

@@ -8,7 +8,7 @@ from diagnosis.freeform.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sentences import explanation_name, explanations, headline, titles
 from diagnosis.result import Diagnosis
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 _NOT_HELD_OUT = "on the only trial, which is also the one that was fitted"
 _HELD_OUT = "on trials that the fit has not seen"

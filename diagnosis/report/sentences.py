@@ -7,7 +7,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 _NOTHING = "the nominal model as it is"
 _NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %

@@ -24,7 +24,8 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import search
-from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 

@@ -10,7 +10,7 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sentences import headline
 from diagnosis.selection.record import Decision
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stages import in_words
 from diagnosis.stopping import StoppedEarly, StopReason, StopSignal
 

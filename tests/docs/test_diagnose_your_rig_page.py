@@ -8,7 +8,7 @@ import yaml
 
 from diagnosis.effects import LIBRARY
 from diagnosis.report import sections
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "diagnose-your-rig.md").read_text()

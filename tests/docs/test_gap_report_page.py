@@ -17,7 +17,7 @@ from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.residuals.spectrum import Spectrum
 from diagnosis.selection.record import Decision, RecordEntry
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 PAGE = (Path(__file__).parents[2] / "docs" / "gap-report.md").read_text()
 WRITTEN_AS_THEY_ARE = (

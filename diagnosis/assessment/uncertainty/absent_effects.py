@@ -13,7 +13,8 @@ from dataclasses import replace
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.criteria import RESOLVED_SHARE_OF_SAMPLE
 from diagnosis.effects.effect import Parameter
-from diagnosis.selection.verdict import NOTHING, Verdict, VerdictKind
+from diagnosis.selection.verdicts.ranking import NOTHING
+from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 
 _ROUNDING = 1e-9
 """Of a bound that was fitted in its logarithm."""

@@ -7,7 +7,7 @@ from diagnosis.report.figures.trials import describe_trial, draw_trial
 from diagnosis.report.figures.twist import describe_twist, draw_twist
 from diagnosis.report.sentences import best_in_words, label_of, reduction
 from diagnosis.result import Diagnosis
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 _TRIALS = (
     "Grey: measured. Dashed blue: the nominal model. Solid red: {best}. Below each signal: measured "

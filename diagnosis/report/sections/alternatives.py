@@ -10,7 +10,7 @@ from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
 from diagnosis.report.sentences import alike, with_one_more
 from diagnosis.report.tables import explanation_table
 from diagnosis.result import Diagnosis
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 _RANKING = (
     "Probability of each explanation, given the library, the noise and these trials. Effects that "

@@ -26,13 +26,9 @@ from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, wit
 from diagnosis.selection.fitting import candidates_of, fit_all
 from diagnosis.selection.scoring.replay_errors import without_replay_errors
 from diagnosis.selection.state import SearchState
-from diagnosis.selection.verdict import (
-    Verdict,
-    VerdictKind,
-    distinct,
-    verdict_on,
-    with_open_effects,
-)
+from diagnosis.selection.verdicts.changed import with_open_effects
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind, distinct
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]

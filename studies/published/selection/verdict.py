@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from studies.published.criteria import EQUIVALENT_AICC, LEAST_P_VALUE, RESOLVED_SIGMA
 from studies.published.experiments.measurement import MeasuredFigure
 from studies.published.fitting.fit import FigureFit

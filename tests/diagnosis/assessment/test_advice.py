@@ -14,7 +14,9 @@ from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import LIBRARY
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
-from diagnosis.selection.verdict import VerdictKind, verdict_on, with_open_effects
+from diagnosis.selection.verdicts.changed import with_open_effects
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 LEFT = ResidualBreakdown(
     signal={"tip_angle_deg": 3.0, "base_torque_n_mm": 1.0},

@@ -15,7 +15,8 @@ from diagnosis.log.trial import Trial
 from diagnosis.nominal_replay import at_samples, nominal_residuals, replay_nominal
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
-from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 

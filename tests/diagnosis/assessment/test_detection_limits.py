@@ -15,7 +15,7 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.search import search
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 

@@ -13,7 +13,7 @@ from diagnosis.assessment.nearest import nearest_of
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import floor_of
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 
 LEVEL = Interval(value=1.0, low=0.9, high=1.1, unit="N mm / mm")

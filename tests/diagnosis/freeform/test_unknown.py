@@ -14,7 +14,7 @@ from diagnosis.freeform import unknown
 from diagnosis.freeform.in_words import DOUBT, what_is_missing
 from diagnosis.freeform.unknown import FREE_FORM, with_what_is_missing
 from diagnosis.nominal_replay import replay_nominal
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed

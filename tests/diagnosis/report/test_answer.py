@@ -8,7 +8,7 @@ from free_forms import missing_with
 from diagnosis.freeform.in_words import what_is_missing
 from diagnosis.report.answer import answer
 from diagnosis.report.sentences import headline, titles
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import EarlyStop
 
 STOPPED = EarlyStop(why="limit of 30 s", stage="fitting pairs", left_out=("pairs",), search=True)

@@ -27,7 +27,7 @@ from diagnosis.report.sentences import (
     with_one_more,
 )
 from diagnosis.residuals.lead import Lead
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import EarlyStop
 
 

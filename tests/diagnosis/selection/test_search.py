@@ -13,7 +13,7 @@ from diagnosis.selection import search as module
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import STAGES, search
 from diagnosis.selection.stages import single_effects
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 

@@ -5,7 +5,8 @@ from diagnosis_fixtures import scored
 
 from diagnosis.assessment.uncertainty.absent_effects import without_absent
 from diagnosis.assessment.uncertainty.intervals import Interval
-from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 
 def between(low, high):

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from diagnosis.report.sections import agreement
 from diagnosis.report.sections.agreement import agreement_section
 from diagnosis.report.sentences import reduction
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 
 @pytest.fixture(autouse=True)

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.sections import parameters
 from diagnosis.report.sections.parameters import parameters_section
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 
 @pytest.fixture(autouse=True)

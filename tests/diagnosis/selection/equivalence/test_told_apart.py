@@ -12,7 +12,7 @@ from diagnosis.selection.candidate import candidate
 from diagnosis.selection.equivalence import told_apart as module
 from diagnosis.selection.equivalence.equivalent_sets import Equivalent
 from diagnosis.selection.equivalence.told_apart import told_apart
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
 

@@ -11,7 +11,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 
 WEAK, STRONG = 3e-5, 3e-3

@@ -8,7 +8,7 @@ from diagnosis.selection import fitting
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import nominal_rig as module
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 

@@ -18,7 +18,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import triples as module
-from diagnosis.selection.verdict import VerdictKind
+from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.workers import Workers
 
 LEADING = ("tip_drag", "coulomb_friction", "entry_friction", "stiction")

@@ -8,8 +8,9 @@ from diagnosis_fixtures import scored
 
 from diagnosis.criteria import PART_LEAD
 from diagnosis.effects import IMPERFECTIONS
-from diagnosis.selection.delay_or_filter import lags_little, takes_for_a_filter
-from diagnosis.selection.verdict import VerdictKind, verdict_on
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.delay_or_filter import lags_little, takes_for_a_filter
+from diagnosis.selection.verdicts.verdict import VerdictKind
 
 BIAS = "tip_angle_bias"
 STRONG_SIGMA = 2.0

@@ -1,0 +1,43 @@
+"""Probabilities of all explanations."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import scored, verdict_of
+
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.selection.verdicts.decision import verdict_on
+from diagnosis.selection.verdicts.ranking import NOTHING, UNEXPLAINED, ranking_of
+
+
+def test_a_ranking_is_of_what_explains_the_log():
+    above = scored(["tip_drag"], 90.0, floor=NoiseFloor(gap=2.0, slow=5.0))
+    found = verdict_on([above, scored(["entry_friction"], 100.0), scored(["stiction"], 104.0)])
+    ranking = dict(found.ranking)
+    assert ranking["tip_drag",] == 0.0
+    assert ranking["entry_friction",] == pytest.approx(1 / (1 + np.exp(-2)))
+
+
+def test_probabilities_are_those_of_the_scores():
+    ranking = dict(verdict_of((["tip_drag"], 100.0), (["entry_friction"], 104.0)).ranking)
+    assert sum(ranking.values()) == pytest.approx(1.0)
+    assert ranking["tip_drag",] / ranking["entry_friction",] == pytest.approx(2.718281828**2)
+    assert set(ranking) == {(name,) for name in (*LIBRARY, "none", "unknown")}
+
+
+def test_a_pair_is_one_row_of_the_ranking_at_its_own_probability():
+    first, second = (["tip_drag", "torque_bias"], 100.0), (["torque_bias", "tip_drag"], 103.0)
+    found = verdict_of(first, second, (["entry_friction"], 104.0))
+    ranking = dict(found.ranking)
+    assert sum(ranking.values()) == pytest.approx(1.0)
+    pair = ranking["tip_drag", "torque_bias"]
+    odds = np.exp(2.0) * (1.0 + np.exp(-1.5))  # of both fits of the pair
+    assert pair / ranking["entry_friction",] == pytest.approx(odds)
+    assert ranking["tip_drag",] == ranking["torque_bias",] == 0.0
+
+
+def test_where_nothing_is_known_all_of_it_is_unknown():
+    shares = dict(ranking_of([], known=False))
+    assert shares.pop((UNEXPLAINED,)) == 1.0
+    assert set(shares) == {(name,) for name in (*LIBRARY, NOTHING)}
+    assert set(shares.values()) == {0.0}
