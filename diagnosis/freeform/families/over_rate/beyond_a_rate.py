@@ -1,0 +1,99 @@
+"""Viscous torque that grows otherwise beyond one rate of slipping,
+
+    torque = damping rate                              up to it,
+    torque = damping (at + slope (rate - at))          beyond,
+
+as of a film of fluid that breaks down, or of a layer at the shaft that slips (slope near 0). A curve
+over all rates of a log rounds the corner off.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import INTERFACE
+from diagnosis.freeform.families.over_rate.friction import rates_of
+from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from models.tissue import RATE_POINTS
+
+_LEAST, _MOST = 0.01, 10.0  # slope
+_SLOPES = (0.3, 3.0)  # to start with
+_AT = (0.5, 0.8)  # of the logarithm of the rates
+_REACH = 10.0  # rates beyond which the factor hardly changes, in the first
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """The law."""
+    return (_beyond_a_rate(ranges),)
+
+
+def _beyond_a_rate(ranges: LogRanges) -> Family:
+    beta = ranges.damping_n_mm_s_per_mm
+    return Family(
+        effect=Effect(
+            name="damping over rate, beyond one rate",
+            title="viscous torque that grows otherwise beyond one rate of turning",
+            place=Place.INTERFACE,
+            parameters=_parameters(*rates_of(ranges)),
+            apply=_apply,
+        ),
+        places=INTERFACE,
+        says="rate",
+        title="damping along the shaft",
+        curve=partial(_damping, beta),
+        x_unit="rad/s",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _parameters(slowest_rad_s: float, fastest_rad_s: float) -> tuple[Parameter, ...]:
+    starts = [
+        (slope, slowest_rad_s * (fastest_rad_s / slowest_rad_s) ** share)
+        for slope in _SLOPES
+        for share in _AT
+    ]
+    slopes, rates = zip(*starts, strict=True)
+    slope = Parameter(
+        name="slope",
+        unit="-",
+        low=_LEAST,
+        high=_MOST,
+        start=slopes,
+        logarithmic=True,
+        neutral=1.0,
+    )
+    rate = Parameter(
+        name="rate",
+        unit="rad/s",
+        low=slowest_rad_s,
+        high=fastest_rad_s,
+        start=rates,
+        logarithmic=True,
+        neutral=None,
+    )
+    return slope, rate
+
+
+def _rates(rate_rad_s: float) -> tuple[float, float]:
+    return rate_rad_s, _REACH * rate_rad_s
+
+
+def _factors(slope: float) -> tuple[float, ...]:
+    """At `RATE_POINTS` rates from the first one on, in the units of which it is 1."""
+    at = np.geomspace(1.0, _REACH, RATE_POINTS)
+    return tuple(float(f) for f in (1.0 + slope * (at - 1.0)) / at)
+
+
+def _damping(beta: float, slope: float, rate_rad_s: float) -> Points:
+    rates = np.geomspace(*_rates(rate_rad_s), RATE_POINTS)
+    return rates, beta * np.array(_factors(slope))
+
+
+def _apply(rig: RigParameters, slope: float, rate_rad_s: float) -> RigParameters:
+    free = FreeLaw(rate_curve=_factors(slope), rate_range_rad_s=_rates(rate_rad_s))
+    return replace(rig, free=free)
