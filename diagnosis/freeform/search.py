@@ -69,8 +69,11 @@ def free_form_fits(
     first = each_fit(SCREENING, first_fit, [(rough, base, f) for f in families], workers)
     better, rest = _promising(first, WORTH_MORE)
     first = each_fit(SCREENING, _some_more, [(rough, f) for f in better], workers) + rest
-    near, _ = _promising(first, CONTENDERS)
+    near, further = _promising(first, CONTENDERS)
     fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
+    if not fitted:  # the only ones in reach cannot be simulated where they lead
+        near, _ = _promising(further, CONTENDERS)
+        fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
     if _open(fitted):
         alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
         fitted += growing(coarse, alone, ranges, workers)

@@ -204,3 +204,10 @@ def test_fewer_of_laws_with_many_numbers_go_to_the_log_itself(numbers, go_on):
     fit = linear_fit(family, [np.zeros((100, numbers))], [np.zeros(100)], x=np.zeros(numbers))
     ranked = [FreeFit(family=family, fit=fit)] * 6
     assert search._affordable(ranked) == go_on
+
+
+def test_where_the_only_laws_in_reach_cannot_be_simulated_the_next_ones_are_fitted(fitted):
+    run, _ = fitted
+    first = {"lost": 1.2, "near": 1.2 * search.IN_REACH + 0.5, "far": 1.2 * search.IN_REACH + 1.0}
+    found = run(first, {"lost": None, "near": 2.0, "far": 3.0})
+    assert [f.family.name for f in found if f.final][0] == "near"

@@ -29,6 +29,7 @@ from diagnosis.residuals.step_time import step_of
 Array = NDArray[np.float64]
 
 _LASTS_S = 0.02
+_APART_S = 1e-6
 _MOVES_S = 0.3  # at the most, from where it is found
 _WHAT = {
     ActsOn.DRIVE_ANGLE: (TIP, Place.DRIVE, "slips between drive and needle", "deg"),
@@ -139,7 +140,8 @@ def _of_trial(trials: Sequence[str], c: Sequence[float], trial: str) -> tuple[Ar
     begins = np.maximum(times_s - 0.5 * _LASTS_S, 0.0)
     places = np.stack([begins, times_s + 0.5 * _LASTS_S], axis=1).ravel()
     values = np.stack([levels[:-1], levels[1:]], axis=1).ravel()
-    return np.maximum.accumulate(places + 1e-6 * np.arange(places.size)), values
+    apart = _APART_S * np.arange(places.size)  # steps may come nearer to each other than they last
+    return np.maximum.accumulate(places) + apart, values
 
 
 def _first_trial(trials: Sequence[str], *c: float) -> Points:

@@ -56,6 +56,13 @@ def test_times_may_pass_one_another_in_a_fit():
     assert crossed.at(np.array([5.0, 6.0, 13.0])) == pytest.approx([0.0, 1.0, 5.0])
 
 
+def test_steps_may_be_nearer_to_each_other_than_they_last():
+    family = found_in(stepped((4.0, 5.0, 12.0), (3.0, -2.0, 4.0)))
+    for near_s in (0.0, 0.015, 0.02 - 1e-7):
+        curve = family.effect.apply(NOMINAL, 4.0, 5.0, 5.0 + near_s, 3.0, -2.0, 4.0).free.curves[0]
+        assert curve.at(np.array([3.0, 4.5, 6.0])) == pytest.approx([0.0, 3.0, 5.0])
+
+
 def test_the_curve_is_that_of_the_first_trial():
     family = found_in(stepped())
     x, y = family.curve(*AT_S, *SIZES)
