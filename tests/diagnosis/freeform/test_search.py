@@ -210,4 +210,4 @@ def test_where_the_only_laws_in_reach_cannot_be_simulated_the_next_ones_are_fitt
     run, _ = fitted
     first = {"lost": 1.2, "near": 1.2 * search.IN_REACH + 0.5, "far": 1.2 * search.IN_REACH + 1.0}
     found = run(first, {"lost": None, "near": 2.0, "far": 3.0})
-    assert [f.family.name for f in found if f.final][0] == "near"
+    assert next(f.family.name for f in found if f.final) == "near"
