@@ -13,7 +13,7 @@ the straight part.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -63,6 +63,16 @@ class SmoothCurve:
         """Exponentials of the values at the places, (K,): factors that are positive and finite."""
         within = np.clip(self.values(coordinates), -_FARTHEST_LOG, _FARTHEST_LOG)
         return tuple(float(v) for v in np.exp(within))
+
+    def zero_at_zero(self) -> "SmoothCurve":
+        """The curve less its value where the variable is 0; as it is, if the places do not span 0.
+
+        Its straight part begins with a constant, which falls away.
+        """
+        if not self.places[0] <= 0.0 <= self.places[-1]:
+            return self
+        at_zero = np.array([np.interp(0.0, self.places, column) for column in self.basis.T])
+        return replace(self, basis=(self.basis - at_zero)[:, 1:], straight=self.straight - 1)
 
     def acting_on(self, acts_on: ActsOn, variable: Variable, coordinates: Sequence[float]) -> Curve:
         """The curve in a free law: of factors where it multiplies, else of values."""

@@ -196,7 +196,8 @@ def _over_the_range(added: Added, low: float, high: float) -> SmoothCurve:
     if added.variable is Variable.AXIAL_SPEED:
         return jumping_curve(low, high, PLACES)
     if added.bent:
-        return bent_curve(low, high, PLACES, close=added.variable in _RATES)
+        curve = bent_curve(low, high, PLACES, close=added.variable in _RATES)
+        return curve.zero_at_zero() if added.acts_on in _SLIPS else curve  # nothing slips at rest
     return smooth_curve(low, high, PLACES)
 
 

@@ -181,3 +181,20 @@ def test_no_factor_is_0_or_infinite():
         factors = np.array(curve.factors([far] + [0.0] * (curve.size - 1)))
         assert np.isfinite(factors).all()
         assert (factors > 0).all()
+
+
+@pytest.mark.parametrize("made", [smooth_curve, bent_curve])
+def test_a_curve_that_is_zero_at_zero_has_no_constant_and_keeps_its_slopes(made):
+    curve = made(-2.0, 3.0, 12)
+    pinned = curve.zero_at_zero()
+    assert (pinned.size, pinned.straight) == (curve.size - 1, curve.straight - 1)
+    drawn = pinned.values(np.random.default_rng(1).normal(size=pinned.size))
+    assert np.interp(0.0, pinned.places, drawn) == pytest.approx(0.0, abs=1e-12)
+    np.testing.assert_allclose(
+        np.diff(pinned.values([1.0] * pinned.size)), np.diff(curve.values([0.0] + [1.0] * pinned.size))
+    )
+
+
+def test_a_curve_that_does_not_reach_zero_stays():
+    curve = smooth_curve(1.0, 3.0)
+    assert curve.zero_at_zero() is curve
