@@ -120,7 +120,7 @@ def _some_more(rough: FitProblem, first: FreeFit) -> FreeFit:
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
     """Fitted to the log itself and checked on trials that the fit has not seen."""
-    return fitted_and_checked(problem, contender, contender.fit.x, far=far)
+    return fitted_and_checked(problem, contender, contender.fit.x, far=far).with_its_law_first
 
 
 def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[FreeFit]]:

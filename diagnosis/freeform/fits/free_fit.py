@@ -44,6 +44,15 @@ class FreeFit:
         return (self.family, *self.others)
 
     @property
+    def with_its_law_first(self) -> "FreeFit":
+        """The fit, led by a law that holds in all trials: numbers of each trial stand beside.
+
+        A law is told by what it depends on, and an offset of each trial depends on nothing.
+        """
+        ranked = sorted(self.families, key=lambda family: family.of_each_trial)
+        return replace(self, family=ranked[0], others=tuple(ranked[1:]))
+
+    @property
     def told(self) -> tuple[Family, ...]:
         """All curves that tell its laws: each law, then the factor that it may have."""
         return tuple(curve for family in self.families for curve in family.told)

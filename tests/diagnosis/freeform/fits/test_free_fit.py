@@ -60,3 +60,15 @@ def test_a_family_is_fitted_as_an_effect_of_the_library():
     assert own.library["mine"].parameters == family.effect.parameters
     assert set(own.library) == {*problem.library, "mine"}
     assert "mine" not in problem.library
+
+
+def test_a_law_of_all_trials_leads_numbers_of_each():
+    common, each = free_fit(1.0, freedom=1), free_fit(1.0, freedom=1).family
+    parameters = tuple(replace(p, of_one_trial=True) for p in each.effect.parameters)
+    each = replace(each, effect=replace(each.effect, parameters=parameters, name="offsets"))
+    mixed = replace(common, family=each, others=(common.family,))
+    led = mixed.with_its_law_first
+    assert (led.family, led.others) == (common.family, (each,))
+    assert led.with_its_law_first.names == led.names
+    alone = replace(common, family=each)
+    assert alone.with_its_law_first.family is each
