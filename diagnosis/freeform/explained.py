@@ -3,6 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from diagnosis.assessment.assess import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.fitting.noise_reestimation import in_units_of
@@ -16,6 +19,8 @@ from diagnosis.replay.replay import Prediction, replay
 from diagnosis.residuals.residual_breakdown import residual_breakdown
 from diagnosis.residuals.residual_shape import residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
+
+Array = NDArray[np.float64]
 
 
 def explained_by(
@@ -40,12 +45,11 @@ def explained_by(
     explained = at_samples(problem, with_drift(problem.log, problem.noise, predictions))
     left = trial_residuals(log, explained, problem.noise)
     plain = problem.noise.uncoloured
-    after = missing.best.held_out or fit.by_trial
+    before = nominal_residuals(replace(problem, noise=plain), nominal)
+    after = in_units_of(problem, _after(missing, before), plain)
     return replace(
         told,
-        gap=gap_reduction(
-            nominal_residuals(replace(problem, noise=plain), nominal), in_units_of(problem, after, plain)
-        ),
+        gap=gap_reduction(before, after),
         imperfections={},  # those of the nearest explanation are not in the fit of the law
         reading_jumps=rig.jumps,
         drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
@@ -54,3 +58,20 @@ def explained_by(
         shape_after=residual_shape(left),
         next_experiment=next_step(missing),
     )
+
+
+def _after(missing: Missing, before: Sequence[Array]) -> tuple[Array, ...]:
+    """What the law leaves of trials that its fit has not seen, if others tell anything of these.
+
+    A curve over the time of a session, led on to a trial at its end, may go anywhere: where that leaves
+    more than the nominal rig, and is no surprise, what is left of the trials of the fit counts.
+    """
+    best = missing.best
+    if best.held_out is None or (missing.closed and _rms(best.held_out) > _rms(before)):
+        return best.fit.by_trial
+    return best.held_out
+
+
+def _rms(by_trial: Sequence[Array]) -> float:
+    values = np.concatenate(by_trial)
+    return float(np.sqrt(np.mean(values**2)))

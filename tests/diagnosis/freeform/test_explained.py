@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import TORQUE, log_of, problem_of
 from free_forms import linear_fit, missing_with, nothing_told
 
+from diagnosis.criteria import CLOSED_GAP
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.families.readings import families
 from diagnosis.freeform.fits.free_fit import FreeFit
@@ -19,8 +20,8 @@ RISE = 0.1  # of the torque reading within the trial, N mm: 10 sigma
 
 
 @pytest.fixture(scope="module")
-def told():
-    """A torque sensor that drifts, explained by a straight drift, and the same without its law."""
+def made():
+    """A torque sensor that drifts, a straight drift fitted to it, and what is told without that."""
     size = 400
     clean = log_of(NOMINAL, seconds=4.0)
     table = clean.trials[0].table
@@ -44,6 +45,13 @@ def told():
     )
     best = FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
     before = nothing_told(next_experiment="look closer", imperfections={"torque_clock": {}})
+    return log, problem, nominal, best, before
+
+
+@pytest.fixture(scope="module")
+def told(made):
+    """The log, its nominal readings, and what is told without the law and with it."""
+    log, problem, nominal, best, before = made
     return log, nominal, before, explained_by(missing_with(best=best), log, problem, nominal, before)
 
 
@@ -82,3 +90,19 @@ def test_imperfections_of_sensors_are_those_that_the_law_allows_for(told):
     assert found.imperfections == {}
     assert found.reading_jumps == ()
     assert found.drift_sigma == dict.fromkeys(SENSORS, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("unseen", "predicted", "after"),
+    [(3.0, 1.0, 3.0), (90.0, 1.0, 1.0), (90.0, 6.0, 90.0)],
+    ids=["a prediction", "led on to anywhere, which is no surprise", "a wrong prediction"],
+)
+def test_unseen_trials_count_unless_the_law_is_led_on_to_where_no_trial_tells(
+    made, unseen, predicted, after
+):
+    log, problem, nominal, best, before = made
+    left = (np.full(best.fit.by_trial[0].size, unseen),)
+    best = replace(best, held_out=left, gap_after=predicted)
+    missing = missing_with(best=best, closed=predicted <= CLOSED_GAP)
+    found = explained_by(missing, log, problem, nominal, before)
+    assert found.gap.after == pytest.approx(after, abs=3.5 / 40)

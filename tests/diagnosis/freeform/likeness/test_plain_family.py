@@ -57,7 +57,7 @@ def line_near(family, values):
 
 
 def is_line(family):
-    """Whether the curve of a family may be any line: one that repeats, or jumps or is 0 at 0, may not."""
+    """Whether a curve may be any line: one that repeats, or jumps or is 0 at 0, may not."""
     through_zero = family.name.startswith("drive slip over")
     jumps = family.name == "tip torque over rate"  # by its dry friction, which is no part of the curve
     return "every" not in family.name and "tip_angle" not in family.says and not (jumps or through_zero)
