@@ -3,7 +3,8 @@
 A twist at the first sample is looked for before any model is known, against a nominal rig that begins
 untwisted, and a weak one passes for an offset of the sensors. A bent needle that has come to rest, say,
 is wound up by its own curvature. Beside an explanation it shows: what that leaves beyond noise lies in
-the first moments of trials. Then all trials have a past, which is fitted, if the log is explained so.
+the first moments of trials. Then all trials have a past, which is fitted, if the log is explained so:
+first on the decimated log, and on the log itself what comes near the noise there.
 """
 
 from dataclasses import replace
@@ -11,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import START_LEFT_SHARE, START_LEFT_TIMES
+from diagnosis.criteria import NEARLY, START_LEFT_SHARE, START_LEFT_TIMES
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.nuisance import late_starts_of
@@ -21,7 +22,7 @@ from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.prepare.start.late_start_detection import begun_late
 from diagnosis.replay.replay import replay
-from diagnosis.selection.candidate import candidate
+from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.stage import leading_fitted_again
 from diagnosis.selection.state import SearchState
@@ -38,11 +39,23 @@ def starts_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
     if explained or share_at_the_start(state) < START_LEFT_SHARE:
         return state
     begun = _with_pasts(state)
-    again = begun.adding(leading_fitted_again(STAGE, state, begun.problem, workers))
-    again, explained = again.rechecked()
+    rare, record = leading_fitted_again(STAGE, state, begun.coarse, workers)
+    near = {frozenset(c.names) for c in rare if _gap_on_the_log(c, begun) <= NEARLY}
+    begun = begun.noting(*record)
+    again, explained = begun, False
+    if near:
+        kept = replace(state, candidates=tuple(c for c in state.candidates if {*c.names} in near))
+        again = begun.adding(leading_fitted_again(STAGE, kept, begun.problem, workers))
+        again, explained = again.rechecked()
     if not explained:
         return state.noting(noted(STAGE, Decision.DROPPED, "wound up or not, no explanation holds"))
     return again.noting(noted(STAGE, Decision.KEPT, "trials that begin wound up explain the log"))
+
+
+def _gap_on_the_log(rare: Candidate, begun: SearchState) -> float:
+    """The gap that a candidate of the decimated log has on the log, of whose readings that has means."""
+    readings = begun.problem.samples / max(rare.fit.samples, 1)
+    return float(np.sqrt(1.0 + max(rare.fit.gap**2 - 1.0, 0.0) / readings))
 
 
 def share_at_the_start(state: SearchState) -> float:
