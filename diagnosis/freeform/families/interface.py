@@ -33,6 +33,8 @@ LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length
 TURN_DEG, WAVES = 360.0, 8
 INTERFACE = {Place.INTERFACE: 1.0}
+DAMPING = {Place.TISSUE: 0.55, Place.INTERFACE: 0.45}
+"""Damping that differs from place to place or changes is likelier that of the tissue, as in layers."""
 _WHEN = dict.fromkeys(LATELY, " after sliding")
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
 
@@ -64,17 +66,18 @@ def level_of(ranges: LogRanges) -> Parameter:
 
 def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:
     beta = ranges.damping_n_mm_s_per_mm
+    places = INTERFACE if variable is Variable.BASE_ANGLE else DAMPING
     once_a_turn = f", every {curve.period:.3g} deg" if curve.period else ""
 
     return Family(
         effect=Effect(
             name=f"damping over {variable}{once_a_turn}",
             title=f"damping that changes with {variable}",
-            place=Place.INTERFACE,
+            place=max(places, key=lambda place: places[place]),
             parameters=coordinates_of(curve),
             apply=partial(_apply_damping, variable, curve),
         ),
-        places=INTERFACE,
+        places=places,
         says=SAYS.get(variable, variable),
         title="damping along the shaft" + _WHEN.get(variable, ""),
         curve=partial(_damping, curve, beta),

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import DAMPING
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
@@ -135,7 +136,7 @@ def _session(variable: Variable, trials: Sequence[PreparedTrial]) -> Session:
 
 def _damping(session: Session, ranges: LogRanges) -> Family:
     worn = session.variable is Variable.HISTORY
-    places = _WORN if worn else _PLACES
+    places = _WORN if worn else DAMPING
     return Family(
         effect=Effect(
             name=f"damping over {session.variable}, of the session",

@@ -122,7 +122,7 @@ def test_the_next_trial_begins_where_the_last_one_ended_but_for_the_pause(name):
 
 def test_what_wears_is_the_interface_and_what_dries_the_tissue():
     assert {name: (f.place, f.says) for name, f in FAMILIES.items()} == {
-        TIME: (Place.INTERFACE, "time"),
+        TIME: (Place.TISSUE, "time"),
         TURNS: (Place.INTERFACE, "history"),
         DRY: (Place.INTERFACE, "time"),
         STIFF: (Place.PARAMETERS, "time"),
