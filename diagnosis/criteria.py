@@ -573,6 +573,9 @@ PART_LEAD, NEARLY = 30.0, 1.1
 """Score by which an explanation has to lead a part of it at the noise floor, for every effect more, if
 that shifts over trials, samples are means, or the part is above the floor by up to this factor: one more
 effect may take up what a replay does not resolve. A choice; in 4000 samples, an effect of 0.1 sigma."""
+UNRESOLVED_SHARE = 1e-4
+"""Share of a reading that no model of a needle resolves. Measured: independent solvers of the contract
+differ by 1e-5 to 2e-4 of the torque; a choice for rigs, which are no better."""
 LAG_LITTLE = 1.0
 """Sigma, root mean square of the change of readings, below which a filter of a sensor beside effects
 does little: whether it is a filter or a delay is then no second cause, and does not make the effects

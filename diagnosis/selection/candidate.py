@@ -28,6 +28,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.swinging import swinging_where_coloured
 from diagnosis.selection.scoring.complexity import complexity_penalty
 from diagnosis.selection.scoring.scatter import gain_of_exact_constants, open_scatter, scatter_of
+from diagnosis.selection.scoring.unresolved import unresolved_cost
 from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
@@ -48,6 +49,7 @@ class Candidate:
       shift: held-out shift statistic; about 1 where all trials tell the same.
       shift_limit: largest that is of an explanation.
       of_means: whether samples are means of readings, whose noise may be below what a replay resolves.
+      unresolved: cost by which it may lead for what no model of a needle resolves.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
       swinging_hz: frequencies at which sensors with coloured noise swing, as no noise does.
       shape_open: whether typical forms of its law explain the log too: a bound is nothing against it.
@@ -62,6 +64,7 @@ class Candidate:
     shift: float = 0.0
     shift_limit: float = SHIFT_LIMIT
     of_means: bool = False
+    unresolved: float = 0.0
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     swinging_hz: Mapping[str, float] = field(default_factory=dict)
     shape_open: bool = False
@@ -151,6 +154,7 @@ class Candidate:
             held_out_floor=floor_of(left),
             shift=shift_statistic(self.fit),
             of_means=problem.log.means_of > 1,
+            unresolved=unresolved_cost(problem),
             coloured=slow_where_coloured(problem, self.fit.by_trial),
             swinging_hz=swinging_where_coloured(problem, self.fit.by_trial),
         )

@@ -63,11 +63,14 @@ def hardly_led(one: Candidate, best: Candidate, reached: float) -> bool:
     Args:
       reached: score of the best.
     """
-    part = {*one.names} < {*best.names} and one.floor.within(NEARLY) and says(one) != ()
-    part = part and {*one.named} != {*best.named}  # else only an imperfection of a sensor is doubtful
+    part = {*one.names} < {*best.names} and one.floor.within(NEARLY)
+    if not part or {*one.named} == {*best.named}:  # else only an imperfection of a sensor is doubtful
+        return False
+    lead, more = one.score - reached, len(best.names) - len(one.names)
+    if one.explains and lead <= best.unresolved:
+        return True
     doubtful = one.shift > SHIFT_LIMIT or one.of_means or not one.floor.reached
-    more = len(best.names) - len(one.names)
-    return part and doubtful and one.score - reached <= more * PART_LEAD
+    return says(one) != () and doubtful and lead <= more * PART_LEAD
 
 
 def less_likely(best: Candidate, other: Candidate, reached: float) -> bool:

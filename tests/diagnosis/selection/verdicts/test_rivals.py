@@ -182,3 +182,12 @@ def test_the_best_with_more_beside_it_says_nothing_else_and_other_effects_do():
 )
 def test_forms_are_of_one_law(one, other, differ):
     assert differ_in_one_form(scored(one, 1.0), scored(other, 1.0)) is differ
+
+
+@pytest.mark.parametrize(
+    ("lead", "kind"), [(400.0, VerdictKind.UNDECIDED), (600.0, VerdictKind.EXPLAINED)]
+)
+def test_what_leads_nothing_by_what_no_model_resolves_is_not_certain(lead, kind):
+    best = replace(scored(["layered_tissue"], 100.0), unresolved=500.0)
+    found = verdict_on([best, scored([], 100.0 + lead)])
+    assert (found.kind, found.effects) == (kind, ("layered_tissue",))

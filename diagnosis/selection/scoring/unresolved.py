@@ -1,0 +1,39 @@
+"""By how much costs may differ for what no model of a needle resolves.
+
+The readings of a good torque sensor are thousands of times their noise. Neither a replay nor a rig is
+exact to a ten-thousandth, and an effect that is not there may take up what is left of that:
+
+    cost = samples (share rms(reading) / sigma)^2,
+
+where the reading of the tip is its lag behind the base. With readings of some hundred sigma that is
+less than the odds that are asked for anyway.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import UNRESOLVED_SHARE
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import TIP
+from diagnosis.prepare.prepared_log import PreparedTrial
+
+Array = NDArray[np.float64]
+
+
+def unresolved_cost(problem: FitProblem) -> float:
+    """Of two explanations of a log."""
+    each = (
+        np.sum((_signal(trial, sensor) / problem.noise[sensor]) ** 2)
+        for trial in problem.log.trials
+        for sensor in SENSORS
+        if trial.has(sensor)
+    )
+    return float(UNRESOLVED_SHARE**2 * sum(each))
+
+
+def _signal(trial: PreparedTrial, sensor: str) -> Array:
+    """Readings of a torque, or by how far the tip lags, (n,)."""
+    read = trial.readings[sensor]
+    signal = trial.base_motion_deg - read if sensor == TIP else read
+    return np.asarray(signal[np.isfinite(read)])
