@@ -31,7 +31,7 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
-from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted
+from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted, refused
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdicts.changed import provisional, refuted
@@ -188,7 +188,7 @@ def _without_drift(judged: Judged) -> Judged:
 def _without_absent(judged: Judged, assessment: Assessment) -> tuple[Judged, Assessment]:
     """Both without effects that may as well be absent."""
     sample_s = min(trial.sample_s for trial in judged.problem.log.trials)
-    verdict = without_absent(judged.verdict, assessment.parameters, sample_s)
+    verdict = without_absent(judged.verdict, assessment.parameters, sample_s, refused(judged.record))
     if verdict is judged.verdict:
         return judged, assessment
     parameters = {name: own for name, own in assessment.parameters.items() if name in verdict.effects}

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import (
-    CONTENDING,
     FINALISTS,
     MOST_FINALISTS,
     NEAR_FLOOR,
@@ -21,6 +20,7 @@ from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.record import RecordEntry, dropped, failed, made
+from diagnosis.selection.scoring.unresolved import contending
 from diagnosis.stopping import NEVER, listening
 from diagnosis.workers import Failure, Task, Workers, attempt
 
@@ -71,7 +71,7 @@ def fit_finalists(
     Args:
       contenders: on the decimated log, best first.
     """
-    near = _within(CONTENDING, contenders)
+    near = in_question(problem, contenders)
     most = min(max(FINALISTS, len(_within(SIMPLE_LEAD, contenders))), MOST_FINALISTS)
     finalists, beyond = near[:most], near[most:]
     far = [c for c in contenders if c not in near]
@@ -81,7 +81,9 @@ def fit_finalists(
         found, record = _in_short(stage, problem, finalists[0], record)
     lost = (
         *dropped(stage, beyond, f"{most} others are better on the decimated log"),
-        *dropped(stage, far, f"behind the best on the decimated log by more than {CONTENDING:g}"),
+        *dropped(
+            stage, far, f"behind the best on the decimated log by more than {contending(problem):.3g}"
+        ),
     )
     return found, (*record, *lost)
 
@@ -91,7 +93,7 @@ def fit_beside(
 ) -> Made:
     """Other sets of effects from where a candidate is; given up where they stay far behind it."""
     starts = [(names, problem.parameterization(names).joined(one.fit.parts)) for names in sets]
-    enough = one.score + CONTENDING
+    enough = one.score + contending(problem)
     return fit_all(stage, [(problem, names, start, enough) for names, start in starts], workers)
 
 
@@ -106,6 +108,17 @@ def _in_short(
         return [], (*record, *failed(stage, [fit]))
     found = [candidate(fit)]
     return found, (*record, *made(stage, found))
+
+
+def in_question(problem: FitProblem, ranked: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates that a finer replay may put first, best first.
+
+    That is those that are not out of the question; and if they are few, others at the noise floor: on
+    the decimated log replays err by up to half a sigma.
+    """
+    near = _within(contending(problem), ranked)
+    at_floor = [c for c in ranked if c.floor.reached and c not in near]
+    return near + at_floor[: max(FINALISTS - len(near), 0)]
 
 
 def _within(lead: float, ranked: Sequence[Candidate]) -> list[Candidate]:

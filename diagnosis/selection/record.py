@@ -4,8 +4,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
 from diagnosis.workers import Failure
+
+_VERDICT = "verdict"
 
 
 class Decision(StrEnum):
@@ -68,11 +71,21 @@ def not_fitted(stage: str, sets: Iterable[tuple[str, ...]], reason: str) -> tupl
 def judged(candidates: Iterable[Candidate]) -> tuple[RecordEntry, ...]:
     """What the verdict rests on: which candidates explain the log, and why others do not."""
     return tuple(
-        _entry("verdict", c, Decision.DROPPED, c.objection)
+        _entry(_VERDICT, c, Decision.DROPPED, c.objection)
         if c.objection
-        else _entry("verdict", c, Decision.KEPT, "at the noise floor, on held-out trials too")
+        else _entry(_VERDICT, c, Decision.KEPT, "at the noise floor, on held-out trials too")
         for c in candidates
     )
+
+
+def refused(record: Iterable[RecordEntry]) -> frozenset[frozenset[str]]:
+    """Sets of effects that do not explain the log, whatever imperfection of a sensor is beside them."""
+    sets: dict[Decision, set[frozenset[str]]] = {Decision.KEPT: set(), Decision.DROPPED: set()}
+    for entry in record:
+        if entry.stage == _VERDICT and entry.score is not None:
+            effects = frozenset(name for name in entry.effects if name in LIBRARY)
+            sets[entry.decision].add(effects)
+    return frozenset(sets[Decision.DROPPED] - sets[Decision.KEPT])
 
 
 def failed(stage: str, failures: Iterable[Failure]) -> tuple[RecordEntry, ...]:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from diagnosis.criteria import CONTENDING, FITS_AT_ONCE, NEAR_FLOOR, PROMISE_BROKEN
+from diagnosis.criteria import FITS_AT_ONCE, NEAR_FLOOR, PROMISE_BROKEN
 from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -13,6 +13,7 @@ from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import Made, candidates_of, fit_all, fit_in_turn
 from diagnosis.selection.record import RecordEntry, dropped, not_fitted
 from diagnosis.selection.scoring.complexity import choice_penalty
+from diagnosis.selection.scoring.unresolved import contending
 from diagnosis.selection.screening import Screened, neutral_start
 from diagnosis.workers import Task, Workers
 
@@ -46,7 +47,7 @@ def fit_screened(
     again = set[frozenset[str]]()
     while waiting:
         batch, waiting = waiting[:FITS_AT_ONCE], waiting[FITS_AT_ONCE:]
-        calls = [(problem, s.names, s.start, _enough(s.names, found, used)) for s in batch]
+        calls = [(problem, s.names, s.start, _enough(problem, s.names, found, used)) for s in batch]
         new, entries = fit_all(stage, calls, workers)
         broken = [s for s in batch if _is_broken(s, new) and frozenset(s.names) not in again]
         again |= {frozenset(s.names) for s in broken}
@@ -76,7 +77,7 @@ def _fit_neutrally(
     workers: Workers,
 ) -> Made:
     """Fits of sets that left more than was promised, once more, from where nothing was taken over."""
-    calls = [(problem, s, _enough(s.names, found, used)) for s in broken]
+    calls = [(problem, s, _enough(problem, s.names, found, used)) for s in broken]
     tasks = [Task(effects=call[1].names, arguments=call) for call in calls]
     return candidates_of(stage, workers.each(stage, _fit_from_neutral, tasks)) if tasks else ([], ())
 
@@ -91,14 +92,14 @@ def _is_broken(one: Screened, new: Sequence[Candidate]) -> bool:
     return bool(left) and min(left) > PROMISE_BROKEN * one.cost
 
 
-def _enough(names: tuple[str, ...], found: Sequence[Candidate], used: int) -> float:
+def _enough(problem: FitProblem, names: tuple[str, ...], found: Sequence[Candidate], used: int) -> float:
     """Cost that a fit of these effects has to come below to be of use beside what was found."""
     best = _best_of_each_set(found)
     at_floor = any(c.floor.small for c in best)
     if not best or (len(best) < used and not at_floor):
         return np.inf
     last = best[0] if at_floor else best[used - 1]
-    score = max(best[0].score + CONTENDING, last.score)
+    score = max(best[0].score + contending(problem), last.score)
     return score - choice_penalty(names)
 
 

@@ -3,11 +3,12 @@
 The score of an explanation knows white noise. The intervals of its parameters also know what the
 noise of the base encoder and the error of the replay do. Where the interval of an effect's strength
 reaches the value at which there is no effect, the explanation without it says the same, and more
-simply. A time below a small share of a sample is none: no replay resolves it.
+simply; but where that was refused, it is open. A time below a small share of a sample is none: no replay
+resolves it.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
@@ -21,13 +22,17 @@ _ROUNDING = 1e-9
 
 
 def without_absent(
-    verdict: Verdict, parameters: Mapping[str, Mapping[str, Interval]], sample_s: float
+    verdict: Verdict,
+    parameters: Mapping[str, Mapping[str, Interval]],
+    sample_s: float,
+    refused: Collection[frozenset[str]] = (),
 ) -> Verdict:
     """The verdict without effects that may as well be absent; what was told stays confusable.
 
     Args:
       parameters: intervals by effect and parameter.
       sample_s: time between samples.
+      refused: sets of effects that do not explain the log.
     """
     own = verdict.best.fit.parameterization
     each = list(zip(own.owners, own.parameters, strict=True))
@@ -42,6 +47,8 @@ def without_absent(
     kind = verdict.kind
     if kind is VerdictKind.EXPLAINED and not left:
         kind = VerdictKind.NONE
+    if kind is VerdictKind.EXPLAINED and frozenset(left) in refused:
+        kind = VerdictKind.UNDECIDED
     others = [names for names in verdict.confusable if set(names) not in (set(told), set(left))]
     return replace(
         verdict,

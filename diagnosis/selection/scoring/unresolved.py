@@ -12,7 +12,7 @@ less than the odds that are asked for anyway.
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import UNRESOLVED_SHARE
+from diagnosis.criteria import CONTENDING, UNRESOLVED_SHARE
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import TIP
@@ -30,6 +30,11 @@ def unresolved_cost(problem: FitProblem) -> float:
         if trial.has(sensor)
     )
     return float(UNRESOLVED_SHARE**2 * sum(each))
+
+
+def contending(problem: FitProblem) -> float:
+    """Score behind the best beyond which an explanation is out of the question."""
+    return CONTENDING + unresolved_cost(problem)
 
 
 def _signal(trial: PreparedTrial, sensor: str) -> Array:

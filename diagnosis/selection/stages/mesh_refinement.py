@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import (
-    CONTENDING,
     FINEST_ELEMENTS,
     FINEST_STEP_S,
     NEAR_FLOOR,
@@ -25,9 +24,9 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.resolution import Resolution
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import candidates_of
+from diagnosis.selection.fitting import candidates_of, in_question
 from diagnosis.selection.record import RecordEntry, dropped
-from diagnosis.selection.scoring.unresolved import unresolved_cost
+from diagnosis.selection.scoring.unresolved import contending
 from diagnosis.selection.stages.stage import stopped_in
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Task, Workers
@@ -104,8 +103,7 @@ def _fitted_again(
     problem: FitProblem, candidates: Sequence[Candidate], workers: Workers
 ) -> tuple[list[Candidate], tuple[RecordEntry, ...]]:
     """The leading candidates, fitted from where they are; a finer replay hardly changes their slopes."""
-    reach = CONTENDING + unresolved_cost(problem)
-    near = [c for c in candidates if c.score - candidates[0].score <= reach]
+    near = in_question(problem, candidates)
     tasks = [
         Task(
             effects=c.names,
@@ -115,7 +113,10 @@ def _fitted_again(
     ]
     found, record = candidates_of(STAGE, workers.each(STAGE, _with_known_slopes, tasks))
     out = [c for c in candidates if c not in near]
-    return found, (*record, *dropped(STAGE, out, f"behind the best by more than {reach:.3g}"))
+    return found, (
+        *record,
+        *dropped(STAGE, out, f"behind the best by more than {contending(problem):.3g}"),
+    )
 
 
 def _with_known_slopes(problem: FitProblem, names: tuple[str, ...], coarser: Fit) -> Fit:

@@ -7,15 +7,18 @@ changes readings by less than noise is no second cause, though the delay is name
 
 import numpy as np
 
-from diagnosis.criteria import LAG_LITTLE
+from diagnosis.criteria import LAG_LITTLE, SCATTER
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 
 
 def takes_for_a_filter(best: Candidate, other: Candidate) -> bool:
-    """Whether the best has filters of a sensor in place of its delay, and all else as the other."""
-    mine = [FITTED[name] for name in {*best.names} - {*other.names}]
-    theirs = [FITTED[name] for name in {*other.names} - {*best.names}]
+    """Whether the best has filters of a sensor in place of its delay, and all else as the other.
+
+    But for stiffness and damping, which are in every fit.
+    """
+    mine = [FITTED[name] for name in {*best.names} - {*other.names, *SCATTER}]
+    theirs = [FITTED[name] for name in {*other.names} - {*best.names, *SCATTER}]
     filters = all(e.delays_a_sensor and e.name in IMPERFECTIONS for e in mine)
     delay = len(theirs) == 1 and theirs[0].delays_a_sensor and theirs[0].name in LIBRARY
     return bool(mine) and filters and delay and {e.needs for e in mine} == {theirs[0].needs}

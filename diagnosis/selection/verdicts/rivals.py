@@ -31,12 +31,14 @@ def is_part(one: Candidate, best: Candidate) -> bool:
 def may_be_it(best: Candidate, late: Candidate, reached: float) -> bool:
     """Whether a delay in place of the filters of the best is led by what a replay may not resolve.
 
-    Where the best says nothing else, any delay at the floor may be the one cause that there is.
+    That is no more than what the best itself leaves beyond noise. And where the best says nothing else,
+    any delay at the floor may be the one cause that there is.
 
     Args:
       reached: score of the best.
     """
-    near = late.explains and late.score - reached <= PART_LEAD
+    beyond = max(sum(float(r @ r) for r in best.fit.by_trial) - best.fit.samples, 0.0)
+    near = late.explains and late.score - reached <= max(PART_LEAD, beyond)
     return near or (not best.named and late.floor.reached)
 
 

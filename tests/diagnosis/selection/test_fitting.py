@@ -16,9 +16,10 @@ from diagnosis.criteria import (
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
+from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection import fitting
-from diagnosis.selection.fitting import fit_all, fit_beside, fit_finalists
+from diagnosis.selection.fitting import fit_all, fit_beside, fit_finalists, in_question
 from diagnosis.selection.record import Decision
 from diagnosis.workers import Workers
 
@@ -95,3 +96,22 @@ def test_slopes_are_of_half_as_fine_runs_until_a_fit_to_the_log_comes_near_the_n
     monkeypatch.setattr(fitting, "fit_effects", fit_effects)
     fitting.fit_in_turn(replace(NO_LOG, callback_alone=decimated), ("tip_drag",), np.zeros(1))
     assert seen == goes
+
+
+@pytest.mark.parametrize(
+    ("scores", "gaps", "kept"),
+    [
+        ((0.0, 50.0, 500.0, 600.0), (1.0, 1.0, 2.0, 1.0), ["0", "1", "3"]),
+        ((0.0, 500.0, 600.0, 700.0, 800.0, 900.0), (1.0,) * 6, ["0", "1", "2", "3"]),
+        ((0.0, 10.0, 20.0, 30.0, 40.0, 500.0), (1.0,) * 6, ["0", "1", "2", "3", "4"]),
+    ],
+    ids=["one above the noise", "a few at it", "as many as there are near the best"],
+)
+def test_in_question_is_what_is_near_the_best_and_a_few_more_at_the_noise(scores, gaps, kept):
+    names = list(LIBRARY)
+    ranked = [
+        scored([names[i]], score, floor=NoiseFloor(gap=gap, slow=1.0))
+        for i, (score, gap) in enumerate(zip(scores, gaps, strict=True))
+    ]
+    found = in_question(NO_LOG, ranked)
+    assert [str(names.index(c.names[0])) for c in found] == kept

@@ -4,7 +4,17 @@ from dataclasses import replace
 
 from diagnosis_fixtures import scored
 
-from diagnosis.selection.record import Decision, dropped, failed, judged, kept, made, not_fitted
+from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.selection.record import (
+    Decision,
+    dropped,
+    failed,
+    judged,
+    kept,
+    made,
+    not_fitted,
+    refused,
+)
 from diagnosis.workers import Failure
 
 ONE = scored(["tip_drag"], 12.5)
@@ -43,3 +53,14 @@ def test_the_verdict_says_which_candidates_explain_the_log_and_why_others_do_not
     assert (good.decision, good.stage) == (Decision.KEPT, "verdict")
     assert (bad.decision, bad.effects) == (Decision.DROPPED, ("stiction",))
     assert bad.reason == "held-out trials shift by 20.0, limit 12"
+
+
+def test_sets_are_refused_that_no_imperfection_helps():
+    above = NoiseFloor(gap=2.0, slow=5.0)
+    found = [
+        scored(["tip_drag"], 1.0, floor=above),
+        scored(["tip_drag", "torque_clock"], 2.0),
+        scored(["torque_bias"], 3.0, floor=above),
+    ]
+    assert refused(judged(found)) == {frozenset({"torque_bias"})}
+    assert refused(made("elsewhere", found)) == frozenset()

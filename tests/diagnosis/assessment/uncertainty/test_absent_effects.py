@@ -57,3 +57,12 @@ def test_nothing_is_there_where_all_effects_may_as_well_be_absent():
 def test_an_effect_whose_strength_is_certain_stays(name, own):
     one = verdict(name)
     assert without_absent(one, {name: own}, SAMPLE_S) is one
+
+
+def test_where_the_rest_was_refused_it_is_open():
+    both = verdict("tip_angle_bias", "torque_bias")
+    intervals = {"tip_angle_bias": BIAS, "torque_bias": ABSENT["torque_bias"]}
+    refused = {frozenset({"tip_angle_bias"})}
+    found = without_absent(both, intervals, SAMPLE_S, refused)
+    assert (found.kind, found.effects) == (VerdictKind.UNDECIDED, ("tip_angle_bias",))
+    assert found.confusable == (("tip_angle_bias",), both.effects)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
 
-from diagnosis.criteria import UNRESOLVED_SHARE
+from diagnosis.criteria import CONTENDING, UNRESOLVED_SHARE
 from diagnosis.replay.rig_parameters import NOMINAL
-from diagnosis.selection.scoring.unresolved import unresolved_cost
+from diagnosis.selection.scoring.unresolved import contending, unresolved_cost
 
 SIGMA = {"tip_angle_deg": TIP, "base_torque_n_mm": TORQUE, "base_angle_deg": BASE}
 
@@ -44,3 +44,11 @@ def test_a_tip_that_turns_far_along_with_the_base_is_resolved(problem):
 
 def test_with_the_readings_of_a_usual_log_it_is_less_than_any_odds(problem):
     assert unresolved_cost(problem) < 5.0
+
+
+def test_what_is_out_of_the_question_is_behind_by_more_than_what_is_unresolved(problem):
+    loud = with_readings(problem, base_torque_n_mm=np.full(problem.log.trials[0].time_s.size, 50.0))
+    assert contending(loud) - contending(problem) == pytest.approx(
+        unresolved_cost(loud) - unresolved_cost(problem)
+    )
+    assert contending(problem) > CONTENDING

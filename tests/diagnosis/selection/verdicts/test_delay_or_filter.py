@@ -105,3 +105,22 @@ def test_nothing_but_a_filter_is_never_told_where_a_delay_is_at_the_floor(beside
     assert (found.kind, found.effects) == (kind, tuple(beside))
     if kind is VerdictKind.UNDECIDED:
         assert set(found.confusable) == {(), ("torque_sensor_delay",)}
+
+
+@pytest.mark.parametrize(
+    ("left_sigma", "kind"), [(1.0, VerdictKind.EXPLAINED), (1.05, VerdictKind.UNDECIDED)]
+)
+def test_a_filter_that_leaves_more_than_noise_leads_a_delay_by_that_at_least(left_sigma, kind):
+    """1000 readings at 1.05 sigma leave 102 beyond noise, and a delay is behind by 60."""
+    best = lagging([BIAS, "torque_low_pass"], 100.0)
+    rows = np.full(1000, left_sigma)
+    slopes = np.zeros((1000, best.fit.x.size))
+    slopes[:, np.isin(best.fit.parameterization.owners, ["torque_low_pass"])] = 2.0 * STRONG_SIGMA
+    best = replace(best, fit=replace(best.fit, by_trial=(rows,), jacobian=(slopes,)))
+    late = lagging([BIAS, "torque_sensor_delay"], 160.0)
+    assert verdict_on([best, late]).kind is kind
+
+
+def test_stiffness_and_damping_beside_a_filter_are_in_every_fit():
+    best = scored([BIAS, "torque_low_pass", "damping_error"], 100.0)
+    assert takes_for_a_filter(best, scored([BIAS, "torque_sensor_delay"], 102.0))
