@@ -13,6 +13,7 @@ from reference_rig import simulate as simulate_reference
 
 from diagnosis.criteria import CONTENDING, FINEST_ELEMENTS, FINEST_STEP_S, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.log.trial import Trial
 from diagnosis.replay.resolution import FINE, Resolution
 from diagnosis.replay.rig_parameters import NOMINAL
@@ -128,8 +129,9 @@ def test_only_what_matters_is_refined(monkeypatch):
     assert problem.resolution == replace(FINE, elements=24)
 
 
-def test_candidates_that_are_far_behind_are_dropped(monkeypatch):
-    each = [scored(["tip_drag"], 1.0), scored(["stiction"], 2.0 + CONTENDING)]
+def test_candidates_that_are_far_behind_and_above_the_noise_are_dropped(monkeypatch):
+    above = NoiseFloor(gap=2.0, slow=5.0)
+    each = [scored(["tip_drag"], 1.0), scored(["stiction"], 2.0 + CONTENDING, floor=above)]
     calls, _, found, record = refined(
         monkeypatch,
         lambda problem, there: there.elements == 24 != problem.resolution.elements,
