@@ -49,7 +49,7 @@ class Candidate:
       shift: held-out shift statistic; about 1 where all trials tell the same.
       shift_limit: largest that is of an explanation.
       of_means: whether samples are means of readings, whose noise may be below what a replay resolves.
-      unresolved: cost by which it may lead for what no model of a needle resolves.
+      unresolved_cost: cost by which it may lead for what no model of a needle resolves.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
       swinging_hz: frequencies at which sensors with coloured noise swing, as no noise does.
       shape_open: whether typical forms of its law explain the log too: a bound is nothing against it.
@@ -64,7 +64,7 @@ class Candidate:
     shift: float = 0.0
     shift_limit: float = SHIFT_LIMIT
     of_means: bool = False
-    unresolved: float = 0.0
+    unresolved_cost: float = 0.0
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     swinging_hz: Mapping[str, float] = field(default_factory=dict)
     shape_open: bool = False
@@ -154,7 +154,7 @@ class Candidate:
             held_out_floor=floor_of(left),
             shift=shift_statistic(self.fit),
             of_means=problem.log.means_of > 1,
-            unresolved=unresolved_cost(problem),
+            unresolved_cost=unresolved_cost(problem),
             coloured=slow_where_coloured(problem, self.fit.by_trial),
             swinging_hz=swinging_where_coloured(problem, self.fit.by_trial),
         )

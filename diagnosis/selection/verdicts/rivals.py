@@ -69,7 +69,7 @@ def hardly_led(one: Candidate, best: Candidate, reached: float) -> bool:
     if not part or {*one.named} == {*best.named}:  # else only an imperfection of a sensor is doubtful
         return False
     lead, more = one.score - reached, len(best.names) - len(one.names)
-    if one.explains and lead <= best.unresolved:
+    if one.explains and lead <= best.unresolved_cost:
         return True
     doubtful = one.shift > SHIFT_LIMIT or one.of_means or not one.floor.reached
     return says(one) != () and doubtful and lead <= more * PART_LEAD

@@ -188,6 +188,6 @@ def test_forms_are_of_one_law(one, other, differ):
     ("lead", "kind"), [(400.0, VerdictKind.UNDECIDED), (600.0, VerdictKind.EXPLAINED)]
 )
 def test_what_leads_nothing_by_what_no_model_resolves_is_not_certain(lead, kind):
-    best = replace(scored(["layered_tissue"], 100.0), unresolved=500.0)
+    best = replace(scored(["layered_tissue"], 100.0), unresolved_cost=500.0)
     found = verdict_on([best, scored([], 100.0 + lead)])
     assert (found.kind, found.effects) == (kind, ("layered_tissue",))
