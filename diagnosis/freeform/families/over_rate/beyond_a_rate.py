@@ -14,7 +14,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import INTERFACE
-from diagnosis.freeform.families.over_rate.friction import rates_of
+from diagnosis.freeform.families.over_rate.friction import at_one_rate
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
@@ -39,7 +39,7 @@ def _beyond_a_rate(ranges: LogRanges) -> Family:
             name="damping over rate, beyond one rate",
             title="viscous torque that grows otherwise beyond one rate of turning",
             place=Place.INTERFACE,
-            parameters=_parameters(*rates_of(ranges)),
+            parameters=_parameters(ranges),
             apply=_apply,
         ),
         places=INTERFACE,
@@ -51,30 +51,10 @@ def _beyond_a_rate(ranges: LogRanges) -> Family:
     )
 
 
-def _parameters(slowest_rad_s: float, fastest_rad_s: float) -> tuple[Parameter, ...]:
-    starts = [
-        (slope, slowest_rad_s * (fastest_rad_s / slowest_rad_s) ** share)
-        for slope in _SLOPES
-        for share in _AT
-    ]
-    slopes, rates = zip(*starts, strict=True)
+def _parameters(ranges: LogRanges) -> tuple[Parameter, ...]:
+    slopes, rate = at_one_rate(ranges, _SLOPES, _AT)
     slope = Parameter(
-        name="slope",
-        unit="-",
-        low=_LEAST,
-        high=_MOST,
-        start=slopes,
-        logarithmic=True,
-        neutral=1.0,
-    )
-    rate = Parameter(
-        name="rate",
-        unit="rad/s",
-        low=slowest_rad_s,
-        high=fastest_rad_s,
-        start=rates,
-        logarithmic=True,
-        neutral=None,
+        name="slope", unit="-", low=_LEAST, high=_MOST, start=slopes, logarithmic=True, neutral=1.0
     )
     return slope, rate
 

@@ -1,11 +1,12 @@
 """Friction over the rate at which each piece of shaft slips: dry, and a factor of the damping."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Place
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import INTERFACE, from_neutral, level_of
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
@@ -27,6 +28,29 @@ def rates_of(ranges: LogRanges) -> tuple[float, float]:
     """Lowest and highest rate of a curve over the rate of each piece of shaft, rad/s."""
     fastest = max(ranges.fastest_slip_rad_s, LEAST_RANGE[Variable.RATE])
     return SLOWEST * fastest, FASTEST * fastest
+
+
+def at_one_rate(
+    ranges: LogRanges, sizes: Sequence[float], shares: Sequence[float]
+) -> tuple[tuple[float, ...], Parameter]:
+    """Starts of the size of a law at one rate, and that rate: each size at each share of all rates.
+
+    Args:
+      shares: of the logarithm of the rates, from the slowest to the fastest.
+    """
+    slowest, fastest = rates_of(ranges)
+    starts = [(size, slowest * (fastest / slowest) ** share) for size in sizes for share in shares]
+    each, rates = zip(*starts, strict=True)
+    rate = Parameter(
+        name="rate",
+        unit="rad/s",
+        low=slowest,
+        high=fastest,
+        start=rates,
+        logarithmic=True,
+        neutral=None,
+    )
+    return each, rate
 
 
 def _friction_over_rate(ranges: LogRanges) -> Family:

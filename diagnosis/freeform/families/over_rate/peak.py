@@ -13,7 +13,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import INTERFACE
-from diagnosis.freeform.families.over_rate.friction import rates_of
+from diagnosis.freeform.families.over_rate.friction import at_one_rate
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
@@ -39,7 +39,7 @@ def _peak(ranges: LogRanges) -> Family:
             name="damping over rate, around one rate",
             title="damping that is stronger or weaker around one rate of turning",
             place=Place.INTERFACE,
-            parameters=_parameters(*rates_of(ranges)),
+            parameters=_parameters(ranges),
             apply=_apply,
         ),
         places=INTERFACE,
@@ -51,29 +51,15 @@ def _peak(ranges: LogRanges) -> Family:
     )
 
 
-def _parameters(slowest_rad_s: float, fastest_rad_s: float) -> tuple[Parameter, ...]:
-    starts = [
-        (height, slowest_rad_s * (fastest_rad_s / slowest_rad_s) ** share)
-        for height in _HEIGHTS
-        for share in _AT
-    ]
-    heights, rates = zip(*starts, strict=True)
+def _parameters(ranges: LogRanges) -> tuple[Parameter, ...]:
+    heights, rate = at_one_rate(ranges, _HEIGHTS, _AT)
     height = Parameter(name="height", unit="-", low=_LOWEST, high=_HIGHEST, start=heights)
-    rate = Parameter(
-        name="rate",
-        unit="rad/s",
-        low=slowest_rad_s,
-        high=fastest_rad_s,
-        start=rates,
-        logarithmic=True,
-        neutral=None,
-    )
     width = Parameter(
         name="width",
         unit="-",
         low=_NARROWEST,
         high=_WIDEST,
-        start=(_WIDTH,) * len(rates),
+        start=(_WIDTH,) * len(heights),
         logarithmic=True,
         neutral=None,
     )

@@ -1,11 +1,12 @@
 """Friction over the rate: where it becomes an effect of the library, it is that."""
 
 import numpy as np
+import pytest
 from diagnosis_fixtures import turns
 from free_forms import DAMPING, covered, same_readings
 
 from diagnosis.effects import LIBRARY
-from diagnosis.freeform.families.over_rate.friction import families, rates_of
+from diagnosis.freeform.families.over_rate.friction import at_one_rate, families, rates_of
 from diagnosis.replay.rig_parameters import NOMINAL
 from models.tissue import RATE_POINTS
 
@@ -36,3 +37,10 @@ def test_rates_reach_beyond_the_fastest_slip_of_the_nominal_shaft():
     low, high = rates_of(RANGES)
     assert low < 0.01 * RANGES.fastest_slip_rad_s
     assert high > RANGES.fastest_slip_rad_s
+
+
+def test_a_law_at_one_rate_starts_with_each_size_at_each_share_of_the_rates():
+    sizes, rate = at_one_rate(RANGES, (0.5, 2.0), (0.0, 1.0))
+    assert sizes == (0.5, 0.5, 2.0, 2.0)
+    assert rate.start == pytest.approx((rate.low, rate.high) * 2)
+    assert (rate.low, rate.high) == rates_of(RANGES)
