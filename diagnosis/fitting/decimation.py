@@ -127,6 +127,16 @@ def decimated_noise(noise: Noise, log: PreparedLog, rare: PreparedLog) -> Noise:
     return replace(noise, sigma=sigma, colour=colour)
 
 
+def gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> float:
+    """Gap that is about that on the decimated log, whose samples are means of several readings.
+
+    Args:
+      problem, coarse: the log itself, and decimated.
+    """
+    readings = problem.samples / max(coarse.samples, 1)
+    return float(np.sqrt(1.0 + max(gap**2 - 1.0, 0.0) / readings))
+
+
 def _share(log: PreparedLog, rare: PreparedLog) -> float:
     """Windows of a decimated log per sample of the log."""
     return sum(t.time_s.size for t in rare.trials) / sum(t.time_s.size for t in log.trials)

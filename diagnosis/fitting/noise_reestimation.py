@@ -36,6 +36,7 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import heaviness, white_noise
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.noise.spectrum.flicker import Flicker, flicker_noise
+from diagnosis.prepare.prepared_log import PreparedTrial
 
 Array = NDArray[np.float64]
 Read = tuple[str, Array, Array]  # of a trial: sensor, times, s, (N,), residuals, (N,) or (N, n)
@@ -93,9 +94,8 @@ def _of_exact_predictions(
     found = by_sensor(problem, by_trial)
     if not any(trial.weights for trial in problem.log.trials):
         return found
-    full = by_sensor(problem, _weights(problem))
     for sensor, parts in found.items():
-        kept = [weight > NOISE_LEAST_WEIGHT for _, weight in full[sensor]]
+        kept = [_counts_in_full(t, sensor) for t in problem.log.trials if t.has(sensor)]
         if sum(own.sum() for own in kept) >= NOISE_LEAST_ROWS:
             found[sensor] = [
                 (t, np.where(own, r, np.nan)) for (t, r), own in zip(parts, kept, strict=True)
@@ -103,18 +103,10 @@ def _of_exact_predictions(
     return found
 
 
-def _weights(problem: FitProblem) -> list[Array]:
-    """Weights of the residuals of each trial."""
-    return [
-        np.concatenate(
-            [
-                np.broadcast_to(trial.weights.get(s, 1.0), trial.time_s.shape)[np.isfinite(own)]
-                for s, own in ((s, trial.readings[s]) for s in SENSORS if trial.has(s))
-            ]
-            or [np.zeros(0)]
-        )
-        for trial in problem.log.trials
-    ]
+def _counts_in_full(trial: PreparedTrial, sensor: str) -> NDArray[np.bool_]:
+    """Which readings of a sensor have their weight, (n,)."""
+    weights = np.broadcast_to(trial.weights.get(sensor, 1.0), trial.time_s.shape)
+    return np.asarray(weights[np.isfinite(trial.readings[sensor])] > NOISE_LEAST_WEIGHT)
 
 
 def slow_where_coloured(problem: FitProblem, by_trial: Sequence[Array]) -> dict[str, NoiseFloor]:

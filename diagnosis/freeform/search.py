@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS
+from diagnosis.fitting.decimation import gap_on_the_log
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
@@ -103,13 +104,7 @@ def _open(fits: Sequence[FreeFit]) -> bool:
 def _far(fits: Sequence[FreeFit], problem: FitProblem, coarse: FitProblem) -> bool:
     """Whether all leave far more than noise."""
     least = min((f.fit.gap for f in fits), default=np.inf)
-    return _gap_on_the_log(least, problem, coarse) > FAR_GAP
-
-
-def _gap_on_the_log(gap: float, problem: FitProblem, coarse: FitProblem) -> float:
-    """Gap that is about that on the decimated log, whose samples are means of several readings."""
-    readings = problem.samples / max(coarse.samples, 1)
-    return float(np.sqrt(1.0 + max(gap**2 - 1.0, 0.0) / readings))
+    return gap_on_the_log(least, problem, coarse) > FAR_GAP
 
 
 def _some_more(rough: FitProblem, first: FreeFit) -> FreeFit:

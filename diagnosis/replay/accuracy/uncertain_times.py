@@ -19,7 +19,7 @@ from diagnosis.criteria import UNSAMPLED_SIGMA
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
-from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
+from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.replay.replay import Prediction, replay
 
 Array = NDArray[np.float64]
@@ -84,21 +84,23 @@ def warnings_of_times(errors: TimeErrors, noise: Noise) -> tuple[str, ...]:
 
 
 def _at_other_times(log: PreparedLog, k: int) -> PreparedLog:
-    """The log with its samples at the times of an example, in the same order."""
+    """The log with its samples at the times of an example."""
     trials = (
-        trial if trial.time_errors_s is None else replace(trial, time_s=_kept_apart(trial, k))
+        trial
+        if (errors_s := trial.time_errors_s) is None
+        else replace(trial, time_s=_in_order(trial.time_s, -errors_s[k]))
         for trial in log.trials
     )
     return replace(log, trials=tuple(trials))
 
 
-def _kept_apart(trial: PreparedTrial, k: int) -> Array:
-    assert trial.time_errors_s is not None
-    steps = np.diff(trial.time_s)
+def _in_order(time_s: Array, late_s: Array) -> Array:
+    """Times that are late by that, (N,), as far as they stay in order between the same ends."""
+    steps = np.diff(time_s)
     room = (1 - _NEAREST) / 2 * np.minimum(np.append(steps, steps[-1]), np.append(steps[0], steps))
-    late = np.clip(-trial.time_errors_s[k], -room, room)
-    late[[0, -1]] = 0.0
-    return np.asarray(trial.time_s + late)
+    moved = np.clip(late_s, -room, room)
+    moved[[0, -1]] = 0.0
+    return np.asarray(time_s + moved)
 
 
 def _fast(changes: Array) -> Array:
@@ -119,6 +121,6 @@ def _as_white(changes: Array) -> Array:
 
 def _warning(sensor: str, error_sigma: float) -> str:
     return (
-        f"{sensor}: the times at which rows were read are known so far that it matters by up to "
+        f"{sensor}: it is not known exactly when rows were read, which matters by up to "
         f"{in_sigma(error_sigma)}; readings there count for less: stamp rows when they are read"
     )

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import NEARLY, START_LEFT_SHARE, START_LEFT_TIMES
-from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.decimation import decimated, gap_on_the_log
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.nuisance import late_starts_of
 from diagnosis.fitting.problem import FitProblem
@@ -22,7 +22,7 @@ from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.prepare.start.late_start_detection import begun_late
 from diagnosis.replay.replay import replay
-from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.stage import leading_fitted_again
 from diagnosis.selection.state import SearchState
@@ -39,23 +39,22 @@ def starts_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
     if explained or share_at_the_start(state) < START_LEFT_SHARE:
         return state
     begun = _with_pasts(state)
-    rare, record = leading_fitted_again(STAGE, state, begun.coarse, workers)
-    near = {frozenset(c.names) for c in rare if _gap_on_the_log(c, begun) <= NEARLY}
-    begun = begun.noting(*record)
-    again, explained = begun, False
-    if near:
-        kept = replace(state, candidates=tuple(c for c in state.candidates if {*c.names} in near))
-        again = begun.adding(leading_fitted_again(STAGE, kept, begun.problem, workers))
-        again, explained = again.rechecked()
+    again, explained = _fitted_with_pasts(state, begun, workers).rechecked()
     if not explained:
         return state.noting(noted(STAGE, Decision.DROPPED, "wound up or not, no explanation holds"))
     return again.noting(noted(STAGE, Decision.KEPT, "trials that begin wound up explain the log"))
 
 
-def _gap_on_the_log(rare: Candidate, begun: SearchState) -> float:
-    """The gap that a candidate of the decimated log has on the log, of whose readings that has means."""
-    readings = begun.problem.samples / max(rare.fit.samples, 1)
-    return float(np.sqrt(1.0 + max(rare.fit.gap**2 - 1.0, 0.0) / readings))
+def _fitted_with_pasts(state: SearchState, begun: SearchState, workers: Workers) -> SearchState:
+    """The leading explanations with pasts: of those that come near the noise on the decimated log."""
+    rare, record = leading_fitted_again(STAGE, state, begun.coarse, workers)
+    gaps = {frozenset(c.names): gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) for c in rare}
+    near = tuple(c for c in state.candidates if gaps.get(frozenset(c.names), np.inf) <= NEARLY)
+    begun = begun.noting(*record)
+    if not near:
+        return begun
+    leading = replace(state, candidates=near)
+    return begun.adding(leading_fitted_again(STAGE, leading, begun.problem, workers))
 
 
 def share_at_the_start(state: SearchState) -> float:

@@ -8,7 +8,7 @@ from diagnosis_fixtures import NOISE, RIG, log_of, prepared, problem_of
 from scipy.signal import lfilter
 
 from diagnosis.fitting import decimation
-from diagnosis.fitting.decimation import decimated, decimated_noise
+from diagnosis.fitting.decimation import decimated, decimated_noise, gap_on_the_log
 from diagnosis.log.trial import SENSORS
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.noise.autoregression import Autoregression
@@ -234,3 +234,15 @@ def test_windows_are_longer_of_a_long_log_that_the_coarse_needle_follows_closely
     coarse = decimated(problem, nominal.predictions)
     assert coarse.resolution.step_s == step_s
     assert coarse.log.trials[0].sample_s == pytest.approx(step_s)
+
+
+def test_what_means_leave_beyond_noise_is_less_on_the_log_itself():
+    """Of means over four readings each: a quarter of the square. Noise stays noise."""
+    problem = problem_of(log_of(NOMINAL, seconds=4.0), sigma=NOISE.sigma)
+    (trial,) = problem.log.trials
+    every_fourth = np.arange(trial.time_s.size) % 4 == 0
+    readings = {s: np.where(every_fourth, own, np.nan) for s, own in trial.readings.items()}
+    rare = replace(problem.log, trials=(replace(trial, readings=readings),))
+    coarse = replace(problem, log=rare)
+    assert gap_on_the_log(np.sqrt(1.0 + 4 * 0.21), problem, coarse) == pytest.approx(np.sqrt(1.21))
+    assert gap_on_the_log(0.9, problem, coarse) == 1.0

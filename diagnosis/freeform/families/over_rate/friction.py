@@ -1,6 +1,6 @@
 """Friction over the rate at which each piece of shaft slips: dry, and a factor of the damping."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -51,6 +51,31 @@ def at_one_rate(
         neutral=None,
     )
     return each, rate
+
+
+def damping_over_rate(
+    name: str,
+    title: str,
+    parameters: tuple[Parameter, ...],
+    apply: Callable[..., RigParameters],
+    curve: Callable[..., Points],
+) -> Family:
+    """A law that multiplies the damping by a factor over the rate."""
+    return Family(
+        effect=Effect(
+            name=f"damping over rate, {name}",
+            title=title,
+            place=Place.INTERFACE,
+            parameters=parameters,
+            apply=apply,
+        ),
+        places=INTERFACE,
+        says="rate",
+        title="damping along the shaft",
+        curve=curve,
+        x_unit="rad/s",
+        unit="N mm s / rad / mm",
+    )
 
 
 def _friction_over_rate(ranges: LogRanges) -> Family:

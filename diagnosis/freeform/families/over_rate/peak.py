@@ -11,9 +11,8 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.interface import INTERFACE
-from diagnosis.freeform.families.over_rate.friction import at_one_rate
+from diagnosis.effects.effect import Parameter
+from diagnosis.freeform.families.over_rate.friction import at_one_rate, damping_over_rate
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
@@ -29,26 +28,14 @@ _REACH = 2.5  # widths either side, beyond which nothing of a peak is left: 0.2 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """The law."""
-    return (_peak(ranges),)
-
-
-def _peak(ranges: LogRanges) -> Family:
-    beta = ranges.damping_n_mm_s_per_mm
-    return Family(
-        effect=Effect(
-            name="damping over rate, around one rate",
-            title="damping that is stronger or weaker around one rate of turning",
-            place=Place.INTERFACE,
-            parameters=_parameters(ranges),
-            apply=_apply,
-        ),
-        places=INTERFACE,
-        says="rate",
-        title="damping along the shaft",
-        curve=partial(_damping, beta),
-        x_unit="rad/s",
-        unit="N mm s / rad / mm",
+    law = damping_over_rate(
+        name="around one rate",
+        title="damping that is stronger or weaker around one rate of turning",
+        parameters=_parameters(ranges),
+        apply=_apply,
+        curve=partial(_damping, ranges.damping_n_mm_s_per_mm),
     )
+    return (law,)
 
 
 def _parameters(ranges: LogRanges) -> tuple[Parameter, ...]:
