@@ -110,6 +110,10 @@ SATURATED_SHARE = 0.5
 SATURATED_NEAR_SIGMA = 1.5
 SATURATED_BESIDE = 10
 """Samples at an end of the range; their share of those within 1.5 sigma of it; samples lost beside."""
+SLOW_LEAST_SHARE, SLOW_TIMES_CHANCE, SLOW_REGULAR_SHARE = 0.1, 3.0, 0.7
+"""A sensor that is slower than the log: share of rows that are filled in, in all and as a multiple of
+what chance would do, and share of rows between new readings that are evenly apart. Choices: where noise
+shakes readings by more than their steps, chance is under 0.1."""
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""

@@ -4,7 +4,8 @@ Unusable data are an error that says how to fix it; doubtful data are used or le
 with a warning. The files are never changed.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from diagnosis.log.checks.angle_wraps import refuse_wraps
@@ -20,6 +21,7 @@ from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.sensor_faults import ends_of_ranges, without_faults
 from diagnosis.log.times.even_times import with_even_times
 from diagnosis.log.times.sampling_jitter import with_sampling_times
+from diagnosis.log.times.slow_sensors import with_new_readings
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 from diagnosis.log.trial_file import read_trial, refuse_too_large
 
@@ -52,9 +54,10 @@ def read_rig_log(folder: Path) -> RigLog:
     paths = [folder / entry.file for entry in rig.trials]
     refuse_too_large(paths)
     read = [_readable(path, rig) for path in paths]
-    even, warnings = with_even_times(read)
+    new, slow = with_new_readings(read, noise)
+    even, warnings = with_even_times(new)
     timed, jittered = with_sampling_times(even)
-    warnings, trials = [*warnings, *jittered], list[Trial]()
+    warnings, trials = [*slow, *warnings, *jittered], list[Trial]()
     ends = ends_of_ranges(timed, noise)
     for path, one in zip(paths, timed, strict=True):
         trial, found = without_faults(one, noise, ends)
@@ -69,12 +72,21 @@ def read_rig_log(folder: Path) -> RigLog:
         )
     damping = rig.tissue.damping_n_mm_s_per_mm
     warnings += [
-        *far_claims(trials, noise).values(),
+        *far_claims(_as_read(new, read), noise).values(),
         *torque_warnings(trials, noise, rig.rigidity_n_mm2, damping),
         *lag_warnings(trials, rig.rigidity_n_mm2, damping),
         *plausibility_warnings(trials, noise),
     ]
     return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings), name=folder.resolve().name)
+
+
+def _as_read(trials: Sequence[Trial], read: Sequence[Trial]) -> list[Trial]:
+    """The trials with the base as it was read: a curve in place of readings scatters less."""
+    base = "base_angle_deg"
+    return [
+        replace(trial, table=trial.table.assign(**{base: own[base]}))
+        for trial, own in zip(trials, read, strict=True)
+    ]
 
 
 def files_of(log: RigLog, folder: Path) -> tuple[Path, ...]:

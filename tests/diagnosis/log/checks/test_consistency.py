@@ -88,9 +88,6 @@ LEGITIMATE = {
     "sampled anyhow": TURNS.sample(frac=0.4, random_state=5).sort_values("time_s"),
     "one row in ten": TURNS.iloc[::10],
     "steps of half a degree": TURNS.assign(tip_angle_deg=(TURNS["tip_angle_deg"] * 2).round() / 2),
-    "a slow sensor that is held": TURNS.assign(
-        tip_angle_deg=TURNS["tip_angle_deg"].iloc[np.arange(1200) // 30 * 30].to_numpy()
-    ),
     "empty cells": TURNS.assign(tip_angle_deg=TURNS["tip_angle_deg"].where(TURNS.index % 3 == 0)),
     "seconds of the day": TURNS.assign(time_s=1.7e9 + TURNS["time_s"]),
     "a pulse of the base": TURNS.assign(
@@ -109,6 +106,14 @@ def test_angles_in_radians_are_not_taken_for_swapped(log):
     )
     strong.to_csv(log / "turns.csv", index=False)
     assert any("angles in rad" in warning for warning in read_rig_log(log).warnings)
+
+
+def test_of_a_slow_sensor_that_is_held_it_is_said_alone_that_repeats_do_not_count(log):
+    held = TURNS["tip_angle_deg"].iloc[np.arange(1200) // 30 * 30].to_numpy()
+    TURNS.assign(tip_angle_deg=held).to_csv(log / "turns.csv", index=False)
+    (said,) = read_rig_log(log).warnings
+    assert "tip_angle_deg repeats its last reading" in said
+    assert "not used" in said
 
 
 @pytest.mark.parametrize("what", LEGITIMATE)
