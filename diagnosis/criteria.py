@@ -86,7 +86,7 @@ that it may be. Six logs of the third rig with such a jitter: 17 to 90, -0.15 to
 0.08 to 0.27; 58 without: at most 9, with a correlation of 0.9, and 0.005. Pulses of an exact base: 0.08
 beyond. Under half a step samples keep their order."""
 
-# Sensor faults: which readings are set aside (log/sensor_faults.py)
+# Sensor faults: which readings are set aside (log/faults/sensor_faults.py)
 
 FALSE_ALARM_CHANCE = 1e-9
 """Derived: of calling a run of equal readings frozen, per column; one false alarm in 10^9 columns."""
@@ -114,6 +114,12 @@ SLOW_LEAST_SHARE, SLOW_TIMES_CHANCE, SLOW_REGULAR_SHARE = 0.1, 3.0, 0.7
 """A sensor that is slower than the log: share of rows that are filled in, in all and as a multiple of
 what chance would do, and share of rows between new readings that are evenly apart. Choices: where noise
 shakes readings by more than their steps, chance is under 0.1."""
+HUM_MAINS_HZ, HUM_HARMONICS, HUM_GRID_HZ = (50.0, 60.0), 3, 0.2
+HUM_LOWEST_HZ = 5.0
+"""Mains frequencies and the multiples of them at which a sensor may hum; how far a grid may be off (it
+is kept within 0.2 Hz); and the lowest frequency that sampling may fold a line to: motions are slower."""
+HUM_FALSE_ALARMS = 1e-6
+"""Derived: of white noise that is called a line, per sensor and multiple."""
 BELIEVED_SCATTER = 0.2
 """Times the claim: a sensor that scatters less is filtered, simulated, or in another unit (57 times less
 in rad, 1000 in N m), which is told; and repeats prove nothing."""
@@ -131,7 +137,7 @@ alone (at a corner, 0 of one side); samples that a window may do without, itself
 in a row: what lasts longer is an event."""
 OUTLIER_LEFT_SIGMA, OUTLIER_LEFT_QUIET_SIGMA, OUTLIER_LEFT_NEIGHBOURS = 5.0, 3.5, 2
 OUTLIER_LEFT_MOST_RUN = 10
-OUTLIER_MOST_LEFT, OUTLIER_LEFT_SHARE = 0.01, 0.3
+OUTLIER_MOST_LEFT, OUTLIER_LEFT_SHARE = 0.02, 0.3
 """Outliers beside an explanation: how far they are off, while so many neighbours on each side are not
 (derived: by chance once in two million readings, and once in 500 neighbours); how many in a row, with
 fewer quiet readings between them (a tenth of a second of most logs: what lasts longer is an event); the

@@ -23,7 +23,7 @@ from diagnosis.freeform.in_words import VARIABLES
 from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing
-from diagnosis.log.left_out import without
+from diagnosis.log.faults.left_out import without
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import NominalReplay, at_samples, replay_nominal
 from diagnosis.progress import ProgressClock, Watcher, silent

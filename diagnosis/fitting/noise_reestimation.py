@@ -32,6 +32,7 @@ from diagnosis.criteria import (
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.faults.outlying import without_few
 from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import heaviness, white_noise
 from diagnosis.prepare.noise.sensor_noise import Noise
@@ -69,10 +70,10 @@ def flicker_left(problem: FitProblem, best: Fit, above_hz: float) -> dict[str, F
 
 
 def _in_units_of_sensors(problem: FitProblem, best: Fit) -> dict[str, list[tuple[Array, Array]]]:
-    """Times and what a fit leaves, by sensor and trial."""
+    """Times and what a fit leaves, by sensor and trial; a few outliers have no colour, and are NaN."""
     plain = problem.noise.uncoloured
     in_sigma = _of_exact_predictions(problem, in_units_of(problem, best.by_trial, plain))
-    return {s: [(t, plain[s] * values) for t, values in parts] for s, parts in in_sigma.items()}
+    return {s: [(t, plain[s] * without_few(left)) for t, left in own] for s, own in in_sigma.items()}
 
 
 def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:

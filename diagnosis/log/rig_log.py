@@ -16,9 +16,10 @@ from diagnosis.log.checks.plausibility import plausibility_warnings
 from diagnosis.log.checks.repeated_trials import refuse_repeated_trials
 from diagnosis.log.checks.time_scale import lag_warnings
 from diagnosis.log.checks.torque_scale import torque_warnings
+from diagnosis.log.faults.mains_hum import without_hum
+from diagnosis.log.faults.sensor_faults import ends_of_ranges, without_faults
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
-from diagnosis.log.sensor_faults import ends_of_ranges, without_faults
 from diagnosis.log.times.even_times import with_even_times
 from diagnosis.log.times.sampling_jitter import with_sampling_times
 from diagnosis.log.times.slow_sensors import with_new_readings
@@ -64,6 +65,8 @@ def read_rig_log(folder: Path) -> RigLog:
         refuse_contradictions(path, trial, noise, rig.rigidity_n_mm2)
         warnings += found
         trials.append(trial)
+    trials, hums = without_hum(trials, noise)
+    warnings += hums
     refuse_repeated_trials(paths, trials)
     if not any(trial.has(sensor) for trial in trials for sensor in SENSORS):
         raise UnusableLog(

@@ -6,7 +6,7 @@ from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.left_out import LeftOut
+from diagnosis.log.faults.left_out import LeftOut
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.checked import Checked, check

@@ -26,7 +26,7 @@ from diagnosis.criteria import (
 )
 from diagnosis.log.checks.lengths import length_warnings
 from diagnosis.log.checks.wording import listed
-from diagnosis.log.sensor_faults import lines, quantum, scatter
+from diagnosis.log.faults.sensor_faults import lines, quantum, scatter
 from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]

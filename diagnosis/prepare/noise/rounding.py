@@ -24,8 +24,8 @@ from diagnosis.criteria import (
     HELD_STEPS,
     SHAKEN_STEP_SIGMA,
 )
+from diagnosis.log.faults.sensor_faults import quantum
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.log.sensor_faults import quantum
 from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]

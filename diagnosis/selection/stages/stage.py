@@ -147,10 +147,11 @@ def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, wo
 
 
 def _parts_of_the_leading(state: SearchState) -> list[Candidate]:
-    """The best candidates with some of the effects of leading ones, and the best with none."""
-    leading = leading_on_the_log(state)
+    """The best others with some of the effects of leading ones, and the best with none."""
+    leading = [frozenset(c.names) for c in leading_on_the_log(state)]
     ranked = sorted(state.candidates, key=lambda c: c.score)
-    parts = [c for c in ranked if c.names and any({*c.names} < {*one.names} for one in leading)]
+    others = [c for c in ranked if c.names and frozenset(c.names) not in leading]
+    parts = [c for c in others if any({*c.names} < names for names in leading)]
     return parts[: FINALISTS // 2] + [c for c in ranked if not c.names][:1]
 
 

@@ -1,10 +1,9 @@
 """Where nothing explains a log: readings far off the best explanation, whose neighbours are not.
 
-Outliers are looked for before any model is known, beside the samples on both sides. At a low rate, or
-where several are next to each other, that tells too little; beside an explanation they stand alone. They
-are left out if they are few, if that takes off a good part of what is left beyond noise, and if the log
-is explained then, or with one more imperfection of the recording. What an unmodelled effect leaves
-lasts, or comes at every reversal.
+Outliers are looked for before any model is known, beside the samples on both sides; here beside an
+explanation (log/faults/outlying.py). They are left out if they are few, if that takes off a good part of
+what is left beyond noise, and if the log is explained then, or with one more imperfection of the
+recording.
 """
 
 from collections.abc import Sequence
@@ -13,18 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
-    OUTLIER_LEFT_MOST_RUN,
-    OUTLIER_LEFT_NEIGHBOURS,
-    OUTLIER_LEFT_QUIET_SIGMA,
-    OUTLIER_LEFT_SHARE,
-    OUTLIER_LEFT_SIGMA,
-    OUTLIER_MOST_LEFT,
-)
+from diagnosis.criteria import OUTLIER_LEFT_SHARE
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.left_out import LeftOut
+from diagnosis.log.faults.left_out import LeftOut
+from diagnosis.log.faults.outlying import few, outlying
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
@@ -112,33 +105,13 @@ def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
     ]
 
 
-def outlying(left: Array) -> Mask:
-    """Mask of residuals that are far off in short runs, with quiet neighbours on both sides, (N,).
-
-    In a burst of them, fewer quiet ones than there are neighbours do not part it, and those at its ends
-    may be off by less.
-
-    Args:
-      left: residuals / sigma, (N,).
-    """
-    off = np.flatnonzero(np.abs(left) >= OUTLIER_LEFT_QUIET_SIGMA)
-    rows = np.zeros(left.size, bool)
-    runs = np.split(off, np.flatnonzero(np.diff(off) > OUTLIER_LEFT_NEIGHBOURS) + 1) if off.size else []
-    for start, end in ((int(run[0]), int(run[-1]) + 1) for run in runs):
-        far = np.abs(left[start:end]).max() > OUTLIER_LEFT_SIGMA
-        if not far or end - start > OUTLIER_LEFT_MOST_RUN:
-            continue
-        if start >= OUTLIER_LEFT_NEIGHBOURS and end <= left.size - OUTLIER_LEFT_NEIGHBOURS:
-            rows[start:end] = True
-    return rows
-
-
 def _promise(state: SearchState, found: Sequence[_Readings]) -> bool:
     """Whether outliers are few, and a good part of what is left beyond noise."""
     fit = state.best.fit
-    few = all(one.off.sum() <= max(OUTLIER_MOST_LEFT * one.off.size, 1.0) for one in found)
     squares = sum(float(np.sum(one.left[one.off] ** 2)) for one in found)
-    return few and squares > OUTLIER_LEFT_SHARE * max(fit.cost - fit.prior - fit.samples, 0.0)
+    return all(few(one.off) for one in found) and squares > OUTLIER_LEFT_SHARE * max(
+        fit.cost - fit.prior - fit.samples, 0.0
+    )
 
 
 def _without(state: SearchState, found: Sequence[_Readings]) -> SearchState:

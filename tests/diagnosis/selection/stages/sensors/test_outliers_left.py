@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from diagnosis_fixtures import log_of, start_of_search
 
 from diagnosis.log.trial import Trial
@@ -14,7 +13,6 @@ from diagnosis.selection.stages.sensors.outliers_left import (
     STAGE,
     outliers_and_more,
     outliers_beside_the_best,
-    outlying,
 )
 from diagnosis.workers import Workers
 
@@ -73,26 +71,6 @@ def test_outliers_that_do_not_explain_the_log_stay_in_it():
     assert after.problem is before.problem
     assert after.left_out == ()
     assert decisions(after) == [Decision.DROPPED]
-
-
-@pytest.mark.parametrize(
-    ("far", "found"),
-    [
-        ({50: 8.0}, {50}),
-        ({50: 8.0, 51: -7.0}, {50, 51}),
-        ({50: 8.0, 52: 4.0}, {50, 51, 52}),  # the end of a burst, off by less
-        ({50: 8.0, 53: 8.0}, {50, 53}),
-        ({50: 8.0, 62: 8.0} | dict.fromkeys(range(51, 62), 4.0), set()),
-        ({50: 8.0, 52: -9.0, 53: 30.0}, {50, 51, 52, 53}),  # one burst, whatever is between
-        (dict.fromkeys(range(50, 61), 8.0), set()),  # it lasts
-        ({0: 8.0, 99: 8.0}, set()),  # nothing on one side
-        ({50: 4.9}, set()),
-    ],
-)
-def test_only_short_runs_with_quiet_neighbours_are_outliers(far, found):
-    left = np.random.default_rng(0).uniform(-1.5, 1.5, 100)
-    left[list(far)] = list(far.values())
-    assert set(np.flatnonzero(outlying(left)).tolist()) == found
 
 
 def test_outliers_beside_another_imperfection_are_left_out_if_both_explain_the_log(monkeypatch):

@@ -29,7 +29,7 @@ from diagnosis.criteria import (
     SATURATED_NEAR_SIGMA,
     SATURATED_SHARE,
 )
-from diagnosis.log.outliers import AT_AN_END, Outliers, find_outliers
+from diagnosis.log.faults.outliers import AT_AN_END, Outliers, find_outliers
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 

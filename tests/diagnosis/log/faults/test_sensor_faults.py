@@ -8,14 +8,14 @@ import pytest
 from analytic_log import TURNS, at, change_trial, frozen
 
 from diagnosis.criteria import SATURATED_LEAST_RUN
-from diagnosis.log.rig_log import read_rig_log
-from diagnosis.log.sensor_faults import (
+from diagnosis.log.faults.sensor_faults import (
     ends_of_ranges,
     lines,
     quantum,
     scatter,
     without_faults,
 )
+from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import Trial
 
 FAULTS = [

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagnosis.log.outliers import find_outliers
+from diagnosis.log.faults.outliers import find_outliers
 
 SIGMA, STEP_S = 0.02, 0.01
 TIME = STEP_S * np.arange(3000)

@@ -3,7 +3,7 @@
 import numpy as np
 from diagnosis_fixtures import log_of
 
-from diagnosis.log.left_out import LeftOut, without
+from diagnosis.log.faults.left_out import LeftOut, without
 from diagnosis.replay.rig_parameters import NOMINAL
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"

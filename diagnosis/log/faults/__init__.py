@@ -1,0 +1,1 @@
+"""Faults of sensors: outliers, saturated and frozen readings, hum."""
