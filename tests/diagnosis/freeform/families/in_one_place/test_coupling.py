@@ -1,0 +1,50 @@
+"""A coupling between drive and needle whose spring hardens."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import RIG, prepared, trial, turns
+from free_forms import VOCABULARY, covered
+
+from diagnosis.effects import LIBRARY
+from diagnosis.freeform.families.in_one_place.coupling import families
+from diagnosis.replay.replay import predict
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE, MOST_N_MM = turns(6.0), 1.0
+(FAMILY,) = families(SimpleNamespace(ends={"torque": (-0.7 * MOST_N_MM, MOST_N_MM)}))
+
+
+def test_a_log_without_a_torque_has_no_coupling():
+    assert families(covered(ANGLE, tip=ANGLE)) == ()
+
+
+@pytest.mark.parametrize(("angle_deg", "torque_n_mm"), [(5.0, 0.1), (20.0, 2.0)])
+def test_its_spring_is_linear_and_cubic(angle_deg, torque_n_mm):
+    torques, angles = (np.array(own) for own in FAMILY.curve(angle_deg, torque_n_mm))
+    share = angles / angle_deg
+    np.testing.assert_allclose(0.5 * torque_n_mm * (share + share**3), torques, atol=1e-12)
+    assert torques[-1] > MOST_N_MM
+    assert torques[0] == -torques[-1]
+
+
+def test_one_that_hardly_hardens_is_the_spring_of_the_library():
+    """Half of the torque at which it is twice as stiff, 50 N mm, over 1000 deg."""
+    soft = LIBRARY["base_compliance"].apply(NOMINAL, 50.0 / np.radians(1000.0))
+    hardening = FAMILY.effect.apply(NOMINAL, 1000.0, 100.0)
+    one = prepared(trial(ANGLE))
+    (expected,) = predict(RIG, one, [soft])
+    read = {"base_torque_n_mm": expected.base_torque_n_mm, "tip_angle_deg": expected.tip_angle_deg}
+    (found,) = predict(RIG, replace(one, readings=read), [hardening])
+    (nominal,) = predict(RIG, one, [NOMINAL])
+    off, effect = (
+        np.sqrt(np.mean((own.tip_angle_deg - expected.tip_angle_deg) ** 2)) for own in (found, nominal)
+    )
+    # The torque that it follows is the measured one, smoothed: its own noise turns the needle.
+    assert off < 0.1 * effect
+
+
+def test_what_it_depends_on_has_a_word():
+    assert FAMILY.says in VOCABULARY
