@@ -527,10 +527,10 @@ SLOPES_OF_ITS_OWN = 1.15
 log; slopes from half as fine ones lead there, and are good enough above. A choice that saves time."""
 MOST_PAIRS, PAIR_BASES, FITS_AT_ONCE = 20, 6, 4
 """Pairs that are fitted, leading single effects that they build on, fits between two looks."""
-MOST_TRIPLES, TRIPLE_BASES, TRIPLE_SHARE = 12, 4, 0.5
-"""Sets of three that are fitted, leading pairs that they build on, and the share that a third effect has
-to promise of what the pair leaves beyond noise: the true one takes off all of it, and promised 0.83 to 1
-on 7 blind logs of seed 77."""
+MOST_TRIPLES, TRIPLE_BASES, TRIPLE_OTHERS, TRIPLE_SHARE = 12, 4, 12, 0.5
+"""Sets of three that are fitted, leading pairs that they build on, further ones where none of those has
+a third, and the share that a third effect has to promise of what the pair leaves beyond noise: the true
+one takes off all of it, and promised 0.83 to 1 on 7 blind logs of seed 77."""
 WORTH_THE_LOG = 0.05
 """Share that a richer set has to take off what the set that it builds on leaves beyond noise, on the
 decimated log, before it is fitted to the log itself, where nothing explains that: the true one takes off

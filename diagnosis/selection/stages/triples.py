@@ -1,7 +1,8 @@
 """Three effects at once: a leading pair with any other.
 
-Three laws can imitate much. So the third has to promise most of what the pair leaves beyond noise, where
-that does not explain the log; and where it does, more than noise could.
+Where none of the leading pairs has a third that promises enough, the next pairs are asked: two effects
+that imitate three may lead. Three laws can imitate much. So the third has to promise most of what the
+pair leaves beyond noise, where that does not explain the log; and where it does, more than noise could.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,13 +12,14 @@ from diagnosis.criteria import (
     MOST_TRIPLES,
     SECOND_LEAVES,
     TRIPLE_BASES,
+    TRIPLE_OTHERS,
     TRIPLE_SHARE,
     WORTH_FITTING,
 )
 from diagnosis.fitting.fit import Fit
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_finalists
-from diagnosis.selection.record import dropped
+from diagnosis.selection.record import RecordEntry, dropped
 from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened
@@ -34,20 +36,19 @@ from diagnosis.selection.stages.stage import (
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
+_Pairs = Mapping[tuple[str, ...], Fit]
+
 
 def three_effects(state: SearchState, workers: Workers) -> SearchState:
     """Every effect beside the leading pairs, or beside the one that explains the log."""
     stage = "three effects"
     state, explained = state.rechecked()
     pairs = _explaining(state) if explained else _leading(state)
-    calls = [
-        (state.coarse, pair, name)
-        for names, pair in pairs.items()
-        for name in state.effects
-        if not overlap(name, names)
-    ]
-    screened, record = screen_all(stage, calls, workers)
-    worth = [s for s in screened if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
+    screened, worth, record = _screened(stage, state, pairs, workers, explained=explained)
+    if not (worth or explained):
+        pairs = _others(state, pairs)
+        more, worth, entries = _screened(stage, state, pairs, workers, explained=False)
+        screened, record = [*screened, *more], (*record, *entries)
     if worth and explained:
         worth = promising_on_the_log(stage, worth, _least(pairs), state, workers)
     fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
@@ -67,24 +68,47 @@ def three_effects(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(made)
 
 
-def _least(pairs: Mapping[tuple[str, ...], Fit]) -> float:
+def _screened(
+    stage: str, state: SearchState, pairs: _Pairs, workers: Workers, *, explained: bool
+) -> tuple[list[Screened], list[Screened], tuple[RecordEntry, ...]]:
+    """Pairs with every other effect, those of them that are worth a fit, and the record."""
+    calls = [
+        (state.coarse, pair, name)
+        for names, pair in pairs.items()
+        for name in state.effects
+        if not overlap(name, names)
+    ]
+    found, record = screen_all(stage, calls, workers)
+    worth = [s for s in found if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
+    return found, worth, record
+
+
+def _least(pairs: _Pairs) -> float:
     """Least cost of pairs on the decimated log."""
     return min(pair.cost for pair in pairs.values())
 
 
-def _leading(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
+def _leading(state: SearchState) -> _Pairs:
     """The leading pairs that leave clearly less than single effects."""
     pairs = leaving_clearly_less(state.pairs, state.singles)
     return _fits(near_the_best(pairs, state.singles, TRIPLE_BASES))
 
 
-def _explaining(state: SearchState) -> Mapping[tuple[str, ...], Fit]:
+def _others(state: SearchState, asked: _Pairs) -> _Pairs:
+    """The next pairs: what leads of two effects need not be two of the three."""
+    distinct = {pair.names: pair for pair in sorted(state.pairs, key=lambda c: -c.score)}
+    clear = leaving_clearly_less(tuple(distinct.values()), state.singles)
+    most = len(asked) + TRIPLE_OTHERS
+    return _fits([c for c in near_the_best(clear, state.singles, most) if c.names not in asked])
+
+
+def _explaining(state: SearchState) -> _Pairs:
     """The best explanation if it is a pair, and those about as likely, on the decimated log."""
     best = [pair for pair in state.pairs if {*pair.names} == {*state.best.names}][:1]
     return _fits([*best, *alike_on_the_decimated_log(state.pairs)]) if best else {}
 
 
-def _fits(pairs: Sequence[Candidate]) -> Mapping[tuple[str, ...], Fit]:
+def _fits(pairs: Sequence[Candidate]) -> _Pairs:
     return {pair.names: pair.fit for pair in pairs}
 
 

@@ -31,17 +31,37 @@ def asked_for(state, monkeypatch, *, explained, pairs):
     return sets_screened(module.three_effects, state, monkeypatch, explained=explained)
 
 
-def test_every_other_effect_is_tried_beside_the_leading_pairs_alone(still_start, monkeypatch):
+def _with_others(*pair):
+    """A pair with every other effect, but for one that contains one of it."""
+    apart = (
+        ({"stiction", "coulomb_friction"} - {*pair})
+        if {*pair} & {"stiction", "coulomb_friction"}
+        else set()
+    )
+    return [(*pair, other) for other in EFFECTS if other not in (*pair, *apart)]
+
+
+@pytest.mark.parametrize("promising", [True, False])
+def test_every_other_effect_is_tried_beside_the_leading_pairs_alone_if_one_promises_enough(
+    promising, still_start, monkeypatch
+):
     last = [scored(["tip_drag", "stiction"], 9.0)]
     first = [scored([name, "torque_bias"], 1.0) for name in LEADING]
-    asked = asked_for(still_start, monkeypatch, explained=False, pairs=(*last, *first))
+    state = replace(still_start, effects=EFFECTS, pairs=(*last, *first))
+    asked = []
+
+    def screened(_stage, calls, _workers):
+        asked.extend((*base.names, name) for _, base, name in calls)
+        return [Screened(names=asked[-1], start=np.zeros(3), cost=0.0, gain=0.0)], ()
+
+    monkeypatch.setattr(module, "screen_all", screened)
+    monkeypatch.setattr(module, "_worth_a_third", lambda *_, explained: promising)
+    monkeypatch.setattr(module, "fit_screened", lambda *_: ([], ()))
+    monkeypatch.setattr(type(state), "rechecked", lambda own: (own, False))
+    module.three_effects(state, Workers())
     assert len(LEADING) == TRIPLE_BASES
-    assert asked == [
-        (name, "torque_bias", other)
-        for name in LEADING
-        for other in EFFECTS
-        if other not in (name, "torque_bias") and {name, other} != {"stiction", "coulomb_friction"}
-    ]
+    leading = [names for name in LEADING for names in _with_others(name, "torque_bias")]
+    assert asked == leading + ([] if promising else _with_others("tip_drag", "stiction"))
 
 
 def test_nothing_is_tried_beside_a_pair_that_leaves_far_more_than_the_best(still_start, monkeypatch):
