@@ -115,6 +115,34 @@ def test_without_torque_a_damping_that_is_off_is_undecided_against_stiffness(tmp
     assert found.assessment.next_experiment.startswith("no run that this rig can do")
 
 
+def _held(time_s, values):
+    """Read every 40 ms, and written every 10."""
+    return values[np.arange(time_s.size) // 4 * 4]
+
+
+def _on_lines(time_s, values):
+    """Read every 40 ms, and interpolated."""
+    return np.interp(time_s, time_s[::4], values[::4])
+
+
+def _humming(time_s, values):
+    return values + 0.5 * np.sin(2 * np.pi * 50.02 * time_s)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("logged", [_held, _on_lines, _humming])
+def test_a_tip_that_is_logged_as_labs_do_lacks_nothing(logged, tmp_path):
+    """Of an exact rig; repeated readings look like a tip sensor that is 15 ms late."""
+    folder = make_log(tmp_path / "log", {}, seed=6)
+    for path in folder.glob("trial_*.csv"):
+        table = pd.read_csv(path)
+        tip = logged(table["time_s"].to_numpy(), table["tip_angle_deg"].to_numpy())
+        table.assign(tip_angle_deg=tip).to_csv(path, index=False)
+    found = diagnose(read_rig_log(folder), workers=1)
+    assert found.verdict.kind is VerdictKind.NONE
+    assert found.verdict.best.floor.reached
+
+
 @pytest.mark.slow
 def test_dry_friction_that_never_slides_is_undecided_and_the_next_experiment_slides():
     found = diagnose(log_of(DRY), workers=1)
