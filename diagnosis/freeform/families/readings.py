@@ -227,7 +227,7 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
         says=added.says,
         title=added.title,
         curve=partial(_factors if added.acts_on in FACTORS else _points, curve),
-        x_unit=UNITS[added.variable],
+        x_unit=_x_unit(added),
         unit=_unit(added),
     )
 
@@ -256,6 +256,13 @@ def _unit(added: Added) -> str:
     if added.acts_on in _SLIPS:
         return "deg/s"
     return "N mm" if added.acts_on in (ActsOn.DRIVE_TORQUE, ActsOn.TORQUE_READING) else "deg"
+
+
+def _x_unit(added: Added) -> str:
+    """Of the variable; a hysteresis is over how far what it acts on has changed since it turned back."""
+    if added.variable is not Variable.TURNED_BY:
+        return UNITS[added.variable]
+    return "N mm" if added.acts_on is ActsOn.TORQUE_READING else "deg"
 
 
 def _factors(curve: SmoothCurve, *c: float) -> Points:

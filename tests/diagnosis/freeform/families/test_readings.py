@@ -131,3 +131,10 @@ def test_a_gain_that_does_not_change_is_a_wrong_gain():
         assert same_readings(ANGLE, rig_of(f"{name} gain over time", np.log(1.1)), gained)
         _, factors = FAMILIES[f"{name} gain over time"].curve(np.log(1.1), *[0.0] * 11)
         np.testing.assert_allclose(factors, 1.1)
+
+
+def test_a_hysteresis_is_told_over_what_has_changed_since_it_turned_back():
+    units = {name: one.x_unit for name, one in FAMILIES.items() if name.endswith("over turned_by")}
+    assert units.pop("torque reading over turned_by") == "N mm"
+    assert units
+    assert set(units.values()) == {"deg"}
