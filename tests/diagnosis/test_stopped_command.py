@@ -105,7 +105,7 @@ def test_interrupted_twice_nothing_is_written(diagnosing, tmp_path):
     time.sleep(0.2)  # two that come at once are one
     os.killpg(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=PATIENCE_S)
-    assert process.returncode == 130
+    assert process.returncode == 130, said
     assert "no incomplete file is left" in said
     assert not list(tmp_path.rglob("*.*"))
     assert not any(alive(pid) for pid in workers)
