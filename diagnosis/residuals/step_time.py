@@ -36,8 +36,12 @@ def step_of(time_s: Array, left: Array) -> ResidualStep | None:
 
 
 def _beginning(time_s: Array, left: Array, sample: int) -> int:
+    """The sample from which it moved; that of the step itself if nothing was read shortly before."""
     beside_s = time_s - time_s[sample]
-    before = float(np.median(left[(beside_s < 0) & (beside_s > -_BESIDE_S)]))
+    shortly = left[(beside_s < 0) & (beside_s > -_BESIDE_S)]
+    if shortly.size == 0:
+        return sample
+    before = float(np.median(shortly))
     change = float(np.median(left[(beside_s >= 0) & (beside_s < _BESIDE_S)])) - before
     noise = float(np.std(np.diff(left))) / math.sqrt(2.0 * _SMOOTH)
     smooth = uniform_filter1d(left, _SMOOTH, mode="nearest")

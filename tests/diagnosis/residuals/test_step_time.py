@@ -33,3 +33,10 @@ def test_the_gain_is_that_of_the_step_beside_a_mean():
 def test_a_trial_that_is_short_or_level_has_none():
     assert step_of(TIME[:40], NOISE[:40]) is None
     assert step_of(TIME, np.zeros(TIME.size)) is None
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_step_in_a_gap_begins_at_the_first_reading_after_it():
+    gap = (TIME > 4.0) & (TIME < 7.0)
+    step = step_of(TIME[~gap], (NOISE + following(5.0, 0.3, 5.0))[~gap])
+    assert TIME[~gap][step.sample] == pytest.approx(7.0, abs=0.02)
