@@ -5,12 +5,13 @@ grid, off by a few hundredths of 1 Hz, and its amplitude and phase are steady:
 
     reading = signal + a cos(2 pi f t) + b sin(2 pi f t) + noise
 
-A needle does nothing of the kind: what it does lasts for a motion. Over a whole trial of duration T,
+A needle does nothing of the kind: what it does lasts for a motion. Over a part of a trial of duration T,
 tapered, a line is sharper than 4 / T, and motions, less their means over 0.1 s, leave next to nothing at
 its frequency. So a line is
-what stands out of the spectrum beside it, in all trials together. For noise the power at a frequency /
-the mean power beside it has an exponential distribution, and its sum over K trials that of a gamma
-distribution. The line of each trial is then subtracted, which costs it two degrees of freedom.
+what stands out of the spectrum beside it, in all parts together. For noise the power at a frequency /
+the mean power beside it has an exponential distribution, and its sum over K parts that of a gamma
+distribution. The line of each part is then subtracted, which costs it two degrees of freedom. Parts
+end where nothing was read for a while, and before the grid's frequency wanders.
 
 A line that the sampling folds to a low frequency is left: there it is a drift, or part of a motion. So
 is one that the base shows, too: it may turn.
@@ -37,7 +38,8 @@ Array = NDArray[np.float64]
 
 _BASE = "base_angle_deg"
 _FINER = 4  # frequencies that are looked at per 1 / T
-_MEANS_S = 0.1
+_MEANS_S, _MEANS_OF = 0.1, 8  # samples at least
+_PART_S, _PAUSE_S = 120.0, 2.0
 _DEGENERATE = 1e-4  # share of the normal equations of a line at half the sampling rate: sines are 0
 _BESIDE = (4, 40)  # frequencies beside a line that are compared with it, in 1 / T
 
@@ -52,13 +54,14 @@ def without_hum(trials: Sequence[Trial], noise: Mapping[str, float]) -> tuple[li
             continue
         found = [_subtracted(trial, sensor, found_hz) for trial in changed]
         changed = [trial for trial, _ in found]
-        warnings.append(_told(sensor, found_hz, [size for _, size in found if size > 0]))
+        warnings.append(_told(sensor, found_hz, [size for _, sizes in found for size in sizes]))
     return changed, warnings
 
 
 def _line_hz(trials: Sequence[Trial], column: str, about_hz: float) -> float | None:
     """Frequency of the strongest line near one; None: it is no stronger than noise makes one."""
-    read = [(t, y) for t, y in (_read(trial, column) for trial in trials) if _shows(t, about_hz)]
+    rows = [(trial, own) for trial in trials for own in _parts(trial, column, about_hz)]
+    read = [(trial["time_s"][own], trial[column][own]) for trial, own in rows]
     if not read:
         return None
     step_hz = 1.0 / (_FINER * max(float(t[-1] - t[0]) for t, _ in read))
@@ -72,20 +75,23 @@ def _line_hz(trials: Sequence[Trial], column: str, about_hz: float) -> float | N
 
 
 def _power(read: Sequence[tuple[Array, Array]], tried_hz: Array) -> Array:
-    """Power at each frequency / the mean power beside all of them, added up over trials, (F,)."""
+    """Power at each frequency / the mean power beside all of them, added up over parts, (F,)."""
     return np.asarray(np.sum([_above_its_neighbours(t, y, tried_hz) for t, y in read], axis=0))
 
 
-def _read(trial: Trial, column: str) -> tuple[Array, Array]:
-    """Times, s, and readings of a column, (N,) each."""
+def _parts(trial: Trial, column: str, frequency_hz: float) -> list[NDArray[np.intp]]:
+    """Rows of the parts of a trial whose readings may show a line, at a frequency that is fast."""
     if not trial.has(column):
-        return np.zeros(0), np.zeros(0)
-    finite = np.isfinite(trial[column])
-    return trial["time_s"][finite], trial[column][finite]
+        return []
+    read = np.flatnonzero(np.isfinite(trial[column]))
+    time_s = trial["time_s"][read]
+    number = np.cumsum(np.diff(time_s, prepend=time_s[0]) > _PAUSE_S)
+    count = np.floor((time_s - time_s[0]) / _PART_S)
+    ends = np.flatnonzero((np.diff(number) != 0) | (np.diff(count) != 0)) + 1
+    return [own for own in np.split(read, ends) if _shows(trial["time_s"][own], frequency_hz)]
 
 
 def _shows(time_s: Array, frequency_hz: float) -> bool:
-    """Whether readings at these times show a line, at a frequency that is fast."""
     if time_s.size < FEWEST_ROWS:
         return False
     rate_hz = 1.0 / float(np.median(np.diff(time_s)))
@@ -100,7 +106,8 @@ def _above_its_neighbours(time_s: Array, values: Array, tried_hz: Array) -> Arra
         _taken_off(time_s, tapered, weights, own)
         for own in (tried_hz, tried_hz[0] - apart, tried_hz[-1] + apart)
     )
-    return np.asarray(found / np.mean([below, above]))
+    level = float(np.mean([below, above]))
+    return np.asarray(found / level) if level > 0 else np.zeros(tried_hz.size)
 
 
 def _taken_off(time_s: Array, tapered: Array, weights: Array, frequencies_hz: Array) -> Array:
@@ -123,31 +130,37 @@ def _taken_off(time_s: Array, tapered: Array, weights: Array, frequencies_hz: Ar
 
 
 def _fast(time_s: Array, values: Array) -> Array:
-    """Values less lines through their means over five periods: it jumps in no gap, (N,)."""
-    block = np.unique(np.floor((time_s - time_s[0]) / _MEANS_S), return_inverse=True)[1]
+    """Values less lines through their means over some periods: it jumps in no gap, (N,)."""
+    width_s = max(_MEANS_S, _MEANS_OF * float(np.median(np.diff(time_s))))
+    block = np.unique(np.floor((time_s - time_s[0]) / width_s), return_inverse=True)[1]
     count = np.bincount(block)
     middle, means = (np.bincount(block, weights=own) / count for own in (time_s, values))
     return np.asarray(values - np.interp(time_s, middle, means))
 
 
 def _taper(time_s: Array) -> Array:
-    """Hann weights over a trial, whose sum is 1, (N,)."""
+    """Hann weights over a part, whose sum is 1, (N,)."""
     since = (time_s - time_s[0]) / (time_s[-1] - time_s[0])
     weights = np.sin(np.pi * since) ** 2
     return np.asarray(weights / weights.sum())
 
 
-def _subtracted(trial: Trial, sensor: str, frequency_hz: float) -> tuple[Trial, float]:
-    """The trial without a line, and its amplitude; 0 where it has none."""
-    time_s, values = _read(trial, sensor)
-    if not _shows(time_s, frequency_hz):
-        return trial, 0.0
+def _subtracted(trial: Trial, sensor: str, frequency_hz: float) -> tuple[Trial, list[float]]:
+    """The trial without a line, and its amplitude in each part."""
+    rest, sizes = trial[sensor].copy(), list[float]()
+    for rows in _parts(trial, sensor, frequency_hz):
+        found = _fitted(trial["time_s"][rows], rest[rows], frequency_hz)
+        rest[rows] -= found
+        sizes.append(float(np.sqrt(2 * np.mean(found**2))))
+    return replace(trial, table=trial.table.assign(**{sensor: rest})), sizes
+
+
+def _fitted(time_s: Array, values: Array, frequency_hz: float) -> Array:
+    """The line in readings, (N,)."""
     root, line = np.sqrt(_taper(time_s)), _line(time_s, frequency_hz)
     fast = np.column_stack([_fast(time_s, own) for own in (*line.T, values)]) * root[:, None]
     found, *_ = np.linalg.lstsq(fast[:, :2], fast[:, 2], rcond=np.sqrt(_DEGENERATE))
-    rest = trial[sensor] - _line(trial["time_s"], frequency_hz) @ found
-    size = float(np.sqrt(2 * np.mean((line @ found) ** 2)))
-    return replace(trial, table=trial.table.assign(**{sensor: rest})), size
+    return np.asarray(line @ found)
 
 
 def _line(time_s: Array, frequency_hz: float) -> Array:

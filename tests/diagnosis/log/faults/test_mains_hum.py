@@ -63,6 +63,18 @@ def _far(time_s):
     return 500 * np.sin(0.4 * time_s)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_pause_of_a_week_costs_nothing_and_a_sensor_that_reads_nothing_has_no_hum():
+    one = trial(200, hum_hz=50.0)
+    late = one.table.assign(time_s=one.table["time_s"] + 604_800.0, **{TORQUE: 0.0})
+    both = pd.concat([one.table.assign(**{TORQUE: 0.0}), late], ignore_index=True)
+    (found,), (said,) = without_hum([Trial(name=one.name, table=both)], NOISE)
+    assert TIP in said
+    np.testing.assert_array_equal(found[TORQUE], 0.0)
+    clean = np.tile(trial(200)[TIP], 2)
+    assert np.sqrt(np.mean((found[TIP] - clean) ** 2)) < 0.4 * np.sqrt(2 * 4 / clean.size) + 0.1 * 0.2
+
+
 def test_its_frequency_and_size_are_told():
     _, (said,) = without_hum([trial(500, hum_hz=49.98, column=TORQUE, size=2.0)], NOISE)
     assert "base_torque_n_mm hums at 49.98 Hz" in said
