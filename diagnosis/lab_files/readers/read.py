@@ -10,6 +10,7 @@ from diagnosis.lab_files.readers.parquet_file import read_parquet_file
 from diagnosis.lab_files.readers.text_file import read_text_file
 from models.errors import InvalidValue
 from models.names import is_file
+from models.user_text import unprintable
 
 _READERS: dict[str, Callable[[Path], LabFile]] = {
     ".parquet": read_parquet_file,
@@ -46,4 +47,20 @@ def read_lab_files(paths: Sequence[Path]) -> tuple[LabFile, ...]:
                 "CSV or other text, .parquet, .mat or .mcap",
                 _OTHER[path.suffix.lower()],
             )
-    return tuple(_READERS.get(path.suffix.lower(), read_text_file)(path) for path in paths)
+    files = tuple(_READERS.get(path.suffix.lower(), read_text_file)(path) for path in paths)
+    for file in files:
+        _refuse_unreadable_names(file)
+    return files
+
+
+def _refuse_unreadable_names(file: LabFile) -> None:
+    """A mapping names columns and numbers, and nobody could read it."""
+    columns = (name for table in file.tables for name in table.columns)
+    for name in (*columns, *file.scalars):
+        if unprintable(name):
+            raise InvalidValue(
+                str(file.path),
+                name,
+                "names of columns without control characters",
+                "rename it, or save the file again: it may be damaged",
+            )

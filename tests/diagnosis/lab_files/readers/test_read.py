@@ -1,8 +1,11 @@
 """Which reader reads which file."""
 
+import numpy as np
 import pytest
 from lab_files import write_csv, write_mat, write_parquet
 
+from diagnosis.lab_files.readers import read as module
+from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
 from diagnosis.lab_files.readers.read import read_lab_files
 from models.errors import InvalidValue
 
@@ -30,3 +33,16 @@ def test_a_missing_file_and_two_of_one_name_are_refused(tmp_path):
     (tmp_path / "b").mkdir()
     with pytest.raises(InvalidValue, match="differ"):
         read_lab_files([write_csv(tmp_path), write_csv(tmp_path / "b")])
+
+
+@pytest.mark.parametrize("values", [[1.0], [1.0, 2.0, 3.0]], ids=["a number", "a column"])
+def test_a_name_that_nobody_can_read_names_its_file(values, tmp_path, monkeypatch):
+    """As of a damaged MAT file: a mapping that names it could not be read again."""
+    path = tmp_path / "run.mat"
+    path.write_bytes(b"x")
+    columns = {"tor\x00que": np.array(values)} if len(values) > 1 else {"time": np.arange(3.0)}
+    scalars = {} if len(values) > 1 else {"tor\x00que": values[0]}
+    damaged = LabFile(path=path, tables=(LabTable(title="run.mat", columns=columns),), scalars=scalars)
+    monkeypatch.setitem(module._READERS, ".mat", lambda _: damaged)
+    with pytest.raises(InvalidValue, match=r"run\.mat.*control characters"):
+        read_lab_files([path])
