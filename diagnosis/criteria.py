@@ -86,7 +86,7 @@ that it may be. Six logs of the third rig with such a jitter: 17 to 90, -0.15 to
 0.08 to 0.27; 58 without: at most 9, with a correlation of 0.9, and 0.005. Pulses of an exact base: 0.08
 beyond. Under half a step samples keep their order."""
 
-# Sensor faults: which readings are set aside (log/faults/sensor_faults.py)
+# Sensor faults: which readings are set aside (log/faults)
 
 FALSE_ALARM_CHANCE = 1e-9
 """Derived: of calling a run of equal readings frozen, per column; one false alarm in 10^9 columns."""

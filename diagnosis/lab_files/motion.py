@@ -13,7 +13,7 @@ from scipy.signal import find_peaks, savgol_filter
 
 from diagnosis.criteria import REST_LEAST_S, REST_RATE_SHARE, REST_RATE_SIGMA, REVERSAL_SHARE
 from diagnosis.lab_files.readers.lab_table import Array
-from diagnosis.log.faults.sensor_faults import quantum
+from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.white_noise import white_noise
 
 Mask = NDArray[np.bool_]

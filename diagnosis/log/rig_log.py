@@ -17,7 +17,8 @@ from diagnosis.log.checks.repeated_trials import refuse_repeated_trials
 from diagnosis.log.checks.time_scale import lag_warnings
 from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.faults.mains_hum import without_hum
-from diagnosis.log.faults.sensor_faults import ends_of_ranges, without_faults
+from diagnosis.log.faults.saturated import ends_of_ranges
+from diagnosis.log.faults.sensor_faults import without_faults
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.times.even_times import with_even_times

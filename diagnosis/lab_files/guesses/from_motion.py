@@ -21,7 +21,7 @@ from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.readers.lab_table import Array
 from diagnosis.lab_files.resampling import rate_hz
 from diagnosis.lab_files.series import Series
-from diagnosis.log.faults.sensor_faults import quantum
+from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.trial import SENSORS
 from diagnosis.log.white_noise import white_noise
 

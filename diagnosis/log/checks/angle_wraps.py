@@ -21,7 +21,7 @@ from diagnosis.criteria import (
     WRAP_PERIODS_DEG,
     WRAP_REMAINDER,
 )
-from diagnosis.log.faults.sensor_faults import lines
+from diagnosis.log.checks.wording import lines
 from diagnosis.log.trial import Trial, UnusableLog
 from diagnosis.log.white_noise import white_noise
 

@@ -30,7 +30,7 @@ from diagnosis.criteria import (
 from diagnosis.log.checks.binned_trial import BinnedTrial, binned, misfit
 from diagnosis.log.checks.torque_scale import stiffest_n_mm_per_rad, torque_over_twist
 from diagnosis.log.checks.travel import travelled_mm
-from diagnosis.log.faults.sensor_faults import scatter
+from diagnosis.log.faults.scatter import scatter
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 
 Array = NDArray[np.float64]

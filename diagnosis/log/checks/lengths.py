@@ -20,7 +20,7 @@ from diagnosis.criteria import (
     SHORTEST_SHAFT_MM,
 )
 from diagnosis.log.checks.travel import travelled_mm
-from diagnosis.log.faults.sensor_faults import lines
+from diagnosis.log.checks.wording import lines
 from diagnosis.log.trial import Trial, UnusableLog
 
 Array = NDArray[np.float64]

@@ -25,8 +25,8 @@ from diagnosis.criteria import (
     UNEVEN_QUARTILES,
 )
 from diagnosis.log.checks.lengths import length_warnings
-from diagnosis.log.checks.wording import listed
-from diagnosis.log.faults.sensor_faults import lines, quantum, scatter
+from diagnosis.log.checks.wording import lines, listed
+from diagnosis.log.faults.scatter import quantum, scatter
 from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]

@@ -7,7 +7,7 @@ of n with p^(n-1). If s is below q/2, repeats are normal and nothing is conclude
 """
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from scipy.ndimage import label
 
 from diagnosis.criteria import (
-    BELIEVED_SCATTER,
     FALSE_ALARM_CHANCE,
     FROZEN_LEAST_AGAIN,
     FROZEN_LEAST_RUN,
@@ -24,12 +23,11 @@ from diagnosis.criteria import (
     FROZEN_TIMES_USUAL_RUN,
     NOISE_RATIO,
     PULSES_SHARE,
-    SATURATED_BESIDE,
-    SATURATED_LEAST_RUN,
-    SATURATED_NEAR_SIGMA,
-    SATURATED_SHARE,
 )
+from diagnosis.log.checks.wording import lines
 from diagnosis.log.faults.outliers import AT_AN_END, Outliers, find_outliers
+from diagnosis.log.faults.saturated import saturated_rows
+from diagnosis.log.faults.scatter import quantum, runs_of, seen_scatter
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 
@@ -40,19 +38,6 @@ BASE = "base_angle_deg"
 _EMPTIED = "these samples are not used"
 _REPLACED = "replaced by values from their neighbours"
 _KEPT = "used as it is: correct or cut these rows"
-
-
-def ends_of_ranges(trials: Sequence[Trial], noise: Mapping[str, float]) -> dict[str, set[float]]:
-    """By sensor: the ends of its range at which readings of a trial stand, and those of the other sign.
-
-    They are the sensor's: readings that are exactly there are saturated in every trial, though few.
-    """
-    found: dict[str, set[float]] = {name: set() for name in noise}
-    for trial in trials:
-        for name in (n for n in noise if trial.has(n)):
-            ends = _ends(trial[name], noise[name])
-            found[name].update(ends, [-end for end in ends])
-    return found
 
 
 def without_faults(
@@ -75,7 +60,7 @@ def without_faults(
     for name, off in outliers.items():
         read, claim = trial[name], noise[name]
         values = np.where(off.rows, np.nan, read)
-        saturated = _saturated(values, claim, ends.get(name, ()))
+        saturated = saturated_rows(values, claim, ends.get(name, ()))
         frozen = _frozen(trial["time_s"], np.where(saturated, np.nan, values), claim)
         faults = {
             "stands at an end of its range, or next to it (saturated)": (saturated, _KEPT),
@@ -127,33 +112,6 @@ def _beside(rows: Mask) -> Mask:
     return np.asarray(np.convolve(rows, np.ones(3), "same") > 0)
 
 
-def scatter(values: Array) -> float:
-    """Standard deviation of the white part of a reading, without its runs of equal values."""
-    finite = values[np.isfinite(values)]
-    starts, lengths = _runs(finite)
-    moving = finite[np.repeat(lengths < FROZEN_LEAST_RUN, lengths)] if starts.size else finite
-    return white_noise([moving], order=2)
-
-
-def quantum(values: Array) -> float:
-    """The smallest step between two different readings; 0 if there is only one value."""
-    steps = np.diff(np.unique(values[np.isfinite(values)]))
-    # Decimal fractions differ by rounding alone in their last bits.
-    steps = steps[steps > 1e-9 * np.nanmax(np.abs(values), initial=0.0)]
-    return float(steps.min()) if steps.size else 0.0
-
-
-def lines(rows: Mask) -> str:
-    """Rows of a table as lines of its file, in words: the header is line 1."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], rows.astype(np.int8), [0]))))
-    spans = [
-        f"{a + 2}" if b == a + 1 else f"{a + 2}-{b + 1}" for a, b in edges.reshape(-1, 2)[:5].tolist()
-    ]
-    more = edges.size // 2 - len(spans)
-    which = "line" if rows.sum() == 1 else "lines"
-    return f"{which} {', '.join(spans)}" + (f" and {more} more" if more else "")
-
-
 def _told(file: str, column: str, what: str, rows: Mask, done: str) -> str:
     return f"{file}: {column} {what} in {rows.sum()} of {rows.size} samples, {lines(rows)}; {done}"
 
@@ -177,45 +135,10 @@ def _outlier_scale(values: Array, claim: float) -> float:
     return float(np.nanmax([found, NOISE_RATIO[0] * claim, quantum(values) / math.sqrt(12)]))
 
 
-def _runs(values: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """First index and length of every run of equal values."""
-    starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0)))[: values.size]
-    return starts, np.diff(np.concatenate((starts, [values.size])))
-
-
-def _seen_scatter(values: Array, claim: float) -> float:
-    """The smaller of claimed and found scatter; 0 if the readings show none."""
-    found = scatter(values)
-    if not claim > 0 or found < BELIEVED_SCATTER * claim:
-        return 0.0
-    least = min(claim, found) if math.isfinite(found) else claim
-    return least if least >= 0.5 * quantum(values) else 0.0
-
-
-def _ends(values: Array, claim: float) -> list[float]:
-    """Ends of the range at which more readings stand than are within one scatter of them."""
-    width = max(_seen_scatter(values, claim), quantum(values))
-    if _seen_scatter(values, claim) == 0 or np.nanmin(values) == np.nanmax(values):
-        return []
-    found = []
-    for end in (np.nanmin(values), np.nanmax(values)):
-        at, near = values == end, np.abs(values - end) <= SATURATED_NEAR_SIGMA * width
-        if at.sum() >= SATURATED_LEAST_RUN and at.sum() > SATURATED_SHARE * near.sum():
-            found.append(float(end))
-    return found
-
-
-def _saturated(values: Array, claim: float, ends: Collection[float]) -> Mask:
-    """Mask of saturated readings, given ends of the range that other trials show."""
-    rows = np.isin(values, [*_ends(values, claim), *ends])
-    # Between samples at the end, those that noise alone took off it are no better.
-    return np.convolve(rows, np.ones(2 * SATURATED_BESIDE + 1), "same") > 0 if rows.any() else rows
-
-
 def _frozen(time_s: Array, values: Array, claim: float) -> Mask:
     finite = np.flatnonzero(np.isfinite(values))
-    starts, lengths = _runs(values[finite])
-    noise = _seen_scatter(values, claim)
+    starts, lengths = runs_of(values[finite])
+    noise = seen_scatter(values, claim)
     rows = np.zeros(values.size, bool)
     if noise == 0 or finite.size == 0:
         return rows

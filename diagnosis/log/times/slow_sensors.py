@@ -30,7 +30,7 @@ from diagnosis.criteria import (
     SLOW_TIMES_CHANCE,
 )
 from diagnosis.log.checks.wording import listed
-from diagnosis.log.faults.sensor_faults import quantum
+from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 

@@ -24,7 +24,7 @@ from diagnosis.criteria import (
     HELD_STEPS,
     SHAKEN_STEP_SIGMA,
 )
-from diagnosis.log.faults.sensor_faults import quantum
+from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 

@@ -3,18 +3,10 @@
 import re
 
 import numpy as np
-import pandas as pd
 import pytest
 from analytic_log import TURNS, at, change_trial, frozen
 
-from diagnosis.criteria import SATURATED_LEAST_RUN
-from diagnosis.log.faults.sensor_faults import (
-    ends_of_ranges,
-    lines,
-    quantum,
-    scatter,
-    without_faults,
-)
+from diagnosis.log.faults.sensor_faults import without_faults
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import Trial
 
@@ -97,42 +89,8 @@ def test_saturated_samples_are_set_aside(log):
     assert np.isfinite(tip[true < 50]).mean() > 0.98
 
 
-def test_few_saturated_samples_are_set_aside_where_another_trial_shows_the_end_of_the_range():
-    noise = {"base_angle_deg": 0.0, "tip_angle_deg": 0.3}
-    many, few = (
-        Trial(name=f"{limit}.csv", table=TURNS.assign(tip_angle_deg=turned.clip(-60.0, 60.0)))
-        for limit, turned in (("many", TURNS["tip_angle_deg"]), ("few", _peaking(61.0)))
-    )
-    ends = ends_of_ranges([many, few], noise)
-    assert ends["tip_angle_deg"] == {60.0, -60.0}
-    at_the_end = few["tip_angle_deg"] == 60.0
-    assert 0 < at_the_end.sum() < SATURATED_LEAST_RUN
-    alone, told = (without_faults(few, noise, own)[0]["tip_angle_deg"] for own in ({}, ends))
-    assert np.isfinite(alone[at_the_end]).all()
-    assert np.isnan(told[at_the_end]).all()
-    assert np.isfinite(told).sum() > 0.9 * told.size
-
-
-def _peaking(most):
-    """A slow wave that scatters, and peaks at a value once."""
-    phase = np.linspace(0.0, 2.0 * np.pi, len(TURNS))
-    noise = np.random.default_rng(8).normal(0.0, 0.3, len(TURNS))
-    return pd.Series(20.0 + (most - 20.0) * np.sin(phase) ** 31 + noise)
-
-
-def test_scatter_is_that_of_the_noise_and_quantum_that_of_the_display():
-    rng = np.random.default_rng(6)
-    values = np.linspace(0, 100, 5000) + rng.normal(0, 0.3, 5000)
-    # 4500 second differences of correlated noise: a standard error of about 2 %.
-    assert scatter(values) == pytest.approx(0.3, rel=0.06)
-    stuck = values.copy()
-    stuck[1000:2500] = stuck[1000]
-    assert scatter(stuck) == pytest.approx(0.3, rel=0.06)
-    assert quantum((values / 0.25).round() * 0.25) == pytest.approx(0.25)
-    assert quantum(np.ones(10)) == 0
-
-
-def test_rows_are_told_as_lines_of_the_file():
-    rows = np.zeros(20, bool)
-    rows[[0, 3, 4, 5, 19]] = True
-    assert lines(rows) == "lines 2, 5-7, 21"
+def test_a_trial_without_faults_stays_as_it_is():
+    trial = Trial(name="turns.csv", table=TURNS)
+    found, warnings = without_faults(trial, {"base_angle_deg": 0.02, "tip_angle_deg": 0.4})
+    assert warnings == []
+    assert found.table.equals(TURNS)
