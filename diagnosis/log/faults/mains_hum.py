@@ -6,12 +6,11 @@ grid, off by a few hundredths of 1 Hz, and its amplitude and phase are steady:
     reading = signal + a cos(2 pi f t) + b sin(2 pi f t) + noise
 
 A needle does nothing of the kind: what it does lasts for a motion. Over a part of a trial of duration T,
-tapered, a line is sharper than 4 / T, and motions, less their means over 0.1 s, leave next to nothing at
-its frequency. So a line is
-what stands out of the spectrum beside it, in all parts together. For noise the power at a frequency /
-the mean power beside it has an exponential distribution, and its sum over K parts that of a gamma
-distribution. The line of each part is then subtracted, which costs it two degrees of freedom. Parts
-end where nothing was read for a while, and before the grid's frequency wanders.
+tapered, a line is sharper than 4 / T, and motions leave next to nothing at its frequency
+(`spectral_line`). So a line is what stands out of the spectrum beside it, in all parts together. For
+noise the power at a frequency / the mean power beside it has an exponential distribution, and its sum
+over K parts that of a gamma distribution. The line of each part is then subtracted, which costs it two
+degrees of freedom. Parts end where nothing was read for a while, and before the grid's frequency wanders.
 
 A line that the sampling folds to a low frequency is left: there it is a drift, or part of a motion. So
 is one that the base shows, too: it may turn.
@@ -32,23 +31,21 @@ from diagnosis.criteria import (
     HUM_LOWEST_HZ,
     HUM_MAINS_HZ,
 )
+from diagnosis.log.faults.spectral_line import line_in, power_over_neighbours
 from diagnosis.log.trial import SENSORS, Trial
 
 Array = NDArray[np.float64]
 
 _BASE = "base_angle_deg"
 _FINER = 4  # frequencies that are looked at per 1 / T
-_MEANS_S, _MEANS_OF = 0.1, 8  # samples at least
 _PART_S, _PAUSE_S = 120.0, 2.0
-_DEGENERATE = 1e-4  # share of the normal equations of a line at half the sampling rate: sines are 0
-_BESIDE = (4, 40)  # frequencies beside a line that are compared with it, in 1 / T
 
 
 def without_hum(trials: Sequence[Trial], noise: Mapping[str, float]) -> tuple[list[Trial], list[str]]:
     """The trials without hum in the readings of sensors, and a warning for each line."""
     changed, warnings = list(trials), []
-    mains = [own * times for own in HUM_MAINS_HZ for times in range(1, HUM_HARMONICS + 1)]
-    for sensor, about_hz in ((s, own) for s in SENSORS for own in mains if s in noise):
+    lines_hz = _apart(trials)
+    for sensor, about_hz in ((s, own) for s in SENSORS for own in lines_hz if s in noise):
         found_hz = _line_hz(changed, sensor, about_hz)
         if found_hz is None or _line_hz(changed, _BASE, about_hz) is not None:
             continue
@@ -56,6 +53,25 @@ def without_hum(trials: Sequence[Trial], noise: Mapping[str, float]) -> tuple[li
         changed = [trial for trial, _ in found]
         warnings.append(_told(sensor, found_hz, [size for _, sizes in found for size in sizes]))
     return changed, warnings
+
+
+def _apart(trials: Sequence[Trial]) -> list[float]:
+    """The lines, without those that sampling folds to where another one is in every trial."""
+    rates_hz = [_rate_hz(trial["time_s"]) for trial in trials]
+    found: dict[tuple[float, ...], float] = {}
+    for line_hz in (own * times for own in HUM_MAINS_HZ for times in range(1, HUM_HARMONICS + 1)):
+        folded = tuple(round(_folded_hz(line_hz, rate_hz), 2) for rate_hz in rates_hz)
+        found.setdefault(folded, line_hz)
+    return list(found.values())
+
+
+def _rate_hz(time_s: Array) -> float:
+    return 1.0 / float(np.median(np.diff(time_s)))
+
+
+def _folded_hz(line_hz: float, rate_hz: float) -> float:
+    """Frequency at which samples show a line."""
+    return abs(line_hz - rate_hz * round(line_hz / rate_hz))
 
 
 def _line_hz(trials: Sequence[Trial], column: str, about_hz: float) -> float | None:
@@ -76,7 +92,7 @@ def _line_hz(trials: Sequence[Trial], column: str, about_hz: float) -> float | N
 
 def _power(read: Sequence[tuple[Array, Array]], tried_hz: Array) -> Array:
     """Power at each frequency / the mean power beside all of them, added up over parts, (F,)."""
-    return np.asarray(np.sum([_above_its_neighbours(t, y, tried_hz) for t, y in read], axis=0))
+    return np.asarray(np.sum([power_over_neighbours(t, y, tried_hz) for t, y in read], axis=0))
 
 
 def _parts(trial: Trial, column: str, frequency_hz: float) -> list[NDArray[np.intp]]:
@@ -92,81 +108,17 @@ def _parts(trial: Trial, column: str, frequency_hz: float) -> list[NDArray[np.in
 
 
 def _shows(time_s: Array, frequency_hz: float) -> bool:
-    if time_s.size < FEWEST_ROWS:
-        return False
-    rate_hz = 1.0 / float(np.median(np.diff(time_s)))
-    return abs(frequency_hz - rate_hz * round(frequency_hz / rate_hz)) > HUM_LOWEST_HZ
-
-
-def _above_its_neighbours(time_s: Array, values: Array, tried_hz: Array) -> Array:
-    apart = np.arange(*_BESIDE) / float(time_s[-1] - time_s[0])
-    weights = _taper(time_s)
-    tapered = weights * _fast(time_s, values)
-    found, below, above = (
-        _taken_off(time_s, tapered, weights, own)
-        for own in (tried_hz, tried_hz[0] - apart, tried_hz[-1] + apart)
-    )
-    level = float(np.mean([below, above]))
-    return np.asarray(found / level) if level > 0 else np.zeros(tried_hz.size)
-
-
-def _taken_off(time_s: Array, tapered: Array, weights: Array, frequencies_hz: Array) -> Array:
-    """What the least-squares line of each frequency takes off the mean square of readings, (F,).
-
-    Args:
-      frequencies_hz: evenly spaced, (F,).
-    """
-    step_hz = float(frequencies_hz[1] - frequencies_hz[0])
-    turned = np.exp(2j * np.pi * frequencies_hz[0] * time_s)
-    step = np.exp(2j * np.pi * step_hz * time_s)
-    read, twice = np.zeros((2, frequencies_hz.size), complex)
-    for at in range(frequencies_hz.size):
-        read[at], twice[at] = turned @ tapered, turned**2 @ weights
-        turned *= step
-    right = np.stack([read.real, read.imag], axis=-1)
-    normal = 0.5 * np.stack([1 + twice.real, twice.imag, twice.imag, 1 - twice.real], axis=-1)
-    inverse = np.linalg.pinv(normal.reshape(-1, 2, 2), rcond=_DEGENERATE, hermitian=True)
-    return np.asarray(np.einsum("fi,fij,fj->f", right, inverse, right))
-
-
-def _fast(time_s: Array, values: Array) -> Array:
-    """Values less lines through their means over some periods: it jumps in no gap, (N,)."""
-    width_s = max(_MEANS_S, _MEANS_OF * float(np.median(np.diff(time_s))))
-    block = np.unique(np.floor((time_s - time_s[0]) / width_s), return_inverse=True)[1]
-    count = np.bincount(block)
-    middle, means = (np.bincount(block, weights=own) / count for own in (time_s, values))
-    return np.asarray(values - np.interp(time_s, middle, means))
-
-
-def _taper(time_s: Array) -> Array:
-    """Hann weights over a part, whose sum is 1, (N,)."""
-    since = (time_s - time_s[0]) / (time_s[-1] - time_s[0])
-    weights = np.sin(np.pi * since) ** 2
-    return np.asarray(weights / weights.sum())
+    return time_s.size >= FEWEST_ROWS and _folded_hz(frequency_hz, _rate_hz(time_s)) > HUM_LOWEST_HZ
 
 
 def _subtracted(trial: Trial, sensor: str, frequency_hz: float) -> tuple[Trial, list[float]]:
     """The trial without a line, and its amplitude in each part."""
     rest, sizes = trial[sensor].copy(), list[float]()
     for rows in _parts(trial, sensor, frequency_hz):
-        found = _fitted(trial["time_s"][rows], rest[rows], frequency_hz)
+        found = line_in(trial["time_s"][rows], rest[rows], frequency_hz)
         rest[rows] -= found
         sizes.append(float(np.sqrt(2 * np.mean(found**2))))
     return replace(trial, table=trial.table.assign(**{sensor: rest})), sizes
-
-
-def _fitted(time_s: Array, values: Array, frequency_hz: float) -> Array:
-    """The line in readings, (N,)."""
-    root, line = np.sqrt(_taper(time_s)), _line(time_s, frequency_hz)
-    fast = np.column_stack([_fast(time_s, own) for own in (*line.T, values)]) * root[:, None]
-    found, *_ = np.linalg.lstsq(fast[:, :2], fast[:, 2], rcond=np.sqrt(_DEGENERATE))
-    return np.asarray(line @ found)
-
-
-def _line(time_s: Array, frequency_hz: float) -> Array:
-    """Cosine and sine of a line, (N, 2)."""
-    phase = 2 * np.pi * frequency_hz * time_s
-    return np.column_stack([np.cos(phase), np.sin(phase)])
 
 
 def _told(sensor: str, line_hz: float, sizes: Sequence[float]) -> str:
