@@ -10,7 +10,7 @@ tapered, a line is sharper than 4 / T, and motions leave next to nothing at its 
 (`spectral_line`). So a line is what stands out of the spectrum beside it, in all parts together. For
 noise the power at a frequency / the mean power beside it has an exponential distribution, and its sum
 over K parts that of a gamma distribution. The line of each part is then subtracted, which costs it two
-degrees of freedom. Parts end where nothing was read for a while, and before the grid's frequency wanders.
+degrees of freedom. Parts end where nothing was read for a while, and before the grid wanders.
 
 A line that the sampling folds to a low frequency is left: there it is a drift, or part of a motion. So
 is one that the base shows, too: it may turn.
