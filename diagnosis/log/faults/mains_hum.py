@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 
 _BASE = "base_angle_deg"
 _FINER = 4  # frequencies that are looked at per 1 / T
-_PART_S, _PAUSE_S = 120.0, 2.0
+_PART_S, _PAUSE_S = 40.0, 2.0
 
 
 def without_hum(trials: Sequence[Trial], noise: Mapping[str, float]) -> tuple[list[Trial], list[str]]:

@@ -3,11 +3,13 @@
     readings = signal + a cos(2 pi f t) + b sin(2 pi f t) + noise
 
 The signal is slow: less its means over 0.1 s, also across gaps, it leaves next to nothing at a fast
-frequency. Cosine and sine are fitted by least squares, since at half the sampling rate there is no sine.
+frequency. Cosine and sine are fitted by least squares (Lomb and Scargle), since at half the sampling
+rate there is no sine.
 """
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import lombscargle
 
 Array = NDArray[np.float64]
 
@@ -21,13 +23,12 @@ def power_over_neighbours(time_s: Array, values: Array, tried_hz: Array) -> Arra
 
     Args:
       time_s, values: of the readings, (N,) each.
-      tried_hz: evenly spaced, (F,).
+      tried_hz: increasing, (F,).
     """
     apart = np.arange(*_BESIDE) / float(time_s[-1] - time_s[0])
-    weights = _taper(time_s)
-    tapered = weights * _fast(time_s, values)
+    fast, weights = _fast(time_s, values), _taper(time_s)
     found, below, above = (
-        _taken_off(time_s, tapered, weights, own)
+        lombscargle(time_s, fast, 2 * np.pi * own, weights=weights)
         for own in (tried_hz, tried_hz[0] - apart, tried_hz[-1] + apart)
     )
     level = float(np.mean([below, above]))
@@ -40,25 +41,6 @@ def line_in(time_s: Array, values: Array, frequency_hz: float) -> Array:
     fast = np.column_stack([_fast(time_s, own) for own in (*line.T, values)]) * root[:, None]
     found, *_ = np.linalg.lstsq(fast[:, :2], fast[:, 2], rcond=np.sqrt(_DEGENERATE))
     return np.asarray(line @ found)
-
-
-def _taken_off(time_s: Array, tapered: Array, weights: Array, frequencies_hz: Array) -> Array:
-    """What the least-squares line of each frequency takes off the mean square of readings, (F,).
-
-    Args:
-      frequencies_hz: evenly spaced, (F,).
-    """
-    step_hz = float(frequencies_hz[1] - frequencies_hz[0])
-    turned = np.exp(2j * np.pi * frequencies_hz[0] * time_s)
-    step = np.exp(2j * np.pi * step_hz * time_s)
-    read, twice = np.zeros((2, frequencies_hz.size), complex)
-    for at in range(frequencies_hz.size):
-        read[at], twice[at] = turned @ tapered, turned**2 @ weights
-        turned *= step
-    right = np.stack([read.real, read.imag], axis=-1)
-    normal = 0.5 * np.stack([1 + twice.real, twice.imag, twice.imag, 1 - twice.real], axis=-1)
-    inverse = np.linalg.pinv(normal.reshape(-1, 2, 2), rcond=_DEGENERATE, hermitian=True)
-    return np.asarray(np.einsum("fi,fij,fj->f", right, inverse, right))
 
 
 def _fast(time_s: Array, values: Array) -> Array:
