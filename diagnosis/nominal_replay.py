@@ -17,6 +17,7 @@ from diagnosis.log.checks.noise_claims import far_claims
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.lost_counts import with_counts_restored
+from diagnosis.prepare.low_band import in_low_band
 from diagnosis.prepare.motion.averaging import averaged
 from diagnosis.prepare.noise.sensor_noise import Noise, estimate_noise
 from diagnosis.prepare.prepare import prepare
@@ -80,7 +81,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
-    log = averaged(with_counts_restored(log, _nominal_gap))
+    log = in_low_band(averaged(with_counts_restored(log, _nominal_gap)))
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     noise = _noise(log, prepared, predictions, base_sigma_deg)
@@ -116,7 +117,7 @@ def fitted_pasts(problem: FitProblem) -> Fit:
 
 def _nominal_gap(log: RigLog) -> float:
     """Root mean square of what the nominal rig leaves, in units of the claimed noise."""
-    prepared, _ = prepare(averaged(log))
+    prepared, _ = prepare(in_low_band(averaged(log)))
     claims = log.rig.sensors.by_column()
     left = _residuals(prepared, replay(prepared))
     each = [values / (claims[s] or 1.0) for s, parts in left.items() for _, values in parts]

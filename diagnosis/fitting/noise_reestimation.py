@@ -4,7 +4,9 @@ Fourth differences give the noise whatever the nominal model lacks, but with low
 from some thousands of samples. The residual of a good explanation is white, and its first differences
 give the noise to 1 %. They are used if they are within 8 % of the first estimate: otherwise
 something fast is left in them. The first estimate is that of the core of the noise: where its tails are
-heavy, it may be larger by what they add.
+heavy, it may be larger by what they add. Of smoothed readings rare rows count, whose fourth differences
+have the motion in them: there any less is believed, since nothing that a model lacks makes differences
+smaller.
 
 Whether the noise is white at all is tested on the residual of a fitted effect, and again on that of
 the best explanation: the residual of the nominal rig contains too much else
@@ -80,7 +82,8 @@ def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors, from the residual of the best fit."""
     first = with_colour(problem, best) if problem.noise.colour else problem.noise
     left = _of_exact_predictions(problem, in_units_of(problem, best.by_trial, first))
-    change = {s: _change([values for _, values in own]) for s, own in left.items()}
+    rare = {s for trial in problem.log.trials for s in trial.smoothed_above_hz}
+    change = {s: _change([v for _, v in own], rare=s in rare) for s, own in left.items()}
     sigma = {s: max(own * change.get(s, 1.0), first.least.get(s, 0.0)) for s, own in first.sigma.items()}
     return replace(first, sigma=sigma)
 
@@ -147,11 +150,15 @@ def _other_units(part: Read, before: Noise, noise: Noise) -> Array:
     return noise.whitened(sensor, time_s, smaller * before.restored(sensor, time_s, values))
 
 
-def _change(parts: Sequence[Array]) -> float:
-    """Noise / its first estimate, from residuals in units of that estimate."""
+def _change(parts: Sequence[Array], *, rare: bool) -> float:
+    """Noise / its first estimate, from residuals in units of that estimate.
+
+    Args:
+      rare: whether rows are rare, and the first estimate may be far above the noise.
+    """
     found, heavy = white_noise(parts, order=1), heaviness(parts)
     tails = min(heavy, NOISE_HEAVIEST) if heavy > NOISE_HEAVY else 1.0
-    trusted = (1 - NOISE_TRUST, (1 + NOISE_TRUST) * tails)
+    trusted = (0.0 if rare else 1 - NOISE_TRUST, (1 + NOISE_TRUST) * tails)
     return float(np.clip(found if np.isfinite(found) else 1.0, *trusted))
 
 

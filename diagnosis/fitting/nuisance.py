@@ -6,7 +6,8 @@ a fixed place, as in the paper's equation (9), or the material derivative of the
 this is fitted separately for trials of constant depth and of growing depth.
 
 Each trial that began late has its own parameters for the motion of the base before it. And where a
-reading jumps within a trial, the size of that is fitted.
+reading jumps within a trial, the size of that is fitted. Of readings that were smoothed after
+recording, what the filter did to slow ones is fitted.
 """
 
 from dataclasses import replace
@@ -16,7 +17,7 @@ from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import Past, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import Past, ReadingJump, RigParameters, SmoothedReading
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
@@ -50,6 +51,9 @@ _TURN = Parameter(
     prior_sigma=START_SPREAD_DEG / _START_UNIT_DEG,
 )
 _SHARE = Parameter(name="share", unit="-", low=0.0, high=1.0, start=(0.0,))
+_COEFFICIENT = Parameter(
+    name="second", unit="-", low=-6.0, high=6.0, start=(0.0,), scale=0.2, reported=False
+)
 SLIP_CONSTANT_DEPTH = Effect(
     name="slip_constant_depth",
     title="the rate that the tissue resists, at constant depth",
@@ -118,10 +122,31 @@ def reading_jump(jump: ReadingJump, *, sigma: float) -> Effect:
     )
 
 
+def _with_smoothing(sensor: str, rig: RigParameters, second: float, fourth: float) -> RigParameters:
+    one = SmoothedReading(sensor=sensor, second_coefficient=second, fourth_coefficient=fourth)
+    return replace(rig, smoothed=(*rig.smoothed, one))
+
+
+def smoothing_of(log: PreparedLog) -> tuple[Effect, ...]:
+    """Nuisance effects for what the filters of smoothed readings leave at low frequencies."""
+    sensors = dict.fromkeys(sensor for trial in log.trials for sensor in trial.smoothed_above_hz)
+    return tuple(
+        Effect(
+            name=f"smoothing of {sensor}",
+            title=f"the filter by which {sensor} was smoothed",
+            place=Place.SENSOR,
+            parameters=(_COEFFICIENT, replace(_COEFFICIENT, name="fourth")),
+            apply=partial(_with_smoothing, sensor),
+            needs=sensor,
+        )
+        for sensor in sensors
+    )
+
+
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:
     """All nuisance effects of a log."""
     sliding = [trial for trial in log.trials if (abs(trial.speed_mm_s) > SLIDING_MM_S).any()]
     growing = [trial.schedule.mesh is not Mesh.EULERIAN for trial in sliding]
     slips = [SLIP_CONSTANT_DEPTH] if not all(growing) else []
     slips += [SLIP_GROWING_DEPTH] if any(growing) else []
-    return (*(LIBRARY[name] for name in SCATTER), *slips, *late_starts_of(log))
+    return (*(LIBRARY[name] for name in SCATTER), *slips, *smoothing_of(log), *late_starts_of(log))

@@ -1,5 +1,6 @@
 """`rig.yaml`: the nominal model, as the experimenter states it."""
 
+from collections.abc import Mapping
 from typing import Literal
 
 from pydantic import Field
@@ -45,6 +46,15 @@ class SensorNoise(Record):
             "base_torque_n_mm": self.base_torque_noise_n_mm,
             "tip_angle_deg": self.tip_angle_noise_deg,
         }
+
+    def scaled(self, factors: Mapping[str, float]) -> "SensorNoise":
+        """The claims times factors, by the column of the sensor."""
+        own = {column: factors.get(column, 1.0) * claim for column, claim in self.by_column().items()}
+        return SensorNoise(
+            tip_angle_noise_deg=own["tip_angle_deg"],
+            base_torque_noise_n_mm=own["base_torque_n_mm"],
+            base_angle_noise_deg=own["base_angle_deg"],
+        )
 
 
 class TrialEntry(Record):

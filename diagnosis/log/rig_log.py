@@ -4,8 +4,8 @@ Unusable data are an error that says how to fix it; doubtful data are used or le
 with a warning. The files are never changed.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from diagnosis.log.checks.angle_wraps import refuse_wraps
@@ -19,6 +19,7 @@ from diagnosis.log.checks.torque_scale import torque_warnings
 from diagnosis.log.faults.mains_hum import without_hum
 from diagnosis.log.faults.saturated import ends_of_ranges
 from diagnosis.log.faults.sensor_faults import without_faults
+from diagnosis.log.faults.smoothed import smoothed_above_hz
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.times.even_times import with_even_times
@@ -36,6 +37,7 @@ class RigLog:
       warnings: what is doubtful, and what was done about it.
       name: name of its folder; empty: it was not read from one.
       means_of: number of readings that a sample is the mean of.
+      smoothed_above_hz: corner of the filter by which readings were smoothed, by sensor.
     """
 
     rig: NominalRig
@@ -43,6 +45,7 @@ class RigLog:
     warnings: tuple[str, ...] = ()
     name: str = ""
     means_of: int = 1
+    smoothed_above_hz: Mapping[str, float] = field(default_factory=dict)
 
 
 def read_rig_log(folder: Path) -> RigLog:
@@ -75,13 +78,22 @@ def read_rig_log(folder: Path) -> RigLog:
             f"that can be used; add the column; {'; '.join(warnings)[:400]}"
         )
     damping = rig.tissue.damping_n_mm_s_per_mm
+    smoothed, filtered = smoothed_above_hz(trials, noise)
+    rough = {column: claim for column, claim in noise.items() if column not in smoothed}
     warnings += [
-        *far_claims(_as_read(new, read), noise).values(),
+        *filtered,
+        *far_claims(_as_read(new, read), rough).values(),
         *torque_warnings(trials, noise, rig.rigidity_n_mm2, damping),
         *lag_warnings(trials, rig.rigidity_n_mm2, damping),
         *plausibility_warnings(trials, noise),
     ]
-    return RigLog(rig=rig, trials=tuple(trials), warnings=tuple(warnings), name=folder.resolve().name)
+    return RigLog(
+        rig=rig,
+        trials=tuple(trials),
+        warnings=tuple(warnings),
+        name=folder.resolve().name,
+        smoothed_above_hz=smoothed,
+    )
 
 
 def _as_read(trials: Sequence[Trial], read: Sequence[Trial]) -> list[Trial]:

@@ -30,9 +30,10 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
     for trial, rows in zip(log.trials, filled, strict=True):
         smooth = _prepared(trial, rows, sigma_deg)
         counted = without_repeats(rows, log.rig, steps)
-        trials.append(_with_inertia(replace(smooth, readings=counted), log.rig))
-    ready = PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded, means_of=log.means_of)
-    return ready, sigma_deg
+        ready = replace(smooth, readings=counted, smoothed_above_hz=log.smoothed_above_hz)
+        trials.append(_with_inertia(ready, log.rig))
+    prepared = PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded, means_of=log.means_of)
+    return prepared, sigma_deg
 
 
 def _memory_s(rig: NominalRig, trial: Trial) -> float:

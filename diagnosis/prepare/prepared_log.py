@@ -39,6 +39,7 @@ class PreparedTrial:
       late_start: None: it begins untwisted and at rest.
       weights: by sensor, those of its residuals; 1 for other sensors.
       time_errors_s: what `time_s` may be off by, by example, (K, N); None: they are exact.
+      smoothed_above_hz: corner of the filter by which readings were smoothed, by sensor.
     """
 
     name: str
@@ -54,6 +55,7 @@ class PreparedTrial:
     late_start: LateStart | None = None
     weights: Mapping[str, Array] = field(default_factory=dict)
     time_errors_s: Array | None = None
+    smoothed_above_hz: Mapping[str, float] = field(default_factory=dict)
 
     def has(self, sensor: str) -> bool:
         """Whether the trial has readings of this sensor."""

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from diagnosis.cores import side_by_side
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.low_band import low_passed
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.past import schedule_with_past
 from diagnosis.replay.resolution import FINE, Resolution
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters, SmoothedReading
 from diagnosis.replay.sensing.sensors import driven, reads_ahead, sensed
 from models.errors import InvalidValue
 from sim.needles.run import Run, SimulationFailed
@@ -173,7 +174,10 @@ def _tip_deg(rig: RigParameters, run: Run) -> Array:
 def _as_read(
     rig: RigParameters, prediction: Prediction, trial: PreparedTrial, steps_s: Array
 ) -> Prediction:
-    """A prediction with the jumps of sensors, and with what was read where a clock is past the end."""
+    """A prediction with the jumps of sensors, and with what was read where a clock is past the end.
+
+    Of readings that were smoothed, it is that in their low band.
+    """
     shown, at_s = {sensor: prediction[sensor] for sensor in SENSORS}, trial.time_s
     for jump in (one for one in rig.jumps if one.sensor in shown):
         shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)
@@ -181,4 +185,8 @@ def _as_read(
         if trial.has(sensor):
             read = trial.readings[sensor]
             shown[sensor] = np.where(ahead & np.isfinite(read), read, shown[sensor])
+    for sensor, corner_hz in trial.smoothed_above_hz.items():
+        own = next((one for one in rig.smoothed if one.sensor == sensor), SmoothedReading(sensor=sensor))
+        coefficients = own.second_coefficient, own.fourth_coefficient
+        shown[sensor] = low_passed(at_s, shown[sensor], corner_hz, *coefficients)
     return Prediction(**shown)

@@ -63,6 +63,20 @@ class ReadingJump:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SmoothedReading:
+    """A reading that was smoothed after recording, without delay (`diagnosis/prepare/low_band.py`).
+
+    Attributes:
+      sensor: column of the reading.
+      second_coefficient, fourth_coefficient: of what the filter leaves at low frequencies.
+    """
+
+    sensor: str
+    second_coefficient: float = 0.0
+    fourth_coefficient: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class RigParameters:
     """Parameters that may differ from the nominal rig.
 
@@ -82,6 +96,7 @@ class RigParameters:
       material_share_growing_depth: the same where the depth changes.
       pasts: turns of the base before trials that began late.
       jumps: readings that are off from a moment on.
+      smoothed: readings that were smoothed after recording.
       free: a free-form law; None: none.
     """
 
@@ -124,6 +139,7 @@ class RigParameters:
     material_share_growing_depth: float = 0.0
     pasts: tuple[Past, ...] = ()
     jumps: tuple[ReadingJump, ...] = ()
+    smoothed: tuple[SmoothedReading, ...] = ()
     free: FreeLaw | None = None
 
     def needle(self, rig: NominalRig) -> Needle:
@@ -195,6 +211,7 @@ class RigParameters:
             torque_scale=1.0,
             torque_delay_s=0.0,
             drive_friction_n_mm=0.0,
+            smoothed=(),
             jumps=tuple(jump for jump in self.jumps if jump.sensor == BASE),
             free=self.free.without_sensors() if self.free else None,
         )

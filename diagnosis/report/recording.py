@@ -16,6 +16,7 @@ from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.replay.replay import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
+from diagnosis.residuals.between_readings import between_readings
 from diagnosis.result import Diagnosis
 from sim.recording.rerun_file import recorded
 from sim.recording.rerun_layout import APPLICATION
@@ -51,7 +52,7 @@ def _log_signals(stream: Any, root: str, trial: Trial, predictions: Mapping[str,
     for sensor in SENSORS:
         shown = {name: prediction[sensor] for name, prediction in predictions.items()}
         if trial.has(sensor):
-            shown = {"measured": trial[sensor]} | shown
+            shown = {"measured": between_readings(trial["time_s"], trial[sensor])} | shown
         for name, values in shown.items():
             log_series(stream, f"{root}/{sensor}/{name}", name, trial["time_s"], values, _COLOURS[name])
 
@@ -61,7 +62,9 @@ def _residuals(
 ) -> dict[tuple[str, str], Array]:
     """Measured minus predicted / sigma, by prediction and sensor; 0 where nothing was measured."""
     return {
-        (name, sensor): np.nan_to_num((trial[sensor] - prediction[sensor]) / noise[sensor])
+        (name, sensor): np.nan_to_num(
+            between_readings(trial["time_s"], (trial[sensor] - prediction[sensor]) / noise[sensor])
+        )
         for name, prediction in predictions.items()
         for sensor in SENSORS
         if trial.has(sensor)

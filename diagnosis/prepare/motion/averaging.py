@@ -19,7 +19,6 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from diagnosis.criteria import AVERAGED_ABOVE_HZ, AVERAGED_LEAST_SHARE, AVERAGING_S
-from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.rounding import steps_of
@@ -38,20 +37,14 @@ def averaged(log: RigLog) -> RigLog:
         "report are at the samples of the log"
     )
     coarse = steps_of(log.rig, log.trials)
+    quieter = dict.fromkeys(log.rig.sensors.by_column(), 1 / math.sqrt(count))
     return replace(
         log,
-        rig=_quieter(log.rig, count),
+        rig=log.rig.model_copy(update={"sensors": log.rig.sensors.scaled(quieter)}),
         trials=tuple(_means(trial, count * step_s, count, coarse) for trial in log.trials),
         warnings=(*log.warnings, said),
         means_of=count,
     )
-
-
-def _quieter(rig: NominalRig, count: int) -> NominalRig:
-    """The rig with the noise of means over so many samples."""
-    claims = rig.sensors.model_dump()
-    sensors = rig.sensors.model_copy(update={k: v / math.sqrt(count) for k, v in claims.items()})
-    return rig.model_copy(update={"sensors": sensors})
 
 
 def _means(trial: Trial, window_s: float, count: int, coarse: Collection[str]) -> Trial:

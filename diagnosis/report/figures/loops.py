@@ -25,6 +25,7 @@ from diagnosis.report.figures.style import (
     rms,
 )
 from diagnosis.report.sentences import label_of
+from diagnosis.residuals.between_readings import between_readings
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis
 from models.user_text import in_figure
@@ -102,7 +103,7 @@ def _columns(trial: Trial, readings: Trial | Prediction) -> dict[str, Array]:
     nothing = np.full(trial["time_s"].shape, np.nan)
 
     def of(sensor: str) -> Array:
-        return readings[sensor] if trial.has(sensor) else nothing
+        return between_readings(trial["time_s"], readings[sensor]) if trial.has(sensor) else nothing
 
     base = trial["base_angle_deg"]
     return {_BASE: base, _TORQUE: of("base_torque_n_mm"), _LAG: base - of("tip_angle_deg")}

@@ -22,6 +22,7 @@ from diagnosis.report.figures.style import (
     rms,
 )
 from diagnosis.report.sentences import best_in_words, label_of
+from diagnosis.residuals.between_readings import between_readings
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis
 from models.user_text import in_figure
@@ -38,7 +39,8 @@ def draw_trial(found: Diagnosis, i: int) -> Figure:
     for (above, below), sensor in zip(axes.T, SENSORS, strict=True):
         time = trial["time_s"]
         if trial.has(sensor):
-            above.plot(time, trial[sensor], color=MEASURED, lw=1.6, label="measured")
+            measured = between_readings(time, trial[sensor])
+            above.plot(time, measured, color=MEASURED, lw=1.6, label="measured")
             below.axhspan(-2, 2, color="0.9", zorder=0)
         for name, colour in PREDICTIONS.items():
             look = {"color": colour, "ls": LINES[name], "label": label_of(found, name)}
@@ -54,7 +56,7 @@ def draw_trial(found: Diagnosis, i: int) -> Figure:
 
 def _draw_residual(axis: Axes, time_s: Array, residual: Array, name: str) -> None:
     """Every sample thinly, and means that differ in their line, too."""
-    axis.plot(time_s, residual, color=PREDICTIONS[name], lw=0.5, alpha=0.5)
+    axis.plot(time_s, between_readings(time_s, residual), color=PREDICTIONS[name], lw=0.5, alpha=0.5)
     read = np.isfinite(residual)
     means = (block_means(own[read], _MEANS) for own in (time_s, residual))
     (line,) = axis.plot(*means, color=PREDICTIONS[name], ls=LINES[name], lw=1.8)

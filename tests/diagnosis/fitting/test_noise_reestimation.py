@@ -50,6 +50,14 @@ def test_what_is_far_off_is_not_believed(problem):
     assert noise["tip_angle_deg"] == pytest.approx((1 - NOISE_TRUST) * TIP)
 
 
+def test_less_is_believed_where_smoothed_readings_count_in_rare_rows(problem):
+    trials = (replace(problem.log.trials[0], smoothed_above_hz={"tip_angle_deg": 4.0}),)
+    smoothed = replace(problem, log=replace(problem.log, trials=trials))
+    noise = reestimated_noise(smoothed, fit_of((), by_trial=[left(0.5, 0.5)]))
+    assert noise["base_torque_n_mm"] == pytest.approx((1 - NOISE_TRUST) * TORQUE)
+    assert noise["tip_angle_deg"] / TIP == pytest.approx(0.5, abs=0.5 * 3 * np.sqrt(0.75 / SAMPLES))
+
+
 @pytest.mark.parametrize("weight", [0.5, 0.9])
 def test_readings_whose_prediction_errs_are_no_noise(problem, weight):
     """Half of the readings of the tip leave less, and count only if they have most of their weight."""

@@ -14,10 +14,11 @@ from diagnosis.fitting.nuisance import (
     nuisance_of,
     prior_sigma,
     reading_jump,
+    smoothing_of,
 )
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.start.late_start import LateStart
-from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump
+from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, SmoothedReading
 
 STILL = prepared(trial(turns()))
 SLIDING = prepared(trial(turns(), speed=-1.0))
@@ -77,3 +78,15 @@ def test_the_size_of_a_jump_is_open_without_a_prior():
     assert size.to_fit(0.6) == pytest.approx(2.0)  # in sigma
     rig = jump.apply(jump.apply(NOMINAL, 1.0), 2.0)
     assert rig.jumps == (replace(lost, size=1.0), replace(lost, size=2.0))
+
+
+def test_what_a_filter_left_of_smoothed_readings_is_open():
+    trials = (replace(STILL, smoothed_above_hz={"tip_angle_deg": 4.0}), STILL)
+    (smoothing,) = smoothing_of(PreparedLog(rig=RIG, trials=trials))
+    assert smoothing.name in [e.name for e in nuisance_of(PreparedLog(rig=RIG, trials=trials))]
+    assert smoothing.needs == "tip_angle_deg"
+    rig = smoothing.apply(NOMINAL, 0.1, 0.9)
+    known = SmoothedReading(sensor="tip_angle_deg", second_coefficient=0.1, fourth_coefficient=0.9)
+    assert rig.smoothed == (known,)
+    assert rig.without_sensors == NOMINAL
+    assert smoothing_of(PreparedLog(rig=RIG, trials=(STILL,))) == ()

@@ -9,13 +9,14 @@ from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_of, prepared, proble
 
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.low_band import low_passed
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.prepare.prepare import prepare
 from diagnosis.replay import replay as module
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.replay import Prediction, predict, replay, residuals, residuals_of_each, shape_of
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters, SmoothedReading
 from models.errors import InvalidValue
 from sim.needles.run import SimulationFailed
 
@@ -87,6 +88,19 @@ def test_what_a_fast_clock_shows_past_the_end_of_a_trial_is_taken_as_read(sensor
     assert not np.any(found[sensor][~past] == read[~past])
     (exact,) = predict(RIG, one, [RigParameters()])
     assert not np.any(exact[sensor] == read)
+
+
+def test_predictions_of_smoothed_readings_are_those_in_their_low_band():
+    ready, tip = prepared(trial(turns())), "tip_angle_deg"
+    known = SmoothedReading(sensor=tip, second_coefficient=0.2, fourth_coefficient=1.0)
+    rigs = [NOMINAL, RigParameters(smoothed=(known,))]
+    read = predict(RIG, ready, [NOMINAL])[0]
+    low = predict(RIG, replace(ready, smoothed_above_hz={tip: 5.0}), rigs)
+    for prediction, coefficients in zip(low, [(0.0, 0.0), (0.2, 1.0)], strict=True):
+        np.testing.assert_array_equal(
+            prediction[tip], low_passed(ready.time_s, read[tip], 5.0, *coefficients)
+        )
+        np.testing.assert_array_equal(prediction["base_torque_n_mm"], read["base_torque_n_mm"])
 
 
 def test_residuals_are_in_sigma_sensor_after_sensor_without_what_is_missing():

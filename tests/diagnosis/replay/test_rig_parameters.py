@@ -45,7 +45,8 @@ NEEDS = {  # what a field shows beside only
 
 
 @pytest.mark.parametrize(
-    "name", [f.name for f in fields(RigParameters) if f.name not in ("pasts", "jumps", "free")]
+    "name",
+    [f.name for f in fields(RigParameters) if f.name not in ("pasts", "jumps", "smoothed", "free")],
 )
 def test_every_parameter_changes_the_needle_or_its_sensors(name):
     about = replace(NOMINAL, **NEEDS.get(name, {}))
