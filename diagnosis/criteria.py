@@ -359,6 +359,9 @@ START_DECAYS = 10.0
 START_MOST_UNUSED = 0.25
 """Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
 not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
+START_FILTER_DECAYS = 8.0
+"""Time constants of a filter of the torque for which it shows what was before a trial that began late
+(derived: 300 sigma to 0.1)."""
 START_SPREAD_DEG = 90.0
 """One standard deviation of what the base turned by before a late start, about the twist that is read. A
 choice, so broad that a second of any trial outweighs it."""

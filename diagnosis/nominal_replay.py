@@ -30,7 +30,8 @@ from diagnosis.replay.accuracy.uncertain_times import (
     weighted_by_errors,
 )
 from diagnosis.replay.accuracy.unsampled_motion import weighted_by_unsampled_motion
-from diagnosis.replay.replay import Prediction, replay, residuals
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay, residuals
 from diagnosis.replay.rig_parameters import RigParameters
 
 Array = NDArray[np.float64]

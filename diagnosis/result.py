@@ -10,7 +10,7 @@ from diagnosis.freeform.missing import Missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.rig_log import RigLog
 from diagnosis.prepare.noise.sensor_noise import Noise
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.verdicts.verdict import Verdict
 from diagnosis.stopping import EarlyStop

@@ -15,7 +15,8 @@ from diagnosis.log.rig_log import RigLog, files_of, read_rig_log
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.replay import Prediction, shape_of
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import shape_of
 from models.user_text import in_figure
 from scripts.output_folder import output_folder
 from scripts.progress_line import ByShare, stage_line, unheard, within

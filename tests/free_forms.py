@@ -19,7 +19,8 @@ from diagnosis.freeform.ranges import ranges_of
 from diagnosis.freeform.smooth_curve import smooth_curve
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepare import prepare
-from diagnosis.replay.replay import Prediction, predict
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import COARSE
 
 VOCABULARY = {

@@ -26,7 +26,8 @@ from diagnosis.replay.accuracy.numerical_error import (
     refinement_change,
 )
 from diagnosis.replay.drift import drift_ranges_sigma, with_drift
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
 from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.largest_moment import largest_moment

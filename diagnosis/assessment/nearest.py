@@ -24,7 +24,7 @@ from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.nominal_replay import nominal_residuals
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.workers import Workers

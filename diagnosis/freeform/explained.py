@@ -15,7 +15,8 @@ from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.replay.drift import drift_ranges_sigma, with_drift
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 from diagnosis.residuals.residual_breakdown import residual_breakdown
 from diagnosis.residuals.residual_shape import residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals

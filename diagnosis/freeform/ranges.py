@@ -10,7 +10,7 @@ from diagnosis.effects.effect import Effect
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable, of_inputs, of_needle, rate_of
 from models import units
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from diagnosis.freeform.ranges import LogRanges, values_of
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.variables import OF_THE_NEEDLE, Variable
 
 Array = NDArray[np.float64]

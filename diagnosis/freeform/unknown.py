@@ -14,7 +14,7 @@ from diagnosis.freeform.likeness.plain_fits import with_plain_laws
 from diagnosis.freeform.missing import Missing, missing_of
 from diagnosis.freeform.search import free_form_fits
 from diagnosis.log.rig_log import RigLog
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stopping import StoppedEarly
 from diagnosis.workers import Workers

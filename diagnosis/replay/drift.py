@@ -10,7 +10,7 @@ from diagnosis.criteria import DRIFT_ALIKE
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.report.needle_view import log_needle, needle_bounds
 from diagnosis.residuals.between_readings import between_readings
 from diagnosis.result import Diagnosis

@@ -10,7 +10,7 @@ from diagnosis.criteria import LONGEST_LAG_S
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 
 Array = NDArray[np.float64]
 

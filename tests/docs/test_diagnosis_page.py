@@ -13,7 +13,7 @@ from free_forms import covered
 from diagnosis.freeform import families as folder
 from diagnosis.freeform.missing import FLOOR, FREEDOM, PATIENCE
 from diagnosis.freeform.search import CONTENDERS, FINALISTS
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.variables import Variable
 
 PAGE = (Path(__file__).parents[2] / "docs" / "diagnosis.md").read_text()

@@ -13,7 +13,8 @@ from dataclasses import replace
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 
 
 def rougher(coarse: FitProblem, base: Fit) -> FitProblem:

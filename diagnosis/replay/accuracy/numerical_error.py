@@ -11,7 +11,8 @@ from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.replay.replay import Prediction, predict
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import Resolution
 from diagnosis.replay.rig_parameters import RigParameters
 

@@ -20,7 +20,8 @@ from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 
 Array = NDArray[np.float64]
 

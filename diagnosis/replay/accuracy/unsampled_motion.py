@@ -25,7 +25,8 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.motion.between_samples import between_samples
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 
 Array = NDArray[np.float64]
 

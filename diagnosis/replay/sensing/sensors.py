@@ -10,12 +10,14 @@ of the torque may have a low-pass filter (`filters`):
     reading = bias + scale * (tip angle),    reading = bias + scale * (torque at chuck + of bearing)
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria import START_FILTER_DECAYS, START_MOST_UNUSED
 from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.rig_parameters import BASE, RigParameters
 from diagnosis.replay.sensing.bearing import bearing_torque_n_mm
@@ -24,6 +26,7 @@ from sim.needles.run import SimulationFailed
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
 def driven(
@@ -87,7 +90,7 @@ def sensed(
     return tip + more[0], torque + more[1]
 
 
-def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Array]:
+def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Mask]:
     """By sensor: samples at which its clock is past the end of the run, where nothing is known, (N,).
 
     Args:
@@ -103,6 +106,17 @@ def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Arra
         for sensor, (ratio, delay_s) in clocks.items()
         if ratio > 1.0
     }
+
+
+def shows_before(rig: RigParameters, at_s: Array) -> Mask:
+    """Samples of a trial at which the filter of the torque still shows what was before it, (N,).
+
+    Args:
+      at_s: times of the samples.
+    """
+    constants_s = rig.torque_low_pass_s, math.sqrt(2.0) * rig.torque_butterworth_s
+    memory_s = max(START_FILTER_DECAYS * max(constants_s), rig.torque_average_s)
+    return np.asarray(at_s - at_s[0] < min(memory_s, START_MOST_UNUSED * float(np.ptp(at_s))))
 
 
 def _late(

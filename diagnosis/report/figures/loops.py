@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.sensor_noise import Noise
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import (
     LABELS,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import (
     LABELS,

@@ -15,7 +15,8 @@ from diagnosis.fitting.noise_reestimation import by_trial_and_sensor
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 from diagnosis.replay.variables import Variable, of_needle
 
 Array = NDArray[np.float64]

@@ -9,14 +9,14 @@ from diagnosis_fixtures import NOISE, RIG, TIP, TORQUE, log_of, prepared, proble
 
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.low_band import low_passed
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.prepare.prepare import prepare
 from diagnosis.replay import replay as module
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
-from diagnosis.replay.replay import Prediction, predict, replay, residuals, residuals_of_each, shape_of
-from diagnosis.replay.rig_parameters import NOMINAL, RigParameters, SmoothedReading
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import predict, replay, residuals, residuals_of_each, shape_of
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from models.errors import InvalidValue
 from sim.needles.run import SimulationFailed
 
@@ -75,34 +75,6 @@ def test_rigs_side_by_side_read_what_each_reads_alone():
             np.testing.assert_array_equal(together[sensor], alone[sensor])
 
 
-@pytest.mark.parametrize("sensor", ["tip_angle_deg", "base_torque_n_mm"])
-def test_what_a_fast_clock_shows_past_the_end_of_a_trial_is_taken_as_read(sensor):
-    """A clock of 2 % is past the end of 6 s from 5.88 s on; nobody knows the motion there."""
-    (one,) = problem_of(log_of(RigParameters(), seconds=6.0)).log.trials
-    ratio = {"tip_angle_deg": "tip_clock_ratio", "base_torque_n_mm": "torque_clock_ratio"}[sensor]
-    (found,) = predict(RIG, one, [RigParameters(**{ratio: 1.02})])
-    past = one.time_s * 1.02 > one.time_s[-1]
-    assert 5 < past.sum() < 20
-    read = one.readings[sensor]
-    np.testing.assert_array_equal(found[sensor][past], read[past])
-    assert not np.any(found[sensor][~past] == read[~past])
-    (exact,) = predict(RIG, one, [RigParameters()])
-    assert not np.any(exact[sensor] == read)
-
-
-def test_predictions_of_smoothed_readings_are_those_in_their_low_band():
-    ready, tip = prepared(trial(turns())), "tip_angle_deg"
-    known = SmoothedReading(sensor=tip, second_coefficient=0.2, fourth_coefficient=1.0)
-    rigs = [NOMINAL, RigParameters(smoothed=(known,))]
-    read = predict(RIG, ready, [NOMINAL])[0]
-    low = predict(RIG, replace(ready, smoothed_above_hz={tip: 5.0}), rigs)
-    for prediction, coefficients in zip(low, [(0.0, 0.0), (0.2, 1.0)], strict=True):
-        np.testing.assert_array_equal(
-            prediction[tip], low_passed(ready.time_s, read[tip], 5.0, *coefficients)
-        )
-        np.testing.assert_array_equal(prediction["base_torque_n_mm"], read["base_torque_n_mm"])
-
-
 def test_residuals_are_in_sigma_sensor_after_sensor_without_what_is_missing():
     ready = prepared(trial(np.zeros(4)))
     tip = np.array([1.0, np.nan, 2.0, 0.0])
@@ -131,13 +103,6 @@ def test_the_shape_ends_in_the_tip_that_is_predicted():
     tip = np.interp(ready.time_s, run.time_s, np.degrees(run.angles_rad[:, -1]))
     predicted = predict(RIG, ready, [NOMINAL])[0]["tip_angle_deg"]
     np.testing.assert_allclose(tip, predicted, atol=1e-6)
-
-
-def test_some_rows_of_a_prediction_are_those_of_both_sensors():
-    prediction = Prediction(tip_angle_deg=np.arange(4.0), base_torque_n_mm=-np.arange(4.0))
-    rows = prediction.rows(np.array([True, False, True, False]))
-    np.testing.assert_array_equal(rows.tip_angle_deg, [0, 2])
-    np.testing.assert_array_equal(rows["base_torque_n_mm"], [0, -2])
 
 
 def test_a_needle_that_parameters_make_impossible_is_a_simulation_that_failed():

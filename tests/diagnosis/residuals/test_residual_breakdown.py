@@ -8,7 +8,7 @@ from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import Trial
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
 from diagnosis.residuals.trial_residual import trial_residuals
 

@@ -6,7 +6,7 @@ from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 from scipy.signal import lfilter
 
 from diagnosis.log.trial import Trial
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.residuals.motion import base_rate, direction
 from diagnosis.residuals.residual_shape import residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals

@@ -5,7 +5,7 @@ import pytest
 from diagnosis_fixtures import NOISE, TORQUE, log_with, trial, turns
 
 from diagnosis.log.trial import Trial
-from diagnosis.replay.replay import Prediction
+from diagnosis.replay.prediction import Prediction
 from diagnosis.residuals.trial_residual import (
     TrialResidual,
     by_sensor,

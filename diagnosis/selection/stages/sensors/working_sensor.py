@@ -33,7 +33,8 @@ from diagnosis.replay.drift import (
     drifts_by_one_course,
     least_start,
 )
-from diagnosis.replay.replay import Prediction, replay
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import replay
 from diagnosis.selection.scoring.drift_evidence import noise_of_a_reading, score_beside_drift
 from diagnosis.selection.scoring.followed import followed
 from diagnosis.selection.stages.stage import leading_on_the_log

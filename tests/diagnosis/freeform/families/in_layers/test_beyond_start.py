@@ -13,7 +13,8 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families.in_layers.beyond_start import families
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.prepare.prepare import prepare
-from diagnosis.replay.replay import Prediction, predict
+from diagnosis.replay.prediction import Prediction
+from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import FINE
 from diagnosis.replay.rig_parameters import NOMINAL
 
