@@ -1,4 +1,4 @@
-"""Flicker noise: noise whose spectral density is as 1 / f, as amplifiers and strain gauges have it.
+"""Slow noise: flicker noise, whose spectral density is as 1 / f, as of amplifiers and strain gauges.
 
 Processes whose correlation times are even on a logarithmic scale, each of the same variance, have a
 density as 1 / f between 1 / (2 pi) of the longest and of the shortest of these times; here those are
@@ -7,7 +7,8 @@ the spectrum above a frequency (`levels`); below, it is extrapolated and never t
 that is the frequency above which effects leave little, noise has to be coloured there for most of it to
 be seen; of an amplifier whose flicker begins at 1 Hz nothing is. So the spectrum is also looked at from
 `FLICKER_ABOVE_HZ` on. There slow residuals of effects may pass for noise: what that asks for besides is
-in `selection/stages/sensors/coloured_noise.py`.
+in `selection/stages/sensors/coloured_noise.py`. From there on a single process shows how long it lasts,
+even where that is longer than `COLOUR_LONGEST_S`, and takes the place of 1 / f where it is likelier.
 """
 
 from collections.abc import Sequence
@@ -16,14 +17,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COLOUR_ABOVE_HZ, COLOUR_WINDOW_S
+from diagnosis.criteria import COLOUR_ABOVE_HZ, COLOUR_LONGEST_S, COLOUR_OPEN, COLOUR_WINDOW_S
 from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour
-from diagnosis.prepare.noise.spectrum.levels import NoiseShape, process, processes, spectrum_of
+from diagnosis.prepare.noise.spectrum.levels import (
+    NoiseLevels,
+    NoiseShape,
+    process,
+    processes,
+    spectrum_of,
+)
+from diagnosis.prepare.noise.spectrum.noise_spectrum import unlikeliness
 
 Array = NDArray[np.float64]
 
 _WAVES = COLOUR_WINDOW_S * COLOUR_ABOVE_HZ
 _TIMES = 8  # correlation times: the density is within some per cent of 1 / f
+_SHOWN = 2.0  # times 2 pi f of the lowest frequency: its density is 0.8 of what it falls as there
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +55,7 @@ def flicker_noise(
     means_of: int = 1,
     above_hz: float = COLOUR_ABOVE_HZ,
 ) -> Flicker | None:
-    """Flicker noise in residuals; None: there is none, or they are too short.
+    """Flicker noise in residuals, or a slow process if that is likelier; None: neither, or too short.
 
     Args:
       parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
@@ -56,24 +65,40 @@ def flicker_noise(
     spectrum = spectrum_of(parts, above_hz, _WAVES / above_hz)
     if spectrum is None:
         return None
-    white = spectrum.white
     slowest_s = max(time_s[-1] - time_s[0] for time_s, _ in parts) / (2.0 * np.pi)
-    times_s = np.geomspace(spectrum.step_s, slowest_s, _TIMES)
-    shapes = [process(spectrum, float(time_s), means_of) for time_s in times_s]
-    levels = np.mean([shape.levels for shape in shapes], axis=0)
-    cost, (rest, size) = spectrum.fitted(np.column_stack([white, levels]))
-    if size <= 0.0:
+    tried = [tuple(_processes(spectrum, spectrum.step_s, slowest_s, means_of))]
+    longest_s = _SHOWN / (2.0 * np.pi * above_hz)
+    if longest_s > COLOUR_LONGEST_S:
+        tried += [(own,) for own in _processes(spectrum, COLOUR_LONGEST_S, longest_s, means_of)[1:]]
+    sized = [_sized(spectrum, shapes) for shapes in tried]
+    least = min(cost for cost, _ in sized)
+    open_ = [(cost, noise) for cost, noise in sized if noise and cost <= least + COLOUR_OPEN]
+    if not open_:
         return None
-    alone, _ = spectrum.fitted(white[:, None])
-    others = (np.column_stack([white, own.levels]) for own in processes(spectrum, means_of))
-    least = min(spectrum.fitted(columns)[0] for columns in others)
-    noise = _of_sizes(float(rest), float(size) / _TIMES, shapes)
-    return Flicker(gain_cost=alone - cost, behind_cost=cost - least, noise=noise)
+    cost, noise = min(open_, key=lambda own: unlikeliness(parts, own[1][1]))
+    alone, _ = spectrum.fitted(spectrum.white[:, None])
+    quick = min(_sized(spectrum, (own,))[0] for own in processes(spectrum, means_of))
+    return Flicker(gain_cost=alone - cost, behind_cost=cost - quick, noise=noise)
 
 
-def _of_sizes(white: float, each: float, shapes: Sequence[NoiseShape]) -> tuple[float, NoiseColour]:
-    """White noise of a variance beside processes of one."""
-    variance = white + sum(each * shape.variance_ratio for shape in shapes)
+def _processes(
+    spectrum: NoiseLevels, shortest_s: float, longest_s: float, means_of: int
+) -> list[NoiseShape]:
+    """Processes whose correlation times are even on a logarithmic scale."""
+    times_s = np.geomspace(shortest_s, longest_s, _TIMES)
+    return [process(spectrum, float(time_s), means_of) for time_s in times_s]
+
+
+def _sized(
+    spectrum: NoiseLevels, shapes: Sequence[NoiseShape]
+) -> tuple[float, tuple[float, NoiseColour] | None]:
+    """Chi-square of white noise and processes of one variance, and that noise; None: it is white."""
+    levels = np.mean([shape.levels for shape in shapes], axis=0)
+    cost, (white, size) = spectrum.fitted(np.column_stack([spectrum.white, levels]))
+    if size <= 0.0:
+        return cost, None
+    each = float(size) / len(shapes)
+    variance = float(white) + sum(each * shape.variance_ratio for shape in shapes)
     found = tuple(
         ColouredPart(
             share=each * shape.part.share / variance,
@@ -81,4 +106,4 @@ def _of_sizes(white: float, each: float, shapes: Sequence[NoiseShape]) -> tuple[
         )
         for shape in reversed(shapes)
     )
-    return float(np.sqrt(variance)), NoiseColour(parts=found, flicker=True)
+    return cost, (float(np.sqrt(variance)), NoiseColour(parts=found, flicker=len(found) > 1))

@@ -77,6 +77,25 @@ def test_white_noise_and_noise_that_is_forgotten_at_once_are_not_like_that():
         assert flicker_noise([(time_s, values) for values in noise]).behind_cost > COLOUR_CHI_SQUARE
 
 
+@pytest.mark.parametrize("time_s", [0.45, 0.6])
+@pytest.mark.parametrize("seed", [6, 7])
+def test_a_process_that_is_forgotten_slowly_is_told_from_flicker(time_s, seed):
+    rng = np.random.default_rng(seed)
+    kept = np.exp(-1 / (RATE_HZ * time_s))
+    noise = lfilter([np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=(8, SIZE)))
+    at_s = np.arange(SIZE) / RATE_HZ
+    found = flicker_noise(
+        [(at_s, own + 0.7 * rng.normal(size=SIZE)) for own in noise], 1, FLICKER_ABOVE_HZ
+    )
+    sigma, colour = found.noise
+    (part,) = colour.parts
+    # Two bands of 0.5 Hz, of a hundred windows each, tell where the density bends: to a third.
+    assert part.correlation_time_s == pytest.approx(time_s, rel=0.35)
+    assert sigma == pytest.approx(np.sqrt(1.0 + 0.7**2), rel=0.15)
+    assert "1/f" not in colour.in_words
+    assert found.gain_cost > COLOUR_CHI_SQUARE
+
+
 def test_what_is_slow_does_not_change_it():
     alone, parts = flicker_noise(trials(6)).noise[0], trials(6)
     for time_s, values in parts:
