@@ -38,6 +38,7 @@ class RigLog:
       name: name of its folder; empty: it was not read from one.
       means_of: number of readings that a sample is the mean of.
       smoothed_above_hz: corner of the filter by which readings were smoothed, by sensor.
+      noise_left: noise in their low band / that of a reading, by sensor; 1 for others.
     """
 
     rig: NominalRig
@@ -46,6 +47,7 @@ class RigLog:
     name: str = ""
     means_of: int = 1
     smoothed_above_hz: Mapping[str, float] = field(default_factory=dict)
+    noise_left: Mapping[str, float] = field(default_factory=dict)
 
 
 def read_rig_log(folder: Path) -> RigLog:

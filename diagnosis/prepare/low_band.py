@@ -36,9 +36,9 @@ def in_low_band(log: RigLog) -> RigLog:
     for sensor, corner_hz in log.smoothed_above_hz.items():
         trials = tuple(_in_low_band(trial, sensor, corner_hz) for trial in log.trials)
         step_s = float(np.median([_step_s(trial["time_s"]) for trial in trials]))
-        share = float(np.linalg.norm(_kernel(corner_hz, step_s)))
-        quieter = log.rig.model_copy(update={"sensors": log.rig.sensors.scaled({sensor: share})})
-        log = replace(log, trials=trials, rig=quieter)
+        left = {sensor: float(np.linalg.norm(_kernel(corner_hz, step_s)))}
+        quieter = log.rig.model_copy(update={"sensors": log.rig.sensors.scaled(left)})
+        log = replace(log, trials=trials, rig=quieter, noise_left={**log.noise_left, **left})
     return log
 
 

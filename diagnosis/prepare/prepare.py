@@ -32,7 +32,13 @@ def prepare(log: RigLog) -> tuple[PreparedLog, float]:
         counted = without_repeats(rows, log.rig, steps)
         ready = replace(smooth, readings=counted, smoothed_above_hz=log.smoothed_above_hz)
         trials.append(_with_inertia(ready, log.rig))
-    prepared = PreparedLog(rig=log.rig, trials=tuple(trials), rounded=rounded, means_of=log.means_of)
+    prepared = PreparedLog(
+        rig=log.rig,
+        trials=tuple(trials),
+        rounded=rounded,
+        means_of=log.means_of,
+        noise_left=log.noise_left,
+    )
     return prepared, sigma_deg
 
 

@@ -116,12 +116,14 @@ class PreparedLog:
     Attributes:
       rounded: least noise of columns that are read in coarse steps.
       means_of: number of readings that a sample is the mean of.
+      noise_left: noise in the low band of smoothed readings / that of a reading, by sensor.
     """
 
     rig: NominalRig
     trials: tuple[PreparedTrial, ...]
     rounded: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
+    noise_left: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def warnings(self) -> tuple[str, ...]:

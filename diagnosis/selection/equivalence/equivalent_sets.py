@@ -4,8 +4,10 @@ Some sets no log can tell apart: a torque gain of 1.1 is stiffness and damping b
 from the model. The readings that the chosen explanation predicts, without noise, take the place of the
 log; beside half of what was chosen (where secants are good to third order) every effect of the
 library is simulated once, and small sets of these columns that add up to all that was chosen are
-fitted to those readings. A set is equivalent if the cost that it leaves could not tell it from the
-chosen one, and is next to nothing of what the chosen one changed.
+fitted to those readings. What a late sensor changes is far from straight where friction is sharp: what
+is beside it is looked at once more with all of its delay, which stays open. A set is equivalent if the
+cost that it leaves could not tell it from the chosen one, and is next to nothing of what the chosen one
+changed.
 """
 
 from collections.abc import Sequence
@@ -103,7 +105,26 @@ def equivalent_sets(
     """
     if not best.named:
         return ()
-    chosen = _chosen(coarse, best)
+    found = _beside_half(coarse, best, (), effects, workers)
+    late = tuple(name for name in best.named if coarse.library[name].delays_a_sensor)
+    if late and set(best.named) - set(late):
+        others = [name for name in effects if name not in late]
+        known = [set(one.names) for one in found]
+        whole = _beside_half(coarse, best, late, others, workers)
+        beside = [replace(one, names=(*one.names, *late)) for one in whole]
+        found += tuple(one for one in beside if not any(own <= set(one.names) for own in known))
+    return found
+
+
+def _beside_half(
+    coarse: FitProblem,
+    best: Candidate,
+    whole: tuple[str, ...],
+    effects: Sequence[str],
+    workers: Workers,
+) -> tuple[Equivalent, ...]:
+    """Sets that are equivalent to named effects of the best but for some, which stay whole and open."""
+    chosen = _chosen(coarse, best, whole)
     tasks = [Task(effects=(name,), arguments=(chosen, name)) for name in effects]
     results = workers.each("what cannot be told apart", _column, tasks)
     columns = [c for c in results if not isinstance(c, Failure) and c.change.any()]
@@ -115,11 +136,11 @@ def covers(names: Sequence[str], others: Sequence[str]) -> bool:
     return set(others) <= {inner for n in names for inner in (n, *FITTED[n].contains)}
 
 
-def _chosen(coarse: FitProblem, best: Candidate) -> _Chosen:
+def _chosen(coarse: FitProblem, best: Candidate, whole: tuple[str, ...]) -> _Chosen:
     """Without scatter and pasts, which it does not name: what is alike is alike without them."""
-    sensors = (coarse.library[name] for name in best.names if name not in LIBRARY)
+    sensors = (coarse.library[n] for n in best.names if n not in LIBRARY or n in whole)
     open_ = (*sensors, *(e for e in coarse.nuisance if e.name in CONVENTIONS))
-    own = {name: best.fit.parts[name] for name in best.named}
+    own = {name: best.fit.parts[name] for name in best.named if name not in whole}
     kept = {e.name: best.fit.parts[e.name] for e in open_}
     # Without noise, slopes of runs half as fine would lead nowhere near the end.
     problem = replace(coarse, nuisance=open_, differences_halved=False)

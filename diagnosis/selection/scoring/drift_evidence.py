@@ -47,9 +47,10 @@ def widest_drift(problem: FitProblem, sensor: str) -> Noise:
 
 
 def noise_of_a_reading(problem: FitProblem, sensor: str) -> float:
-    """As found, or as claimed, if that is more; of samples that are means, that of a single reading."""
+    """As found, or as claimed, if that is more; that of a single reading where samples have less."""
     found, claimed = problem.noise[sensor], problem.log.rig.sensors.by_column()[sensor]
-    return float(np.sqrt(problem.log.means_of)) * max(found, min(claimed, MOST_QUIETENED * found))
+    left = problem.log.noise_left.get(sensor, 1.0) / float(np.sqrt(problem.log.means_of))
+    return max(found, min(claimed, MOST_QUIETENED * found)) / left
 
 
 def _noises(

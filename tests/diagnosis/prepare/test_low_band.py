@@ -86,6 +86,7 @@ def test_noise_at_independent_rows_is_white_and_of_the_claimed_size(corner_hz):
         assert abs(np.corrcoef(read[:-lag], read[lag:])[0, 1]) < bound + 0.04
     claimed = low.rig.sensors.tip_angle_noise_deg
     assert np.std(read) == pytest.approx(claimed, rel=4 / np.sqrt(2 * read.size))
+    assert low.noise_left == {SENSOR: pytest.approx(claimed / TIP)}
 
 
 def test_other_logs_and_sensors_are_left_alone():

@@ -62,6 +62,23 @@ def test_two_that_are_off_alike_are_one_torque_gain(coarse):
     assert not any(names > {"torque_scale"} for names in found)
 
 
+def test_a_torque_gain_beside_a_late_torque_and_a_rough_bearing_is_stiffness_and_damping(coarse):
+    """Secants beside half of a delay do not add up where the bearing turns its torque round."""
+    names = ("torque_sensor_delay", "drive_friction", "torque_scale")
+    strong = {
+        "torque_sensor_delay": [0.15 / coarse.library["torque_sensor_delay"].parameters[0].scale],
+        "drive_friction": [np.log(1.0)],
+        "torque_scale": [np.log(0.8)],
+    }
+    start = coarse.parameterization(names).joined({n: np.array(own) for n, own in strong.items()})
+    best = candidate(fit_effects(coarse, names, start, most_iterations=0))
+    found = equivalent_sets(coarse, best, (*SCALES, *names[:2]), Workers())
+    (alike,) = [one for one in found if {"stiffness_error", "damping_error"} <= set(one.names)]
+    assert set(alike.names) == {*names[:2], "stiffness_error", "damping_error"}
+    assert alike.parts["drive_friction"][0] == pytest.approx(np.log(0.8), abs=0.05)
+    assert alike.parts["stiffness_error"][0] == pytest.approx(np.log(0.8), abs=0.05)
+
+
 @pytest.mark.parametrize("name", ["coulomb_friction", "tip_sensor_delay"])
 def test_an_effect_of_its_own_kind_is_like_no_other(coarse, name):
     """Negative control."""

@@ -35,7 +35,8 @@ class Trial:
 
 
 SENSORS = SimpleNamespace(by_column=lambda: {TORQUE: SIGMA})
-LOG = SimpleNamespace(trials=(Trial(),), means_of=1, rig=SimpleNamespace(sensors=SENSORS))
+RIG = SimpleNamespace(sensors=SENSORS)
+LOG = SimpleNamespace(trials=(Trial(),), means_of=1, noise_left={}, rig=RIG)
 PROBLEM = FitProblem(log=LOG, noise=Noise(sigma={TORQUE: SIGMA}), nuisance=())
 
 
@@ -104,6 +105,14 @@ def test_the_widest_drift_is_the_largest_and_begins_anywhere():
 @pytest.mark.parametrize("sensor", [TORQUE, TIP])
 def test_a_filter_takes_off_noise_but_not_off_a_drift(claimed, told, sensor):
     sensors = SimpleNamespace(by_column=lambda: {sensor: claimed})
-    log = SimpleNamespace(rig=SimpleNamespace(sensors=sensors), means_of=4)
+    log = SimpleNamespace(rig=SimpleNamespace(sensors=sensors), means_of=4, noise_left={})
     problem = SimpleNamespace(log=log, noise={sensor: 1.0})
     assert noise_of_a_reading(problem, sensor) == pytest.approx(2 * told)
+
+
+def test_a_drift_is_that_of_readings_before_they_were_smoothed():
+    sensors = SimpleNamespace(by_column=lambda: {TORQUE: 1.0})
+    rig = SimpleNamespace(sensors=sensors)
+    log = SimpleNamespace(rig=rig, means_of=4, noise_left={TORQUE: 0.25})
+    problem = SimpleNamespace(log=log, noise={TORQUE: 1.0})
+    assert noise_of_a_reading(problem, TORQUE) == pytest.approx(8.0)
