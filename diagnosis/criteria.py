@@ -122,13 +122,13 @@ HUM_FALSE_ALARMS = 1e-6
 """Derived: of white noise that is called a line, per sensor and multiple."""
 SMOOTHED_ZERO, SMOOTHED_ZERO_LEVEL = 6.0, 0.05
 SMOOTHED_LEVEL, SMOOTHED_LEAST_ORDER, SMOOTHED_MISFIT = 0.005, 1.4, 0.5
-SMOOTHED_OVER_ROUNDING = 4.0
+SMOOTHED_OVER_ROUNDING, SMOOTHED_SEGMENTS = 4.0, 8
 """Readings that were smoothed after recording. A zero: times by which their spectrum rises on both
 sides, five standard deviations of levels, and its own level in that of the claimed noise. A Butterworth
 filter: level that is reached, least order (motion without noise falls as behind one of first order),
 and how far off logarithms of levels are, mean absolute: of 13 filters 0.07 to 0.37, of the one other
-log that reached the level 2.6. Times the level of rounding that tells. None of 645 logs that were not
-smoothed."""
+log that reached the level 2.6. Times the level of rounding that tells, and segments of readings that a
+spectrum is the mean of, at least; they overlap by half. None of 645 logs that were not smoothed."""
 BAND_SHARE, BAND_ROLL_OFF, BAND_LOBES = 0.375, 0.5, 6
 """The low band of smoothed readings: its corner in that of the filter, how far it rolls off on both
 sides of that, and lobes of its kernel on either side. Choices: where the band ends, at 0.56 of its

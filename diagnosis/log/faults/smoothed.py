@@ -28,6 +28,7 @@ from diagnosis.criteria import (
     SMOOTHED_LEVEL,
     SMOOTHED_MISFIT,
     SMOOTHED_OVER_ROUNDING,
+    SMOOTHED_SEGMENTS,
     SMOOTHED_ZERO,
     SMOOTHED_ZERO_LEVEL,
 )
@@ -66,7 +67,10 @@ def _corner_hz(trials: Sequence[Trial], sensor: str, claim: float) -> float | No
         return None
     own = [trial[sensor][rows] for trial, rows in read]
     step_s = float(np.median(np.concatenate([np.diff(trial["time_s"][rows]) for trial, rows in read])))
-    frequency, levels = _levels(own, claim, round(_SEGMENT_S / step_s))
+    segment = min(round(_SEGMENT_S / step_s), sum(values.size for values in own) // SMOOTHED_SEGMENTS)
+    if segment < FEWEST_ROWS:
+        return None
+    frequency, levels = _levels(own, claim, segment)
     rounding = float(np.mean([quantum(values) ** 2 for values in own])) / 12 / claim**2
     corner = _below_first_zero(frequency, levels) or _of_butterworth(frequency, levels, rounding)
     return corner / step_s if corner else None

@@ -91,13 +91,21 @@ def humming(values, rate_hz):
         trials(rate_hz=20.0),
         trials(rate_hz=20.0, seconds=8.0),
         trials(noise=0.05),  # another unit, or a wrong claim
+        *(trials(noise=0.05, seconds=seconds) for seconds in (2.0, 3.0, 5.0)),
         trials(noise=0.0, places=6),  # simulated without noise
         trials(noise=0.0, places=2),
         trials(correlated, noise=0.0),
         trials(humming, noise=0.3),
         trials(lambda values, rate_hz: lfilter([0.2], [1.0, -0.8], values)),  # an amplifier's low pass
     ],
-    ids=["white", "slow", "short", "quiet", "exact", "rounded", "correlated", "humming", "causal"],
+    ids=[
+        *("white", "slow", "short", "quiet", "2 s", "3 s", "5 s"),
+        "exact",
+        "rounded",
+        "correlated",
+        "humming",
+        "causal",
+    ],
 )
 def test_what_was_not_smoothed(log):
     assert smoothed_above_hz(log, NOISE) == ({}, [])
