@@ -131,7 +131,10 @@ def _noise(
     """Noise of the sensors, from what the nominal rig leaves."""
     left = _residuals(prepared, predictions)
     told = far_claims(log.trials, log.rig.sensors.by_column())
-    return estimate_noise(log.rig, left, base_sigma_deg, told, prepared.rounded, prepared.means_of)
+    smoothed = log.smoothed_above_hz
+    return estimate_noise(
+        log.rig, left, base_sigma_deg, told, prepared.rounded, prepared.means_of, smoothed
+    )
 
 
 def _residuals(

@@ -163,6 +163,7 @@ def estimate_noise(
     told: Collection[str] = (),
     least: Mapping[str, float] | None = None,
     means_of: int = 1,
+    smoothed: Collection[str] = (),
 ) -> Noise:
     """Noise of a log.
 
@@ -172,6 +173,7 @@ def estimate_noise(
       told: columns whose claim has already had a warning.
       least: noise of columns in coarse steps, which differences of constant readings do not show.
       means_of: number of readings that a sample is the mean of.
+      smoothed: sensors whose rows are rare, since they were smoothed.
     """
     least = least or {}
     claims = rig.sensors.by_column()
@@ -184,6 +186,8 @@ def estimate_noise(
         found = white_noise(left[sensor], order=_ORDER)
         if not np.isfinite(found) or found <= 0:
             found = claims[sensor] or _UNKNOWN
+        if sensor in smoothed:  # differences of rare rows are those of the motion
+            found = min(found, NOISE_RATIO[1] * claims[sensor])
         found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
     right = [s for s in SENSORS if claims[s] > 0 and _agrees(sigma[s], claims[s])]

@@ -80,6 +80,19 @@ def test_an_encoder_that_scatters_otherwise_is_told():
     assert "base_angle_deg: the readings scatter by 0.1, rig.yaml claims 0.02" in warning
 
 
+@pytest.mark.parametrize(("motion", "told"), [(0.0, 1.0), (20.0, 2.0)])
+def test_rare_rows_of_smoothed_readings_tell_noise_up_to_twice_the_claim(motion, told):
+    """Fourth differences of a fast motion in rare rows are no noise."""
+    time_s = 0.3 * np.arange(400)
+    left = motion * TIP * np.sin(5.0 * time_s) + np.random.default_rng(3).normal(0, TIP, time_s.size)
+    found = {"tip_angle_deg": [(time_s, left)]}
+    noise = estimate_noise(RIG, found, BASE, smoothed=["tip_angle_deg"])
+    # Fourth differences of 400 samples: 6 % of standard error.
+    assert noise["tip_angle_deg"] == pytest.approx(told * TIP, rel=0.2)
+    if motion:
+        assert estimate_noise(RIG, found, BASE)["tip_angle_deg"] > 5 * TIP
+
+
 def test_what_was_told_when_the_log_was_read_is_not_told_again():
     claims = RIG.sensors.but(tip_angle_noise_deg=40 * TIP)
     rig = RIG.but(sensors=claims)
