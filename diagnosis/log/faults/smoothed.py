@@ -77,13 +77,21 @@ def _corner_hz(trials: Sequence[Trial], sensor: str, claim: float) -> float | No
 
 
 def _below_first_zero(frequency: Array, levels: Array) -> float | None:
-    """Corner of a mean over rows, whose first zero is found; None: the spectrum has none."""
-    for k in map(int, np.flatnonzero(levels < SMOOTHED_ZERO_LEVEL)):
-        beside = max(2, k // _NARROW)
-        sides = levels[max(k - beside, 0) : k], levels[k + 1 : k + 1 + beside]
-        if all(side.max(initial=0.0) > SMOOTHED_ZERO * levels[k] for side in sides):
-            return float(_CORNER_OF_MEANS * frequency[k])
-    return None
+    """Corner of a mean over rows, one of whose zeros is clear; None: none is.
+
+    The first of them may be filled by the motion in part.
+    """
+    zeros = [k for k in map(int, np.flatnonzero(levels < _HALF)) if _is_zero(levels, k)]
+    if not zeros or levels[zeros].min() > SMOOTHED_ZERO_LEVEL:
+        return None
+    return float(_CORNER_OF_MEANS * frequency[zeros[0]])
+
+
+def _is_zero(levels: Array, k: int) -> bool:
+    """Whether a spectrum rises on both sides of a frequency."""
+    beside = max(2, k // _NARROW)
+    sides = levels[max(k - beside, 0) : k], levels[k + 1 : k + 1 + beside]
+    return all(side.max(initial=0.0) > SMOOTHED_ZERO * levels[k] for side in sides)
 
 
 def _of_butterworth(frequency: Array, levels: Array, rounding: float) -> float | None:
