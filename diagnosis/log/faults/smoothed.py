@@ -137,7 +137,8 @@ def _fitted(warped: Array, logs: Array, order: float) -> tuple[Array, Array]:
 def _levels(read: Sequence[Array], claim: float, segment: int) -> tuple[Array, Array]:
     """Frequencies, in cycles per row, and spectral densities in that of the claim; (F,) each.
 
-    Second differences, whose spectrum is divided by theirs, keep slow motion out of fast frequencies.
+    Second differences, whose spectrum is divided by theirs, keep slow motion out of fast frequencies. Of
+    all trials the largest counts: who smooths a sensor does it in each.
 
     Args:
       segment: rows over which they are averaged at most.
@@ -145,7 +146,7 @@ def _levels(read: Sequence[Array], claim: float, segment: int) -> tuple[Array, A
     rows = [values.size - 2 for values in read]
     spectra = [welch(np.diff(values, 2), nperseg=min(segment, *rows)) for values in read]
     frequency = spectra[0][0][1:]
-    density = np.average([own[1:] for _, own in spectra], axis=0, weights=rows)
+    density = np.max([own[1:] for _, own in spectra], axis=0)
     return frequency, density / (2 * np.sin(np.pi * frequency)) ** 4 / (2 * claim**2)
 
 

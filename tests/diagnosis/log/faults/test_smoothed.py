@@ -111,6 +111,11 @@ def test_what_was_not_smoothed(log):
     assert smoothed_above_hz(log, NOISE) == ({}, [])
 
 
+def test_a_sensor_that_one_trial_shows_as_it_is_was_not_smoothed():
+    smooth, plain = trials(butterworth(4.0)), trials()
+    assert smoothed_above_hz([*smooth[:2], plain[2]], NOISE) == ({}, [])
+
+
 def test_nothing_is_claimed_or_read():
     assert smoothed_above_hz(trials(butterworth(4.0)), NOISE | {TIP: 0.0}) == ({}, [])
     empty = [Trial(name="a.csv", table=one.table.assign(**{TIP: np.nan})) for one in trials()]
