@@ -29,6 +29,7 @@ from diagnosis.log.trial import Trial
 Array = NDArray[np.float64]
 
 _POINTS, _GRID = 65, 8193  # of a response in its band; frequencies from which a kernel is computed
+_HOLE = 4.5  # steps: over fewer, a smoothed reading is a line
 
 
 def in_low_band(log: RigLog) -> RigLog:
@@ -45,7 +46,7 @@ def in_low_band(log: RigLog) -> RigLog:
 def low_passed(
     time_s: Array, values: Array, corner_hz: float, second: float = 0.0, fourth: float = 0.0
 ) -> Array:
-    """Values in the low band of readings that were smoothed, (N,).
+    """Values in the low band of readings that were smoothed, (N,); where times are uneven, on even ones.
 
     Args:
       corner_hz: corner of the filter by which they were smoothed.
@@ -53,10 +54,14 @@ def low_passed(
     """
     step_s = _step_s(time_s)
     kernel = _kernel(corner_hz, step_s)
+    if kernel.size == 1:
+        return values
     for power, coefficient in ((2, second), (4, fourth)):
         if coefficient:
             kernel = kernel - coefficient * _kernel(corner_hz, step_s, power)
-    return np.asarray(convolve1d(values, kernel, mode="nearest"))
+    even_s = time_s[0] + step_s * np.arange(round((time_s[-1] - time_s[0]) / step_s) + 1)
+    slow = convolve1d(np.interp(even_s, time_s, values), kernel, mode="nearest")
+    return np.asarray(np.interp(time_s, even_s, slow))
 
 
 def _step_s(time_s: Array) -> float:
@@ -82,13 +87,26 @@ def _kernel(corner_hz: float, step_s: float, power: int = 0) -> Array:
 
 
 def _in_low_band(trial: Trial, sensor: str, corner_hz: float) -> Trial:
-    """The trial with independent rows of a sensor, without those within a period of its ends."""
+    """The trial with independent rows of a sensor, far from its ends and from where none was read."""
     if not trial.has(sensor):
         return trial
     time_s, values = trial["time_s"], trial[sensor]
     read, step_s = np.isfinite(values), _step_s(time_s)
     slow = low_passed(time_s, np.interp(time_s, time_s[read], values[read]), corner_hz)
-    end = int(np.ceil(1.0 / (corner_hz * step_s)))
-    rows = np.zeros(time_s.size, bool)
-    rows[end : time_s.size - end : max(1, round(0.5 / (BAND_SHARE * corner_hz * step_s)))] = True
-    return replace(trial, table=trial.table.assign(**{sensor: np.where(rows & read, slow, np.nan)}))
+    apart_s = max(1, round(0.5 / (BAND_SHARE * corner_hz * step_s))) * step_s
+    wanted_s = np.arange(time_s[0] + 1.0 / corner_hz, time_s[-1] - 1.0 / corner_hz, apart_s)
+    near = np.clip(np.searchsorted(time_s[read], wanted_s), 1, np.count_nonzero(read) - 1)
+    before_s, after_s = time_s[read][near - 1], time_s[read][near]
+    certain = np.array(
+        [not _beside_hole(time_s[read], at_s, apart_s, step_s) for at_s in wanted_s], bool
+    )
+    rows = np.flatnonzero(read)[np.where(wanted_s - before_s < after_s - wanted_s, near - 1, near)]
+    kept = np.isin(np.arange(time_s.size), rows[certain])
+    return replace(trial, table=trial.table.assign(**{sensor: np.where(kept, slow, np.nan)}))
+
+
+def _beside_hole(read_s: Array, at_s: float, reach_s: float, step_s: float) -> bool:
+    """Whether readings are missing within reach of a time, more than a line can stand for."""
+    first, last = np.searchsorted(read_s, (at_s - reach_s, at_s + reach_s))
+    about_s = read_s[max(first - 1, 0) : last + 1]
+    return bool(np.diff(about_s).max(initial=0.0) > _HOLE * step_s)

@@ -110,6 +110,30 @@ def test_readings_that_are_missing_stay_missing():
     np.testing.assert_allclose(low[np.isfinite(low)], 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("missing", [2, 60])
+def test_rows_that_are_missing_change_nothing_beside_them(missing):
+    """A few are a line in a smoothed reading; about a longer hole nothing counts."""
+    one = trial(turns(60.0, STEP_S), step=STEP_S)
+    read = smoothed(20.0 * np.sin(2.0 * one["time_s"]))
+    kept = np.ones(len(one.table), bool)
+    kept[2000 : 2000 + missing] = False
+
+    def low(rows):
+        table = one.table.assign(**{SENSOR: read})[rows].reset_index(drop=True)
+        log = log_with(Trial(name=one.name, table=table))
+        return in_low_band(replace(log, smoothed_above_hz={SENSOR: CORNER_HZ})).trials[0]
+
+    whole, holed = low(np.ones(kept.size, bool)), low(kept)
+    counts = np.isfinite(holed[SENSOR])
+    assert np.count_nonzero(np.isfinite(whole[SENSOR])) - np.count_nonzero(counts) < 8
+    expected = np.interp(holed["time_s"], one["time_s"], low_passed(one["time_s"], read, CORNER_HZ))
+    # A line across 0.6 s is off by 20 (2 rad/s)^2 (0.6 s)^2 / 8 = 3.6 deg, of which lobes have 2 %.
+    np.testing.assert_allclose(holed[SENSOR][counts], expected[counts], atol=0.1)
+    if missing > 2:
+        about = np.abs(holed["time_s"] - 20.3) < 0.5
+        assert not counts[about].any()
+
+
 @pytest.fixture(scope="module")
 def smoothed_example(tmp_path_factory):
     """The log of an independent rig that nothing is missing from, smoothed after recording."""
