@@ -17,6 +17,7 @@ from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import shape_of
+from diagnosis.residuals.between_readings import between_readings
 from models.user_text import in_figure
 from scripts.output_folder import output_folder
 from scripts.progress_line import ByShare, stage_line, unheard, within
@@ -151,7 +152,10 @@ def _measured(trial: Trial) -> pd.DataFrame:
         "base_torque_n_mm": "measured_torque_n_mm",
     }
     there = {name: column for column, name in names.items() if trial.has(column)}
-    return pd.DataFrame({"time_s": trial["time_s"]} | {n: trial[c] for n, c in there.items()})
+    time_s = trial["time_s"]
+    return pd.DataFrame(
+        {"time_s": time_s} | {n: between_readings(time_s, trial[c]) for n, c in there.items()}
+    )
 
 
 def _draw(replayed: list[ReplayedTrial], path: Path) -> None:
@@ -161,7 +165,8 @@ def _draw(replayed: list[ReplayedTrial], path: Path) -> None:
         time_s = one.trial["time_s"]
         for axis, (sensor, label) in zip(row, _LABELS.items(), strict=True):
             if one.trial.has(sensor):
-                axis.plot(time_s, one.trial[sensor], color="0.6", lw=0.8, label="measured")
+                measured = between_readings(time_s, one.trial[sensor])
+                axis.plot(time_s, measured, color="0.6", lw=0.8, label="measured")
             axis.plot(time_s, one.prediction[sensor], color="tab:red", lw=1, label="nominal")
             axis.set(ylabel=label)
         row[0].set_title(in_figure(one.trial.name), loc="left", fontsize=9)
