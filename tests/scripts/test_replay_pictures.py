@@ -10,7 +10,7 @@ from scripts import replay
 def test_a_sensor_that_is_read_in_some_rows_is_shown_as_a_line():
     """Between NaN nothing would be drawn, and nothing logged."""
     one = trial(turns(6.0))
-    rare = one["tip_angle_deg"].copy()
+    rare = one["base_angle_deg"].copy()
     rare[np.arange(rare.size) % 10 > 0] = np.nan
     slow = Trial(name=one.name, table=one.table.assign(tip_angle_deg=rare))
     shown = replay._measured(slow)
