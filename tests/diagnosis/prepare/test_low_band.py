@@ -90,13 +90,15 @@ def test_noise_at_independent_rows_is_white_and_of_the_claimed_size(corner_hz):
 
 
 def test_other_logs_and_sensors_are_left_alone():
-    log = log_with(trial(turns(12.0, STEP_S), step=STEP_S))
+    one, other = trial(turns(12.0, STEP_S), step=STEP_S), "base_torque_n_mm"
+    table = one.table.assign(**{SENSOR: one["base_angle_deg"], other: 0.01 * one["base_angle_deg"]})
+    log = log_with(Trial(name=one.name, table=table))
     assert in_low_band(log) is log
     low = in_low_band(replace(log, smoothed_above_hz={SENSOR: CORNER_HZ}))
-    column = "base_torque_n_mm"
-    if log.trials[0].has(column):
-        np.testing.assert_array_equal(low.trials[0][column], log.trials[0][column])
+    assert np.isnan(low.trials[0][SENSOR]).mean() > 0.9
+    np.testing.assert_array_equal(low.trials[0][other], log.trials[0][other])
     assert low.rig.sensors.base_torque_noise_n_mm == log.rig.sensors.base_torque_noise_n_mm
+    assert low.rig.sensors.tip_angle_noise_deg < log.rig.sensors.tip_angle_noise_deg
 
 
 def test_readings_that_are_missing_stay_missing():
