@@ -58,7 +58,7 @@ def add_viscous(w: Workspace, loads: Array, beta: float) -> None:
 @inlined
 def add_shaft_damping(w: Workspace, time: float) -> None:
     """Damping of the material: torque of an element = stiffness (twist + time * its rate)."""
-    for e in range(w.nominal.size):
+    for e in range(w.nominal.size - 1):
         damping = time * w.nominal[e]
         w.damp_diagonal[e] += damping
         w.damp_upper[e] -= damping

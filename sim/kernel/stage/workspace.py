@@ -7,6 +7,8 @@ import numpy as np
 
 from sim.kernel import memory_map
 from sim.kernel.compiled import Array, inlined
+from sim.kernel.shaft import Shaft
+from sim.kernel.stage.inputs import Inputs
 from sim.kernel.view import view
 
 
@@ -57,6 +59,29 @@ class Frame(NamedTuple):
     spring: float = 0.0  # that brings it back, N m / rad
     joint: float = 0.0  # half of the play of a joint in the shaft, rad; 0: there is none
     joint_at: float = 0.0  # element that it is in, and the part of it that is in the next one
+
+
+@inlined
+def frame_of(head: Array, shaft: Shaft, g: float, inputs: Inputs) -> Frame:
+    """What does not change during a step with stages of length `g`, s."""
+    return Frame(
+        g,
+        inputs.speed / head[memory_map.H_RADIUS],
+        head[memory_map.H_ADVECTION] * inputs.speed,
+        head[memory_map.H_PRESLIDING],
+        shaft.servo,
+        head[memory_map.H_BACKLASH],
+        inputs.tissue,
+        head[memory_map.H_GRIP] if shaft.servo > 0.0 else 0.0,
+        head[memory_map.H_YIELD],
+        head[memory_map.H_YIELD_SLOPE],
+        head[memory_map.H_CREEP],
+        head[memory_map.H_CREEP_TIME],
+        head[memory_map.H_STOP],
+        head[memory_map.H_SPRING],
+        head[memory_map.H_JOINT],
+        head[memory_map.H_JOINT_AT],
+    )
 
 
 @inlined

@@ -78,7 +78,7 @@ def at_stage(interpreted, shaft_of):
     """The first stage of a step of a set-up, prepared in the interpreter: law, workspace, frame."""
 
     def prepared(setup, *, turn_deg=10.0, speed_m_s=0.0, seed=0):
-        places, step = interpreted.memory_map, interpreted.step
+        places = interpreted.memory_map
         law = law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows)
         head, mesh = header(setup, rows=len(law)), setup.nodes_mm * units.MM
         n, rows = mesh.size - 1, len(law)
@@ -89,19 +89,13 @@ def at_stage(interpreted, shaft_of):
         theta = np.radians(turn_deg) * np.linspace(1.0, 0.4, n + 1)
         rates = np.random.default_rng(seed).normal(0.0, 0.3, n + 1)
         shaft = shaft_of(setup)
-        frame = interpreted.workspace.Frame(
-            interpreted.method.GAMMAS[1] * setup.discretisation.step_s,
-            speed_m_s / head[places.H_RADIUS],
-            head[places.H_ADVECTION] * speed_m_s,
-            head[places.H_PRESLIDING],
-            shaft.servo,
-            head[places.H_BACKLASH],
-            grip=head[places.H_GRIP],
-            stop=head[places.H_STOP],
-            spring=head[places.H_SPRING],
-        )
         lengths = (setup.free_mm * units.MM, setup.inserted_mm * units.MM)
-        step._prepare(head, mesh, law, shaft, theta, rates, state, w, frame, *lengths, False)
-        return SimpleNamespace(law=law, w=w, frame=frame, head=head)
+        inputs = interpreted.inputs.Inputs(*lengths, speed_m_s, 1.0, 0.0, 0.0, 0.0, 0.0, False)
+        g = interpreted.method.GAMMAS[1] * setup.discretisation.step_s
+        frame = interpreted.workspace.frame_of(head, shaft, g, inputs)
+        nonlinear = interpreted.beginning.begin(
+            head, mesh, law, shaft, theta, rates, state, w, frame, inputs
+        )
+        return SimpleNamespace(law=law, w=w, frame=frame, head=head, shaft=shaft, nonlinear=nonlinear)
 
     return prepared
