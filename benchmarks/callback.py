@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from benchmarks import report
 from sim.discretisation import Arrangement
 from sim.kernel import memory_map
-from sim.kernel.callback import install
+from sim.kernel.native.callback import install
 from sim.needles.inputs import controls, initial_data
 from sim.needles.kept import compile_model
 from sim.needles.setup import Setup

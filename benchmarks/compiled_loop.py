@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from benchmarks.tissues import DAMPING, END_S, LENGTH_MM, RIGIDITY, TURN_RAD, TURN_S, Case
 from sim.kernel import memory_map
-from sim.kernel.callback import install
-from sim.kernel.struct_offsets import read_struct_offsets
+from sim.kernel.native.callback import install
+from sim.kernel.native.struct_offsets import read_struct_offsets
 
 Array = NDArray[np.float64]
 Answer = tuple[Array, Array]

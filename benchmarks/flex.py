@@ -15,7 +15,7 @@ from benchmarks.methods import rollout_of, setup_of
 from benchmarks.tissues import END_S, LENGTH_MM, SMOOTH
 from models import units
 from models.needle import NITINOL
-from sim.kernel.callback import install
+from sim.kernel.native.callback import install
 
 _ELEMENTS = 16
 _XML = """

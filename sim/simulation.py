@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from models.errors import InvalidValue
 from sim.kernel import memory_map
-from sim.kernel.callback import install
+from sim.kernel.native.callback import install
 from sim.needles import callback_loop
 from sim.needles.inputs import at_steps, controls_of_each, start_joints
 from sim.needles.kept import batch_of, models_in_turn, models_of

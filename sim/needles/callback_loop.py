@@ -19,8 +19,8 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from sim.kernel import memory_map
-from sim.kernel.callback import install
-from sim.kernel.struct_offsets import read_struct_offsets
+from sim.kernel.native.callback import install
+from sim.kernel.native.struct_offsets import read_struct_offsets
 from sim.needles.kept import data_of
 
 Array = NDArray[np.float64]

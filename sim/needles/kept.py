@@ -13,7 +13,7 @@ from typing import Generic, TypeVar
 import mujoco
 from mujoco.batch import Batch
 
-from sim.kernel.callback import install
+from sim.kernel.native.callback import install
 from sim.needles.setup import Setup
 from sim.spec import needle_spec, set_bodies, set_numbers
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from models.errors import EnvironmentMismatch
-from sim.kernel import struct_offsets
+from sim.kernel.native import struct_offsets
 
 
 def test_offsets_of_mujocos_structs_agree_with_the_bindings():

@@ -7,7 +7,7 @@ import pytest
 from models.needle import NITINOL
 from models.tissue import Tissue
 from sim.kernel import memory_map
-from sim.kernel.callback import install
+from sim.kernel.native.callback import install
 from sim.needles.setup import Setup
 from sim.spec import needle_spec
 
