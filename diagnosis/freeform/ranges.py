@@ -84,11 +84,15 @@ class LogRanges:
         return float(self.problem.log.rig.tissue.damping_n_mm_s_per_mm)
 
     @property
+    def longest_mm(self) -> float:
+        """Length of the shaft from chuck to tip, at most."""
+        trials = self.problem.log.trials
+        return max(float((trial.free_mm + trial.inserted_mm).max()) for trial in trials)
+
+    @property
     def deg_per_n_mm(self) -> float:
         """Twist of the longest nominal shaft over the torque that it asks for."""
-        log = self.problem.log
-        shaft_mm = max(float(np.max(trial.free_mm + trial.inserted_mm)) for trial in log.trials)
-        return shaft_mm / log.rig.rigidity_n_mm2 / units.DEG
+        return self.longest_mm / self.problem.log.rig.rigidity_n_mm2 / units.DEG
 
     @property
     def fastest_slip_rad_s(self) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria import (
+    EQUAL_SCORE,
     FINALISTS,
     MOST_FINALISTS,
     NEAR_FLOOR,
@@ -73,7 +74,8 @@ def fit_finalists(
     """
     near = in_question(problem, contenders)
     most = min(max(FINALISTS, len(_within(SIMPLE_LEAD, contenders))), MOST_FINALISTS)
-    finalists, beyond = near[:most], near[most:]
+    finalists = first_of(near, most)[:MOST_FINALISTS]
+    beyond = near[len(finalists) :]
     far = [c for c in contenders if c not in near]
     enough = NEAR_FLOOR * problem.samples
     found, record = fit_all(stage, [(problem, c.names, c.fit.x, enough) for c in finalists], workers)
@@ -119,6 +121,16 @@ def in_question(problem: FitProblem, ranked: Sequence[Candidate]) -> list[Candid
     near = _within(contending(problem), ranked)
     at_floor = [c for c in ranked if c.floor.reached and c not in near]
     return near + at_floor[: max(FINALISTS - len(near), 0)]
+
+
+def first_of(ranked: Sequence[Candidate], most: int) -> list[Candidate]:
+    """The first so many, and those next that tie with the last of them: which is out would be chance."""
+    first = list(ranked[:most])
+    for one in ranked[most:]:
+        if abs(one.score - first[-1].score) > EQUAL_SCORE:
+            break
+        first.append(one)
+    return first
 
 
 def _within(lead: float, ranked: Sequence[Candidate]) -> list[Candidate]:

@@ -10,6 +10,7 @@ cost that it leaves could not tell it from the chosen one, and is next to nothin
 changed.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -35,6 +36,7 @@ Parts = dict[str, Array]
 
 _DIFFERENCE = 1e-3  # of the nuisance, in the units of a fit
 _SMALL = 0.2  # share of a start at which the effect of a scale, or of a filter, is straight
+_ALIKE = 0.9  # correlation of two changes from which one is taken as strong as the other
 _ITERATIONS = 6
 
 
@@ -175,16 +177,32 @@ def _readings(problem: FitProblem, parts: Parts) -> Array:
 
 
 def _column(chosen: _Chosen, name: str) -> _Column:
-    """What an effect changes beside half of what was chosen."""
-    effect, half = chosen.problem.library[name], chosen.halved
+    """What an effect changes beside half of what was chosen.
+
+    One that changes alike is taken as strong as that half: what friction changes is not straight.
+    """
+    effect = chosen.problem.library[name]
     if name in chosen.own:
-        part, there = half[name], chosen.own[name]
-    else:
-        each = starts(effect)
-        share = _SMALL if effect.parameters[0].neutral == 1.0 or name in IMPERFECTIONS else 1.0
-        part = there = effect.weakened(each[len(each) // 2], share)
-    change = chosen.middle - _readings(chosen.problem, half | {name: there})
-    return _Column(name=name, part=part, change=change)
+        return _column_at(chosen, name, chosen.halved[name], chosen.own[name])
+    each = starts(effect)
+    share = _SMALL if effect.parameters[0].neutral == 1.0 or name in IMPERFECTIONS else 1.0
+    first = _column_at(chosen, name, effect.weakened(each[len(each) // 2], share))
+    amount = _amount(first.change, chosen.middle)
+    return first if amount is None else _column_at(chosen, name, effect.weakened(first.part, amount))
+
+
+def _column_at(chosen: _Chosen, name: str, part: Array, there: Array | None = None) -> _Column:
+    """What an effect with this part of the vector changes; `there`: which it then has in all."""
+    whole = chosen.halved | {name: part if there is None else there}
+    return _Column(name=name, part=part, change=chosen.middle - _readings(chosen.problem, whole))
+
+
+def _amount(change: Array, wanted: Array) -> float | None:
+    """Times a change that comes nearest to what is wanted; None: it changes in another way."""
+    power, common = float(change @ change), float(change @ wanted)
+    if common <= _ALIKE * math.sqrt(power * float(wanted @ wanted)):
+        return None
+    return common / power
 
 
 def _promising(chosen: _Chosen, columns: Sequence[_Column]) -> list[tuple[tuple[str, ...], Parts]]:

@@ -16,7 +16,7 @@ from diagnosis.criteria import (
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
-from diagnosis.selection.fitting import Made, fit_all, fit_finalists
+from diagnosis.selection.fitting import Made, first_of, fit_all, fit_finalists
 from diagnosis.selection.record import Decision, RecordEntry, dropped, failed, not_fitted
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.screening import Screened, screen
@@ -88,7 +88,7 @@ def taking_off_enough(stage: str, made: Made, without: float, state: SearchState
 def alike_on_the_decimated_log(found: Sequence[Candidate]) -> list[Candidate]:
     """The first of the decimated log and those about as likely there, of which any may be a part."""
     ranked = sorted(found, key=lambda c: c.score)
-    return [c for c in ranked if c.score - ranked[0].score <= SIMPLE_LEAD][:FINALISTS]
+    return first_of([c for c in ranked if c.score - ranked[0].score <= SIMPLE_LEAD], FINALISTS)
 
 
 def near_the_best(found: Sequence[Candidate], best: Sequence[Candidate], most: int) -> list[Candidate]:
@@ -123,12 +123,12 @@ def leading_sets(found: Sequence[Candidate]) -> list[Candidate]:
     """The leading sets on the decimated log, each once."""
     ranked = sorted(found, key=lambda c: c.score)
     distinct = {frozenset(c.names): c for c in reversed(ranked)}
-    return sorted(distinct.values(), key=lambda c: c.score)[: FAULT_CONTENDERS // 2]
+    return first_of(sorted(distinct.values(), key=lambda c: c.score), FAULT_CONTENDERS // 2)
 
 
 def leading_on_the_log(state: SearchState) -> list[Candidate]:
     """The leading explanations on the log itself, best first."""
-    return sorted(state.candidates, key=lambda c: c.score)[:FINALISTS]
+    return first_of(sorted(state.candidates, key=lambda c: c.score), FINALISTS)
 
 
 def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, workers: Workers) -> Made:

@@ -8,6 +8,7 @@ from diagnosis_fixtures import FITTED_SAMPLES, NO_LOG, fit_of, scored
 
 from diagnosis.criteria import (
     CONTENDING,
+    EQUAL_SCORE,
     FINALISTS,
     MOST_FINALISTS,
     NEAR_FLOOR,
@@ -47,6 +48,16 @@ def test_where_many_fit_about_as_well_more_are_finalists(made):
     made.clear()
     fit_finalists("finalists", NO_LOG, alike, Workers())
     assert len(made) == MOST_FINALISTS
+
+
+def test_what_ties_with_the_last_finalist_is_one_too(made):
+    """Where a needle never slides two laws of dry friction are one, and either may be the answer."""
+    scores = {"tip_drag": 0.0, "entry_friction": 1.0, "torque_bias": 2.0}
+    scores |= {"speed_dependent_friction": 50.0, "coulomb_friction": 50.0 + 0.5 * EQUAL_SCORE}
+    ranked = [scored([name], 100.0 + score) for name, score in scores.items()]
+    apart = scored(["stiction"], 150.0 + 2.0 * EQUAL_SCORE)
+    fit_finalists("finalists", NO_LOG, [*ranked, apart], Workers())
+    assert made == [(name,) for name in scores]
 
 
 def test_a_finalist_that_stays_far_above_the_noise_is_given_up(made, monkeypatch):

@@ -28,6 +28,12 @@ def coarse():
     return coarse_of(joined(log_of(NOMINAL, seconds=6.0), log_of(NOMINAL, speed=-1.0, seconds=6.0)))
 
 
+@pytest.fixture(scope="module")
+def still():
+    """A log of a needle that turns and never slides."""
+    return coarse_of(log_of(NOMINAL, seconds=6.0))
+
+
 def equal_to(coarse, *names):
     """Sets that are equivalent to these effects, all strong."""
     start = coarse.parameterization(names).joined({n: np.array(STRONG[n]) for n in names})
@@ -77,6 +83,23 @@ def test_a_torque_gain_beside_a_late_torque_and_a_rough_bearing_is_stiffness_and
     assert set(alike.names) == {*names[:2], "stiffness_error", "damping_error"}
     assert alike.parts["drive_friction"][0] == pytest.approx(np.log(0.8), abs=0.05)
     assert alike.parts["stiffness_error"][0] == pytest.approx(np.log(0.8), abs=0.05)
+
+
+@pytest.mark.parametrize("level", [2e-4, 1e-3, 5e-3])
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("coulomb_friction", "speed_dependent_friction"),
+        ("speed_dependent_friction", "coulomb_friction"),
+    ],
+)
+def test_where_a_needle_never_slides_two_laws_of_dry_friction_are_one(still, one, other, level):
+    """However strong it is: what friction changes is not straight, and sets are sought by secants."""
+    start = still.parameterization([one]).joined({one: np.array([np.log(level)])})
+    best = candidate(fit_effects(still, [one], start, most_iterations=0))
+    found = equivalent_sets(still, best, ("coulomb_friction", "speed_dependent_friction"), Workers())
+    assert [e.names for e in found] == [(other,)]
+    assert found[0].cost < 1e-3  # of their fits: 0.01 of a standard deviation
 
 
 @pytest.mark.parametrize("name", ["coulomb_friction", "tip_sensor_delay"])

@@ -6,7 +6,7 @@ from diagnosis_fixtures import turns
 from free_forms import DAMPING, VOCABULARY, covered, same_readings
 
 from diagnosis.effects import LIBRARY
-from diagnosis.freeform.families.contact import families
+from diagnosis.freeform.families.contact.over_past import families
 from diagnosis.replay.rig_parameters import NOMINAL
 from models.contact import CONTACT_POINTS
 
@@ -83,14 +83,3 @@ def test_curves_are_told_in_the_units_of_the_needle():
 def test_a_base_that_hardly_turns_has_no_law_of_the_slip():
     still = families(covered(0.001 * ANGLE, tip=ANGLE))
     assert [family.name for family in still] == ["dry friction over age"]
-
-
-def test_bonds_that_never_break_are_dry_friction_with_a_twist():
-    """The twist adds a thousandth to the presliding of 0.1 deg, which is 2 in 1000 of what is read."""
-    name = "breaking bonds over slip"
-    assert same_readings(ANGLE, rig_of(name, LEVEL, 1e-4, 10.0, 1.0), DRY, within=1e-5)
-    assert not same_readings(ANGLE, rig_of(name, LEVEL, 1e-4, 10.0, 0.05), DRY)
-    assert not same_readings(ANGLE, rig_of(name, LEVEL, 40.0, 10.0, 1.0), DRY)
-    slip_deg, friction = FAMILIES[name].curve(LEVEL, 5.0, 10.0, 0.2)
-    np.testing.assert_allclose(friction, LEVEL * (0.2 + 0.8 * np.exp(-slip_deg / 10.0)))
-    assert slip_deg[-1] == pytest.approx(60.0)

@@ -1,4 +1,4 @@
-"""Free laws of what each contact between shaft and tissue has been through.
+"""Free laws of the torque of a contact over its past.
 
 - damping, or dry friction, times a curve of the slip so far: lubrication and wear
 - damping times a curve of the heat of slipping, which fades: warmed tissue
@@ -6,12 +6,8 @@
   in time: thixotropic tissue, a gel
 - damping, or dry friction, times a curve of the slip since it turned back: tissue that bites
 - dry friction times a curve of the age of the contact, which slip renews; it starts as one that grows
-- dry friction of bristles, which twist before they slip (LuGre; Canudas de Wit et al., IEEE Trans.
-  Automatic Control 40 (1995))
-- the same of bristles that have slipped: bonds that break, tissue that tears
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -67,40 +63,14 @@ _HEALING = replace(_FADING, name="healing", start=(1.0, 10.0) * 2)
 _BITES = (-2.0, 2.0)  # slope of a curve over the slip since it turned back to start with
 _TURNS_BACK_DEG = 0.3  # slip after which it counts as turned back
 _WEAKENS = (-1.0,) * 4  # slope of a curve over what is broken to start with
-_BRISTLES = (
-    Parameter(
-        name="twist", unit="deg", low=0.5, high=90.0, start=(5.0, 15.0), logarithmic=True, neutral=None
-    ),
-    Parameter(
-        name="time", unit="s", low=0.001, high=3.0, start=(0.05, 0.05), logarithmic=True, neutral=None
-    ),
-)
-_BROKEN = 6.0  # times the slip of a factor e, after which nothing more breaks
-_BONDS = (
-    replace(_BRISTLES[0], high=180.0, start=(5.0, 5.0, 20.0, 20.0, 60.0, 60.0)),
-    Parameter(
-        name="slip",
-        unit="deg",
-        low=0.1,
-        high=360.0,
-        start=(0.5, 8.0) * 3,
-        logarithmic=True,
-        neutral=None,
-    ),
-    Parameter(name="left", unit="-", low=0.01, high=1.0, start=(0.05,) * 6, neutral=None),
-)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that depend on the past of a contact."""
     found: list[Family] = []
     if Variable.HISTORY in ranges.ends:
-        found += [
-            *(_damping_over(own, ranges) for own in (_slip(ranges), _heat(ranges), _broken_share())),
-            *(_friction_over(own, ranges) for own in (_slip(ranges), _broken_share())),
-            _bristles(ranges),
-            _bonds(ranges),
-        ]
+        found += [_damping_over(own, ranges) for own in (_slip(ranges), _heat(ranges), _broken_share())]
+        found += [_friction_over(own, ranges) for own in (_slip(ranges), _broken_share())]
     if {Variable.HISTORY, Variable.BASE_ANGLE} <= ranges.ends.keys():
         found += [over(_turned(ranges), ranges) for over in (_damping_over, _friction_over)]
     if Variable.TIME in ranges.ends:
@@ -241,95 +211,3 @@ def _shaped(neutral: ContactCurve, curve: SmoothCurve, shape: Sequence[float]) -
         neutral, shape = neutral.but(renewal_deg=shape[0], fading_s=shape[1]), shape[2:]
     changed: ContactCurve = neutral.but(factors=curve.factors(shape))
     return changed
-
-
-def _bristles(ranges: LogRanges) -> Family:
-    kinetic, static, stribeck = (
-        replace(p, start=p.start[:2]) for p in ranges.library["stiction"].parameters
-    )
-    return Family(
-        effect=Effect(
-            name="bristle friction over turned_by",
-            title="dry friction of bristles that twist before they slip",
-            place=Place.INTERFACE,
-            parameters=(kinetic, replace(static, name="excess"), stribeck, *_BRISTLES),
-            apply=_apply_bristles,
-            differences=(1e-1, 1e-2),
-        ),
-        places=_PLACES,
-        says="history",
-        title="dry friction along the shaft after it has turned back",
-        curve=_twisted,
-        x_unit="deg",
-        unit="N mm / mm",
-    )
-
-
-def _twisted(kinetic: float, excess: float, _: float, twist_deg: float, __: float) -> Points:
-    """Bristles that are twisted slowly slip at the static level."""
-    return (0.0, twist_deg, 2.0 * twist_deg), (0.0, kinetic + excess, kinetic + excess)
-
-
-def _apply_bristles(
-    rig: RigParameters,
-    kinetic: float,
-    excess: float,
-    stribeck_rad_s: float,
-    twist_deg: float,
-    time_s: float,
-) -> RigParameters:
-    static = kinetic + excess
-    law = Interface(
-        kinetic_n_mm_per_mm=kinetic,
-        static_n_mm_per_mm=static,
-        stribeck_rad_s=stribeck_rad_s,
-        stiffness_n_mm_per_rad_per_mm=static / math.radians(twist_deg),
-        time_constant_s=time_s,
-    )
-    return replace(rig, free=FreeLaw(throughout=(law,)))
-
-
-def _bonds(ranges: LogRanges) -> Family:
-    """Bristles whose level fades with the slip so far, to a part that stays."""
-    level = ranges.library["coulomb_friction"].parameters[0]
-    starts = len(_BONDS[0].start)
-    return Family(
-        effect=Effect(
-            name="breaking bonds over slip",
-            title="bonds between shaft and tissue that twist, and break where they slip",
-            place=Place.INTERFACE,
-            parameters=(replace(level, start=level.start[-1:] * starts), *_BONDS),
-            apply=_apply_bonds,
-            differences=(1e-1, 1e-2),
-        ),
-        places={Place.INTERFACE: 0.5, Place.TISSUE: 0.5},
-        says="history",
-        title="friction of the bonds along the shaft",
-        curve=_broken,
-        x_unit="deg of slip",
-        unit="N mm / mm",
-    )
-
-
-def _fading(slip_deg: float, left: float) -> ContactCurve:
-    """From 1 to what is left, by a factor e within each `slip_deg`."""
-    curve = _neutral(ContactVariable.SLIP, slip_deg, _BROKEN * slip_deg)
-    factors = left + (1.0 - left) * np.exp(-curve.places / slip_deg)
-    faded: ContactCurve = curve.but(factors=tuple(factors))
-    return faded
-
-
-def _broken(level: float, _: float, slip_deg: float, left: float) -> Points:
-    curve = _fading(slip_deg, left)
-    return curve.places, level * np.array(curve.factors)
-
-
-def _apply_bonds(
-    rig: RigParameters, level: float, twist_deg: float, slip_deg: float, left: float
-) -> RigParameters:
-    law = Interface(
-        kinetic_n_mm_per_mm=level,
-        stiffness_n_mm_per_rad_per_mm=level / math.radians(twist_deg),
-        contact=_fading(slip_deg, left),
-    )
-    return replace(rig, free=FreeLaw(throughout=(law,)))

@@ -1,0 +1,1 @@
+"""Free laws of the shaft of the needle."""

@@ -1,0 +1,24 @@
+"""A free law of a shaft that yields: where it never does, it is the nominal one."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import turns
+from free_forms import covered, same_readings
+
+from diagnosis.freeform.families.shaft.yielding import families
+from diagnosis.replay.rig_parameters import NOMINAL
+
+ANGLE = turns(6.0)
+RANGES = covered(ANGLE, tip=ANGLE, torque=0.02 * ANGLE, seen=(ANGLE, 0.02 * ANGLE))
+
+
+def test_without_a_torque_nothing_is_asked_of_the_shaft():
+    assert families(covered(ANGLE, tip=ANGLE)) == ()
+
+
+@pytest.mark.parametrize(("torque_n_mm", "yields"), [(100.0, False), (0.3, True)])
+def test_a_shaft_that_yields_beyond_what_it_takes_is_the_nominal_one(torque_n_mm, yields):
+    (yielding,) = families(RANGES)
+    assert same_readings(ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, 0.4), NOMINAL) is not yields
+    twist, torque = yielding.curve(2.0, 0.25)
+    assert np.diff(torque) / np.diff(twist) == pytest.approx([2.0, 0.5])
