@@ -23,7 +23,11 @@ from diagnosis.prepare.noise.sensor_noise import Noise, estimate_noise
 from diagnosis.prepare.prepare import prepare
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.rig_scale import scale_of
-from diagnosis.prepare.start.late_start_detection import with_late_starts, without_unused
+from diagnosis.prepare.start.late_start_detection import (
+    begun_as,
+    with_late_starts,
+    without_unused,
+)
 from diagnosis.replay.accuracy.uncertain_times import (
     errors_by_times,
     warnings_of_times,
@@ -82,7 +86,8 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
-    log = in_low_band(averaged(with_counts_restored(log, _nominal_gap)))
+    read = averaged(with_counts_restored(log, _nominal_gap))
+    log = in_low_band(read)
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
     noise = _noise(log, prepared, predictions, base_sigma_deg)
@@ -94,8 +99,11 @@ def replay_nominal(log: RigLog) -> NominalReplay:
         prepared = weighted_by_errors(prepared, by_times.whole, noise)
     prepared, unsampled = weighted_by_unsampled_motion(prepared, predictions, noise)
     noise = replace(noise, warnings=(*noise.warnings, *unsampled))
-    left = _residuals(prepared, predictions)
-    begun = with_late_starts(prepared, {s: [own for _, own in each] for s, each in left.items()}, noise)
+    begun = (
+        _begun(prepared, predictions, noise)
+        if not log.noise_left
+        else _begun_as_read(prepared, read, noise)
+    )
     library = library_of(scale_of(begun))
     problem = FitProblem(log=begun, noise=noise, nuisance=nuisance_of(begun), library=library)
     if not late_starts_of(begun):
@@ -114,6 +122,24 @@ def fitted_pasts(problem: FitProblem) -> Fit:
       SimulationFailed: the nominal rig cannot be simulated.
     """
     return fit_effects(replace(problem, nuisance=late_starts_of(problem.log)), ())
+
+
+def _begun(log: PreparedLog, predictions: Sequence[Prediction], noise: Noise) -> PreparedLog:
+    """The log with late trials marked."""
+    left = _residuals(log, predictions)
+    return with_late_starts(log, {s: [own for _, own in each] for s, each in left.items()}, noise)
+
+
+def _begun_as_read(slow: PreparedLog, log: RigLog, noise: Noise) -> PreparedLog:
+    """A log in its low band, whose rows are too rare for starts, with late trials marked as it was read.
+
+    Args:
+      log: as it was read; of smoothed readings the noise is the claimed one.
+    """
+    claims = log.rig.sensors.by_column()
+    as_read = Noise(sigma=dict(noise.sigma) | {s: claims[s] for s in slow.noise_left if claims[s]})
+    prepared, _ = prepare(replace(log, smoothed_above_hz={}))
+    return begun_as(slow, _begun(prepared, replay(prepared), as_read))
 
 
 def _nominal_gap(log: RigLog) -> float:

@@ -6,7 +6,8 @@ give the noise to 1 %. They are used if they are within 8 % of the first estimat
 something fast is left in them. The first estimate is that of the core of the noise: where its tails are
 heavy, it may be larger by what they add. Of smoothed readings rare rows count, whose fourth differences
 have the motion in them: there any less is believed, since nothing that a model lacks makes differences
-smaller.
+smaller. And so much more as the noise before smoothing was more than after it, which is what a lab may
+claim: what is fast in the residual shows as what is not white.
 
 Whether the noise is white at all is tested on the residual of a fitted effect, and again on that of
 the best explanation: the residual of the nominal rig contains too much else
@@ -14,6 +15,7 @@ the best explanation: the residual of the nominal rig contains too much else
 residuals do for white noise.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -82,8 +84,8 @@ def reestimated_noise(problem: FitProblem, best: Fit) -> Noise:
     """Noise of the sensors, from the residual of the best fit."""
     first = with_colour(problem, best) if problem.noise.colour else problem.noise
     left = _of_exact_predictions(problem, in_units_of(problem, best.by_trial, first))
-    rare = {s for trial in problem.log.trials for s in trial.smoothed_above_hz}
-    change = {s: _change([v for _, v in own], rare=s in rare) for s, own in left.items()}
+    rare = _more_before_smoothing(problem)
+    change = {s: _change([v for _, v in own], rare.get(s)) for s, own in left.items()}
     sigma = {s: max(own * change.get(s, 1.0), first.least.get(s, 0.0)) for s, own in first.sigma.items()}
     return replace(first, sigma=sigma)
 
@@ -150,15 +152,23 @@ def _other_units(part: Read, before: Noise, noise: Noise) -> Array:
     return noise.whitened(sensor, time_s, smaller * before.restored(sensor, time_s, values))
 
 
-def _change(parts: Sequence[Array], *, rare: bool) -> float:
+def _more_before_smoothing(problem: FitProblem) -> dict[str, float]:
+    """Noise before readings were smoothed over that after it, by sensor: of white noise only that
+    below the corner passes.
+    """
+    corners = [(t, s, hz) for t in problem.log.trials for s, hz in t.smoothed_above_hz.items()]
+    return {s: 1.0 / math.sqrt(min(2.0 * hz * trial.sample_s, 1.0)) for trial, s, hz in corners}
+
+
+def _change(parts: Sequence[Array], rare: float | None) -> float:
     """Noise / its first estimate, from residuals in units of that estimate.
 
     Args:
-      rare: whether rows are rare, and the first estimate may be far above the noise.
+      rare: by which the claim may be too small, where rows are rare; None: they are not.
     """
     found, heavy = white_noise(parts, order=1), heaviness(parts)
     tails = min(heavy, NOISE_HEAVIEST) if heavy > NOISE_HEAVY else 1.0
-    trusted = (0.0 if rare else 1 - NOISE_TRUST, (1 + NOISE_TRUST) * tails)
+    trusted = (1 - NOISE_TRUST if rare is None else 0.0, (1 + NOISE_TRUST) * max(tails, rare or 1.0))
     return float(np.clip(found if np.isfinite(found) else 1.0, *trusted))
 
 

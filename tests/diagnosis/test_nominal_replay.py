@@ -1,8 +1,11 @@
 """A log beside what its nominal rig predicts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of
+from diagnosis_fixtures import joined, log_of
+from scipy.ndimage import uniform_filter1d
 
 from diagnosis.nominal_replay import nominal_residuals, replay_nominal
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -25,6 +28,23 @@ def test_residuals_of_the_nominal_rig_are_those_of_its_fit(nominal):
 def test_a_log_that_begins_at_rest_is_replayed_by_the_nominal_rig_itself(nominal):
     assert nominal.rig == NOMINAL
     assert nominal.problem.log.trials[0].late_start is None
+
+
+@pytest.mark.parametrize("off_deg", [0.0, 3.0])
+def test_smoothed_readings_tell_a_start_before_they_are_in_their_low_band(off_deg):
+    """Rows of the low band are too rare for it: of one trial the needle rests elsewhere in the play."""
+    seconds, rows = 6.0, 9
+    log = joined(*(log_of(NOMINAL, seconds=seconds, seed=seed) for seed in range(3)))
+    trials = [
+        replace(one, table=one.table.assign(tip_angle_deg=uniform_filter1d(one["tip_angle_deg"], rows)))
+        for one in log.trials
+    ]
+    last = trials[-1].table
+    trials[-1] = replace(trials[-1], table=last.assign(tip_angle_deg=last["tip_angle_deg"] + off_deg))
+    corner_hz = 0.443 / (rows * 0.01)
+    smoothed = replace(log, trials=tuple(trials), smoothed_above_hz={"tip_angle_deg": corner_hz})
+    begun = replay_nominal(smoothed).problem.log.trials
+    assert [one.late_start is not None for one in begun] == [False, False, off_deg != 0.0]
 
 
 def test_the_noise_is_that_of_the_log_whatever_the_nominal_rig_lacks(nominal):

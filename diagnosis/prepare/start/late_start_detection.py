@@ -82,6 +82,16 @@ def with_late_starts(
     return replace(log, trials=tuple(trials))
 
 
+def begun_as(log: PreparedLog, other: PreparedLog) -> PreparedLog:
+    """The log with those trials marked that are in another version of it."""
+    each = zip(log.trials, other.trials, strict=True)
+    trials = [
+        begun_late(log.rig, own, marked.late_start.twist_deg) if marked.late_start else own
+        for own, marked in each
+    ]
+    return replace(log, trials=tuple(trials))
+
+
 def without_unused(log: RigLog, begun: PreparedLog) -> RigLog:
     """The log without the readings that are not used because trials began late."""
     each = zip(log.trials, begun.trials, strict=True)

@@ -58,6 +58,18 @@ def test_less_is_believed_where_smoothed_readings_count_in_rare_rows(problem):
     assert noise["tip_angle_deg"] / TIP == pytest.approx(0.5, abs=0.5 * 3 * np.sqrt(0.75 / SAMPLES))
 
 
+@pytest.mark.parametrize(("more", "corner_hz"), [(2.0, 4.0), (1.2, 4.0), (2.0, 40.0)])
+def test_a_claim_may_be_that_of_readings_after_they_were_smoothed(problem, more, corner_hz):
+    """Of white noise a share of 2 corner / rate passes: so much larger it was before."""
+    trials = (replace(problem.log.trials[0], smoothed_above_hz={"tip_angle_deg": corner_hz}),)
+    smoothed = replace(problem, log=replace(problem.log, trials=trials))
+    noise = reestimated_noise(smoothed, fit_of((), by_trial=[left(more, more)]))
+    most = (1 + NOISE_TRUST) / np.sqrt(2 * corner_hz * problem.log.trials[0].sample_s)
+    error = more * 3 * np.sqrt(0.75 / SAMPLES)
+    assert noise["tip_angle_deg"] / TIP == pytest.approx(min(more, most), abs=error)
+    assert noise["base_torque_n_mm"] == pytest.approx((1 + NOISE_TRUST) * TORQUE)
+
+
 @pytest.mark.parametrize("weight", [0.5, 0.9])
 def test_readings_whose_prediction_errs_are_no_noise(problem, weight):
     """Half of the readings of the tip leave less, and count only if they have most of their weight."""

@@ -12,6 +12,7 @@ from diagnosis_fixtures import BASE, NOISE, RIG, TIP, TORQUE, log_with, prepared
 
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.start.late_start_detection import (
+    begun_as,
     start_rate_deg_s,
     with_late_starts,
     without_unused,
@@ -67,6 +68,16 @@ def test_what_differs_from_trial_to_trial_is_a_twist_and_what_all_share_is_an_of
 def test_trials_that_begin_twisted_alike_are_told_from_an_offset_by_their_torque():
     assert late(*log_off_by([-30.0, -30.0], [torque_of(30.0)] * 2)) == [0, 1]
     assert late(*log_off_by([-30.0, -30.0], [0.0, 0.0])) == []
+
+
+def test_another_version_of_a_log_begins_late_in_the_same_trials():
+    log, residuals = log_off_by([5.0, 25.0, 5.0], [0.0, -torque_of(-20.0), 0.0])
+    marked = begun_as(log, with_late_starts(log, residuals, NOISE))
+    assert [one.late_start is not None for one in marked.trials] == [False, True, False]
+    assert marked.trials[1].late_start.twist_deg == pytest.approx(-20.0, abs=0.5)
+    unused = marked.trials[1].time_s < marked.trials[1].late_start.unused_s
+    assert np.isnan(marked.trials[1].readings["tip_angle_deg"][unused]).all()
+    assert begun_as(log, log).trials == log.trials
 
 
 def test_the_twist_is_that_beyond_the_offset_that_all_share():
