@@ -14,6 +14,8 @@ from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_grip import FreeGrip
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.variables import Variable
 from models.tissue import Interface
 
@@ -39,11 +41,14 @@ EVERYTHING = replace(
     rate_curve=(0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0),
     rate_range_rad_s=(0.1, 2.0),
     along_depth=AlongDepth(damping=(1.0, 2.0), thicknesses_mm=(30.0,)),
-    stiffness_along=(1.0, 0.8, 1.0),
-    stiffness_along_mm=150.0,
-    creep_ratio=0.3,
-    creep_time_s=2.0,
-    shaft_damping_s=0.1,
+    shaft=FreeShaft(
+        stiffness_along=(1.0, 0.8, 1.0),
+        stiffness_along_mm=150.0,
+        creep_ratio=0.3,
+        creep_time_s=2.0,
+        damping_time_s=0.1,
+    ),
+    grip=FreeGrip(torque_n_mm=0.5, play_deg=3.0, stiffness_n_mm_per_rad=1.0),
     at_tip=(Interface(viscous_n_mm_s_per_mm=0.1),),
 )
 """A law that uses every field."""

@@ -24,7 +24,7 @@ Dependence on the rate, angle or place of each piece of the shaft is a law of th
 """
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -33,11 +33,13 @@ from scipy.integrate import cumulative_trapezoid
 
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Curve
+from diagnosis.replay.free_parts.free_grip import FreeGrip
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
+from diagnosis.replay.free_parts.merged import merged
 from diagnosis.replay.sensing.curve_signals import on_gain, on_needle, on_reading
 from diagnosis.replay.variables import Variable
 from models.contact import ContactCurve
 from models.drive import Drive
-from models.errors import InvalidValue
 from models.needle import Needle
 from models.tissue import Interface, Tissue
 from sim.schedule import Schedule
@@ -55,6 +57,7 @@ _TORQUES = (
     "orientation_dry_n_mm_per_mm",
 )
 _ADDED = ("curves", "throughout", "at_tip", "at_entry", "in_sheath")
+_RECORDS = ("shaft", "grip")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
 _OF_TISSUE = (ActsOn.TISSUE_ANGLE, ActsOn.TISSUE_SLIP)  # whose turn the tip shows, too
@@ -74,24 +77,9 @@ class FreeLaw:
       rate_curve: factors of its viscous torque (models.tissue).
       rate_range_rad_s: range of rates that they span.
       along_depth: what changes with the depth.
-      stiffness_over_torque: factors of the shaft's stiffness (models.needle).
-      stiffness_torque_n_mm: torque at the last of them.
-      stiffness_along: its factors at even places from the tip on (models.needle).
-      stiffness_along_mm: from the tip to the last of them.
-      yield_torque_n_mm: torque beyond which the shaft twists plastically (models.needle); None: never.
-      yield_stiffness_ratio: its stiffness beyond it over the elastic one.
-      creep_ratio: twist that a torque adds in time, over the elastic one (models.needle).
-      creep_time_s: in which it does.
-      shaft_damping_s: damping of the shaft's material over its stiffness (models.needle).
-      joint_play_deg: play of a joint in the shaft (models.needle); 0: there is none.
-      joint_from_tip_mm: where it is.
-      tip_inertia_kg_m2: of what turns with its tip, besides that of the rig.
+      shaft: another shaft of the needle.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
-      grip_torque_n_mm: torque at which the needle slips in the chuck (models.drive); None: never.
-      grip_play_deg: between the stops of that slip; None: there are none.
-      grip_stiffness_n_mm_per_rad: of a spring that brings it back.
-      grip_of_tissue: whether it is the tissue in its holder that gives way, not the chuck: as seen from
-        the tissue that is the same, and the tip turns with it; exact without friction elsewhere.
+      grip: of the chuck, or of the tissue's holder, which gives way.
       throughout, at_tip, at_entry: additional laws (models.tissue).
       in_sheath: additional laws of the free shaft (models.drive).
 
@@ -106,23 +94,9 @@ class FreeLaw:
     rate_curve: tuple[float, ...] = ()
     rate_range_rad_s: tuple[float, float] = (0.01, 10.0)
     along_depth: AlongDepth = AlongDepth()  # noqa: RUF009 - frozen
-    stiffness_over_torque: tuple[float, ...] = ()
-    stiffness_torque_n_mm: float = 0.0
-    stiffness_along: tuple[float, ...] = ()
-    stiffness_along_mm: float = 0.0
-    yield_torque_n_mm: float | None = None
-    yield_stiffness_ratio: float = 0.0
-    creep_ratio: float = 0.0
-    creep_time_s: float = 0.0
-    shaft_damping_s: float = 0.0
-    joint_play_deg: float = 0.0
-    joint_from_tip_mm: float = 0.0
-    tip_inertia_kg_m2: float = 0.0
+    shaft: FreeShaft = FreeShaft()  # noqa: RUF009 - frozen
     contact: ContactCurve | None = None
-    grip_torque_n_mm: float | None = None
-    grip_play_deg: float | None = None
-    grip_stiffness_n_mm_per_rad: float = 0.0
-    grip_of_tissue: bool = False
+    grip: FreeGrip = FreeGrip()  # noqa: RUF009 - frozen
     throughout: tuple[Interface, ...] = ()
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
@@ -154,23 +128,9 @@ class FreeLaw:
             rate_curve=tuple(factor**strength for factor in self.rate_curve),
             rate_range_rad_s=self.rate_range_rad_s,
             along_depth=self.along_depth.times(strength),
-            stiffness_over_torque=tuple(factor**strength for factor in self.stiffness_over_torque),
-            stiffness_torque_n_mm=self.stiffness_torque_n_mm,
-            stiffness_along=tuple(factor**strength for factor in self.stiffness_along),
-            stiffness_along_mm=self.stiffness_along_mm,
+            shaft=self.shaft.times(strength),
+            grip=self.grip.times(strength),
             contact=_raised(self.contact, strength) if self.contact else None,
-            yield_torque_n_mm=_weaker(self.yield_torque_n_mm, strength),
-            yield_stiffness_ratio=self.yield_stiffness_ratio,
-            creep_ratio=strength * self.creep_ratio,
-            creep_time_s=self.creep_time_s,
-            shaft_damping_s=strength * self.shaft_damping_s,
-            joint_play_deg=strength * self.joint_play_deg,
-            joint_from_tip_mm=self.joint_from_tip_mm,
-            tip_inertia_kg_m2=strength * self.tip_inertia_kg_m2,
-            grip_torque_n_mm=_weaker(self.grip_torque_n_mm, strength),
-            grip_play_deg=None if self.grip_play_deg is None else strength * self.grip_play_deg,
-            grip_stiffness_n_mm_per_rad=_weaker(self.grip_stiffness_n_mm_per_rad, strength) or 0.0,
-            grip_of_tissue=self.grip_of_tissue,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
@@ -183,7 +143,7 @@ class FreeLaw:
         Raises:
           InvalidValue: both set a part of which a rig has one.
         """
-        return FreeLaw(**{part.name: _either(part.name, self, other) for part in fields(FreeLaw)})
+        return merged(self, other, added=_ADDED, within=_RECORDS)
 
     def on_trial(self, trial: str) -> "FreeLaw":
         """The parts of the law that apply to one trial."""
@@ -206,31 +166,11 @@ class FreeLaw:
 
     def needle(self, needle: Needle) -> Needle:
         """The needle with the law in it."""
-        changed: Needle = needle.but(
-            stiffness_curve=self.stiffness_over_torque,
-            stiffness_torque_n_mm=self.stiffness_torque_n_mm,
-            stiffness_along=self.stiffness_along,
-            stiffness_along_mm=self.stiffness_along_mm,
-            yield_torque_n_mm=self.yield_torque_n_mm,
-            yield_stiffness_ratio=self.yield_stiffness_ratio,
-            creep_ratio=self.creep_ratio,
-            creep_time_s=self.creep_time_s,
-            damping_time_s=self.shaft_damping_s,
-            joint_play_deg=self.joint_play_deg,
-            joint_from_tip_mm=self.joint_from_tip_mm,
-            tip_inertia_kg_m2=needle.tip_inertia_kg_m2 + self.tip_inertia_kg_m2,
-        )
-        return changed
+        return self.shaft.of(needle)
 
     def drive(self, drive: Drive) -> Drive:
         """The drive with the law in it."""
-        grips = self.grip_torque_n_mm is not None
-        changed: Drive = drive.but(
-            grip_torque_n_mm=self.grip_torque_n_mm,
-            grip_play_deg=self.grip_play_deg if grips else None,
-            grip_stiffness_n_mm_per_rad=self.grip_stiffness_n_mm_per_rad if grips else 0.0,
-            in_sheath=self.in_sheath,
-        )
+        changed: Drive = self.grip.of(drive).but(in_sheath=self.in_sheath)
         return changed
 
     def tissue(self, tissue: Tissue) -> Tissue:
@@ -311,18 +251,6 @@ class FreeLaw:
         return read[True], read[False]
 
 
-def _either(part: str, one: FreeLaw, other: FreeLaw) -> Any:
-    """A part of two laws at once."""
-    first, second, none = (getattr(law, part) for law in (one, other, FreeLaw()))
-    if part in _ADDED:
-        return first + second
-    if second in (none, first):
-        return first
-    if first == none:
-        return second
-    raise InvalidValue(part, second, f"one law that sets it, and another one sets {first}")
-
-
 def _stronger(law: Interface, strength: float) -> Interface:
     """An additional law with its torques multiplied; so is the stiffness of tissue in series with it."""
     changes = {name: strength * getattr(law, name) for name in _TORQUES}
@@ -336,8 +264,3 @@ def _raised(curve: ContactCurve, strength: float) -> ContactCurve:
     """A curve of factors raised to a power."""
     raised: ContactCurve = curve.but(factors=tuple(factor**strength for factor in curve.factors))
     return raised
-
-
-def _weaker(limit_n_mm: float | None, strength: float) -> float | None:
-    """A limit of the torque that is so many times lower; None: there is none."""
-    return limit_n_mm / strength if limit_n_mm is not None and strength > 0 else None

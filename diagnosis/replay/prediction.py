@@ -65,7 +65,7 @@ def sensed_at_samples(
 
 def _tip_deg(rig: RigParameters, run: Run) -> Array:
     """Angle of the tip, (N,); that of a run as seen from tissue which has turned in its holder, too."""
-    turned = rig.free is not None and rig.free.grip_of_tissue
+    turned = rig.free is not None and rig.free.grip.of_tissue
     return run.tip_deg + run.slip_deg if turned else run.tip_deg
 
 

@@ -8,7 +8,8 @@
     time_constant_s: 0
     law: {curves: [{acts_on: tissue, variable: depth, places: [...], values: [...]}], ...}
 
-The fields of `law` are those of diagnosis.replay.free_law. Its one parameter is its `strength`: 1 is the
+The fields of `law` are those of diagnosis.replay.free_law and free_parts. Its one parameter is its
+`strength`: 1 is the
 law as it was saved.
 """
 

@@ -15,6 +15,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_grip import FreeGrip
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
@@ -86,7 +87,7 @@ def _holder(most_n_mm: float) -> Family:
 
 
 def _apply_holder(rig: RigParameters, torque: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(grip_torque_n_mm=torque, grip_of_tissue=True))
+    return replace(rig, free=FreeLaw(grip=FreeGrip(torque_n_mm=torque, of_tissue=True)))
 
 
 def _held(torque: float) -> Points:
@@ -94,7 +95,7 @@ def _held(torque: float) -> Points:
 
 
 def _apply(rig: RigParameters, torque: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(grip_torque_n_mm=torque))
+    return replace(rig, free=FreeLaw(grip=FreeGrip(torque_n_mm=torque)))
 
 
 def _coupling(most_n_mm: float) -> Family:
@@ -136,5 +137,5 @@ def _taken(torque: float, play_deg: float, stiffness: float) -> Points:
 def _apply_coupling(
     rig: RigParameters, torque: float, play_deg: float, stiffness: float
 ) -> RigParameters:
-    law = FreeLaw(grip_torque_n_mm=torque, grip_play_deg=play_deg, grip_stiffness_n_mm_per_rad=stiffness)
-    return replace(rig, free=law)
+    grip = FreeGrip(torque_n_mm=torque, play_deg=play_deg, stiffness_n_mm_per_rad=stiffness)
+    return replace(rig, free=FreeLaw(grip=grip))

@@ -7,6 +7,7 @@ import pytest
 
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.variables import Variable
 from models.errors import InvalidValue
 from models.tissue import RATE_POINTS, Interface, Layer, Tissue
@@ -62,7 +63,9 @@ def test_two_laws_at_once_add_their_readings_and_multiply_their_factors():
 
 
 def test_beside_no_law_a_law_is_itself():
-    law = FreeLaw(asymmetry=0.3, creep_ratio=0.1, throughout=(LAYER,), tissue_varies=True)
+    law = FreeLaw(
+        asymmetry=0.3, shaft=FreeShaft(creep_ratio=0.1), throughout=(LAYER,), tissue_varies=True
+    )
     assert law.beside(FreeLaw()) == FreeLaw().beside(law) == law
     assert law.beside(replace(law, throughout=())) == law  # what both set alike is no contradiction
 

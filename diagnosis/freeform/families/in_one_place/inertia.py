@@ -10,6 +10,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models import units
@@ -61,4 +62,4 @@ def _line(fastest: float, inertia: float) -> Points:
 
 
 def _apply(rig: RigParameters, inertia: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(tip_inertia_kg_m2=inertia * units.N_MM))
+    return replace(rig, free=FreeLaw(shaft=FreeShaft(tip_inertia_kg_m2=inertia * units.N_MM)))

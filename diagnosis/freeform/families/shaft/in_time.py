@@ -12,6 +12,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LEAST_PAST_S, LONGEST_PAST_S, LogRanges
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
@@ -66,7 +67,7 @@ def _creep(ratio: float, time_s: float) -> Points:
 
 
 def _apply_creep(rig: RigParameters, ratio: float, time_s: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(creep_ratio=ratio, creep_time_s=time_s))
+    return replace(rig, free=FreeLaw(shaft=FreeShaft(creep_ratio=ratio, creep_time_s=time_s)))
 
 
 def _damping() -> Family:
@@ -102,4 +103,4 @@ def _damped(time_s: float) -> Points:
 
 
 def _apply_damping(rig: RigParameters, time_s: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(shaft_damping_s=time_s))
+    return replace(rig, free=FreeLaw(shaft=FreeShaft(damping_time_s=time_s)))

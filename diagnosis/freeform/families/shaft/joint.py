@@ -7,6 +7,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
@@ -60,4 +61,6 @@ def _play(longest_mm: float, play_deg: float, place_mm: float) -> Points:
 
 
 def _apply_joint(rig: RigParameters, play_deg: float, place_mm: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(joint_play_deg=play_deg, joint_from_tip_mm=place_mm))
+    return replace(
+        rig, free=FreeLaw(shaft=FreeShaft(joint_play_deg=play_deg, joint_from_tip_mm=place_mm))
+    )

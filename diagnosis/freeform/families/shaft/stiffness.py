@@ -15,6 +15,7 @@ from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve, two_sided_curve
 from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.needle import STIFFNESS_POINTS
@@ -71,8 +72,9 @@ def _by_sign(factors: Sequence[float]) -> tuple[float, ...]:
 def _apply_stiffness(
     curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
 ) -> RigParameters:
-    law = FreeLaw(stiffness_over_torque=_by_sign(curve.factors(c)), stiffness_torque_n_mm=most_n_mm)
-    return replace(rig, free=law)
+    factors = _by_sign(curve.factors(c))
+    shaft = FreeShaft(stiffness_over_torque=factors, stiffness_torque_n_mm=most_n_mm)
+    return replace(rig, free=FreeLaw(shaft=shaft))
 
 
 def _along(ranges: LogRanges) -> Family:
@@ -95,8 +97,9 @@ def _along(ranges: LogRanges) -> Family:
 
 
 def _apply_along(curve: SmoothCurve, rig: RigParameters, *c: float) -> RigParameters:
-    law = FreeLaw(stiffness_along=curve.factors(c), stiffness_along_mm=float(curve.places[-1]))
-    return replace(rig, free=law)
+    last_mm = float(curve.places[-1])
+    shaft = FreeShaft(stiffness_along=curve.factors(c), stiffness_along_mm=last_mm)
+    return replace(rig, free=FreeLaw(shaft=shaft))
 
 
 def _over(variable: Variable, ranges: LogRanges) -> Family:

@@ -8,6 +8,7 @@ from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
@@ -59,4 +60,6 @@ def _yields(torque: float, slope: float) -> Points:
 
 
 def _apply_yielding(rig: RigParameters, torque: float, slope: float) -> RigParameters:
-    return replace(rig, free=FreeLaw(yield_torque_n_mm=torque, yield_stiffness_ratio=slope))
+    return replace(
+        rig, free=FreeLaw(shaft=FreeShaft(yield_torque_n_mm=torque, yield_stiffness_ratio=slope))
+    )

@@ -9,6 +9,7 @@ from free_forms import family_of, free_fit, one_trial
 
 from diagnosis.freeform.fits.free_fit import with_family
 from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.free_parts.free_shaft import FreeShaft
 from diagnosis.replay.rig_parameters import NOMINAL
 
 
@@ -38,7 +39,7 @@ def test_a_law_more_costs_what_an_effect_does_and_what_the_data_determine_of_it(
 
 def test_families_in_one_rig_add_to_each_other():
     problem, _ = one_trial(np.linspace(0, 90, 200), tip=np.zeros(200))
-    sided, stiff = FreeLaw(asymmetry=0.2), FreeLaw(creep_ratio=0.1)
+    sided, stiff = FreeLaw(asymmetry=0.2), FreeLaw(shaft=FreeShaft(creep_ratio=0.1))
     families = [
         replace(own, effect=replace(own.effect, apply=partial(_with, law)))
         for own, law in ((family_of(name="sided"), sided), (family_of(name="stiff"), stiff))

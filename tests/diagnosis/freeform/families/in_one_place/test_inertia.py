@@ -34,4 +34,4 @@ def test_a_mass_at_the_tip_adds_to_that_of_the_rig():
     law = AT_TIP.effect.apply(NOMINAL, 0.3)
     added = law.needle(RIG).tip_inertia_kg_m2 - NOMINAL.needle(RIG).tip_inertia_kg_m2
     assert added == pytest.approx(0.3 * units.N_MM)
-    assert law.free.times(0.5).tip_inertia_kg_m2 == pytest.approx(0.5 * added)
+    assert law.free.times(0.5).shaft.tip_inertia_kg_m2 == pytest.approx(0.5 * added)

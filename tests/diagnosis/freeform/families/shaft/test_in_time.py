@@ -21,7 +21,7 @@ def test_damping_of_the_material_is_that_of_the_needle_and_hardly_any_is_none():
     damps = FAMILIES["damping of the shaft over rate"]
     rig = damps.effect.apply(NOMINAL, 0.2)
     assert rig.free.needle(NITINOL).damping_time_s == 0.2
-    assert rig.free.times(0.5).shaft_damping_s == 0.1
+    assert rig.free.times(0.5).shaft.damping_time_s == 0.1
     per_s, torque = damps.curve(0.2)
     np.testing.assert_allclose(torque, 1.0 + 0.2 * per_s)
     assert same_readings(ANGLE, damps.effect.apply(NOMINAL, 1e-9), NOMINAL)

@@ -1,0 +1,1 @@
+"""Parts of a free-form law that a rig has once, and how the parts of two laws make one."""
