@@ -8,9 +8,8 @@
     time_constant_s: 0
     law: {curves: [{acts_on: tissue, variable: depth, places: [...], values: [...]}], ...}
 
-The fields of `law` are those of diagnosis.replay.free_law and free_parts. Its one parameter is its
-`strength`: 1 is the
-law as it was saved.
+The fields of `law` are those of diagnosis.replay.free_law and free_parts. Its one
+parameter is its `strength`: 1 is the law as it was saved.
 """
 
 import re

@@ -5,6 +5,7 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered, same_readings
 
+from diagnosis.freeform.families.chuck import families as chucks
 from diagnosis.freeform.families.shaft.yielding import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
@@ -22,3 +23,16 @@ def test_a_shaft_that_yields_beyond_what_it_takes_is_the_nominal_one(torque_n_mm
     assert same_readings(ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, 0.4), NOMINAL) is not yields
     twist, torque = yielding.curve(2.0, 0.25)
     assert np.diff(torque) / np.diff(twist) == pytest.approx([2.0, 0.5])
+
+
+@pytest.mark.parametrize("torque_n_mm", [0.1, 0.3])
+def test_without_hardening_it_would_be_a_needle_that_slips_in_its_chuck(torque_n_mm):
+    """It yields where it carries most: both would read the same, so that it hardens at least a little."""
+    (yielding,) = families(RANGES)
+    slips = {f.name: f for f in chucks(RANGES)}["slip in the chuck over torque"]
+    slipping = slips.effect.apply(NOMINAL, torque_n_mm)
+    least = yielding.effect.parameters[1].low
+    assert same_readings(ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, 0.0), slipping)
+    assert not same_readings(
+        ANGLE, yielding.effect.apply(NOMINAL, torque_n_mm, least), slipping, within=0.02
+    )
