@@ -53,6 +53,8 @@ class Interface(Record):
     stiffness_n_mm_per_rad_per_mm: Positive | None = None
     """None: tissue that does not yield."""
     time_constant_s: NonNegative = 0.0
+    dragged_ratio: float = Field(default=0.0, ge=0, le=1)
+    """Share of the shaft's axial motion by which its twist goes along; 0: the tissue stays."""
     orientation_n_mm_per_mm: NonNegative = 0.0
     orientation_viscous_n_mm_s_per_mm: NonNegative = 0.0
     """At 1 rad/s, N mm s / rad per mm; beside at least as much viscous torque, it damps at any angle."""

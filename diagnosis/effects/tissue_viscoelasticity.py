@@ -1,4 +1,8 @@
-"""Kelvin-Voigt tissue in series with the interface."""
+"""Kelvin-Voigt tissue in series with the interface.
+
+The tissue stays where it is while the shaft slides through. What sticks to the shaft is dragged along:
+an effect of the same name and parameters, for a log that nothing explains if the tissue stays.
+"""
 
 import math
 from dataclasses import replace
@@ -11,6 +15,15 @@ def _apply(rig: RigParameters, stiffness: float, time_constant: float) -> RigPar
     return replace(
         rig, tissue_stiffness_n_mm_per_rad_per_mm=stiffness, tissue_time_constant_s=time_constant
     )
+
+
+def _apply_dragged(rig: RigParameters, stiffness: float, time_constant: float) -> RigParameters:
+    return replace(_apply(rig, stiffness, time_constant), tissue_dragged_ratio=1.0)
+
+
+def dragged_along(effect: Effect) -> Effect:
+    """The effect of tissue that goes along with a sliding shaft, with the same bounds and starts."""
+    return replace(effect, title=f"{effect.title} that goes along with the shaft", apply=_apply_dragged)
 
 
 EFFECT = Effect(

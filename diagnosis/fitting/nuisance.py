@@ -13,7 +13,7 @@ recording, what the filter did to slow ones is fitted.
 from dataclasses import replace
 from functools import partial
 
-from diagnosis.criteria import SCATTER, SLIDING_MM_S, START_SPREAD_DEG
+from diagnosis.criteria import SCATTER, START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
@@ -145,7 +145,7 @@ def smoothing_of(log: PreparedLog) -> tuple[Effect, ...]:
 
 def nuisance_of(log: PreparedLog) -> tuple[Effect, ...]:
     """All nuisance effects of a log."""
-    sliding = [trial for trial in log.trials if (abs(trial.speed_mm_s) > SLIDING_MM_S).any()]
+    sliding = [trial for trial in log.trials if trial.slides]
     growing = [trial.schedule.mesh is not Mesh.EULERIAN for trial in sliding]
     slips = [SLIP_CONSTANT_DEPTH] if not all(growing) else []
     slips += [SLIP_GROWING_DEPTH] if any(growing) else []

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
-from diagnosis.criteria import STEADY_DEPTH_MM
+from diagnosis.criteria import SLIDING_MM_S, STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.motion.between_samples import between_samples
 from diagnosis.prepare.motion.inertia import InertiaTorque, inertia_warning, smooth_motion
@@ -99,6 +99,11 @@ class PreparedTrial:
             np.asarray(savgol_filter(torque, size, _CUBIC)) if _CUBIC < size <= torque.size else torque
         )
 
+    @property
+    def slides(self) -> bool:
+        """Whether the needle moves along its axis."""
+        return bool((np.abs(self.speed_mm_s) > SLIDING_MM_S).any())
+
     @cached_property
     def sample_s(self) -> float:
         """Median time between samples."""
@@ -109,6 +114,12 @@ class PreparedTrial:
         return frozenset(name for name, values in self.readings.items() if np.isfinite(values).any())
 
 
+DRAGGED = (
+    "elastic tissue is taken to go along with the shaft where that slides; if it stays where it is, "
+    "nothing explains the log"
+)
+
+
 @dataclass(frozen=True, kw_only=True)
 class PreparedLog:
     """The nominal rig and its trials, ready for replay.
@@ -117,6 +128,7 @@ class PreparedLog:
       rounded: least noise of columns that are read in coarse steps.
       means_of: number of readings that a sample is the mean of.
       noise_left: noise in the low band of smoothed readings / that of a reading, by sensor.
+      tissue_dragged: whether elastic tissue is taken to go along with the shaft where that slides.
     """
 
     rig: NominalRig
@@ -124,13 +136,17 @@ class PreparedLog:
     rounded: Mapping[str, float] = field(default_factory=dict)
     means_of: int = 1
     noise_left: Mapping[str, float] = field(default_factory=dict)
+    tissue_dragged: bool = False
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Warnings about trials whose sampling rate is too low for inertia, and that began late."""
+        """Warnings about trials whose sampling rate is too low for inertia, that began late, or whose
+        tissue is dragged along.
+        """
+        dragged = DRAGGED if self.tissue_dragged else ""
         each = [inertia_warning(trial.name, trial.inertia) for trial in self.trials]
         late = {trial.name: trial.late_start for trial in self.trials if trial.late_start}
-        return tuple(warning for warning in (*each, late_start_warning(late)) if warning)
+        return tuple(warning for warning in (*each, late_start_warning(late), dragged) if warning)
 
 
 def _steadied(depth_mm: Array) -> Array:

@@ -84,6 +84,8 @@ class RigParameters:
       static_excess_n_mm_per_mm: static minus kinetic level of dry friction.
       shared_n_mm_per_mm: dry friction that is shared between turning and axial motion.
       tissue_stiffness_n_mm_per_rad_per_mm: stiffness of Kelvin-Voigt tissue; 0: rigid.
+      tissue_time_constant_s: its damper / spring.
+      tissue_dragged_ratio: share of the axial motion by which it goes along with the shaft.
       layer_ratio: damping of the deep layer / that of the shallow one.
       layer_boundary_fraction: depth of the boundary / inserted length.
       base_stiffness_n_mm_per_rad: stiffness of a spring between drive shaft and needle; 0: rigid.
@@ -110,6 +112,7 @@ class RigParameters:
     shared_n_mm_per_mm: float = 0.0
     tissue_stiffness_n_mm_per_rad_per_mm: float = 0.0
     tissue_time_constant_s: float = 0.0
+    tissue_dragged_ratio: float = 0.0
     layer_ratio: float = 1.0
     layer_boundary_fraction: float = 0.5
     entry_friction_n_mm: float = 0.0
@@ -182,6 +185,7 @@ class RigParameters:
             shared_n_mm_per_mm=self.shared_n_mm_per_mm,
             stiffness_n_mm_per_rad_per_mm=self.tissue_stiffness_n_mm_per_rad_per_mm or None,
             time_constant_s=self.tissue_time_constant_s,
+            dragged_ratio=self.tissue_dragged_ratio,
         )
 
     def drive(self, rig: NominalRig) -> Drive:

@@ -5,9 +5,10 @@ log; the best of these are then fitted on the log itself. If none of them brings
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
 no pair does, every effect beside each of the leading pairs is.
-What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, noise may
-grow with rate or torque, outliers may be left, noise may be weakly coloured or of 1/f, the torque
-may drift, readings may jump, and those of the tip may drift.
+What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
+tissue may go along with a sliding shaft, noise may grow with rate or torque, outliers may be left, noise
+may be weakly coloured or of 1/f, the torque may drift, readings may jump, and those of the tip may
+drift.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -19,6 +20,7 @@ from diagnosis.selection.stages.best import (
     best_without_each_effect,
     scatter_of_the_best,
 )
+from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
@@ -74,6 +76,7 @@ STAGES: tuple[Stage, ...] = (
     richer_effects_in_the_best,
     scatter_of_the_best,
     finer_mesh,
+    tissue_that_goes_along,
     starts_beside_the_best,
     noise_that_grows,
     outliers_beside_the_best,

@@ -1,10 +1,13 @@
-"""Advection of the tissue's twist: tissue stays where it is while the shaft slides through.
+"""Advection of the tissue's twist past the sites that remember it.
 
-Tissue twist is remembered at contact sites, which travel with the needle. After
-a step in which the needle moved by d into the tissue, the twist of a site is that
-of the place to which it moved, phi(x) <- phi(x + d), by quadratic interpolation
-(second order, stable while the nearest site is the middle one). Tissue that the
-tip enters is untwisted; at the entry the twist goes on as it runs.
+Tissue stays where it is while the shaft slides through. If contact sites travel with the needle, then
+after a step in which it moved by d into the tissue, the twist of a site is that of the place to which
+it moved, phi(x) <- phi(x + d), by quadratic interpolation (second order, stable while the nearest site
+is the middle one). Tissue that the tip enters is untwisted; at the entry the twist goes on as it runs.
+
+Tissue that is dragged along goes with the shaft: its twist stays at sites that travel with the needle,
+and is shifted by -d at sites that stand still; what is dragged in at the entry is untwisted. If it is
+dragged in part, that part of the twist goes along.
 """
 
 from sim.kernel import memory_map
@@ -22,6 +25,14 @@ def _covered(loads: Array, site: int) -> bool:
 def _place(x: Array, site: int) -> float:
     e = site // 2
     return x[e] + (XI_RIGHT if site % 2 == 1 else XI_LEFT) * (x[e + 1] - x[e])
+
+
+@inlined
+def _entry(x: Array, loads: Array, site: int) -> float:
+    """Where the covered part of a site's element begins, m: it ends with the element."""
+    e = site // 2
+    covered = loads[e, 0] + loads[e, 1] + loads[e, 2] + loads[e, 3]
+    return max(x[e + 1] - covered, x[e])
 
 
 @embedded
@@ -52,11 +63,21 @@ def _interpolate(places: Array, twist: Array, count: int, middle: int, target: f
 
 
 @embedded
-def advect_tissue(d: float, x: Array, loads: Array, state: Array, places: Array, twist: Array) -> None:
-    """Shift the twist of the tissue by d, m (positive: needle into the tissue).
+def advect_tissue(
+    d: float,
+    share: float,
+    x: Array,
+    loads: Array,
+    state: Array,
+    places: Array,
+    twist: Array,
+    untwisted: bool,
+) -> None:
+    """Shift a share of the twist of the tissue by d, m: phi(x) <- phi(x + d).
 
     Args:
       places, twist: working memory, (2 n + 1,) each.
+      untwisted: whether what comes in at the entry is untwisted; else the twist goes on as it runs.
     """
     n = loads.shape[0]
     count, first, last = 0, -1, -1
@@ -71,10 +92,15 @@ def advect_tissue(d: float, x: Array, loads: Array, state: Array, places: Array,
     if d > 0.0 and last == 2 * n - 1:
         places[count], twist[count] = x[n], 0.0
         count += 1
-    middle = 0
+    middle, entry = 0, _entry(x, loads, first)
     # From the site before the entry, which may be covered next, to the last one.
     for site in range(max(first - 1, 0), last + 1):
         target = _place(x, site) + d
         while middle + 1 < count and places[middle + 1] - target < target - places[middle]:
             middle += 1
-        state[site // 2, site % 2, memory_map.PHI] = _interpolate(places, twist, count, middle, target)
+        shifted = _interpolate(places, twist, count, middle, target)
+        if untwisted and target < places[0]:
+            within = (target - entry) / max(places[0] - entry, target - entry)
+            shifted = twist[0] * max(within, 0.0)
+        before = state[site // 2, site % 2, memory_map.PHI]
+        state[site // 2, site % 2, memory_map.PHI] = before + share * (shifted - before)

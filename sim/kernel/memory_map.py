@@ -89,6 +89,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_AXIAL,  # share of the axial speed that this counts
     L_STIFFNESS,  # tissue in series, N m / rad / m; 0: rigid
     L_TIME,  # its time constant, s
+    L_DRAGGED,  # share of the axial motion by which its twist goes along with the shaft
     L_CURVATURE,  # N m / m
     L_WAVE,  # viscous torque times a wave over the angle, N m s / rad / m
     L_KEYED,  # dry level times 1 + a wave over the angle, N m / m
@@ -127,7 +128,7 @@ STIFFNESS_POINTS = (H_YIELD - H_STIFFNESS_0) // 2
     L_CONTACT_7,
     L_CONTACT_8,
     COLUMNS,
-) = range(55)
+) = range(56)
 CURVE_POINTS = L_CONTACT - L_CURVE_0
 CONTACT_POINTS = COLUMNS - L_CONTACT_0
 SLIP_SO_FAR, AGE, HEAT, BROKEN, TURNED, TWIST = (

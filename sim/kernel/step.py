@@ -99,14 +99,18 @@ def _keep_tissue(head: Array, law: Array, w: Workspace, frame: Frame, inputs: In
     """Move the tissue's twist along the shaft; returns what hardening has stored in it, J."""
     stored = 0.0
     mesh_stands_still = head[memory_map.H_STRETCHING] != 0.0 or head[memory_map.H_FED] != 0.0
-    slides = inputs.speed != 0.0 and not mesh_stands_still
     for r in range(law.shape[0]):
         if is_linear(law[r]) or law[r, memory_map.L_POINT] != 0.0:
             continue
         stored += hardening_energy(w, r, law[r], frame)
         forget_uncovered(w.loads[r], w.end[r])
-        if law[r, memory_map.L_STIFFNESS] > 0.0 and slides:
-            advect_tissue(h * inputs.speed, w.x, w.loads[r], w.end[r], w.places, w.twist)
+        if law[r, memory_map.L_STIFFNESS] == 0.0:
+            continue
+        dragged = law[r, memory_map.L_DRAGGED]
+        share = dragged if mesh_stands_still else 1.0 - dragged
+        if share > 0.0 and inputs.speed != 0.0:
+            moved = h * inputs.speed * (-1.0 if mesh_stands_still else 1.0)
+            advect_tissue(moved, share, w.x, w.loads[r], w.end[r], w.places, w.twist, mesh_stands_still)
     return stored
 
 

@@ -17,7 +17,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import EQUIVALENT_FITS, EQUIVALENT_LEAVES, EQUIVALENT_SIZE, SIMPLE_LEAD
+from diagnosis.criteria import (
+    EQUIVALENT_FITS,
+    EQUIVALENT_LEAVES,
+    EQUIVALENT_SIZE,
+    SCATTER,
+    SIMPLE_LEAD,
+)
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.effects.effect import Effect
 from diagnosis.fitting.fit import fit_effects
@@ -47,11 +53,13 @@ class Equivalent:
     Attributes:
       parts: of the vector of its fit to what the chosen one predicts.
       cost: cost by which the two differ on this log.
+      told_apart: whether this log could tell them apart; then it has fewer effects, and is nearly alike.
     """
 
     names: tuple[str, ...]
     parts: Parts
     cost: float
+    told_apart: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -139,11 +147,15 @@ def covers(names: Sequence[str], others: Sequence[str]) -> bool:
 
 
 def _chosen(coarse: FitProblem, best: Candidate, whole: tuple[str, ...]) -> _Chosen:
-    """Without scatter and pasts, which it does not name: what is alike is alike without them."""
+    """Without pasts, and without scatter where it does not name it: what is alike is alike without them.
+
+    Stiffness and damping that it names may be what scatters about another set.
+    """
     sensors = (coarse.library[n] for n in best.names if n not in LIBRARY or n in whole)
-    open_ = (*sensors, *(e for e in coarse.nuisance if e.name in CONVENTIONS))
     own = {name: best.fit.parts[name] for name in best.named if name not in whole}
-    kept = {e.name: best.fit.parts[e.name] for e in open_}
+    allowed = {*CONVENTIONS, *(SCATTER if {*SCATTER} & {*best.named} - {*best.names} else ())}
+    open_ = (*sensors, *(e for e in coarse.nuisance if e.name in allowed))
+    kept = {e.name: best.fit.parts[e.name] for e in open_ if e.name not in own}
     # Without noise, slopes of runs half as fine would lead nowhere near the end.
     problem = replace(coarse, nuisance=open_, differences_halved=False)
     rig = _rig(problem, own | kept)
@@ -230,7 +242,7 @@ def _promising(chosen: _Chosen, columns: Sequence[_Column]) -> list[tuple[tuple[
 def _open(chosen: _Chosen) -> tuple[Array, Array]:
     """What is open besides: slopes of the readings, (N, k), and weights of the prior, (k,)."""
     parameterization, half = chosen.problem.parameterization(()), chosen.halved
-    x = parameterization.joined(chosen.kept)
+    x = parameterization.joined(half)
     _, high = parameterization.bounds()
     steps = np.where(x + _DIFFERENCE > high, -_DIFFERENCE, _DIFFERENCE)
     slopes = np.zeros((chosen.middle.size, x.size))
@@ -249,8 +261,10 @@ def _one_sided(effect: Effect) -> bool:
 def _fitted(
     chosen: _Chosen, promising: Sequence[tuple[tuple[str, ...], Parts]], workers: Workers
 ) -> tuple[Equivalent, ...]:
-    """Those of the promising sets that are equivalent, smaller sets before larger ones."""
-    found: list[Equivalent] = []
+    """Those of the promising sets that are equivalent, or nearly so with fewer effects than were chosen;
+    smaller sets before larger ones.
+    """
+    found, near = list[Equivalent](), list[Equivalent]()
     for size in range(1, EQUIVALENT_SIZE + 1):
         waiting = [
             (names, start)
@@ -259,8 +273,10 @@ def _fitted(
         ]
         tasks = [Task(effects=n, arguments=(chosen, n, start)) for n, start in waiting[:EQUIVALENT_FITS]]
         results = workers.each("what cannot be told apart", _fit, tasks)
-        found += [r for r in results if not isinstance(r, Failure) and _is_equal(chosen, r)]
-    return tuple(found)
+        fitted = [r for r in results if not isinstance(r, Failure)]
+        found += [one for one in fitted if _is_equal(chosen, one)]
+        near += [replace(one, told_apart=True) for one in fitted if _is_nearly_equal(chosen, one)]
+    return (*found, *near)
 
 
 def _fit(chosen: _Chosen, names: tuple[str, ...], start: Parts) -> Equivalent:
@@ -273,3 +289,10 @@ def _fit(chosen: _Chosen, names: tuple[str, ...], start: Parts) -> Equivalent:
 def _is_equal(chosen: _Chosen, one: Equivalent) -> bool:
     power = float(chosen.changed @ chosen.changed)
     return one.cost <= min(SIMPLE_LEAD, EQUIVALENT_LEAVES * power)
+
+
+def _is_nearly_equal(chosen: _Chosen, one: Equivalent) -> bool:
+    """Whether fewer effects change nearly the same, and a real log might not tell them apart."""
+    power = float(chosen.changed @ chosen.changed)
+    fewer = len(one.names) < len(chosen.own)
+    return fewer and not _is_equal(chosen, one) and one.cost <= EQUIVALENT_LEAVES * power

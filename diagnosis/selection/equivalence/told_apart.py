@@ -1,11 +1,11 @@
 """A verdict that knows what else would have changed the readings in the same way.
 
-Equivalent sets of as many effects as the chosen one, or of fewer, become candidates: scores decide as
-among all others. So do these without stiffness and damping, which scatter by a few per cent from rig to
-rig: beside a gain of the torque by 1.012, a stiffness of 1.0005 is none. Larger ones are named beside
-it: one cause is likelier than several that happen to be equal, and no log can tell. Imperfections of
-sensors, which have no name in a verdict, may take the place of effects in candidates: a low-pass filter
-of the torque is nearly a delay.
+Equivalent sets of as many effects as the chosen one, or of fewer, become candidates, as do fewer effects
+that are nearly alike: scores decide as among all others. So do these without stiffness and damping, as
+these scatter by a few per cent from rig to rig: beside a gain of the torque by 1.012, a stiffness of
+1.0005 is none. Larger ones are named beside it: one cause is likelier than several that happen to be
+equal, and no log can tell. Imperfections of sensors, which have no name in a verdict, may take the place
+of effects in candidates: a low-pass filter of the torque is nearly a delay.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import SCATTER, SIMPLE_LEAD
+from diagnosis.criteria import CONTENDING, SCATTER, SIMPLE_LEAD
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
@@ -103,7 +103,7 @@ def _with_equals(told: ToldApart, workers: Workers) -> tuple[ToldApart, list[tup
     few += _without_scatter(few)
     wider = _fitted(told.state, verdict.best, few, workers)
     last = told if wider is told.state else _judged(wider, told.checked, told.forms)
-    return last, [e.names for e in equal]
+    return last, [e.names for e in equal if not e.told_apart]
 
 
 def _without_scatter(equal: Sequence[Equivalent]) -> list[Equivalent]:
@@ -149,7 +149,8 @@ def _fitted(
     found: SearchState, best: Candidate, equal: Sequence[Equivalent], workers: Workers
 ) -> SearchState:
     """The state with equivalent sets fitted to the log itself; the same if all of them are known."""
-    known = {frozenset(c.names) for c in found.candidates}
+    near = best.score + CONTENDING  # others may have been fitted from where they could not come nearer
+    known = {frozenset(c.names) for c in found.candidates if c.score <= near}
     sensors = tuple(name for name in best.names if name in IMPERFECTIONS)
     sets = [((*e.names, *sensors), e.parts) for e in equal]
     calls = [

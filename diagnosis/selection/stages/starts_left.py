@@ -3,8 +3,9 @@
 A twist at the first sample is looked for before any model is known, against a nominal rig that begins
 untwisted, and a weak one passes for an offset of the sensors. A bent needle that has come to rest, say,
 is wound up by its own curvature. Beside an explanation it shows: what that leaves beyond noise lies in
-the first moments of trials. Then all trials have a past, which is fitted, if the log is explained so:
-first on the decimated log, and on the log itself what comes near the noise there.
+the first moments of trials; or, with play in the chuck, until the base has turned by that, since the
+needle may rest anywhere within it. Then all trials have a past, which is fitted, if the log is explained
+so: first on the decimated log, and on the log itself what comes near the noise there.
 """
 
 from dataclasses import replace
@@ -61,14 +62,21 @@ def share_at_the_start(state: SearchState) -> float:
     """Of what the best leaves beyond noise, the part in the first moments of trials."""
     problem, fit = state.problem, state.best.fit
     plain = in_units_of(problem, fit.by_trial, problem.noise.uncoloured)
+    play_deg = fit.parameterization.rig(fit.x).backlash_deg
     first, whole = 0.0, 0.0
     for trial, parts in zip(problem.log.trials, by_trial_and_sensor(problem, plain), strict=True):
-        until_s = trial.time_s[0] + START_LEFT_TIMES * _slowest_s(problem, trial)
+        until_s = _engaged_s(trial, play_deg) + START_LEFT_TIMES * _slowest_s(problem, trial)
         for _, time_s, left in parts:
             beyond = left**2 - 1.0
             first += float(beyond[time_s < until_s].sum())
             whole += float(beyond.sum())
     return first / whole if whole > 0.0 else 0.0
+
+
+def _engaged_s(trial: PreparedTrial, play_deg: float) -> float:
+    """Time from which on the needle turns with the base, wherever in the play it has rested."""
+    turned_deg = np.abs(trial.base_motion_deg - trial.base_motion_deg[0])
+    return float(trial.time_s[np.argmax(turned_deg > play_deg)] if play_deg > 0.0 else trial.time_s[0])
 
 
 def _slowest_s(problem: FitProblem, trial: PreparedTrial) -> float:

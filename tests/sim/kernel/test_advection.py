@@ -17,14 +17,15 @@ def sites(interpreted):
     return np.array([x[e] + f / N for e in range(N) for f in xi])
 
 
-def advected(interpreted, twist, d, covered=slice(None)):
+def advected(interpreted, twist, d, covered=slice(None), *, share=1.0, untwisted=False):
     loads = np.zeros((N, 4))
-    loads[covered] = 1.0
+    loads[covered] = 1.0 / (4 * N)
     state = np.zeros((N, 2, interpreted.memory_map.SITE))
     phi = state[:, :, interpreted.memory_map.PHI]
     phi[:] = twist.reshape(N, 2)
     places, values = np.empty(2 * N + 1), np.empty(2 * N + 1)
-    interpreted.advection.advect_tissue(d, np.linspace(0, 1, N + 1), loads, state, places, values)
+    x = np.linspace(0, 1, N + 1)
+    interpreted.advection.advect_tissue(d, share, x, loads, state, places, values, untwisted)
     return phi.ravel()
 
 
@@ -48,6 +49,20 @@ def test_tissue_that_the_tip_enters_is_untwisted(interpreted, sites):
     moved = advected(interpreted, np.ones(2 * N), sites[-1] - sites[-2])
     assert moved[0] == pytest.approx(1.0)
     assert moved[-1] < 0.7
+
+
+def test_in_part_that_part_of_the_twist_is_shifted(interpreted, sites):
+    twist = np.sin(3 * sites)
+    whole, half = (advected(interpreted, twist, 0.01, share=share) for share in (1.0, 0.5))
+    np.testing.assert_allclose(half, 0.5 * (twist + whole), atol=1e-14)
+
+
+@pytest.mark.parametrize("untwisted", [False, True])
+def test_tissue_that_is_dragged_in_is_untwisted(interpreted, sites, untwisted):
+    """The profile is level: only at the entry, from which it is shifted away, does it change."""
+    moved = advected(interpreted, np.ones(2 * N), -(sites[1] - sites[0]), untwisted=untwisted)
+    assert moved[-1] == pytest.approx(1.0)
+    assert moved[0] == pytest.approx(0.0 if untwisted else 1.0)
 
 
 def test_a_site_that_no_tissue_touches_forgets(interpreted):

@@ -91,3 +91,29 @@ def test_where_pasts_do_not_explain_the_log_they_are_dropped(monkeypatch):
     before, after = searched(rested(RigParameters(kinetic_n_mm_per_mm=0.001), 4))
     assert after.problem is before.problem
     assert decisions(after) == [Decision.DROPPED]
+
+
+def rested_in_the_play(rig, back_deg, seed):
+    """A log whose base has turned back a little before its first sample, and then rests for some time.
+
+    Both angles are told from where the base is then.
+    """
+    before = np.concatenate([np.linspace(back_deg, 0.0, 100), np.zeros(100)])
+    log = log_of(rig, seed=seed, angle=np.concatenate([before, np.zeros(300), turns(9.0)]))
+    (one,) = log.trials
+    table = one.table.iloc[before.size :].reset_index(drop=True)
+    table = table.assign(time_s=table["time_s"] - table["time_s"][0])
+    return replace(log, trials=(Trial(name=one.name, table=table),))
+
+
+def test_a_needle_may_rest_anywhere_in_the_play_of_its_chuck():
+    """It lags until the base has turned by the play, however long that takes."""
+    loose, backs_deg = RigParameters(backlash_deg=4.0), (0.6, -0.6)
+    log = joined(*(rested_in_the_play(loose, back, seed) for seed, back in enumerate(backs_deg)))
+    before, after = searched(log, effects=("chuck_backlash",))
+    assert not before.best.floor.reached
+    assert share_at_the_start(before) > START_LEFT_SHARE
+    assert decisions(after) == [Decision.KEPT]
+    assert after.best.floor.reached
+    (gap,) = after.best.fit.parameterization.values(after.best.fit.x)[:1]
+    assert gap == pytest.approx(loose.backlash_deg, rel=0.05)
