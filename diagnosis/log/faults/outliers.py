@@ -13,7 +13,7 @@ Outliers that were found are removed, and the search is repeated.
 
 The first two and the last two samples have too little on one side. They are left out if neither a line
 nor a parabola through the samples beside them comes near: should the motion have begun or ended there,
-two samples less tell nothing less.
+two samples less tell nothing less. This is not repeated: it would eat into a motion that is fast there.
 
 Source: robust local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829; Hampel's identifier.
 """
@@ -79,9 +79,9 @@ def find_outliers(time_s: Array, values: Array, sigma: float) -> Outliers:
       sigma: white noise of the readings, in their unit.
     """
     rows, expected = np.zeros(values.size, bool), values.copy()
-    for _ in range(_PASSES):
+    for again in range(_PASSES):
         rest = np.flatnonzero(np.isfinite(values) & ~rows)
-        found, said = _pass(time_s[rest], values[rest], sigma)
+        found, said = _pass(time_s[rest], values[rest], sigma, ends=not again)
         if found.size == 0:
             break
         rows[rest[found]], expected[rest[found]] = True, said
@@ -98,8 +98,12 @@ def _in_long_run(rows: Mask) -> Mask:
     return long
 
 
-def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
-    """Outliers among the remaining samples, and the values expected there."""
+def _pass(time_s: Array, values: Array, sigma: float, *, ends: bool) -> tuple[Index, Array]:
+    """Outliers among the remaining samples, and the values expected there.
+
+    Args:
+      ends: whether to look at the first and the last two as well.
+    """
     if not sigma > 0 or values.size < 2 * _ABOUT:
         return np.zeros(0, int), np.zeros(0)
     scale = _scatter_about(time_s, values, sigma)
@@ -110,7 +114,7 @@ def _pass(time_s: Array, values: Array, sigma: float) -> tuple[Index, Array]:
         for part in np.array_split(suspects, suspects.size // _CHUNK + 1):
             off, said = _judged(time_s, values, scale, part, half, limit)
             rows[part[off]], expected[part[off]] = True, said[off]
-    for end in (slice(None), slice(None, None, -1)):
+    for end in (slice(None), slice(None, None, -1)) if ends else ():
         _add_end(time_s[end], values[end], scale[end], limit, rows[end], expected[end])
     found = np.flatnonzero(rows)
     return found, expected[found]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagnosis.log.faults.outliers import find_outliers
+from diagnosis.log.faults.outliers import AT_AN_END, find_outliers
 
 SIGMA, STEP_S = 0.02, 0.01
 TIME = STEP_S * np.arange(3000)
@@ -68,6 +68,16 @@ def test_outliers_at_an_end_are_found_by_what_is_beside_them(name, rows):
     found = find_outliers(TIME, values, SIGMA)
     assert found.rows[rows].all()
     assert np.abs(found.expected - MOTIONS[name])[rows].max() < 8 * SIGMA
+
+
+@pytest.mark.parametrize(("unwinds_deg", "within_s"), [(10, 0.08), (60, 0.08), (200, 0.3)])
+def test_a_motion_that_is_fast_at_an_end_loses_two_samples_at_most(unwinds_deg, within_s):
+    """A needle that unwinds within some samples, and was under way before the first one."""
+    time = 0.05 * np.arange(600)
+    noise = np.random.default_rng(3).normal(0, 0.1, time.size)
+    motion = unwinds_deg * np.exp(-time / within_s) + 40 * np.sin(4 * time)
+    found = find_outliers(time, motion + noise, 0.1)
+    assert not found.rows[AT_AN_END:].any()
 
 
 def test_what_lasts_is_an_event_and_none():
