@@ -85,6 +85,19 @@ def test_a_torque_gain_beside_a_late_torque_and_a_rough_bearing_is_stiffness_and
     assert alike.parts["stiffness_error"][0] == pytest.approx(np.log(0.8), abs=0.05)
 
 
+@pytest.mark.parametrize(("stiffness", "nearly"), [(1.1, False), (1.105, True), (1.3, None)])
+def test_fewer_effects_that_are_nearly_alike_are_told_as_that(coarse, stiffness, nearly):
+    """A gain of the base, a stiffness and a damping, all of 1.1, are one gain of the tip."""
+    parts = {"base_angle_scale": 1.1, "stiffness_error": stiffness, "damping_error": 1.1}
+    names = tuple(parts)
+    start = coarse.parameterization(names).joined({n: np.array([np.log(v)]) for n, v in parts.items()})
+    best = candidate(fit_effects(coarse, names, start, most_iterations=0))
+    found = equivalent_sets(coarse, best, (*SCALES, *OTHERS), Workers())
+    told = {one.names: one.told_apart for one in found}
+    assert told.get(("tip_angle_scale",)) is nearly
+    assert all(len(own) < len(names) for own, apart in told.items() if apart)
+
+
 @pytest.mark.parametrize("level", [2e-4, 1e-3, 5e-3])
 @pytest.mark.parametrize(
     ("one", "other"),
