@@ -45,6 +45,7 @@ def test_the_stages_are_these_in_this_order():
         "richer_effects_in_the_best",
         "scatter_of_the_best",
         "finer_mesh",
+        "tissue_that_goes_along",
         "starts_beside_the_best",
         "noise_that_grows",
         "outliers_beside_the_best",
