@@ -16,11 +16,14 @@ for library in ("OPENBLAS", "OMP", "MKL"):
 ROOT = Path(__file__).parent
 DIAGNOSED = {"dry", "nothing"}
 """Fixtures that wait for a whole diagnosis: one process makes each once."""
+LONGEST = "validation/score"
+"""The folder whose tests wait longest for what they share: they run first."""
 
 
 @pytest.hookimpl(tryfirst=True)  # before groups are read
 def pytest_collection_modifyitems(items):
     """Tests of a folder share its fixtures: where there are several processes, they run in one."""
+    items.sort(key=lambda item: LONGEST not in item.path.as_posix())
     for item in items:
         folder = item.path.relative_to(ROOT).parent.as_posix()
         group = "diagnosed" if DIAGNOSED & set(getattr(item, "fixturenames", ())) else folder
