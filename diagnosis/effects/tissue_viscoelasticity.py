@@ -23,7 +23,7 @@ def _apply_dragged(rig: RigParameters, stiffness: float, time_constant: float) -
 
 def dragged_along(effect: Effect) -> Effect:
     """The effect of tissue that goes along with a sliding shaft, with the same bounds and starts."""
-    return replace(effect, title=f"{effect.title} that goes along with the shaft", apply=_apply_dragged)
+    return replace(effect, apply=_apply_dragged)
 
 
 EFFECT = Effect(

@@ -8,10 +8,10 @@ from models.needle import Needle
 
 @dataclass(frozen=True, kw_only=True)
 class FreeShaft:
-    """Another shaft; as it stands, the nominal one.
+    """Another shaft; as it stands, the nominal one. Fields are named as those of the needle.
 
     Attributes:
-      stiffness_over_torque: factors of its stiffness (models.needle).
+      stiffness_curve: factors of its stiffness over the torque (models.needle).
       stiffness_torque_n_mm: torque at the last of them.
       stiffness_along: its factors at even places from the tip on (models.needle).
       stiffness_along_mm: from the tip to the last of them.
@@ -25,7 +25,7 @@ class FreeShaft:
       tip_inertia_kg_m2: of what turns with its tip, besides that of the rig.
     """
 
-    stiffness_over_torque: tuple[float, ...] = ()
+    stiffness_curve: tuple[float, ...] = ()
     stiffness_torque_n_mm: float = 0.0
     stiffness_along: tuple[float, ...] = ()
     stiffness_along_mm: float = 0.0
@@ -42,7 +42,7 @@ class FreeShaft:
         """The change multiplied by a strength; factors are raised to a power."""
         return replace(
             self,
-            stiffness_over_torque=tuple(factor**strength for factor in self.stiffness_over_torque),
+            stiffness_curve=tuple(factor**strength for factor in self.stiffness_curve),
             stiffness_along=tuple(factor**strength for factor in self.stiffness_along),
             yield_torque_n_mm=weaker(self.yield_torque_n_mm, strength),
             creep_ratio=strength * self.creep_ratio,
@@ -53,18 +53,6 @@ class FreeShaft:
 
     def of(self, needle: Needle) -> Needle:
         """The needle with this shaft."""
-        changed: Needle = needle.but(
-            stiffness_curve=self.stiffness_over_torque,
-            stiffness_torque_n_mm=self.stiffness_torque_n_mm,
-            stiffness_along=self.stiffness_along,
-            stiffness_along_mm=self.stiffness_along_mm,
-            yield_torque_n_mm=self.yield_torque_n_mm,
-            yield_stiffness_ratio=self.yield_stiffness_ratio,
-            creep_ratio=self.creep_ratio,
-            creep_time_s=self.creep_time_s,
-            damping_time_s=self.damping_time_s,
-            joint_play_deg=self.joint_play_deg,
-            joint_from_tip_mm=self.joint_from_tip_mm,
-            tip_inertia_kg_m2=needle.tip_inertia_kg_m2 + self.tip_inertia_kg_m2,
-        )
+        own = vars(self) | {"tip_inertia_kg_m2": needle.tip_inertia_kg_m2 + self.tip_inertia_kg_m2}
+        changed: Needle = needle.but(**own)
         return changed

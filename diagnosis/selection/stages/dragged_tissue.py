@@ -60,13 +60,16 @@ def _fitted(state: SearchState, leading: Sequence[Candidate], workers: Workers) 
         triples=(),
         checked=None,
     )
-    calls = [(begun.coarse, one.names, one.fit.x) for one in leading]
-    alone = [call for call in calls if call[1] == (_ELASTIC,)][:1]
-    made, record = fit_all(STAGE, alone, workers)
+    starts = {one.names: one.fit.x for one in reversed(leading)}
+    made, record = fit_all(
+        STAGE, [(begun.coarse, n, x) for n, x in starts.items() if n == (_ELASTIC,)], workers
+    )
     beside = [
         (begun.coarse, one.fit, name) for one in made for name in state.effects if name != _ELASTIC
     ]
     pairs, more = screen_all(STAGE, beside, workers)
+    starts |= {one.names: one.fit.x for one in made}
+    calls = [(begun.coarse, names, x) for names, x in starts.items()]
     return fitted_again(STAGE, begun.noting(*record, *more), calls, workers, pairs)
 
 

@@ -74,9 +74,13 @@ def share_at_the_start(state: SearchState) -> float:
 
 
 def _engaged_s(trial: PreparedTrial, play_deg: float) -> float:
-    """Time from which on the needle turns with the base, wherever in the play it has rested."""
+    """Time from which on the needle turns with the base, wherever in the play it has rested.
+
+    That is the end of a trial whose base turns by less than the play.
+    """
     turned_deg = np.abs(trial.base_motion_deg - trial.base_motion_deg[0])
-    return float(trial.time_s[np.argmax(turned_deg > play_deg)] if play_deg > 0.0 else trial.time_s[0])
+    engaged = np.flatnonzero(turned_deg >= play_deg)
+    return float(trial.time_s[engaged[0] if engaged.size else -1])
 
 
 def _slowest_s(problem: FitProblem, trial: PreparedTrial) -> float:

@@ -38,14 +38,11 @@ def interpreted():
 
 
 @pytest.fixture(scope="session")
-def shaft_of(interpreted):
-    """`Shaft` of a set-up, as `sim.kernel.shaft` reads it from the compiled model."""
+def arrays_of(interpreted):
+    """`ModelArrays` of a compiled model."""
 
-    def read(setup):
-        shaft, model = interpreted.shaft, needle_spec(setup).compile()
-        chain = bool(model.numeric("needle").data[interpreted.memory_map.H_CHAIN])
-        siblings = None if chain else model.numeric("needle_springs").data
-        needle = shaft.ModelArrays(
+    def read(model):
+        return interpreted.shaft.ModelArrays(
             model.body_inertia,
             model.body_iquat,
             model.body_subtreemass[1],
@@ -55,6 +52,19 @@ def shaft_of(interpreted):
             model.actuator_forcelimited,
             model.actuator_forcerange,
         )
+
+    return read
+
+
+@pytest.fixture(scope="session")
+def shaft_of(interpreted, arrays_of):
+    """`Shaft` of a set-up, as `sim.kernel.shaft` reads it from the compiled model."""
+
+    def read(setup):
+        shaft, model = interpreted.shaft, needle_spec(setup).compile()
+        chain = bool(model.numeric("needle").data[interpreted.memory_map.H_CHAIN])
+        siblings = None if chain else model.numeric("needle_springs").data
+        needle = arrays_of(model)
         inertia, spring = np.zeros(setup.nodes_mm.size), np.zeros(setup.nodes_mm.size - 1)
         shaft.read_nodes(needle.body_inertia, needle.body_iquat, inertia)
         shaft.read_springs(chain, needle.jnt_stiffness, siblings, spring)

@@ -16,7 +16,7 @@ STEP_S = 0.01
 
 
 @pytest.fixture
-def moment(interpreted):
+def moment(interpreted, arrays_of):
     """A needle with dry friction at rest; its `update` at a time, with a turn of the drive."""
     setup = Setup(
         needle=NITINOL,
@@ -28,16 +28,7 @@ def moment(interpreted):
     model, places = needle_spec(setup).compile(), interpreted.memory_map
     n = setup.nodes_mm.size - 1
     rows = len(law_table(setup.needle, setup.drive, setup.tissue, rows=setup.rows))
-    needle = interpreted.shaft.ModelArrays(
-        model.body_inertia,
-        model.body_iquat,
-        model.body_subtreemass[1],
-        model.jnt_stiffness,
-        model.actuator_gear,
-        model.actuator_gainprm,
-        model.actuator_forcelimited,
-        model.actuator_forcerange,
-    )
+    needle = arrays_of(model)
     userdata, size = np.zeros(places.userdata(n, rows)), places.block(n, rows)
 
     def at(time_s, turn_rad):

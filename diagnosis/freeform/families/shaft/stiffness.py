@@ -73,7 +73,7 @@ def _apply_stiffness(
     curve: SmoothCurve, most_n_mm: float, rig: RigParameters, *c: float
 ) -> RigParameters:
     factors = _by_sign(curve.factors(c))
-    shaft = FreeShaft(stiffness_over_torque=factors, stiffness_torque_n_mm=most_n_mm)
+    shaft = FreeShaft(stiffness_curve=factors, stiffness_torque_n_mm=most_n_mm)
     return replace(rig, free=FreeLaw(shaft=shaft))
 
 
