@@ -16,11 +16,12 @@ Array = NDArray[np.float64]
 
 _SIZE = (4.4, 3.0)  # inches: on a phone hardly smaller, so that its letters are read
 _LETTERS = 60  # in a line of the title
+_DIRECTIONS = {-1.0: "backwards", 0.0: "neither", 1.0: "forwards"}
 _DECADES = 30.0  # between the lowest and the highest x of a logarithmic axis, at least
 
 
 def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
-    """The curve; of a law of two directions, a bar for each.
+    """The curve; of a law of directions, a bar for each.
 
     Args:
       period_deg: after which the law repeats itself; it is drawn over one period; 0: it does not.
@@ -30,7 +31,8 @@ def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
     off = np.abs(np.array([y - below, above - y]))
     colour = PREDICTIONS["explained"]
     if law.variable == "direction":
-        axis.bar(["backwards", "forwards"], y, yerr=off, color=colour, alpha=0.6, capsize=6)
+        axis.bar(x, y, width=0.8 * np.diff(x).min(), yerr=off, color=colour, alpha=0.6, capsize=6)
+        axis.set_xticks(x, [_DIRECTIONS[one] for one in x])
         axis.axhline(0.0, color="k", lw=0.8)
     else:
         axis.fill_between(x, below, above, color=colour, alpha=0.2, lw=0, label="95 % band")

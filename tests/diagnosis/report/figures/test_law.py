@@ -46,12 +46,22 @@ def test_what_spans_decades_is_drawn_over_its_logarithm(x, scale):
     assert draw_law(replace(LAW, x=x)).axes[0].get_xscale() == scale
 
 
-def test_a_law_of_two_directions_is_a_bar_for_each_with_its_interval():
-    axis = draw_law(WAYS).axes[0]
-    assert [bar.get_height() for bar in axis.patches] == [0.1, 0.2]
-    assert [label.get_text() for label in axis.get_xticklabels()] == ["backwards", "forwards"]
+BETWEEN = replace(
+    WAYS, x=(-1.0, 0.0, 1.0), y=(-5.0, -2.0, 1.5), low=(-5.2, -2.1, 1.4), high=(-4.9, -1.8, 1.7)
+)
+"""Of a bearing that has not yet slid either way."""
+
+
+@pytest.mark.parametrize(
+    ("law", "names"),
+    [(WAYS, ["backwards", "forwards"]), (BETWEEN, ["backwards", "neither", "forwards"])],
+)
+def test_a_law_of_directions_is_a_bar_for_each_with_its_interval(law, names):
+    axis = draw_law(law).axes[0]
+    assert [bar.get_height() for bar in axis.patches] == list(law.y)
+    assert [label.get_text() for label in axis.get_xticklabels()] == names
     ends = np.array([segment[:, 1] for segment in axis.collections[0].get_segments()])
-    np.testing.assert_allclose(ends, [[0.08, 0.12], [0.17, 0.21]])
+    np.testing.assert_allclose(ends, np.transpose([law.low, law.high]))
 
 
 def test_a_law_that_repeats_is_drawn_over_one_period_and_says_so():
