@@ -17,6 +17,7 @@ import numba
 from numba import carray, cfunc, types
 
 from sim.kernel import memory_map
+from sim.kernel.native.large_frame import with_large_frame
 from sim.kernel.native.pointers import addresses, flags, numbers
 from sim.kernel.native.struct_offsets import read_struct_offsets
 from sim.kernel.shaft import ModelArrays
@@ -104,7 +105,7 @@ def _compile() -> tuple[Any, Any]:
 @cache
 def install() -> tuple[Any, Any]:
     """Compile (once per machine) and install both callbacks; safe to call again."""
-    passive, sensor = _compile()
+    passive, sensor = with_large_frame(_compile)
     mujoco.set_mjcb_passive(passive.ctypes)
     mujoco.set_mjcb_sensor(sensor.ctypes)
     mujoco.set_mjcb_time(None)  # the clock of MuJoCo's profiler costs a tenth of a step
