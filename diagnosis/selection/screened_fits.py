@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from diagnosis.criteria import FITS_AT_ONCE, NEAR_FLOOR, PROMISE_BROKEN
+from diagnosis.criteria import FITS_AT_ONCE, GAP_LIMIT, NEAR_FLOOR, PROMISE_BROKEN
 from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -110,11 +110,12 @@ def _still(one: Screened, floor: float, inner: set[str]) -> bool:
 def _found(one: Screened, found: Sequence[Candidate]) -> bool:
     """Whether its set was fitted, within its range, and leaves no more than this start promises.
 
-    The set that leaves least is not, where it ended far above the noise: it may have ended elsewhere.
+    The set that leaves least is not, unless it leaves noise, no more and no less: it may have ended in
+    another minimum, and where that leaves less, the noise is less than it was taken to be.
     """
     own = [c for c in found if {*c.names} == {*one.names}]
     least = min(found, key=lambda c: c.fit.cost, default=None)
-    if least in own and not least.floor.small and least.fit.status.ended_early:
+    if least in own and not (least.floor.reached and least.floor.gap >= 1.0 / GAP_LIMIT):
         return False
     return any(c.fit.cost <= one.cost for c in own if not c.fit.status.at_bound)
 

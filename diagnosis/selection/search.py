@@ -4,7 +4,8 @@ Every effect of the vocabulary is screened, and the most promising are fitted, o
 log; the best of these are then fitted on the log itself. If none of them brings the residual to the
 noise floor, every pair of a leading effect with any other is screened, and so on as before. If one
 does, but a second effect promises to take more off than noise could, that pair is fitted as well. Where
-no pair does, every effect beside each of the leading pairs is.
+no pair does, every effect beside each of the leading pairs is. Where two or three effects nearly explain
+it, another one is tried in place of each of them.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
 tissue may go along with a sliding shaft, noise may grow with rate or torque, outliers may be left, noise
 may be weakly coloured or of 1/f, the torque may drift, readings may jump, and those of the tip may
@@ -21,6 +22,7 @@ from diagnosis.selection.stages.best import (
     scatter_of_the_best,
 )
 from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
+from diagnosis.selection.stages.exchange import one_effect_exchanged
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
@@ -69,6 +71,7 @@ STAGES: tuple[Stage, ...] = (
     stiffness_or_damping_alone,
     three_effects,
     richer_effects_in_place_of_three,
+    one_effect_exchanged,
     best_to_its_end,
     noise_of_the_best,
     best_with_imperfections_in_place,

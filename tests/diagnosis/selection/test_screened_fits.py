@@ -115,11 +115,14 @@ def test_the_first_start_of_each_set_is_fitted_before_the_second_of_any(made):
 @pytest.mark.parametrize(("promise", "fitted"), [(1.01, False), (0.99, True)])
 @pytest.mark.parametrize("left", [1.0, 2.0], ids=["at the floor", "above it"])
 def test_another_start_of_a_set_has_to_promise_less(left, promise, fitted, made, monkeypatch):
+    """At the floor; above it, of a set that another one leaves behind."""
     monkeypatch.setattr(screened_fits, "FITS_AT_ONCE", 1)
+    less = 0.8 * left * FITTED_SAMPLES
+    ahead = [start_of(("tip_drag",), less, less)] if left > 1.0 else []
     first = start_of(("stiction",), 0.9 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
     again = start_of(("stiction",), promise * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
-    _, record = fit_screened("single effects", NO_LOG, [first, again], 9, Workers())
-    assert len(made) == 1 + fitted
+    _, record = fit_screened("single effects", NO_LOG, [*ahead, first, again], 9, Workers())
+    assert len(made) == len(ahead) + 1 + fitted
     assert (Decision.DROPPED in {e.decision for e in record}) or not fitted
 
 
@@ -139,13 +142,16 @@ def one_by_one(monkeypatch, **ending):
     ("left", "termination", "fitted"),
     [
         (2.0, Termination.FAR, True),
-        (1.0, Termination.FAR, False),  # at the floor
-        (2.0, Termination.STEP, False),
+        (2.0, Termination.STEP, True),
+        (1.0, Termination.FAR, False),
+        (1.0, Termination.STEP, False),
+        (0.8, Termination.STEP, True),
     ],
 )
-def test_other_starts_of_what_leaves_least_are_fitted_where_it_ended_far_above_the_noise(
+def test_other_starts_of_what_leaves_least_are_fitted_unless_it_leaves_noise_no_more_and_no_less(
     left, termination, fitted, made, monkeypatch
 ):
+    """Less is left than noise where that was taken to be more than it is."""
     one_by_one(monkeypatch, termination=termination)
     first = start_of(("stiction",), 0.9 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)
     again = start_of(("stiction",), 1.1 * left * FITTED_SAMPLES, left * FITTED_SAMPLES)

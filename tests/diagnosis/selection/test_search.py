@@ -38,6 +38,7 @@ def test_the_stages_are_these_in_this_order():
         "stiffness_or_damping_alone",
         "three_effects",
         "richer_effects_in_place_of_three",
+        "one_effect_exchanged",
         "best_to_its_end",
         "noise_of_the_best",
         "best_with_imperfections_in_place",
