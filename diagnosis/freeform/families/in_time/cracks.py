@@ -3,7 +3,7 @@
 It is there from an unknown time on, and stays so in the trials that follow, or to the end of that
 trial. The needle turns by the angle of the drive less
 
-    softness * torque.
+    compliance * torque.
 
 It takes torque off the needle as less damping does, so that the starting value of the time is that of
 tissue that gives way (changes.py).
@@ -52,8 +52,8 @@ def _cracks(ranges: LogRanges, moment: Moment, after: tuple[str, ...]) -> Family
     how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
     usual = ranges.missing[TIP] / most_n_mm
-    softness = Parameter(
-        name="softness",
+    compliance = Parameter(
+        name="compliance",
         unit="deg / N mm",
         low=_LEAST * usual,
         high=_MOST * usual,
@@ -64,25 +64,25 @@ def _cracks(ranges: LogRanges, moment: Moment, after: tuple[str, ...]) -> Family
     when, lasting = (replace(p, start=len(_STARTS) * p.start) for p in times_of(moment))
     return Family(
         effect=Effect(
-            name=f"soft spring at the chuck, {how}",
+            name=f"compliance at the chuck, {how}",
             title=f"a shaft that cracks near the chuck, or a collet that comes loose, {where}",
             place=Place.DRIVE,
-            parameters=(when, lasting, softness),
+            parameters=(when, lasting, compliance),
             apply=partial(_apply, moment.trial, after, _BEYOND * most_n_mm),
             differences=DIFFERENCES,
             trial="" if after else moment.trial,
         ),
         places=_PLACES,
         says="event",
-        title=f"angle by which the needle gives way at the chuck, per torque, {where}",
+        title=f"compliance at the chuck {where}",
         curve=_given_way,
         x_unit="s",
         unit="deg / N mm",
     )
 
 
-def _given_way(time_s: float, duration_s: float, softness: float) -> Points:
-    return change_between(time_s, duration_s, 0.0, softness)
+def _given_way(time_s: float, duration_s: float, compliance: float) -> Points:
+    return change_between(time_s, duration_s, 0.0, compliance)
 
 
 def _apply(
@@ -92,14 +92,14 @@ def _apply(
     rig: RigParameters,
     time_s: float,
     duration_s: float,
-    softness: float,
+    compliance: float,
 ) -> RigParameters:
     spring = partial(
         Curve,
         acts_on=ActsOn.DRIVE_ANGLE,
         variable=Variable.TORQUE,
         places=(-most_n_mm, most_n_mm),
-        values=(softness * most_n_mm, -softness * most_n_mm),
+        values=(compliance * most_n_mm, -compliance * most_n_mm),
     )
     begins = Course(variable=Variable.TIME, places=around(time_s, duration_s), values=(0.0, 1.0))
     later = (spring(trial=name) for name in after)

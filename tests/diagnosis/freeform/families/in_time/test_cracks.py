@@ -16,7 +16,7 @@ REST = np.zeros(ANGLE.size)
 CHANGE = 0.3 * np.sin(2.0 * TIME)
 TORQUE = 30.0 * np.sin(TIME)  # N mm: more than any in these tests
 STIFFNESS = 20.0  # of the spring, N mm / rad
-SOFT = np.degrees(1.0 / STIFFNESS)
+COMPLIANCE = np.degrees(1.0 / STIFFNESS)
 
 
 def families_at(at_s, number, *, stays=True, count=3):
@@ -43,8 +43,8 @@ def test_it_acts_at_the_drive_once_and_for_good():
         assert (family.place, family.says) == (Place.DRIVE, "event")
         assert family.places[Place.NEEDLE] > 0
     assert found["for good"].effect.trial == ""
-    x, y = found["for good"].curve(5.0, 0.2, SOFT)
-    assert (0.5 * (x[1] + x[2]), y[0], y[-1]) == (5.0, 0.0, SOFT)
+    x, y = found["for good"].curve(5.0, 0.2, COMPLIANCE)
+    assert (0.5 * (x[1] + x[2]), y[0], y[-1]) == (5.0, 0.0, COMPLIANCE)
 
 
 def test_nothing_follows_the_last_trial():
@@ -60,7 +60,7 @@ def test_from_the_crack_on_the_readings_are_those_of_a_spring_at_the_chuck():
     """And those before it, of a needle without one."""
     sprung = RigParameters(base_stiffness_n_mm_per_rad=STIFFNESS)
     log = joined(*(log_of(rig, seed=i) for i, rig in enumerate((NOMINAL, NOMINAL, sprung))))
-    cracks = families_at(5.0, 1)["for good"].effect.apply(NOMINAL, 11.5, 0.1, SOFT)
+    cracks = families_at(5.0, 1)["for good"].effect.apply(NOMINAL, 11.5, 0.1, COMPLIANCE)
     for trial, other in zip((log.trials[0], log.trials[2]), (sprung, NOMINAL), strict=True):
         # 3.5 of 1 / sqrt(2 n) about 1, for n = 1200 readings.
         assert residual(trial, cracks) == pytest.approx([1.0, 1.0], abs=0.07)
@@ -70,7 +70,7 @@ def test_from_the_crack_on_the_readings_are_those_of_a_spring_at_the_chuck():
 def test_in_its_trial_the_needle_gives_way_at_that_moment():
     once = families_at(5.0, 1, stays=False)["once"].effect
     assert once.trial == "trial_02.csv"
-    once = once.apply(NOMINAL, 5.0, 0.1, SOFT)
+    once = once.apply(NOMINAL, 5.0, 0.1, COMPLIANCE)
     own = prepared(joined(*(log_of(NOMINAL, seed=i) for i in range(2))).trials[1])
     cracked, whole = predict(RIG, own, [once.on_trial(own.name), NOMINAL])
     moved = np.abs(cracked["tip_angle_deg"] - whole["tip_angle_deg"])
