@@ -2,6 +2,7 @@
 
 import ast
 from collections import Counter, defaultdict
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -78,6 +79,7 @@ def modules(package):
     return [p for p in sorted((ROOT / package).rglob("*.py")) if p.name != "__init__.py"]
 
 
+@cache
 def trees(package):
     return [(path, ast.parse(path.read_text())) for path in modules(package)]
 

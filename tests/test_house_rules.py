@@ -3,6 +3,7 @@
 import ast
 import re
 import tomllib
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -52,9 +53,14 @@ def sources(package):
     return sorted((ROOT / package).rglob("*.py"))
 
 
+@cache
+def nodes_of(path):
+    """All nodes of a module's syntax tree, the module itself first."""
+    return tuple(ast.walk(ast.parse(path.read_text())))
+
+
 def imported(path):
-    tree = ast.parse(path.read_text())
-    for node in ast.walk(tree):
+    for node in nodes_of(path):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -97,7 +103,7 @@ def _module(path):
 
 def _imported_modules(path, modules):
     """Modules that a file imports, whether as a module or as a name from its package."""
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in nodes_of(path):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in modules)
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -178,7 +184,7 @@ def test_print_and_pickle_stay_out_of_the_library():
 def test_every_public_function_class_and_module_says_what_it_is():
     for package in MAY_IMPORT:
         for path in sources(package):
-            tree = ast.parse(path.read_text())
+            tree = nodes_of(path)[0]
             if path.read_text().strip():
                 assert ast.get_docstring(tree), path
             for node in tree.body:
@@ -189,7 +195,7 @@ def test_every_public_function_class_and_module_says_what_it_is():
 def test_every_argument_is_annotated():
     for package in MAY_IMPORT:
         for path in sources(package):
-            for node in ast.walk(ast.parse(path.read_text())):
+            for node in nodes_of(path):
                 if isinstance(node, ast.FunctionDef):
                     for argument in (*node.args.args, *node.args.kwonlyargs):
                         named = argument.arg in ("self", "cls")
@@ -218,7 +224,7 @@ def test_every_module_has_a_test_at_the_same_place_that_names_it(package):
 
 def _names_in(path):
     """What a test imports, and what it takes from the kernel in the interpreter."""
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in nodes_of(path):
         if isinstance(node, ast.ImportFrom) and node.module:
             yield from (node.module, *(f"{node.module}.{alias.name}" for alias in node.names))
         elif isinstance(node, ast.Attribute) and getattr(node.value, "id", "") == "interpreted":
