@@ -50,7 +50,7 @@ DEPTHS_MM = (40.0, 90.0, 160.0)
 
 def fitted(rig, names=("layered_tissue",)):
     """The first replay of a rig's log, and a fit of the named effects."""
-    trials = [log_of(rig, seed=i, deep_mm=depth) for i, depth in enumerate(DEPTHS_MM)]
+    trials = [log_of(rig, seed=i, seconds=8.0, deep_mm=depth) for i, depth in enumerate(DEPTHS_MM)]
     nominal = replay_nominal(joined(*trials))
     problem, base = nominal.problem, nominal.fit
     first = fit_effects(problem, names[:1], screen(problem, base, names[0])[0].start)
