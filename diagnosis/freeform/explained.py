@@ -14,9 +14,12 @@ from diagnosis.freeform.in_words import next_step
 from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
+from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.replay.drift import drift_ranges_sigma, with_drift
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.residual_breakdown import residual_breakdown
 from diagnosis.residuals.residual_shape import residual_shape
 from diagnosis.residuals.trial_residual import trial_residuals
@@ -55,9 +58,17 @@ def explained_by(
         reading_jumps=rig.jumps,
         drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
         explained=explained,
+        twist=_twist(problem.log, rig, told.twist),
         breakdown_after=residual_breakdown(left),
         shape_after=residual_shape(left),
         next_experiment=next_step(missing),
+    )
+
+
+def _twist(log: PreparedLog, rig: RigParameters, told: ShaftTwist | None) -> ShaftTwist | None:
+    """The shape of the shaft with the law at the moment of another one; None: there is none."""
+    return (
+        shaft_twist(log, told.trial, told.at_s, {"nominal": NOMINAL, "explained": rig}) if told else None
     )
 
 

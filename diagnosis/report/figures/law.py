@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 _SIZE = (4.4, 3.0)  # inches: on a phone hardly smaller, so that its letters are read
 _LETTERS = 60  # in a line of the title
+_TIME = VARIABLES["time"]  # that an event is drawn over
 _DIRECTIONS = {-1.0: "backwards", 0.0: "neither", 1.0: "forwards"}
 _DECADES = 30.0  # between the lowest and the highest x of a logarithmic axis, at least
 
@@ -59,7 +60,8 @@ def _over_a_period(law: Law, period_deg: float) -> Array:
 
 
 def _label(law: Law, period_deg: float) -> str:
-    variable = f"{VARIABLES[law.variable]}, {law.x_unit}".removesuffix(", -")
+    over = _TIME if law.variable == "event" else VARIABLES[law.variable]
+    variable = f"{over}, {law.x_unit}".removesuffix(", -")
     return f"{variable}\n(repeats every {period_deg:.4g} deg)" if period_deg else variable
 
 

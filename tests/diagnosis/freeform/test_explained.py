@@ -14,7 +14,8 @@ from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import replay
-from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.replay.twist import shaft_twist
 
 RISE = 0.1  # of the torque reading within the trial, N mm: 10 sigma
 
@@ -81,6 +82,19 @@ def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
     changed |= {"imperfections", "reading_jumps", "drift_sigma"}
     kept = {name for name in vars(before) if getattr(found, name) is getattr(before, name)}
     assert kept == set(vars(before)) - changed
+
+
+def test_the_shape_of_the_shaft_is_that_with_the_law(made):
+    """Not that of the nearest explanation: a sensor that drifts leaves the nominal shape."""
+    log, problem, nominal, best, before = made
+    nearest = {"nominal": NOMINAL, "tip_drag": NOMINAL, "explained": RigParameters(damping_scale=2.0)}
+    twisted = shaft_twist(problem.log, log.trials[0].name, 3.0, nearest)
+    before = replace(before, twist=twisted)
+    found = explained_by(missing_with(best=best), log, problem, nominal, before).twist
+    assert (found.trial, found.at_s) == (twisted.trial, twisted.at_s)
+    assert set(found.along) == {"nominal", "explained"}
+    np.testing.assert_array_equal(found.along["explained"], found.along["nominal"])
+    assert np.abs(twisted.along["explained"] - found.along["explained"]).max() > 1.0
 
 
 def test_imperfections_of_sensors_are_those_that_the_law_allows_for(told):

@@ -33,6 +33,11 @@ def test_axes_say_what_and_in_which_unit():
     assert bare_labels == ("the rate of turning", "friction along the shaft")
 
 
+def test_an_event_is_drawn_over_the_time():
+    jump = replace(LAW, variable="event", x_unit="s")
+    assert draw_law(jump).axes[0].get_xlabel() == "the time, s"
+
+
 def test_a_long_title_has_several_lines():
     axis = draw_law(replace(LAW, title="friction along the shaft " * 4)).axes[0]
     assert max(map(len, axis.get_title("left").splitlines())) <= 60
