@@ -16,13 +16,13 @@ Array = NDArray[np.float64]
 
 _SIZE = (4.4, 3.0)  # inches: on a phone hardly smaller, so that its letters are read
 _LETTERS = 60  # in a line of the title
-_TIME = VARIABLES["time"]  # that an event is drawn over
+_DRAWN_OVER = {"event": "time", "direction": "rate"}  # where a law of the first is a curve
 _DIRECTIONS = {-1.0: "backwards", 0.0: "neither", 1.0: "forwards"}
 _DECADES = 30.0  # between the lowest and the highest x of a logarithmic axis, at least
 
 
 def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
-    """The curve; of a law of directions, a bar for each.
+    """The curve; of a law that has a value in each direction, a bar for each.
 
     Args:
       period_deg: after which the law repeats itself; it is drawn over one period; 0: it does not.
@@ -31,7 +31,7 @@ def draw_law(law: Law, period_deg: float = 0.0) -> Figure:
     x, y, below, above = _over_a_period(law, period_deg)
     off = np.abs(np.array([y - below, above - y]))
     colour = PREDICTIONS["explained"]
-    if law.variable == "direction":
+    if law.variable == "direction" and {*law.x} <= {*_DIRECTIONS}:
         axis.bar(x, y, width=0.8 * np.diff(x).min(), yerr=off, color=colour, alpha=0.6, capsize=6)
         axis.set_xticks(x, [_DIRECTIONS[one] for one in x])
         axis.axhline(0.0, color="k", lw=0.8)
@@ -60,7 +60,7 @@ def _over_a_period(law: Law, period_deg: float) -> Array:
 
 
 def _label(law: Law, period_deg: float) -> str:
-    over = _TIME if law.variable == "event" else VARIABLES[law.variable]
+    over = VARIABLES[_DRAWN_OVER.get(law.variable, law.variable)]
     variable = f"{over}, {law.x_unit}".removesuffix(", -")
     return f"{variable}\n(repeats every {period_deg:.4g} deg)" if period_deg else variable
 

@@ -33,9 +33,14 @@ def test_axes_say_what_and_in_which_unit():
     assert bare_labels == ("the rate of turning", "friction along the shaft")
 
 
-def test_an_event_is_drawn_over_the_time():
-    jump = replace(LAW, variable="event", x_unit="s")
-    assert draw_law(jump).axes[0].get_xlabel() == "the time, s"
+@pytest.mark.parametrize(
+    ("variable", "unit", "label"),
+    [("event", "s", "the time, s"), ("direction", "rad/s", "the rate of turning, rad/s")],
+)
+def test_a_curve_of_an_event_or_a_direction_says_what_it_is_drawn_over(variable, unit, label):
+    axis = draw_law(replace(LAW, variable=variable, x_unit=unit)).axes[0]
+    assert axis.get_xlabel() == label
+    np.testing.assert_allclose(axis.lines[0].get_xydata(), np.transpose([LAW.x, LAW.y]))
 
 
 def test_a_long_title_has_several_lines():
