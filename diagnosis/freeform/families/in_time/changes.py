@@ -21,6 +21,7 @@ from diagnosis.freeform.families.in_time.events import (
     around,
     change_between,
     curves_of,
+    how_and_where,
     times_of,
     trials_after,
 )
@@ -42,14 +43,18 @@ _LONGEST_S = 5.0  # that it takes to change
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Both changes, if the log is long enough and less damping was simulated."""
-    if not ranges.softer:
-        return ()
-    found = []
-    for stays in (True, False):
-        if moment := largest_change(ranges, stays=stays):
-            found.append(_gives_way(moment, trials_after(ranges, moment) if stays else ()))
-    distinct = {family.name: family for family in reversed(found)}  # nothing follows the last trial
-    return tuple(reversed(distinct.values()))
+    return tuple(_gives_way(*change) for change in changes_of(ranges)) if ranges.softer else ()
+
+
+def changes_of(ranges: LogRanges) -> tuple[tuple[Moment, tuple[str, ...]], ...]:
+    """The largest change that stays, with the trials that follow it; and that of one trial alone.
+
+    Of one that stays in the last trial, which none follow, both are the same.
+    """
+    for_good, once = (largest_change(ranges, stays=stays) for stays in (True, False))
+    after = trials_after(ranges, for_good) if for_good else ()
+    found = [(for_good, after), (once, ())] if after else [(for_good or once, ())]
+    return tuple((moment, trials) for moment, trials in found if moment)
 
 
 def largest_change(ranges: LogRanges, *, stays: bool = True) -> Moment | None:
@@ -101,7 +106,7 @@ def in_time(ranges: LogRanges, number: int, *, of_damping: bool = True) -> tuple
 
 def _gives_way(moment: Moment, after: tuple[str, ...]) -> Family:
     """The change; in trials `after` it, it stays."""
-    how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
+    how, where = how_and_where(moment, after)
     when, lasting = (replace(p, start=2 * p.start) for p in times_of(moment))
     lasting = replace(lasting, high=_LONGEST_S)
     factor = Parameter(

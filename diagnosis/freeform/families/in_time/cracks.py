@@ -13,14 +13,14 @@ from dataclasses import replace
 from functools import partial
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.in_time.changes import largest_change
+from diagnosis.freeform.families.in_time.changes import changes_of
 from diagnosis.freeform.families.in_time.events import (
     DIFFERENCES,
     Moment,
     around,
     change_between,
+    how_and_where,
     times_of,
-    trials_after,
 )
 from diagnosis.freeform.families.readings import TIP
 from diagnosis.freeform.family import Family, Points
@@ -39,17 +39,12 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Both, if tip and torque are measured and less damping was simulated."""
     if not ranges.softer or TIP not in ranges.missing or Variable.TORQUE not in ranges.ends:
         return ()
-    found = {}
-    for stays in (False, True):  # nothing follows the last trial
-        if moment := largest_change(ranges, stays=stays):
-            family = _cracks(ranges, moment, trials_after(ranges, moment) if stays else ())
-            found[family.name] = family
-    return tuple(found.values())
+    return tuple(_cracks(ranges, *change) for change in changes_of(ranges))
 
 
 def _cracks(ranges: LogRanges, moment: Moment, after: tuple[str, ...]) -> Family:
     """The spring; in trials `after` that of the crack, it is there from the start."""
-    how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
+    how, where = how_and_where(moment, after)
     most_n_mm = max(abs(end) for end in ranges.ends[Variable.TORQUE])
     usual = ranges.missing[TIP] / most_n_mm
     compliance = Parameter(

@@ -72,6 +72,11 @@ def trials_after(ranges: LogRanges, moment: Moment) -> tuple[str, ...]:
     return tuple(names[names.index(moment.trial) + 1 :])
 
 
+def how_and_where(moment: Moment, after: Sequence[str]) -> tuple[str, str]:
+    """That an event is once or for good, and in which trial or from which on, in words."""
+    return ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
+
+
 def times_of(moment: Moment, usual_s: float = _USUAL_S) -> tuple[Parameter, Parameter]:
     """Parameters of an event: when it is, and how long it takes."""
     low, high = max(0.0, moment.time_s - _MOVES_S), moment.time_s + _MOVES_S
@@ -113,7 +118,7 @@ def step(
     acts_on: ActsOn, place: Place, title: str, moment: Moment, size: float, after: tuple[str, ...]
 ) -> Family:
     """The step; in trials `after` it, it stays."""
-    how, where = ("for good", f"from {moment.trial} on") if after else ("once", f"in {moment.trial}")
+    how, where = how_and_where(moment, after)
     return Family(
         effect=Effect(
             name=f"{title}, {how}",
