@@ -15,11 +15,14 @@ from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.record import dropped
 from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screened_fits import fit_screened
+from diagnosis.selection.stages import pairs, triples
 from diagnosis.selection.stages.stage import not_worth, screen_all
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 STAGE = "exchanges"
+_BUILDING_UP = (pairs.STAGE, triples.STAGE)
+"""Stages that screen every effect beside a set."""
 
 
 def one_effect_exchanged(state: SearchState, workers: Workers) -> SearchState:
@@ -28,22 +31,40 @@ def one_effect_exchanged(state: SearchState, workers: Workers) -> SearchState:
     leading = state.best
     if explained or len(_effects(leading)) < 2 or leading.fit.gap > EXCHANGE_GAP:
         return state
-    fitted, record = fit_all(STAGE, _calls(leading, state), workers)
-    on_the_decimated_log = [c for c in fitted if {*c.names} == {*leading.names}]
-    without = [c for c in fitted if c not in on_the_decimated_log]
-    state = state.noting(*record)
-    if not on_the_decimated_log:
+    fewer = _not_yet_asked(leading, state)
+    if not fewer:
         return state
-    reference = on_the_decimated_log[0]
-    screened, record = screen_all(STAGE, _others(leading, without, state), workers)
-    worth = [s for s in screened if s.cost < reference.fit.cost]
-    better, more = fit_screened(STAGE, state.coarse, worth, MOST_EXCHANGED, workers)
-    ahead = [c for c in better if c.score < reference.score]
-    behind = dropped(STAGE, [c for c in better if c not in ahead], "the leading set fits better")
-    state = state.noting(*record, *not_worth(STAGE, screened, worth), *more, *behind)
+    fitted, record = fit_all(STAGE, _calls([leading.names, *fewer], leading, state), workers)
+    known = {c.names: c for c in fitted}
+    state = state.noting(*record)
+    if leading.names not in known:
+        return state
+    without = [known[names] for names in fewer if names in known]
+    ahead, state = _exchanged(leading, known[leading.names], without, state, workers)
     if not ahead:
         return state
     return state.adding(fit_finalists(f"finalists, {STAGE}", state.problem, ahead, workers))
+
+
+def _exchanged(
+    leading: Candidate,
+    rare: Candidate,
+    without: Sequence[Candidate],
+    state: SearchState,
+    workers: Workers,
+) -> tuple[list[Candidate], SearchState]:
+    """Sets of the decimated log that are ahead of the leading one there, and the state.
+
+    Args:
+      rare: the leading set on the decimated log.
+      without: smaller sets there, beside which every other effect is screened.
+    """
+    screened, record = screen_all(STAGE, _others(leading, without, state), workers)
+    worth = [s for s in screened if s.cost < rare.fit.cost]
+    found, fits = fit_screened(STAGE, state.coarse, worth, MOST_EXCHANGED, workers)
+    ahead = [c for c in found if c.score < rare.score]
+    behind = dropped(STAGE, [c for c in found if c not in ahead], "the leading set fits better")
+    return ahead, state.noting(*record, *not_worth(STAGE, screened, worth), *fits, *behind)
 
 
 def _effects(one: Candidate) -> list[str]:
@@ -51,23 +72,19 @@ def _effects(one: Candidate) -> list[str]:
     return [name for name in one.names if name in LIBRARY]
 
 
-def _calls(leading: Candidate, state: SearchState) -> list[tuple[Any, ...]]:
-    """Fits on the decimated log, from where the leading set is: of itself, and without each effect.
+def _not_yet_asked(leading: Candidate, state: SearchState) -> list[tuple[str, ...]]:
+    """The leading set without each effect, but for sets beside which all others were screened."""
+    asked = {frozenset(entry.effects[:-1]) for entry in state.record if entry.stage in _BUILDING_UP}
+    fewer = [tuple(name for name in leading.names if name != effect) for effect in _effects(leading)]
+    return [names for names in fewer if frozenset(names) not in asked]
 
-    Sets beside which every other effect was tried already are left out.
-    """
-    asked = {frozenset(entry.effects[:-1]) for entry in state.record if entry.effects}
-    fewer = [
-        names
-        for effect in _effects(leading)
-        for names in [tuple(name for name in leading.names if name != effect)]
-        if frozenset(names) not in asked
-    ]
-    sets = [leading.names, *fewer] if fewer else []
-    return [
-        (state.coarse, names, state.coarse.parameterization(names).joined(leading.fit.parts))
-        for names in sets
-    ]
+
+def _calls(
+    sets: Sequence[tuple[str, ...]], leading: Candidate, state: SearchState
+) -> list[tuple[Any, ...]]:
+    """Fits of sets to the decimated log, from where the leading one is."""
+    coarse = state.coarse
+    return [(coarse, names, coarse.parameterization(names).joined(leading.fit.parts)) for names in sets]
 
 
 def _others(

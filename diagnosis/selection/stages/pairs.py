@@ -18,10 +18,11 @@ from diagnosis.selection.stages.stage import (
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
+STAGE = "pairs"
+
 
 def pairs(state: SearchState, workers: Workers) -> SearchState:
     """Pairs, where no effect alone explains the log, or where a second promises enough."""
-    stage = "pairs"
     state, alone = state.rechecked()
     leading = alike_on_the_decimated_log(state.singles) if alone else state.singles[:PAIR_BASES]
     calls = [
@@ -29,13 +30,13 @@ def pairs(state: SearchState, workers: Workers) -> SearchState:
         for base, effect in product(leading, state.effects)
         if not overlap(effect, base.names)
     ]
-    screened, record = screen_all(stage, calls, workers)
+    screened, record = screen_all(STAGE, calls, workers)
     state = state.noting(*record)
     worth = [s for s in screened if _worth_a_second(s, state, alone=alone)]
     if worth and alone:
-        worth = promising_on_the_log(stage, worth, state.singles[0].fit.cost, state, workers)
-    fitted, record = fit_screened(stage, state.coarse, worth, MOST_PAIRS, workers)
-    state = state.noting(*not_worth(stage, screened, worth), *record)
+        worth = promising_on_the_log(STAGE, worth, state.singles[0].fit.cost, state, workers)
+    fitted, record = fit_screened(STAGE, state.coarse, worth, MOST_PAIRS, workers)
+    state = state.noting(*not_worth(STAGE, screened, worth), *record)
     state = replace(state, pairs=tuple(fitted))
     made = fit_finalists("finalists, pairs", state.problem, fitted, workers)
     if alone and state.singles:

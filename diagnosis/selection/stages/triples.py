@@ -36,40 +36,41 @@ from diagnosis.selection.stages.stage import (
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
+STAGE = "three effects"
+
 _Pairs = Mapping[tuple[str, ...], Fit]
 
 
 def three_effects(state: SearchState, workers: Workers) -> SearchState:
     """Every effect beside the leading pairs, or beside the one that explains the log."""
-    stage = "three effects"
     state, explained = state.rechecked()
     pairs = _explaining(state) if explained else _leading(state)
-    screened, worth, record = _screened(stage, state, pairs, workers, explained=explained)
+    screened, worth, record = _screened(state, pairs, workers, explained=explained)
     if not (worth or explained):
         pairs = _others(state, pairs)
-        more, worth, entries = _screened(stage, state, pairs, workers, explained=False)
+        more, worth, entries = _screened(state, pairs, workers, explained=False)
         screened, record = [*screened, *more], (*record, *entries)
     if worth and explained:
-        worth = promising_on_the_log(stage, worth, _least(pairs), state, workers)
-    fitted, fits = fit_screened(stage, state.coarse, worth, MOST_TRIPLES, workers)
+        worth = promising_on_the_log(STAGE, worth, _least(pairs), state, workers)
+    fitted, fits = fit_screened(STAGE, state.coarse, worth, MOST_TRIPLES, workers)
     needless = [c for c in fitted if c.as_good_as_none]
     fitted = [c for c in fitted if c not in needless]
-    fits = (*fits, *dropped(stage, needless, "one of its effects is as good as none"))
+    fits = (*fits, *dropped(STAGE, needless, "one of its effects is as good as none"))
     if not explained:
-        fitted, behind = worth_the_log(stage, fitted, state.pairs)
+        fitted, behind = worth_the_log(STAGE, fitted, state.pairs)
         fits = (*fits, *behind)
-    state = state.noting(*record, *not_worth(stage, screened, worth), *fits)
+    state = state.noting(*record, *not_worth(STAGE, screened, worth), *fits)
     if not fitted:
         return state
     state = replace(state, triples=tuple(fitted))
-    made = fit_finalists(f"finalists, {stage}", state.problem, fitted, workers)
+    made = fit_finalists(f"finalists, {STAGE}", state.problem, fitted, workers)
     if explained:
-        made = taking_off_enough(f"finalists, {stage}", made, _least(pairs), state)
+        made = taking_off_enough(f"finalists, {STAGE}", made, _least(pairs), state)
     return state.adding(made)
 
 
 def _screened(
-    stage: str, state: SearchState, pairs: _Pairs, workers: Workers, *, explained: bool
+    state: SearchState, pairs: _Pairs, workers: Workers, *, explained: bool
 ) -> tuple[list[Screened], list[Screened], tuple[RecordEntry, ...]]:
     """Pairs with every other effect, those of them that are worth a fit, and the record."""
     calls = [
@@ -78,7 +79,7 @@ def _screened(
         for name in state.effects
         if not overlap(name, names)
     ]
-    found, record = screen_all(stage, calls, workers)
+    found, record = screen_all(STAGE, calls, workers)
     worth = [s for s in found if _worth_a_third(s, pairs[s.names[:-1]], explained=explained)]
     return found, worth, record
 
