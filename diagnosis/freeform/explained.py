@@ -67,9 +67,9 @@ def explained_by(
 
 def _twist(log: PreparedLog, rig: RigParameters, told: ShaftTwist | None) -> ShaftTwist | None:
     """The shape of the shaft with the law at the moment of another one; None: there is none."""
-    return (
-        shaft_twist(log, told.trial, told.at_s, {"nominal": NOMINAL, "explained": rig}) if told else None
-    )
+    if told is None:
+        return None
+    return shaft_twist(log, told.trial, told.at_s, {"nominal": NOMINAL, "explained": rig})
 
 
 def _after(missing: Missing, before: Sequence[Array]) -> tuple[Array, ...]:

@@ -19,11 +19,7 @@ leaves as much free in one of twice that."""
 
 def with_large_frame(function: Callable[[], Result]) -> Result:
     """What a function returns that is called from a large frame."""
-    return _call(function)
-
-
-def _call(function: Callable[[], Result]) -> Result:
     return function()
 
 
-_call.__code__ = _call.__code__.replace(co_stacksize=FRAME_WORDS)
+with_large_frame.__code__ = with_large_frame.__code__.replace(co_stacksize=FRAME_WORDS)
