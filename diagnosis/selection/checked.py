@@ -16,10 +16,14 @@ class Checked:
     """Candidates that were checked, best first.
 
     Attributes:
-      noise: re-estimated from what the best leaves.
+      problem: that they were fitted to, in units of the first estimate of the noise.
+      leading: fit of least score there.
+      noise: re-estimated from what this leaves.
       fits: of the candidates, in units of the first estimate, in their order.
     """
 
+    problem: FitProblem
+    leading: Fit
     noise: Noise
     candidates: tuple[Candidate, ...]
     fits: tuple[Fit, ...]
@@ -44,8 +48,11 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
       candidates: fitted to the problem.
       known: checked before; what is the same is not simulated once more.
     """
-    best = min(candidates, key=lambda c: c.score)
-    noise = reestimated_noise(problem, best.fit)
+    leading = min(candidates, key=lambda c: c.score).fit
+    if known and known.problem is problem and known.leading is leading:
+        noise = known.noise
+    else:
+        noise = reestimated_noise(problem, leading)
     again = replace(problem, noise=noise)
 
     def checked(fit: Fit) -> Candidate:
@@ -53,7 +60,13 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
         return before or _checked(candidate(rescaled(fit, problem, noise)), again)
 
     each = sorted(((checked(c.fit), c.fit) for c in candidates), key=lambda pair: pair[0].score)
-    return Checked(noise=noise, candidates=tuple(c for c, _ in each), fits=tuple(fit for _, fit in each))
+    return Checked(
+        problem=problem,
+        leading=leading,
+        noise=noise,
+        candidates=tuple(c for c, _ in each),
+        fits=tuple(fit for _, fit in each),
+    )
 
 
 def _checked(one: Candidate, problem: FitProblem) -> Candidate:

@@ -77,6 +77,23 @@ def test_what_was_checked_is_not_simulated_once_more_unless_the_noise_is_another
     assert len(simulated) == 1
 
 
+def test_noise_is_estimated_once_from_what_one_fit_leaves(problem, monkeypatch):
+    best, estimated = nominal(problem), []
+    known = check(problem, [best])
+    monkeypatch.setattr(
+        checked_module,
+        "reestimated_noise",
+        lambda own, fit: estimated.append(fit) or own.noise,
+    )
+    worse = candidate(nominal_fit([1.5 * r for r in best.fit.by_trial]))
+    assert check(problem, [worse, best], known).noise is known.noise
+    assert not estimated
+    better = candidate(nominal_fit([0.9 * r for r in best.fit.by_trial]))
+    check(problem, [best, better], known)
+    check(replace(problem), [best], known)
+    assert [id(fit) for fit in estimated] == [id(better.fit), id(best.fit)]
+
+
 @pytest.mark.parametrize(
     ("gap", "end", "goes_on"),
     [
