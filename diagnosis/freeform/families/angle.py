@@ -1,14 +1,15 @@
 """Free laws of the angle of each piece of the shaft.
 
-- at the tip, or along the inserted shaft: a torque that depends on the angle, with one to four, or
-  one and two waves per turn
+- at the tip: a torque that depends on the angle, with one to four waves per turn
+- along the inserted shaft: such a torque with one and two waves, or with two alone, as of tissue whose
+  fibres run one way; a bent shaft prefers one angle in a turn
 - at the tip: a torque towards one angle that depends on the axial speed, as of a bevel that is pushed
 - along the inserted shaft: damping, or dry friction, that depends on the angle, as of a shaft that is
   not round
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -26,8 +27,10 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface
 
-AT_TIP, ALONG = (1, 2, 3, 4), (1, 2)  # waves in a turn
+AT_TIP, ALONG, OF_FIBRES = (1, 2, 3, 4), (1, 2), (2,)  # waves in a turn
 _SHOWN_DEG = np.linspace(-180.0, 180.0, 49)
+_EITHER = {Place.NEEDLE: 0.5, Place.TISSUE: 0.5}
+_TISSUE = {Place.TISSUE: 0.7, Place.NEEDLE: 0.3}
 _MOST_UNEVEN = 0.95  # of the damping, that it changes over a turn
 
 
@@ -35,27 +38,34 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of laws that depend on the angle of the shaft; none if it hardly turns."""
     if Variable.BASE_ANGLE not in ranges.ends:
         return ()
-    found = [_angle(ranges, tip=True), _angle(ranges, tip=False)]
+    found = [_angle(ranges, AT_TIP, {Place.NEEDLE: 1.0}, tip=True), _angle(ranges, ALONG, _EITHER)]
+    found.append(_angle(ranges, OF_FIBRES, _TISSUE, more=", twice a turn"))
     found += [_uneven_damping(ranges), _uneven_friction(ranges)]
     if Variable.AXIAL_SPEED in ranges.ends:
         found.append(_pushed(ranges))
     return tuple(found)
 
 
-def _angle(ranges: LogRanges, *, tip: bool) -> Family:
+def _angle(
+    ranges: LogRanges,
+    waves: Sequence[int],
+    places: Mapping[Place, float],
+    *,
+    tip: bool = False,
+    more: str = "",
+) -> Family:
     """A torque over the angle, with sine and cosine of each wave as coordinates."""
     size = _level(ranges) * (AT_TIP_MM if tip else 1.0)
-    where, waves = ("tip torque", AT_TIP) if tip else ("torque along the shaft", ALONG)
-
+    where = "tip torque" if tip else "torque along the shaft"
     return Family(
         effect=Effect(
-            name=f"{where} over tip_angle",
-            title=f"{where} that depends on its angle",
-            place=Place.NEEDLE,
+            name=f"{where} over tip_angle{more}",
+            title=f"{where} that depends on its angle{more}",
+            place=max(places, key=lambda place: places[place]),
             parameters=coordinates(2 * len(waves), 0, size),
             apply=partial(_apply_angle, waves, tip),
         ),
-        places={Place.NEEDLE: 1.0},
+        places=places,
         says="tip_angle",
         title=where,
         curve=partial(_over_a_turn, waves),

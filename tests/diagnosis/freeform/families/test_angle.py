@@ -6,15 +6,17 @@ from diagnosis_fixtures import turns
 from free_forms import covered, same_readings
 
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.angle import families
 from diagnosis.replay.rig_parameters import NOMINAL
 
 ANGLE = turns(6.0)
 SLIDING = covered(ANGLE, tip=ANGLE, speed=2.0 * np.sin(np.linspace(0, 9, ANGLE.size)))
 FAMILIES = {family.name: family for family in families(SLIDING)}
-TIP_ANGLE, ALONG, UNEVEN, KEYED, PUSHED = (
+TIP_ANGLE, ALONG, FIBRES, UNEVEN, KEYED, PUSHED = (
     "tip torque over tip_angle",
     "torque along the shaft over tip_angle",
+    "torque along the shaft over tip_angle, twice a turn",
     "damping along the shaft over tip_angle",
     "dry friction along the shaft over tip_angle",
     "tip torque towards one angle over axial_speed",
@@ -32,6 +34,13 @@ def test_once_a_turn_along_the_shaft_is_a_bent_needle():
     sine, cosine = 0.002 * np.cos(phase), -0.002 * np.sin(phase)
     assert same_readings(ANGLE, rig_of(ALONG, sine, cosine, 0.0, 0.0), bent)
     assert not same_readings(ANGLE, rig_of(ALONG, sine, -cosine, 0.0, 0.0), bent)
+
+
+def test_a_torque_that_repeats_twice_a_turn_is_rather_of_the_tissue():
+    both, twice = rig_of(ALONG, 0.0, 0.0, 0.001, 0.002), rig_of(FIBRES, 0.001, 0.002)
+    assert same_readings(ANGLE, both, twice)
+    assert FAMILIES[FIBRES].place is Place.TISSUE
+    assert FAMILIES[ALONG].places[Place.TISSUE] == FAMILIES[ALONG].places[Place.NEEDLE]
 
 
 # Whatever acts at the tip has an end of the mesh of its own.
