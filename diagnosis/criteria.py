@@ -114,6 +114,10 @@ SLOW_LEAST_SHARE, SLOW_TIMES_CHANCE, SLOW_REGULAR_SHARE = 0.1, 3.0, 0.7
 """A sensor that is slower than the log: share of rows that are filled in, in all and as a multiple of
 what chance would do, and share of rows between new readings that are evenly apart. Choices: where noise
 shakes readings by more than their steps, chance is under 0.1."""
+HELD_EVIDENCE, HELD_SHARE, HELD_MOST_ROWS = 50.0, 0.5, 6
+"""A reading that is held under noise: chi-square by which that is likelier than a new one in every row,
+also as a share of what is expected; rows of a hold. Derived: of new ones it is as far below 0, so that
+half of it is midway between one and none, and 50 is seven standard deviations of the motion's part."""
 HUM_MAINS_HZ, HUM_HARMONICS, HUM_GRID_HZ = (50.0, 60.0), 3, 0.2
 HUM_LOWEST_HZ = 5.0
 """Mains frequencies and the multiples of them at which a sensor may hum; how far a grid may be off (it

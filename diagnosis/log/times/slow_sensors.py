@@ -1,7 +1,8 @@
 """Sensors that are read less often than rows are written: a camera or tracker beside a fast drive.
 
-A logger fills the rows between two readings in one of two ways: it repeats the last one, or it draws a
-straight line to the next. What it writes there is no reading. Repeated values look like a sensor that is
+A logger fills the rows between two readings in one of two ways: it repeats the last one, maybe under
+noise of its own (`held_readings`), or it draws a straight line to the next. What it writes there is no
+reading. Repeated values look like a sensor that is
 late by half its period, lines like one that rounds corners, and both like noise that is correlated.
 So only rows with a new reading count.
 
@@ -31,12 +32,14 @@ from diagnosis.criteria import (
 )
 from diagnosis.log.checks.wording import listed
 from diagnosis.log.faults.scatter import quantum
+from diagnosis.log.times.held_readings import held_rows
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Filled = Callable[[Array, Array, float], Mask]
+_Filled = Callable[[Array, Array, float], Mask]
+Filled = Callable[[Sequence[Trial], str, float], list[Mask]]
 
 _BASE = "base_angle_deg"
 _LINE_STEPS = math.sqrt(1.5)  # noise of a reading less the mean of its neighbours, in that of one
@@ -55,14 +58,19 @@ def with_new_readings(
     """
     changed, warnings = list(trials), []
     for column, filled, how in _HABITS:
-        rows = [_filled(trial, column, noise.get(column, 0.0), filled) for trial in changed]
+        rows = filled(changed, column, noise.get(column, 0.0))
         if any(old.any() for old in rows):
             warnings.append(_told(column, how, rows, changed))
             changed = [_without(trial, column, old) for trial, old in zip(changed, rows, strict=True)]
     return changed, warnings
 
 
-def _filled(trial: Trial, column: str, claim: float, filled: Filled) -> Mask:
+def _each(filled: _Filled) -> Filled:
+    """The rows of each trial that were filled in one way."""
+    return lambda trials, column, claim: [_filled(one, column, claim, filled) for one in trials]
+
+
+def _filled(trial: Trial, column: str, claim: float, filled: _Filled) -> Mask:
     """Mask of the rows that were filled in, (N,); of none if chance may have made them."""
     none = np.zeros(trial["time_s"].size, bool)
     values = trial[column] if trial.has(column) else np.full(none.size, np.nan)
@@ -125,9 +133,10 @@ def _without(trial: Trial, column: str, old: Mask) -> Trial:
 
 
 _HABITS: tuple[tuple[str, Filled, str], ...] = (
-    (_BASE, _repeated, "repeats its last reading"),
-    *((sensor, _repeated, "repeats its last reading") for sensor in SENSORS),
-    *((sensor, _on_a_line, "is interpolated") for sensor in SENSORS),
+    (_BASE, _each(_repeated), "repeats its last reading"),
+    *((sensor, _each(_repeated), "repeats its last reading") for sensor in SENSORS),
+    *((sensor, _each(_on_a_line), "is interpolated") for sensor in SENSORS),
+    *((sensor, held_rows, "holds its last reading, under noise,") for sensor in SENSORS),
 )
 
 
