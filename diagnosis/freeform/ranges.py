@@ -20,7 +20,7 @@ _OF_READINGS = (Variable.PAST, Variable.TURNED_BY, Variable.LAG)
 _OF_TRIALS = (Variable.TRIAL_SHARE, Variable.ADVANCED_BY)
 LEAST_PAST_S, LONGEST_PAST_S = 0.02, 60.0
 _ALL_BUT = 0.002  # of the samples at either end lie beyond a range
-LONGER = 1.2  # the longest trial, of the shortest, for shares of trials to be other than their times
+LONGER = 1.1  # the longest trial, of the shortest, for shares of trials to be other than their times
 LEAST_RANGE = {
     Variable.TIME: 1.0,
     Variable.TRIAL_SHARE: 0.5,
@@ -32,6 +32,7 @@ LEAST_RANGE = {
     Variable.AXIAL_SPEED: 0.3,
     Variable.SLID_LATELY: 0.2,
     Variable.PUSHED_LATELY: 0.2,
+    Variable.RESTED: 1.0,
     Variable.AXIAL_DRAG: 5.0,
     Variable.AXIAL_FLOW: 20.0,
     Variable.THRUST: 10.0,

@@ -10,6 +10,7 @@ slid_direction in which dry friction in the drive slides: straight between while
 axial_speed    of the needle into the tissue, mm/s
 slid_lately    axial speed either way, mm/s, as a mean over the last seconds (SLID_S)
 pushed_lately  axial speed with its sign, mm/s, as the same mean
+rested         time since the needle last slid, s; as long as any before it has (RESTED_S)
 axial_drag     inserted length, with the sign of the axial speed, mm: what the friction of a needle that
                slides is proportional to; 0 at rest
 thrust         inserted length where the needle is pushed, with the sign of slid_direction, mm: what the
@@ -50,6 +51,7 @@ STILL_DEG_S = 1.0  # slower than this, a drive shaft rests
 _TURN_S = 0.1  # in which a direction changes
 _RATE_S = 0.02  # over which rates are taken
 _SLIDES_MM_S = 0.1  # axial speed at which friction is no longer that of a needle at rest
+RESTED_S = 20.0  # since the needle slid, after which no tissue knows
 SLID_S = 4.0  # in which tissue forgets that the needle slid: its relaxation takes some seconds
 
 
@@ -66,6 +68,7 @@ class Variable(StrEnum):
     AXIAL_SPEED = "axial_speed"
     SLID_LATELY = "slid_lately"
     PUSHED_LATELY = "pushed_lately"
+    RESTED = "rested"
     AXIAL_DRAG = "axial_drag"
     THRUST = "thrust"
     AXIAL_FLOW = "axial_flow"
@@ -95,6 +98,7 @@ UNITS = {
     Variable.AXIAL_SPEED: "mm/s",
     Variable.SLID_LATELY: "mm/s",
     Variable.PUSHED_LATELY: "mm/s",
+    Variable.RESTED: "s",
     Variable.AXIAL_DRAG: "mm, with the sign of the axial speed",
     Variable.THRUST: "mm, with the sign of the direction",
     Variable.AXIAL_FLOW: "mm^2/s",
@@ -117,6 +121,7 @@ SAYS: Mapping[str, str] = {
     Variable.ACCELERATION: "rate",
     Variable.SLID_LATELY: "axial_speed",
     Variable.PUSHED_LATELY: "axial_speed",
+    Variable.RESTED: "history",
     Variable.AXIAL_DRAG: "axial_speed",
     Variable.THRUST: "axial_speed",
     Variable.AXIAL_FLOW: "axial_speed",
@@ -231,6 +236,11 @@ def _pushed_lately(inputs: Schedule, _: float) -> Array:
     return first_order(inputs.time_s, inputs.speed_mm_s, SLID_S)
 
 
+def _rested(inputs: Schedule, _: float) -> Array:
+    slid_s = np.where(np.abs(inputs.speed_mm_s) > _SLIDES_MM_S, inputs.time_s, -np.inf)
+    return np.minimum(inputs.time_s - np.maximum.accumulate(slid_s), RESTED_S)
+
+
 def _thrust(inputs: Schedule, start_s: float) -> Array:
     return _slid_direction(inputs, start_s) * np.maximum(_axial_drag(inputs, start_s), 0.0)
 
@@ -250,6 +260,7 @@ OF_INPUTS: Mapping[Variable, Callable[[Schedule, float], Array]] = {
     Variable.AXIAL_SPEED: lambda inputs, _: inputs.speed_mm_s,
     Variable.SLID_LATELY: _slid_lately,
     Variable.PUSHED_LATELY: _pushed_lately,
+    Variable.RESTED: _rested,
     Variable.AXIAL_DRAG: _axial_drag,
     Variable.THRUST: _thrust,
     Variable.AXIAL_FLOW: lambda inputs, _: inputs.inserted_mm * inputs.speed_mm_s,

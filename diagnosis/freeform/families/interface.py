@@ -24,10 +24,10 @@ from diagnosis.replay.variables import SAYS, UNITS, Variable
 from models.tissue import Interface
 
 OVER = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, Variable.DEPTH)
-LATELY = (Variable.SLID_LATELY, Variable.PUSHED_LATELY)
+LATELY = (Variable.SLID_LATELY, Variable.PUSHED_LATELY, Variable.RESTED)
 DAMPING_OVER = (*OVER, *LATELY, Variable.BASE_ANGLE, Variable.TRAVELLED)
 FRICTION_OVER = (*OVER, *LATELY, Variable.BASE_ANGLE, Variable.TRAVELLED)
-FADING = (Variable.TIME, Variable.HISTORY, Variable.TRAVELLED)
+FADING = (Variable.TIME, Variable.HISTORY, Variable.TRAVELLED, Variable.RESTED)
 SLOW_RAD_S = 0.03
 LEAST_PART = 0.02  # of the nominal damping
 PARTS = 6  # of the inserted length

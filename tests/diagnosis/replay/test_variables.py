@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from diagnosis.replay.sensing.bearing import PRESLIDING_DEG
-from diagnosis.replay.variables import OF_THE_NEEDLE, SLID_S, UNITS, Variable, of_inputs, of_needle
+from diagnosis.replay.variables import (
+    OF_THE_NEEDLE,
+    RESTED_S,
+    SLID_S,
+    UNITS,
+    Variable,
+    of_inputs,
+    of_needle,
+)
 from sim.schedule import Schedule
 
 STEP_S = 0.01
@@ -107,6 +115,16 @@ def test_sliding_is_forgotten_in_some_seconds_whichever_way_it_was():
     np.testing.assert_array_equal(back, there)
     expected = 3.0 * (1 - np.exp(-np.maximum(TIME - 1.0, 0.0) / SLID_S))
     np.testing.assert_allclose(there, expected, atol=3.0 * STEP_S / SLID_S)  # speeds run straight
+
+
+def test_a_rest_begins_when_the_needle_has_slid_and_lasts_as_long_as_any_before():
+    """It slides from 1 to 2 s, and never again."""
+    speed = np.where((TIME >= 1.0) & (TIME <= 2.0), -3.0, 0.0)
+    rested = of_inputs(Variable.RESTED, replace(inputs(), speed_mm_s=speed), 0.0)
+    assert (rested[TIME < 1.0] == RESTED_S).all()
+    np.testing.assert_allclose(rested[TIME >= 1.0], np.maximum(TIME[TIME >= 1.0] - 2.0, 0.0), atol=1e-9)
+    still = of_inputs(Variable.RESTED, replace(inputs(), speed_mm_s=0.0 * TIME), 0.0)
+    np.testing.assert_array_equal(still, RESTED_S)
 
 
 def test_the_axial_drag_is_the_inserted_length_with_the_sign_of_the_speed():

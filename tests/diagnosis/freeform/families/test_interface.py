@@ -60,8 +60,10 @@ def test_a_variable_that_the_log_does_not_have_has_no_law():
         "damping over axial_speed",
         "damping over slid_lately",
         "damping over pushed_lately",
+        "damping over rested",
         "dry friction over slid_lately",
         "dry friction over pushed_lately",
+        "dry friction over rested",
         "dry friction over axial_speed",
     }
 
