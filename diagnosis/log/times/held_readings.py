@@ -61,9 +61,9 @@ def _held(trial: Trial, column: str, rows: int) -> _Hold:
     """The likeliest hold of one trial over so many rows."""
     values = trial[column] if trial.has(column) else np.zeros(0)
     size, read = 2 * _SMOOTH_ROWS * rows + 1, np.isfinite(values)
-    if read.sum() < 2 * size:
-        return 0.0, 0.0, 0
     at, both = np.arange(values.size), np.flatnonzero(read[:-1] & read[1:])
+    if both.size < 2 * size:
+        return 0.0, 0.0, 0
     slopes = savgol_filter(np.interp(at, at[read], values[read]), size, _DEGREE, deriv=1)
     moved, found = 0.5 * (slopes[both] + slopes[both + 1]), np.diff(values)[both]
     return max(_likeliness(moved, found, (both + 1) % rows == new, rows, new) for new in range(rows))
