@@ -652,6 +652,9 @@ STEP_LEAVES = 0.8
 of the residual. A choice: they decide on what is told of an unknown log, and on no verdict."""
 DETECTION_SIGMA = 1.645
 """Derived: an effect that exceeds what is asked by so many standard deviations is seen in 95 of 100."""
+HIDDEN_MOVES, HIDDEN_SHARE = 3.0, 0.2
+"""Widths of its interval, and share of its strength, by which an effect that may go unseen has to move a
+named parameter to be told. Choices: they add a warning, and decide on no verdict."""
 DECISIVE_SIGMA = 5.0
 """Separation at which one run of a proposed experiment decides."""
 MOST_RUNS = 100

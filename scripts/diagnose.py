@@ -163,8 +163,8 @@ def _parameter_table(parameters: Mapping[str, Any], title: str) -> Table:
 
 def _limits_table(found: Diagnosis) -> Table:
     table = Table("effect", "may be present and go unseen", title="Detection limits")
-    for effect, values in found.assessment.detection_limits.items():
-        table.add_row(effect, limit_in_words(effect, values))
+    for effect, limit in found.assessment.detection_limits.items():
+        table.add_row(effect, limit_in_words(effect, limit.parameters))
     return table
 
 

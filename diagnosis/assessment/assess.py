@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.advice import advise
-from diagnosis.assessment.detection_limits import detection_limits
+from diagnosis.assessment.detection_limits import DetectionLimit, detection_limits
 from diagnosis.assessment.forward_step import Further, further_effects, gap_with_one_more, has_room
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
+from diagnosis.assessment.moved_by_hidden import moved_by_hidden
 from diagnosis.assessment.nearest import ONE_MORE, Nearest, nearest_candidate, nearest_of
 from diagnosis.assessment.uncertainty.intervals import Interval, covariance, intervals
 from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty, joint_uncertainty
@@ -67,8 +68,8 @@ class Assessment:
       reading_jumps: readings that are off from a moment on, in the nearest explanation.
       drift_sigma: largest range of the drift within a trial that was allowed for, by sensor.
       with_one_more: gap that the best fit may reach with one more effect, by effect.
-      detection_limits: parameters at the largest strength that may go unseen, by effect; empty if
-        the log is not explained, or explained by two effects.
+      detection_limits: largest strength that may go unseen, by effect; empty if the log is not
+        explained, or explained by two effects.
       next_experiment: in words; empty if nothing is left to tell apart.
       numerical_error: numerical error of the replay, in sigma, by sensor; empty if there was no time.
       explained: readings that the nearest explanation predicts, at the samples of the log, by trial.
@@ -88,7 +89,7 @@ class Assessment:
     reading_jumps: tuple[ReadingJump, ...]
     drift_sigma: dict[str, float]
     with_one_more: dict[str, float]
-    detection_limits: dict[str, dict[str, float]]
+    detection_limits: dict[str, DetectionLimit]
     next_experiment: str
     numerical_error: dict[str, float]
     explained: list[Prediction]
@@ -168,6 +169,7 @@ def assess(
             *problem.log.warnings,
             *numerical_warnings(error),
             *lost,
+            *moved_by_hidden(limits, accepted),
             *_bound_warnings(near.fit.status.at_bound),
         ),
     )
@@ -243,7 +245,7 @@ def _further(
 
 def _limits(
     coarse: FitProblem, verdict: Verdict, further: Further, effects: Sequence[str], workers: Workers
-) -> dict[str, dict[str, float]]:
+) -> dict[str, DetectionLimit]:
     """Detection limits, if the log is explained."""
     if not verdict.settled:
         return {}

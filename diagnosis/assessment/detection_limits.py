@@ -6,12 +6,17 @@ complexity penalty and the odds by which a richer explanation has to lead; as th
 effects, if it also exceeds the threshold of the search. Noise changes sqrt(d'd) by one standard
 deviation: an effect whose sqrt(d'd) exceeds the requirement by 1.64 is seen in 95 of 100 logs. The
 strength that gives this value is found by simulating the effect weaker or stronger.
+
+If it were there, the named parameters would be others: by what the fit takes back of its change. Their
+intervals hold without it.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.criteria import DETECTION_SIGMA, SCATTER, SECOND_LEAVES, SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
@@ -21,14 +26,30 @@ from diagnosis.fitting.projection import Projection
 from diagnosis.selection.scoring.complexity import most_penalty
 from diagnosis.workers import Failure, Task, Workers
 
+Array = NDArray[np.float64]
+
 _ROUNDS = 4  # sizes grow with the strength, but for dry friction below what breaks loose
 _MOST = 30.0  # times weaker or stronger in one round
 
 
+@dataclass(frozen=True, kw_only=True)
+class DetectionLimit:
+    """The largest strength of an effect that may go unseen.
+
+    Attributes:
+      parameters: its parameters there, those of shape at the start of fits; none: any strength within
+        bounds may go unseen.
+      beside: what parameters of the named effects would then be, by effect.
+    """
+
+    parameters: Mapping[str, float]
+    beside: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+
 def detection_limits(
     coarse: FitProblem, best: Fit, base: Fit, effects: Sequence[str], workers: Workers
-) -> dict[str, dict[str, float]]:
-    """Detection limits of all further effects, by name and parameter; no parameters: any strength.
+) -> dict[str, DetectionLimit]:
+    """Detection limits of all further effects, by name.
 
     Stiffness and damping are left out, since every fit varies them. Beside two effects nothing is
     computed: detection limits of a third are not searched for.
@@ -41,17 +62,13 @@ def detection_limits(
     return dict(limit for limit in results if not isinstance(limit, Failure))
 
 
-def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tuple[str, dict[str, float]]:
-    """An effect, and its parameters at the largest strength that may go unseen.
+def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tuple[str, DetectionLimit]:
+    """An effect, and the largest strength of it that may go unseen.
 
     Args:
       coarse: the decimated log.
       best: fit that explains the log itself, of one effect or none.
       base: the same fit on the decimated log.
-
-    Returns:
-      The name, and values by parameter, with parameters of shape at the start of fits; no values if
-      the effect may go unseen at any strength within bounds.
 
     Raises:
       SimulationFailed: the effect cannot be simulated.
@@ -63,13 +80,28 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
     for _ in range(_ROUNDS):
         values = [p.towards_neutral(p.start[0], share) for p in parameters]
         if share > 1 and not all(p.low <= v <= p.high for p, v in zip(parameters, values, strict=True)):
-            return name, {}
+            return name, DetectionLimit(parameters={})
         own = np.array([p.to_fit(v) for p, v in zip(parameters, values, strict=True)])
         rig = parameterization.rig(parameterization.joined(base.parts | {name: own}))
-        moved = projection.beyond([run[0] for run in coarse.residuals([rig], callback_alone=True)])
-        more = asked / max(float(np.linalg.norm(moved)), 1e-9)
-        share *= float(np.clip(more, 1 / _MOST, _MOST))
-    return name, {p.name: p.towards_neutral(p.start[0], share) for p in parameters if p.reported}
+        runs = [run[0] for run in coarse.residuals([rig], callback_alone=True)]
+        more = asked / max(float(np.linalg.norm(projection.beyond(runs))), 1e-9)
+        more = float(np.clip(more, 1 / _MOST, _MOST))
+        share *= more
+    return name, DetectionLimit(
+        parameters={p.name: p.towards_neutral(p.start[0], share) for p in parameters if p.reported},
+        beside=_named(base, base.x + more * projection.answer(runs)),
+    )
+
+
+def _named(fit: Fit, x: Array) -> dict[str, dict[str, float]]:
+    """Reported parameters of the named effects of a fit at a vector, within their bounds."""
+    own, low_high = fit.parameterization, fit.parameterization.bounds()
+    values = zip(own.owners, own.parameters, own.values(np.clip(x, *low_high)), strict=True)
+    found: dict[str, dict[str, float]] = {name: {} for name in fit.names}
+    for owner, parameter, value in values:
+        if owner in found and parameter.reported:
+            found[owner][parameter.name] = value
+    return found
 
 
 def _asked(best: Fit, base: Fit, name: str) -> float:

@@ -52,6 +52,13 @@ class Projection:
         beside = there - self._basis @ (self._basis.T @ there)
         return float(beside @ beside)
 
+    def answer(self, by_trial: Sequence[Array]) -> Array:
+        """Step of the fit's vector, (n,), with which it answers the same change, bounds aside."""
+        step = np.zeros(self._kept.size)
+        within = self._basis.T @ self._from_fit(by_trial)
+        step[self._kept] = -np.linalg.lstsq(self._root, within, rcond=None)[0]
+        return step
+
     def reachable(self, by_trial: Sequence[Array] | None = None) -> Reachable:
         """What the fit comes to within its bounds, if any positive multiple of a difference is added.
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
+from diagnosis.assessment.detection_limits import DetectionLimit
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.in_sigma import over_sigma
@@ -33,9 +34,9 @@ def explanation_table(found: Diagnosis) -> str:
     return table(("explanation", "probability"), rows, "Probability of each explanation")
 
 
-def limits_table(limits: Mapping[str, Mapping[str, float]]) -> str:
+def limits_table(limits: Mapping[str, DetectionLimit]) -> str:
     """Detection limits of further effects."""
-    rows = [(effect, limit_in_words(effect, values)) for effect, values in limits.items()]
+    rows = [(effect, limit_in_words(effect, limit.parameters)) for effect, limit in limits.items()]
     return table(("effect", "may be present and go unseen"), rows, "Detection limits")
 
 

@@ -32,7 +32,8 @@ def limit_shares(found: Diagnosis) -> list[LimitShare]:
     """Detection limits, the smallest share first."""
     references = _references(found)
     shares = [
-        _share(name, values, references) for name, values in found.assessment.detection_limits.items()
+        _share(name, limit.parameters, references)
+        for name, limit in found.assessment.detection_limits.items()
     ]
     return sorted(shares, key=lambda one: one.share_percent)
 

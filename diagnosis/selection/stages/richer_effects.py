@@ -4,15 +4,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import FITTED
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import fit_all, fit_beside, fit_finalists
+from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.richer_forms import forms_beyond, with_richer
+from diagnosis.selection.scoring.unresolved import contending
 from diagnosis.selection.stages.stage import worth_the_log
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
+
+Array = NDArray[np.float64]
 
 STAGE, SIMPLER = "richer effects", "simpler effects"
 _STARTS = 2  # forms from which fits start
@@ -73,14 +77,30 @@ def simpler_effects_in_the_best(state: SearchState, workers: Workers) -> SearchS
     if not inner or not state.at_the_floor(best):
         return state
     known = {frozenset(c.names) for c in state.candidates}
-    simpler = [
-        names
+    simpler = {
+        names: simple
         for rich, simple in inner
         if simple not in best.names
         for names in [tuple(simple if name == rich else name for name in best.names)]
         if frozenset(names) not in known
+    }
+    enough = best.score + contending(state.problem)
+    calls = [
+        (state.problem, names, _with_simple(state, best, names, simple), enough)
+        for names, simple in simpler.items()
     ]
-    return state.adding(fit_beside(SIMPLER, state.problem, best, simpler, workers))
+    return state.adding(fit_all(SIMPLER, calls, workers))
+
+
+def _with_simple(state: SearchState, best: Candidate, names: tuple[str, ...], simple: str) -> Array:
+    """Where a set with a simpler effect begins: as the best, and with that as the decimated log has it.
+
+    From where it is absent, stick and slip show no way to it.
+    """
+    decimated = [c for c in (*state.triples, *state.pairs, *state.singles) if simple in c.names]
+    alike = sorted(decimated, key=lambda c: len({*names} ^ {*c.names}))
+    own = {simple: alike[0].fit.parts[simple]} if alike else {}
+    return state.problem.parameterization(names).joined(best.fit.parts | own)
 
 
 def _ahead(

@@ -38,7 +38,7 @@ def test_a_bias_goes_unseen_below_its_closed_form(nothing):
     samples = sum(int(np.isfinite(t["tip_angle_deg"]).sum()) for t in nothing.log.trials)
     asked = math.log(2 * samples) + 2 * math.log(len(LIBRARY)) + 10
     least = TIP * (math.sqrt(asked) + 1.645) / math.sqrt(samples)
-    limit = nothing.found.assessment.detection_limits["tip_angle_bias"]["bias"]
+    limit = nothing.found.assessment.detection_limits["tip_angle_bias"].parameters["bias"]
     assert nothing.found.verdict.kind is VerdictKind.NONE
     assert 0.97 * least < limit < 1.5 * least
 
@@ -55,7 +55,7 @@ def test_what_is_stronger_than_its_limit_is_seen(nothing, tmp_path, share, seen)
 
     1.6 of it is 4 standard deviations above, 0.4 is 2.4 below what is asked.
     """
-    level = share * nothing.found.assessment.detection_limits["coulomb_friction"]["level"]
+    level = share * nothing.found.assessment.detection_limits["coulomb_friction"].parameters["level"]
     folder = make_log(tmp_path / "log", {"coulomb_friction": {"level": level}}, seed=11)
     found = search(start_of_search(read_rig_log(folder), FRICTION), Workers())
     assert ("coulomb_friction" in concluded(found).effects) is seen
@@ -71,12 +71,12 @@ def still():
 def test_at_the_limit_an_effect_changes_what_is_asked(still):
     """Half the strength of a bias changes half of it: the limit does not hang on the start."""
     coarse, fit = still
-    _, values = detection_limit(coarse, fit, fit, "tip_angle_bias")
+    _, limit = detection_limit(coarse, fit, fit, "tip_angle_bias")
     # 1200 readings at 100 a second, averaged by 4: as many in the cost as the decimated log has.
     tips = np.isfinite(coarse.log.trials[0].readings["tip_angle_deg"]).sum()
     asked = math.log(fit.samples) + 2 * math.log(len(LIBRARY)) + 10
     least = coarse.noise["tip_angle_deg"] * (math.sqrt(asked) + 1.645) / math.sqrt(tips)
-    assert 0.97 * least < values["bias"] < 1.5 * least
+    assert 0.97 * least < limit.parameters["bias"] < 1.5 * least
 
 
 def test_an_effect_that_cannot_be_simulated_has_no_limit_and_the_others_do(still):

@@ -31,6 +31,7 @@ KEYS = {
     "floor",
     "fit",
     "further",
+    "beside_hidden",
     "hidden",
     "cannot_tell",
     "replay_error",

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from diagnosis_fixtures import scored
 
+from diagnosis.assessment.detection_limits import DetectionLimit
 from diagnosis.report.tables import (
     explanation_table,
     limit_in_words,
@@ -40,7 +41,8 @@ def test_a_limit_is_told_with_its_direction(effect, values, words):
 
 
 def test_limits_are_a_row_for_each_effect():
-    limits = {"tip_drag": {"damping": 0.02}, "stiction": {}}
+    each = {"tip_drag": {"damping": 0.02}, "stiction": {}}
+    limits = {effect: DetectionLimit(parameters=own) for effect, own in each.items()}
     expected = [["tip_drag", "damping ≤ 0.02 N mm s / rad"], ["stiction", "any strength"]]
     assert cells(limits_table(limits))[1:] == expected
 

@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import pytest
 
+from diagnosis.assessment.detection_limits import DetectionLimit
 from diagnosis.effects import LIBRARY
 from diagnosis.report.figures.detection_limits import describe_limits, draw_limits, limit_shares
 
 
-def limited(found, **limits):
+def limited(found, **values):
+    limits = {effect: DetectionLimit(parameters=own) for effect, own in values.items()}
     return replace(found, assessment=replace(found.assessment, detection_limits=limits))
 
 

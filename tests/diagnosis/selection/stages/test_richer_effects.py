@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, scored, start_of_search
+from diagnosis_fixtures import fit_of, log_of, scored, start_of_search
 
 from diagnosis.criteria import SIMPLE_LEAD
 from diagnosis.fitting.fit import fit_effects
@@ -97,6 +97,16 @@ def test_what_the_best_contains_is_fitted_in_its_place(taken_for_falling, monkey
     assert found.best.names == ("coulomb_friction",)
     assert np.exp(found.best.fit.x[0]) == pytest.approx(0.002, rel=0.05)
     assert module.simpler_effects_in_the_best(found, Workers()) is found  # it is known by now
+
+
+def test_it_begins_as_the_decimated_log_has_it_rather_in_the_same_set(taken_for_falling):
+    best, dry = taken_for_falling.best, ("coulomb_friction",)
+    alone, beside = (
+        fit_of(names, x=x) for names, x in ((dry, [-7.0]), ((*dry, "tip_drag"), [-6.0, 0.1]))
+    )
+    state = replace(taken_for_falling, singles=(candidate(alone),), pairs=(candidate(beside),))
+    assert module._with_simple(state, best, dry, *dry)[0] == -7.0
+    assert module._with_simple(replace(state, singles=()), best, dry, *dry)[0] == -6.0
 
 
 def test_nothing_simpler_is_fitted_above_the_noise(taken_for_falling, monkeypatch):

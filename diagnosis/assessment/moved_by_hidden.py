@@ -1,0 +1,55 @@
+"""Named parameters that would be others if an effect were there that goes unseen.
+
+The interval of a parameter holds if nothing else is missing. A tip drag and as much less of inserted
+length, or a spring in the drive and a softer shaft, are nearly one: at its detection limit the one moves
+the other by many times its interval, and that is told.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from diagnosis.assessment.detection_limits import DetectionLimit
+from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.criteria import HIDDEN_MOVES, HIDDEN_SHARE
+from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Parameter
+
+
+def moved_by_hidden(
+    limits: Mapping[str, DetectionLimit], named: Mapping[str, Mapping[str, Interval]]
+) -> Iterator[str]:
+    """A warning for each named parameter that an effect may move by much unseen: the one that does most.
+
+    Args:
+      named: intervals of the parameters of the named effects.
+    """
+    for effect, parameters in named.items():
+        for own in LIBRARY[effect].reported:
+            interval = parameters[own.name]
+            moves = {
+                hidden: limit.beside[effect][own.name]
+                for hidden, limit in limits.items()
+                if limit.beside and _by_much(own, interval, limit.beside[effect][own.name])
+            }
+            if moves:
+                most = max(moves, key=lambda hidden: abs(moves[hidden] - interval.value))
+                yield _told(effect, own, interval, most, limits[most], moves[most])
+
+
+def _by_much(own: Parameter, interval: Interval, value: float) -> bool:
+    """Whether a value is far outside of an interval, and another strength of the effect."""
+    beyond = abs(value - interval.value) / max(interval.high - interval.low, 1e-300)
+    if own.neutral is None:
+        return beyond > HIDDEN_MOVES
+    strength, there = (own.distance_from_neutral(v) for v in (interval.value, value))
+    return beyond > HIDDEN_MOVES and abs(there - strength) > HIDDEN_SHARE * strength
+
+
+def _told(
+    effect: str, own: Parameter, interval: Interval, hidden: str, limit: DetectionLimit, value: float
+) -> str:
+    units = {p.name: p.unit for p in LIBRARY[hidden].reported}
+    strength = ", ".join(f"{name} {v:.3g} {units[name]}" for name, v in limit.parameters.items())
+    return (
+        f"{effect} {own.name} would be {value:.3g} {own.unit} instead of {interval.value:.3g} beside "
+        f"{hidden} ({strength}), which this log would not show: its interval holds without it"
+    )

@@ -1,0 +1,58 @@
+"""A named parameter that an unseen effect may move by much is told."""
+
+import numpy as np
+import pytest
+from diagnosis_fixtures import coarse_of, log_of, turns
+
+from diagnosis.assessment.detection_limits import DetectionLimit, detection_limits
+from diagnosis.assessment.moved_by_hidden import moved_by_hidden
+from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.fitting.fit import fit_effects
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import Workers
+
+
+def limit(damping, offset):
+    return DetectionLimit(
+        parameters={"damping": damping}, beside={"inserted_offset": {"offset": offset}}
+    )
+
+
+def told(limits, *, value=-4.0, width=0.2):
+    own = Interval(value=value, low=value - width / 2, high=value + width / 2, unit="mm")
+    return list(moved_by_hidden(limits, {"inserted_offset": {"offset": own}}))
+
+
+def test_the_effect_that_moves_it_most_is_told_with_its_strength():
+    small, large = limit(0.05, -6.0), limit(0.13, -10.5)
+    (warning,) = told({"coulomb_friction": small, "tip_drag": large})
+    assert "inserted_offset offset would be -10.5 mm instead of -4 beside tip_drag" in warning
+    assert "(damping 0.13 N mm s / rad)" in warning
+
+
+@pytest.mark.parametrize(
+    ("offset", "width"),
+    [(-4.5, 0.2), (-4.7, 0.1), (-5.5, 1.0)],
+    ids=["within a few widths", "a small share of it", "within a few wide ones"],
+)
+def test_what_moves_by_little_is_not(offset, width):
+    assert told({"tip_drag": limit(0.1, offset)}, width=width) == []
+
+
+def test_a_limit_that_is_none_moves_nothing():
+    assert told({"tip_drag": DetectionLimit(parameters={})}) == []
+
+
+def test_less_inserted_length_answers_a_drag_at_the_tip():
+    """The drag c of the last piece of shaft, c / beta, is nearly one with that piece."""
+    shorter = RigParameters(inserted_offset_mm=-6.0, offset_free_share=1.0)
+    coarse = coarse_of(log_of(shorter, seconds=12.0, angle=turns(12.0)))
+    fit = fit_effects(coarse, ("inserted_offset",))
+    limits = detection_limits(coarse, fit, fit, ("tip_drag", "tip_angle_bias"), Workers())
+    own = {p.name: v for p, v in zip(fit.parameterization.parameters, fit.x, strict=True)}
+    found_mm = 10.0 * own["offset"]
+    drag = limits["tip_drag"].parameters["damping"]
+    moved_mm = limits["tip_drag"].beside["inserted_offset"]["offset"] - found_mm
+    beta = coarse.log.rig.tissue.damping_n_mm_s_per_mm
+    assert moved_mm == pytest.approx(-drag / beta, rel=0.5)
+    assert np.abs(limits["tip_angle_bias"].beside["inserted_offset"]["offset"] - found_mm) < 0.5
