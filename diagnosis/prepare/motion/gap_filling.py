@@ -2,7 +2,8 @@
 
 Where samples are missing, the base continued to move, and the needle's state depends on it. A cubic
 through the readings on both sides follows a smooth motion across the gap, two lines that meet in it a
-corner: the cubic is used unless only the lines fit both sides. The filled rows have no sensor readings.
+corner: the cubic is used unless only the lines fit both sides. Of a motion that changes beside the gap
+the nearest readings tell. The filled rows have no sensor readings.
 
 In a short gap nothing else is possible. In a longer one, or if neither fits, the difference of the two
 is the uncertainty. If it is large, sensor readings after the gap are not used until the needle
@@ -11,7 +12,7 @@ friction, once the base has turned one way so far that the whole shaft slides.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,6 +42,7 @@ _BASE, _TIP = "base_angle_deg", "tip_angle_deg"
 _HELD, _LOAD = ("inserted_mm", "free_mm", "speed_mm_s"), "tip_torque_n_mm"
 _LEAST_SIDE = 4  # samples that a curve goes through on each side
 _CUBIC = 3
+_STILL_SIGMA = 4.0  # by which two readings of a base at rest may differ
 _SLOW_SAMPLES, _LEAST_HELD = 10, 50  # that a rate is taken over; from which held samples tell a quantile
 
 
@@ -103,15 +105,19 @@ def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Fil
     time, base = trial["time_s"], trial[_BASE]
     start, end = time[before], time[before + 1]
     inside = np.linspace(start, end, max(round((end - start) / usual_s), 2) + 1)[1:-1]
-    side = int(np.clip((end - start) / usual_s, _LEAST_SIDE, GAP_SIDE_SAMPLES))
-    left = slice(max(before + 1 - side, 0), before + 1)
-    right = slice(before + 1, before + 1 + side)
-    both = slice(left.start, right.stop)
-    smooth, off = _through(time[both], base[both], inside, _CUBIC)
-    corner, off_lines = _corner(time, base, left, right, inside)
-    fits = np.array([off, off_lines]) <= GAP_MISFIT * max(sigma_deg, 1e-9)
+    most = int(np.clip((end - start) / usual_s, _LEAST_SIDE, GAP_SIDE_SAMPLES))
+    for side in _fewer_and_fewer(most):
+        left = slice(max(before + 1 - side, 0), before + 1)
+        right = slice(before + 1, before + 1 + side)
+        both = slice(left.start, right.stop)
+        smooth, off = _through(time[both], base[both], inside, _CUBIC)
+        corner, off_lines = _corner(time, base, left, right, inside)
+        fits = np.array([off, off_lines]) <= GAP_MISFIT * max(sigma_deg, 1e-9)
+        if fits.any():
+            break
     certain = fits.any() and end - start <= GAP_SHORT_S
     path = corner if fits[1] and not fits[0] else smooth
+    path = _held_between(path, base, before, sigma_deg)
     one_way = np.abs(np.diff(path)).sum() - np.abs(path[-1] - path[0]) <= GAP_CERTAIN_DEG
     return Filling(
         time_s=inside,
@@ -120,6 +126,30 @@ def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Fil
         uncertain_deg=0.0 if certain else float(np.abs(smooth - corner).max()),
         turned=bool(end - start > GAP_LONG_S or not fits.any() or not one_way),
     )
+
+
+def _fewer_and_fewer(most: int) -> Iterator[int]:
+    """Readings on each side that a curve goes through, the nearest four last."""
+    while most > _LEAST_SIDE:
+        yield most
+        most //= 2
+    yield _LEAST_SIDE
+
+
+def _held_between(path: Array, base_deg: Array, before: int, sigma_deg: float) -> Array:
+    """The path, between the readings at its ends where the base does not turn back in between.
+
+    A curve that overshoots by a presliding angle turns dry friction near the chuck around.
+    """
+    sides = (
+        slice(max(before + 1 - _LEAST_SIDE, 0), before + 1),
+        slice(before + 1, before + 1 + _LEAST_SIDE),
+    )
+    moved = [float(base_deg[side][-1] - base_deg[side][0]) for side in sides]
+    ends = base_deg[before], base_deg[before + 1]
+    moved.insert(1, float(ends[1] - ends[0]))
+    ways = {np.sign(own) for own in moved if abs(own) > _STILL_SIGMA * sigma_deg}
+    return path if len(ways) > 1 else np.clip(path, min(ends), max(ends))
 
 
 def _through(time_s: Array, base_deg: Array, at_s: Array, order: int) -> tuple[Array, float]:

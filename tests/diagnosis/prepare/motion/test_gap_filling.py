@@ -1,6 +1,7 @@
 """The motion of the base across gaps."""
 
 import numpy as np
+import pytest
 from diagnosis_fixtures import BASE, trial, turns
 
 from diagnosis.log.trial import Trial
@@ -66,6 +67,31 @@ def test_readings_after_a_gap_while_the_base_holds_are_used():
     filled = fill_gaps(with_gap(turns(), 3.0, 3.3), BASE)
     time, tip = filled["time_s"], filled["tip_angle_deg"]
     assert np.isfinite(tip[(time <= 3.0) | (time >= 3.3)]).all()
+
+
+TIME = np.arange(0, 6, 0.01)
+STOPPED_DEG = 80 * np.clip(TIME - 2.0, 0.0, 0.5)  # a turn of 80 deg/s that ends after half a second
+
+
+@pytest.mark.parametrize(
+    ("start_s", "end_s"), [(2.55, 2.7), (2.3, 2.46), (2.45, 2.58)], ids=["after", "in", "at the end of"]
+)
+def test_beside_the_end_of_a_turn_the_base_does_not_overshoot(start_s, end_s):
+    """By less than the presliding angle of 0.1 deg, which turns dry friction near the chuck around."""
+    filled = fill_gaps(with_gap(STOPPED_DEG, start_s, end_s), BASE)
+    inside = (filled["time_s"] > start_s) & (filled["time_s"] < end_s)
+    path, noise = filled["base_angle_deg"][inside], 4 * BASE
+    truth = np.interp(filled["time_s"][inside], TIME, STOPPED_DEG)
+    assert truth[0] - noise < path.min()
+    assert path.max() < truth[-1] + noise
+    assert np.abs(path - truth).max() < (1.0 if start_s == 2.45 else noise)
+    assert np.diff(path).min() > -noise
+
+
+def test_a_turn_back_in_a_gap_goes_beyond_its_ends():
+    there_and_back = 60 - 60 * np.abs(TIME - 2.5)
+    filled = fill_gaps(with_gap(there_and_back, 2.45, 2.55), BASE)
+    assert filled["base_angle_deg"].max() > 59.5
 
 
 def test_a_trial_without_gaps_is_left_alone():
