@@ -39,7 +39,7 @@ class DetectionLimit:
     Attributes:
       parameters: its parameters there, those of shape at the start of fits; none: any strength within
         bounds may go unseen.
-      beside: what parameters of the named effects would then be, by effect.
+      beside: what parameters of the effects that were fitted would then be, by effect.
     """
 
     parameters: Mapping[str, float]
@@ -89,18 +89,17 @@ def detection_limit(coarse: FitProblem, best: Fit, base: Fit, name: str) -> tupl
         share *= more
     return name, DetectionLimit(
         parameters={p.name: p.towards_neutral(p.start[0], share) for p in parameters if p.reported},
-        beside=_named(base, base.x + more * projection.answer(runs)),
+        beside=_reported(base, base.x + more * projection.answer(runs)),
     )
 
 
-def _named(fit: Fit, x: Array) -> dict[str, dict[str, float]]:
-    """Reported parameters of the named effects of a fit at a vector, within their bounds."""
-    own, low_high = fit.parameterization, fit.parameterization.bounds()
-    values = zip(own.owners, own.parameters, own.values(np.clip(x, *low_high)), strict=True)
-    found: dict[str, dict[str, float]] = {name: {} for name in fit.names}
-    for owner, parameter, value in values:
-        if owner in found and parameter.reported:
-            found[owner][parameter.name] = value
+def _reported(fit: Fit, x: Array) -> dict[str, dict[str, float]]:
+    """Reported parameters of the effects of a fit, and of stiffness and damping, within their bounds."""
+    own, found = fit.parameterization, dict[str, dict[str, float]]()
+    values = own.values(np.clip(x, *own.bounds()))
+    for owner, parameter, value in zip(own.owners, own.parameters, values, strict=True):
+        if owner in LIBRARY and parameter.reported:
+            found.setdefault(owner, {})[parameter.name] = value
     return found
 
 

@@ -28,7 +28,7 @@ def moved_by_hidden(
             moves = {
                 hidden: limit.beside[effect][own.name]
                 for hidden, limit in limits.items()
-                if limit.beside and _by_much(own, interval, limit.beside[effect][own.name])
+                if effect in limit.beside and _by_much(own, interval, limit.beside[effect][own.name])
             }
             if moves:
                 most = max(moves, key=lambda hidden: abs(moves[hidden] - interval.value))

@@ -7,6 +7,7 @@ from diagnosis_fixtures import coarse_of, log_of, turns
 from diagnosis.assessment.detection_limits import DetectionLimit, detection_limits
 from diagnosis.assessment.moved_by_hidden import moved_by_hidden
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.criteria import SCATTER
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Workers
@@ -39,8 +40,10 @@ def test_what_moves_by_little_is_not(offset, width):
     assert told({"tip_drag": limit(0.1, offset)}, width=width) == []
 
 
-def test_a_limit_that_is_none_moves_nothing():
+def test_a_limit_that_is_none_moves_nothing_nor_does_one_beside_other_effects():
     assert told({"tip_drag": DetectionLimit(parameters={})}) == []
+    other = DetectionLimit(parameters={"damping": 0.1}, beside={"damping_error": {"scale": 2.0}})
+    assert told({"tip_drag": other}) == []
 
 
 def test_less_inserted_length_answers_a_drag_at_the_tip():
@@ -55,4 +58,5 @@ def test_less_inserted_length_answers_a_drag_at_the_tip():
     moved_mm = limits["tip_drag"].beside["inserted_offset"]["offset"] - found_mm
     beta = coarse.log.rig.tissue.damping_n_mm_s_per_mm
     assert moved_mm == pytest.approx(-drag / beta, rel=0.5)
+    assert set(limits["tip_drag"].beside) == {"inserted_offset", *SCATTER}  # all that may be named
     assert np.abs(limits["tip_angle_bias"].beside["inserted_offset"]["offset"] - found_mm) < 0.5
