@@ -59,6 +59,7 @@ DOUBT = (
 SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _OTHERS = 3
+_NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
@@ -73,7 +74,6 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     if missing.law is None:
         return f"No free-form law that was tried does better than the library. {DOUBT}."
     law, first = missing.law, missing.depends_on[0]
-    probability = missing.place[law.place]
     beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
     # Of a trial that no other tells of:
     alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
@@ -83,11 +83,18 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     others = "".join(f" {_more_of(law, course)}" for law, course in each)
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
     told = (
-        f"What is missing acts {PLACES[law.place]} (probability {probability:.2f}) and depends on "
+        f"What is missing acts {PLACES[law.place]} ({_how_probable(missing, law.place)}) and depends on "
         f"{VARIABLES[law.variable]}: {first_course}.{others} {reduces} "
         f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
     )
     return f"{told}{_beside(missing)}.{_likeness(law)}"
+
+
+def _how_probable(missing: Missing, place: Place) -> str:
+    """The probability of a place, and the other that is nearly as likely."""
+    others = {p: own for p, own in missing.place.items() if p is not place and own >= _NEARLY}
+    more = "".join(f"; {PLACES[p]}: {own:.2f}" for p, own in others.items())
+    return f"probability {missing.place[place]:.2f}{more}"
 
 
 def laws_of(missing: Missing) -> list[tuple[Law, float]]:

@@ -90,6 +90,14 @@ def test_place_variable_course_and_gap_are_in_the_sentence():
     assert "the best laws of other variables leave 2.50 σ with the time." in said
 
 
+def test_a_place_that_is_nearly_as_likely_is_told():
+    place = {**dict.fromkeys(Place, 0.01), Place.INTERFACE: 0.55, Place.TISSUE: 0.41}
+    said = what_is_missing(replace(missing_with(best=seen_fit()), place=place), 8.9)
+    assert said.startswith(
+        "What is missing acts between shaft and tissue (probability 0.55; in the tissue: 0.41)"
+    )
+
+
 def test_gaps_of_the_decimated_log_are_not_told_beside_those_of_the_log_itself():
     """Means have less noise: in sigma, they leave more than the nominal rig does on all samples."""
     told = missing_with(best=seen_fit())
