@@ -12,6 +12,7 @@ from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.criteria import HIDDEN_MOVES, HIDDEN_SHARE
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
+from diagnosis.selection.richer_forms import overlap
 
 
 def moved_by_hidden(
@@ -23,11 +24,12 @@ def moved_by_hidden(
       named: intervals of the parameters of the named effects.
     """
     for effect, parameters in named.items():
+        others = {hidden: limit for hidden, limit in limits.items() if not overlap(hidden, (effect,))}
         for own in LIBRARY[effect].reported:
             interval = parameters[own.name]
             moves = {
                 hidden: limit.beside[effect][own.name]
-                for hidden, limit in limits.items()
+                for hidden, limit in others.items()
                 if effect in limit.beside and _by_much(own, interval, limit.beside[effect][own.name])
             }
             if moves:
@@ -39,17 +41,22 @@ def _by_much(own: Parameter, interval: Interval, value: float) -> bool:
     """Whether a value is far outside of an interval, and another strength of the effect."""
     beyond = abs(value - interval.value) / max(interval.high - interval.low, 1e-300)
     if own.neutral is None:
-        return beyond > HIDDEN_MOVES
-    strength, there = (own.distance_from_neutral(v) for v in (interval.value, value))
-    return beyond > HIDDEN_MOVES and abs(there - strength) > HIDDEN_SHARE * strength
+        here, there = interval.value, value
+    else:
+        here, there = (own.distance_from_neutral(v) for v in (interval.value, value))
+    return beyond > HIDDEN_MOVES and abs(there - here) > HIDDEN_SHARE * abs(here)
 
 
 def _told(
     effect: str, own: Parameter, interval: Interval, hidden: str, limit: DetectionLimit, value: float
 ) -> str:
     units = {p.name: p.unit for p in LIBRARY[hidden].reported}
-    strength = ", ".join(f"{name} {v:.3g} {units[name]}" for name, v in limit.parameters.items())
+    strength = ", ".join(f"{name} {_with_unit(v, units[name])}" for name, v in limit.parameters.items())
     return (
-        f"{effect} {own.name} would be {value:.3g} {own.unit} instead of {interval.value:.3g} beside "
-        f"{hidden} ({strength}), which this log would not show: its interval holds without it"
+        f"{effect} {own.name} would be {_with_unit(value, own.unit)} instead of {interval.value:.3g} "
+        f"beside {hidden} ({strength}), which this log would not show: its interval holds without it"
     )
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return f"{value:.3g}" if unit == "-" else f"{value:.3g} {unit}"

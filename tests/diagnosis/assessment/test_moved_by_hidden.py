@@ -46,6 +46,24 @@ def test_a_limit_that_is_none_moves_nothing_nor_does_one_beside_other_effects():
     assert told({"tip_drag": other}) == []
 
 
+def test_of_an_effect_that_contains_it_nothing_is_told():
+    """Stiction is less where dry friction takes a part of it: that is no other explanation."""
+    own = Interval(value=0.002, low=0.0019, high=0.0021, unit="N mm / mm")
+    each = dict.fromkeys(("kinetic", "static", "stribeck"), own)
+    beside = {"stiction": dict.fromkeys(each, 0.001)}
+    hidden = DetectionLimit(parameters={"level": 0.001}, beside=beside)
+    assert not [*moved_by_hidden({"coulomb_friction": hidden}, {"stiction": each})]
+    kinetic, *_ = moved_by_hidden({"entry_friction": hidden}, {"stiction": each})
+    assert kinetic.startswith("stiction kinetic would be 0.001 N mm / mm instead of 0.002")
+
+
+def test_a_factor_has_no_unit():
+    own = Interval(value=0.93, low=0.92, high=0.94, unit="-")
+    hidden = DetectionLimit(parameters={"scale": 0.9}, beside={"tip_angle_scale": {"scale": 0.86}})
+    (said,) = moved_by_hidden({"base_angle_scale": hidden}, {"tip_angle_scale": {"scale": own}})
+    assert "would be 0.86 instead of 0.93 beside base_angle_scale (scale 0.9)" in said
+
+
 def test_less_inserted_length_answers_a_drag_at_the_tip():
     """The drag c of the last piece of shaft, c / beta, is nearly one with that piece."""
     shorter = RigParameters(inserted_offset_mm=-6.0, offset_free_share=1.0)
