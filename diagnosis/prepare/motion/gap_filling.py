@@ -106,25 +106,57 @@ def _filling(trial: Trial, before: int, usual_s: float, sigma_deg: float) -> Fil
     start, end = time[before], time[before + 1]
     inside = np.linspace(start, end, max(round((end - start) / usual_s), 2) + 1)[1:-1]
     most = int(np.clip((end - start) / usual_s, _LEAST_SIDE, GAP_SIDE_SAMPLES))
-    for side in _fewer_and_fewer(most):
-        left = slice(max(before + 1 - side, 0), before + 1)
-        right = slice(before + 1, before + 1 + side)
-        both = slice(left.start, right.stop)
-        smooth, off = _through(time[both], base[both], inside, _CUBIC)
-        corner, off_lines = _corner(time, base, left, right, inside)
-        fits = np.array([off, off_lines]) <= GAP_MISFIT * max(sigma_deg, 1e-9)
-        if fits.any():
-            break
-    certain = fits.any() and end - start <= GAP_SHORT_S
-    path = corner if fits[1] and not fits[0] else smooth
-    path = _held_between(path, base, before, sigma_deg)
+    tried = [_curves(time, base, before, inside, n, sigma_deg) for n in _fewer_and_fewer(most)]
+    curves = next((own for own in tried if own.fit), tried[-1])
+    certain = curves.fit and end - start <= GAP_SHORT_S
+    path = _held_between(curves.path, base, before, sigma_deg)
     one_way = np.abs(np.diff(path)).sum() - np.abs(path[-1] - path[0]) <= GAP_CERTAIN_DEG
     return Filling(
         time_s=inside,
         base_deg=path,
-        tip_torque_n_mm=_load(trial, both, inside),
-        uncertain_deg=0.0 if certain else float(np.abs(smooth - corner).max()),
-        turned=bool(end - start > GAP_LONG_S or not fits.any() or not one_way),
+        tip_torque_n_mm=_load(trial, curves.around, inside),
+        uncertain_deg=0.0 if certain else float(np.abs(curves.smooth_deg - curves.corner_deg).max()),
+        turned=bool(end - start > GAP_LONG_S or not curves.fit or not one_way),
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Curves:
+    """Two curves across a gap, (M,), through the rows around it, and which of them fit the readings."""
+
+    around: slice
+    smooth_deg: Array
+    corner_deg: Array
+    smooth_fits: bool
+    corner_fits: bool
+
+    @property
+    def fit(self) -> bool:
+        """Whether one of them does."""
+        return self.smooth_fits or self.corner_fits
+
+    @property
+    def path(self) -> Array:
+        """The smooth one, unless the corner alone fits."""
+        return self.corner_deg if self.corner_fits and not self.smooth_fits else self.smooth_deg
+
+
+def _curves(
+    time_s: Array, base_deg: Array, before: int, at_s: Array, side: int, sigma_deg: float
+) -> _Curves:
+    """Curves through so many readings on each side of the gap after the sample `before`."""
+    left = slice(max(before + 1 - side, 0), before + 1)
+    right = slice(before + 1, before + 1 + side)
+    both = slice(left.start, right.stop)
+    smooth, off = _through(time_s[both], base_deg[both], at_s, _CUBIC)
+    corner, off_lines = _corner(time_s, base_deg, left, right, at_s)
+    most = GAP_MISFIT * max(sigma_deg, 1e-9)
+    return _Curves(
+        around=both,
+        smooth_deg=smooth,
+        corner_deg=corner,
+        smooth_fits=off <= most,
+        corner_fits=off_lines <= most,
     )
 
 
