@@ -27,11 +27,9 @@ def moved_by_hidden(
         others = {hidden: limit for hidden, limit in limits.items() if not overlap(hidden, (effect,))}
         for own in LIBRARY[effect].reported:
             interval = parameters[own.name]
-            moves = {
-                hidden: limit.beside[effect][own.name]
-                for hidden, limit in others.items()
-                if effect in limit.beside and _by_much(own, interval, limit.beside[effect][own.name])
-            }
+            beside = {h: o.beside[effect][own.name] for h, o in others.items() if effect in o.beside}
+            near = {h: value - own.turns(value - interval.value) for h, value in beside.items()}
+            moves = {h: value for h, value in near.items() if _by_much(own, interval, value)}
             if moves:
                 most = max(moves, key=lambda hidden: abs(moves[hidden] - interval.value))
                 yield _told(effect, own, interval, most, limits[most], moves[most])
@@ -44,7 +42,7 @@ def _by_much(own: Parameter, interval: Interval, value: float) -> bool:
         here, there = interval.value, value
     else:
         here, there = (own.distance_from_neutral(v) for v in (interval.value, value))
-    return beyond > HIDDEN_MOVES and abs(there - here) > HIDDEN_SHARE * abs(here)
+    return beyond > HIDDEN_MOVES and abs(there - here) > HIDDEN_SHARE * (own.period or abs(here))
 
 
 def _told(

@@ -34,6 +34,7 @@ _SMOOTH_ROWS, _DEGREE = 6, 2  # times the rows of a hold, for the curve
 
 _Hold = tuple[float, float, int]
 """Evidence that readings are held, what it would be on average, and the row of each n that is new."""
+_UNKNOWN: _Hold = 0.0, 0.0, 0
 
 
 def held_rows(trials: Sequence[Trial], column: str, claim: float) -> list[Mask]:
@@ -49,7 +50,15 @@ def held_rows(trials: Sequence[Trial], column: str, claim: float) -> list[Mask]:
     rows = max(each, key=lambda n: sum(evidence for evidence, _, _ in each[n]))
     if not _is_sure(each[rows]) or _is_sure([_held(trial, _BASE, rows) for trial in trials]):
         return none
-    return [np.arange(own.size) % rows != new for own, (_, _, new) in zip(none, each[rows], strict=True)]
+    found = zip(trials, each[rows], strict=True)
+    return [_numbers(trial["time_s"]) % rows != new for trial, (_, _, new) in found]
+
+
+def _numbers(time_s: Array) -> Array:
+    """Numbers of rows, (N,), that go on across those that are missing."""
+    steps_s = np.diff(time_s)
+    passed = np.rint(steps_s / np.median(steps_s)) if steps_s.size else steps_s
+    return np.concatenate([[0.0], np.cumsum(np.maximum(passed, 1.0))])
 
 
 def _is_sure(each: Sequence[_Hold]) -> bool:
@@ -59,14 +68,16 @@ def _is_sure(each: Sequence[_Hold]) -> bool:
 
 def _held(trial: Trial, column: str, rows: int) -> _Hold:
     """The likeliest hold of one trial over so many rows."""
-    values = trial[column] if trial.has(column) else np.zeros(0)
+    if not trial.has(column):
+        return _UNKNOWN
+    values, at = trial[column], _numbers(trial["time_s"])
     size, read = 2 * _SMOOTH_ROWS * rows + 1, np.isfinite(values)
-    at, both = np.arange(values.size), np.flatnonzero(read[:-1] & read[1:])
+    both = np.flatnonzero(read[:-1] & read[1:] & (np.diff(at) == 1.0))
     if both.size < 2 * size:
-        return 0.0, 0.0, 0
+        return _UNKNOWN
     slopes = savgol_filter(np.interp(at, at[read], values[read]), size, _DEGREE, deriv=1)
     moved, found = 0.5 * (slopes[both] + slopes[both + 1]), np.diff(values)[both]
-    return max(_likeliness(moved, found, (both + 1) % rows == new, rows, new) for new in range(rows))
+    return max(_likeliness(moved, found, at[both + 1] % rows == new, rows, new) for new in range(rows))
 
 
 def _likeliness(moved: Array, found: Array, is_new: Mask, rows: int, new: int) -> _Hold:

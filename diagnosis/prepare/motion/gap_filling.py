@@ -177,10 +177,9 @@ def _held_between(path: Array, base_deg: Array, before: int, sigma_deg: float) -
         slice(max(before + 1 - _LEAST_SIDE, 0), before + 1),
         slice(before + 1, before + 1 + _LEAST_SIDE),
     )
-    moved = [float(base_deg[side][-1] - base_deg[side][0]) for side in sides]
     ends = base_deg[before], base_deg[before + 1]
-    moved.insert(1, float(ends[1] - ends[0]))
-    ways = {np.sign(own) for own in moved if abs(own) > _STILL_SIGMA * sigma_deg}
+    moved = [ends[1] - ends[0], *(base_deg[side][-1] - base_deg[side][0] for side in sides)]
+    ways = {float(np.sign(own)) for own in moved if abs(own) > _STILL_SIGMA * sigma_deg}
     return path if len(ways) > 1 else np.clip(path, min(ends), max(ends))
 
 

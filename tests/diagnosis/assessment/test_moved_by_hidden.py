@@ -57,6 +57,17 @@ def test_of_an_effect_that_contains_it_nothing_is_told():
     assert kinetic.startswith("stiction kinetic would be 0.001 N mm / mm instead of 0.002")
 
 
+@pytest.mark.parametrize(("phase_deg", "told"), [(-170.0, False), (200.0, False), (100.0, True)])
+def test_a_phase_is_the_same_a_turn_further(phase_deg, told):
+    """From 175 deg, -170 is 15 on: seven widths of its interval, and no fifth of a turn."""
+    own = Interval(value=175.0, low=174.0, high=176.0, unit="deg")
+    torque = Interval(value=0.002, low=0.0019, high=0.0021, unit="N mm / mm")
+    beside = {"needle_curvature": {"torque": 0.002, "phase": phase_deg}}
+    hidden = DetectionLimit(parameters={"damping": 0.1}, beside=beside)
+    named = {"needle_curvature": {"torque": torque, "phase": own}}
+    assert bool([*moved_by_hidden({"tip_drag": hidden}, named)]) is told
+
+
 def test_a_factor_has_no_unit():
     own = Interval(value=0.93, low=0.92, high=0.94, unit="-")
     hidden = DetectionLimit(parameters={"scale": 0.9}, beside={"tip_angle_scale": {"scale": 0.86}})

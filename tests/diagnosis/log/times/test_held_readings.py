@@ -1,5 +1,7 @@
 """Readings that are held over rows under noise are told by the motion, which comes in steps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -55,6 +57,12 @@ def correlated(size, kept=0.8):
 def test_others_are_not(read):
     (old,) = held_rows([read], TIP, NOISE_DEG)
     assert not old.any()
+
+
+def test_rows_that_are_missing_count():
+    whole, kept = log(held_over(3, MOTION)), np.random.default_rng(5).random(TIME_S.size) > 0.05
+    (old,) = held_rows([replace(whole, table=whole.table[kept].reset_index(drop=True))], TIP, NOISE_DEG)
+    np.testing.assert_array_equal(old, np.flatnonzero(kept) % 3 != 0)
 
 
 def test_a_trial_at_rest_is_read_as_the_others_are():
