@@ -432,15 +432,18 @@ LEAST_GAP = 0.7
 """Derived: noise alone leaves a residual of 1 sigma, to a few per cent; far less is no fit but another
 unit (prepare/noise/sensor_noise.py). The nominal rig left 0.98 and more on practice logs."""
 
-DRIFT_SIZES_SIGMA = (0.25, 0.5, 1.0, 2.0)
-DRIFT_FASTEST_S = 0.75
-DRIFT_MOST_SHAPES = 80
-"""Physical: what a sensor of a lab drifts by within a trial, in sigma of its noise: the
-likeliest of these is allowed for; period of the fastest shape of drift, and shapes at most: of a random
-walk so many leave less than 0.1 sigma."""
+DRIFT_SIZES_SIGMA = (0.25, 0.5, 1.0, 2.0, 4.0)
+DRIFT_ALLOWED_SIGMA = (2.0, 4.0)
+DRIFT_FASTEST_S, DRIFT_SIZE_OF_FASTEST = 0.75, 2.0
+DRIFT_MOST_SHAPES = 160
+"""Physical: what a sensor of a lab drifts by within a trial, in sigma of its noise: the likeliest of
+these is allowed for, and before that is known one of two, the second where the first explains nothing;
+period of the fastest shape of a drift of up to that size beside the noise of a sample, faster in
+proportion for more; shapes at most: of a random walk so many leave 0.2 sigma."""
 DRIFT_START_SIGMA = 3.0
-"""Standard deviations by which every trial has to begin off zero for a drift to be as good as an offset:
-derived, by chance once in 400 logs of a sensor that was zeroed before the first trial."""
+"""Standard deviations by which every trial has to begin off zero, or all of them on average, for a drift
+to be as good as an offset: derived, by chance once in 400 logs of a sensor that was zeroed before the
+first trial."""
 # Where the residual is (residuals/)
 
 TURNING_DEG_S = 1.0
@@ -576,19 +579,21 @@ first; samples on either side of it, of which 20 tell a jump of one sigma; jumps
 Choices; the search tries them last."""
 JUMP_PARAMETERS = 3.0
 """Parameters that a jump of a reading counts for beside a drift: its trial, its time and its size."""
-DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ONE_COURSE_SIGMA, DRIFT_ALIKE = 10.0, 6.0, 3.0, 0.3
-"""Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: 5 to one
-side and the other; more is no roughness but a fault, and the answer stays unknown. So it does for less
-where the drift is a line of one rate in all trials, to that share: that is a law. Another course that is
-the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in each trial."""
+DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ONE_COURSE_SIGMA, DRIFT_ALIKE = 15.0, 6.0, 3.0, 0.3
+"""Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: half of
+it to one side and the other; more is no roughness but a fault, and the answer stays unknown. So it does
+for less where the drift is a line of one rate in all trials, to that share: that is a law. Another
+course that is the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in
+each trial."""
 DRIFT_OF_TIP_ALONE_SIGMA = 4.0
 """What a tip sensor may drift by over all trials where nothing but an offset of it is missing: noise
 that is correlated over seconds wanders so far. More, or another zero in each trial, is itself what the
 model lacks, and is told as the law that is missing. A choice, below four logs of two rigs whose tip
 sensor drifts, jumps, depends on the depth or is zeroed by hand (4.7 to 9 sigma), above noise (1.6)."""
 DRIFT_MOST_EFFECTS = 1
-"""Effects that an explanation may name beside a drift. Of 13 logs of three rigs that two effects and a
-drift explained one was so; the others had one effect, or a law that is in no library."""
+"""Effects that an explanation may name beside a drift, but for those of the other sensor. Of 13 logs of
+three rigs that two effects and a drift explained one was so; the others had one effect, or a law that is
+in no library."""
 DRIFT_FOLLOWS_SIGMA = 5.0
 """Standard deviations of the axial speed in what a drift takes up, or of another course that a law of
 the sensor has (selection/scoring/followed): derived, by chance in one of 10^5 logs. Six blind logs with
@@ -609,6 +614,9 @@ effect may take up what a replay does not resolve. A choice; in 4000 samples, an
 UNRESOLVED_SHARE = 1e-4
 """Share of a reading that no model of a needle resolves. Measured: independent solvers of the contract
 differ by 1e-5 to 2e-4 of the torque; a choice for rigs, which are no better."""
+LAG_ALONE_SIGMA = 2.0
+"""Standard deviations of the sum of squares of noise by which a delay has to be behind a filter beside
+which nothing is missing: no model of a rig is known to less. A choice."""
 LAG_LITTLE = 1.0
 """Sigma, root mean square of the change of readings, below which a filter of a sensor beside effects
 does little: whether it is a filter or a delay is then no second cause, and does not make the effects

@@ -88,14 +88,18 @@ def drifts_by_one_course(
     return apart <= DRIFT_ALIKE * float(np.ptp(courses.mean(axis=0)))
 
 
-def least_start(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> float:
-    """By how much the drift begins off zero in every trial at least, in standard deviations."""
+def starts(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> Array:
+    """Where the drift begins in every trial that was read, in standard deviations, (T,)."""
     drift = noise.drift(sensor)
     each = zip(log.trials, predictions, strict=True)
     read = [(trial, _left(trial, sensor, one, noise)) for trial, one in each if trial.has(sensor)]
-    if drift is None or not read:
-        return 0.0
-    return min(abs(drift.start(trial.time_s, left)) for trial, left in read)
+    return np.array([drift.start(trial.time_s, left) for trial, left in read if drift])
+
+
+def means_sigma(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> Array:
+    """Mean of the drift over every trial that was read, in sigma of the sensor, (T,)."""
+    each = zip(log.trials, _by_trial(log, sensor, noise, predictions), strict=True)
+    return np.array([drift.mean() for trial, drift in each if trial.has(sensor)])
 
 
 def _by_trial(

@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES
+from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES, DRIFT_SIZE_OF_FASTEST
 from diagnosis.prepare.noise.colour import Colour
 
 Array = NDArray[np.float64]
@@ -124,7 +124,8 @@ def _shapes(time_s: Array, drift: Drift) -> Array:
     """Shapes of drift times their size, (N, K)."""
     duration_s = float(time_s[-1] - time_s[0])
     share = (time_s - time_s[0]) / duration_s
-    count = int(np.clip(2 * duration_s / DRIFT_FASTEST_S, 1, DRIFT_MOST_SHAPES))
+    fastest_s = DRIFT_FASTEST_S / max(drift.size_sigma / DRIFT_SIZE_OF_FASTEST, 1.0)
+    count = int(np.clip(2 * duration_s / fastest_s, 1, DRIFT_MOST_SHAPES))
     k = np.arange(1, count + 1)
     waves = (np.cos(np.pi * share[:, None] * k) - 1.0) / k
     shapes = [share, waves] if drift.zeroed else [np.full_like(share, _BEFORE), share, waves]

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.criteria import DRIFT_SIZES_SIGMA, MOST_QUIETENED
+from diagnosis.criteria import DRIFT_ALLOWED_SIGMA, DRIFT_SIZES_SIGMA, MOST_QUIETENED
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.drift import AllowedDrift
@@ -40,10 +40,9 @@ def likeliest_drift(problem: FitProblem, sensor: str, found: Sequence[Candidate]
     return min(options, key=lambda noise: _least_score(problem, found, noise))
 
 
-def widest_drift(problem: FitProblem, sensor: str) -> Noise:
-    """The problem's noise with the largest drift of a sensor, whatever it begins at."""
-    (noise,) = _noises(problem, sensor, [max(DRIFT_SIZES_SIGMA)], zeroed=False)
-    return noise
+def wide_drifts(problem: FitProblem, sensor: str) -> list[Noise]:
+    """The problem's noise with large drifts of a sensor, whatever they begin at: wide, then wider."""
+    return list(_noises(problem, sensor, DRIFT_ALLOWED_SIGMA, zeroed=False))
 
 
 def noise_of_a_reading(problem: FitProblem, sensor: str) -> float:

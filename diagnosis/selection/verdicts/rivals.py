@@ -3,7 +3,9 @@
 Scores of candidates are compared; `reached` is that of the best.
 """
 
-from diagnosis.criteria import NEARLY, NESTED_LEAD, PART_LEAD, SHIFT_LIMIT
+import math
+
+from diagnosis.criteria import LAG_ALONE_SIGMA, NEARLY, NESTED_LEAD, PART_LEAD, SHIFT_LIMIT
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.verdicts.delay_or_filter import lags_little
@@ -32,14 +34,17 @@ def may_be_it(best: Candidate, late: Candidate, reached: float) -> bool:
     """Whether a delay in place of the filters of the best is led by what a replay may not resolve.
 
     That is no more than what the best itself leaves beyond noise. And where the best says nothing else,
-    any delay at the floor may be the one cause that there is.
+    a delay at the floor may be the one cause that there is, so that more of a lead is asked for.
 
     Args:
       reached: score of the best.
     """
-    beyond = max(sum(float(r @ r) for r in best.fit.by_trial) - best.fit.samples, 0.0)
-    near = late.explains and late.score - reached <= max(PART_LEAD, beyond)
-    return near or (not best.named and late.floor.reached)
+    behind, samples = late.score - reached, best.fit.samples
+    beyond = max(sum(float(r @ r) for r in best.fit.by_trial) - samples, 0.0)
+    if late.explains and behind <= max(PART_LEAD, beyond):
+        return True
+    by_chance = LAG_ALONE_SIGMA * math.sqrt(2.0 * samples)
+    return not best.named and late.floor.reached and behind <= beyond + by_chance
 
 
 def clearly_leads(one: Candidate, reached: float) -> bool:

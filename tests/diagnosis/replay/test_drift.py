@@ -14,7 +14,8 @@ from diagnosis.replay.drift import (
     drift_sigma,
     drifts_alike,
     drifts_by_one_course,
-    least_start,
+    means_sigma,
+    starts,
     with_drift,
 )
 from diagnosis.replay.replay import replay
@@ -129,9 +130,9 @@ def test_a_drift_from_zero_starts_there_and_one_beside_an_offset_does_not(drifti
     (one,) = problem.log.trials
     raised = {**one.readings, sensor: one.readings[sensor] + 3.0 * noise[sensor]}
     offset = replace(problem.log, trials=(replace(one, readings=raised),))
-    assert (
-        least_start(problem.log, sensor, noise, predictions)
-        < 3.0
-        < least_start(offset, sensor, noise, predictions)
-    )
-    assert least_start(offset, sensor, problem.noise, predictions) == 0.0  # no drift is allowed for
+    (zeroed,) = starts(problem.log, sensor, noise, predictions)
+    (raised,) = starts(offset, sensor, noise, predictions)
+    assert abs(zeroed) < 3.0 < raised
+    assert not starts(offset, sensor, problem.noise, predictions).size  # no drift is allowed for
+    (low,), (high,) = (means_sigma(log, sensor, noise, predictions) for log in (problem.log, offset))
+    assert high - low == pytest.approx(3.0, abs=0.1)

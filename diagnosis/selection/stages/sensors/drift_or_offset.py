@@ -19,9 +19,9 @@ from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.scoring.drift_evidence import likeliest_drift, score_beside_drift
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
-    begins_off_zero,
     drifts,
     is_all_that_is_missing,
+    is_off_zero,
     range_sigma,
     what_is_likelier,
     what_it_follows,
@@ -51,9 +51,9 @@ def _drift_or_offset(state: SearchState, sensor: str, workers: Workers) -> Searc
     beside = [_beside(state, sensor, best, zeroed, workers) for zeroed in (True, False)]
     steady = state.problem.noise.with_drift(sensor, None)
     plain = _with_and_without_offset(state, sensor, steady, best, workers)
-    few = [with_few_effects(own) for own in beside]
+    few = [with_few_effects(own, sensor) for own in beside]
     working = [own for own in few if own.candidates and _may_be(own, sensor)]
-    state = with_few_effects(state) if drifting else state
+    state = with_few_effects(state, sensor) if drifting else state
     open_to = [own for own in (state, plain, *working) if own.candidates]
     explaining = [own for own, explained in (one.rechecked() for one in open_to) if explained]
     likeliest = min(explaining, key=_score, default=plain)
@@ -87,7 +87,7 @@ def _without_what_is_hidden(state: SearchState, sensor: str) -> SearchState:
     if needed and not any(state.at_the_floor(c) for c in without):
         return state
     state = replace(state, candidates=without)
-    hidden = needed or begins_off_zero(state, sensor)
+    hidden = needed or is_off_zero(state, sensor)
     return replace(state, open_effects=(*state.open_effects, offset)) if hidden else state
 
 

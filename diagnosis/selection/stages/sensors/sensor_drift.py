@@ -24,7 +24,7 @@ from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise
 from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import Decision, RecordEntry, noted
-from diagnosis.selection.scoring.drift_evidence import in_noise, score_beside_drift, widest_drift
+from diagnosis.selection.scoring.drift_evidence import in_noise, score_beside_drift, wide_drifts
 from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS
 from diagnosis.selection.stages.sensors.reading_jumps import rows_of
 from diagnosis.selection.stages.sensors.working_sensor import (
@@ -56,18 +56,20 @@ def _with_drift(state: SearchState, sensor: str, workers: Workers) -> SearchStat
     if explained or not any(trial.has(sensor) for trial in state.problem.log.trials):
         return state
     leading = leading_on_the_log(state)
-    widest = widest_drift(state.problem, sensor)
-    if not any(_promises(state, widest, c) for c in leading):
-        return state
-    if not _comes_near(state, widest):
-        return state.noting(_dropped(sensor, "no explanation comes near the noise with it"))
-    again = _searched_again(state, sensor, widest, workers)
-    again = with_few_effects(again, beside=(OFFSETS[sensor],))
-    again, explained = again.rechecked() if again.candidates else (again, False)
-    why_not = (
-        _objection(state, again, sensor) if explained else "no explanation reaches the noise with it"
+    noises = wide_drifts(state.problem, sensor)
+    promising = [noise for noise in noises if any(_promises(state, noise, c) for c in leading)]
+    near = [noise for noise in promising if _comes_near(state, noise)]
+    for noise in near:
+        again = _searched_again(state, sensor, noise, workers)
+        again = with_few_effects(again, sensor, beside=(OFFSETS[sensor],))
+        again, explained = again.rechecked() if again.candidates else (again, False)
+        if explained:
+            why_not = _objection(state, again, sensor)
+            return state.noting(_dropped(sensor, why_not)) if why_not else again
+    how = "reaches" if near else "comes near"
+    return (
+        state.noting(_dropped(sensor, f"no explanation {how} the noise with it")) if promising else state
     )
-    return state.noting(_dropped(sensor, why_not)) if why_not else again
 
 
 def _objection(state: SearchState, drifting: SearchState, sensor: str) -> str:

@@ -4,9 +4,9 @@ A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that w
 than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_COURSE_SIGMA that is
 another course, and the same in every trial. Where nothing else is missing, a drift of the tip by more
 than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is itself what the model lacks. And it stands beside one
-effect at most: with two it takes the shape of what no library holds. Nor does it follow the axial speed,
-the angle of the base (torque), or depth, rate, direction or angle of the tip (scoring/followed); and
-where such a law is likelier than a drift, it is none.
+effect at most, but for those of the other sensor: with two it takes the shape of what no library holds.
+Nor does it follow the axial speed, the angle of the base (torque), or depth, rate, direction or angle of
+the tip (scoring/followed); and where such a law is likelier than a drift, it is none.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
@@ -14,6 +14,10 @@ Sigma is the noise of a reading as the sensor gives it: means and filters quiete
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm, ttest_1samp
 
 from diagnosis.criteria import (
     DRIFT_ALIKE_SIGMA,
@@ -25,13 +29,15 @@ from diagnosis.criteria import (
     DRIFT_START_SIGMA,
 )
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Place
 from diagnosis.prepare.noise.sensor_noise import TIP
 from diagnosis.replay.drift import (
     drift_range_sigma,
     drift_spread_sigma,
     drifts_alike,
     drifts_by_one_course,
-    least_start,
+    means_sigma,
+    starts,
 )
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
@@ -48,13 +54,18 @@ def drifts(state: SearchState, sensor: str) -> bool:
     return sensor in state.problem.noise.drifts
 
 
-def with_few_effects(state: SearchState, beside: Sequence[str] = ()) -> SearchState:
-    """The state without explanations that name more effects than may be beside a drift.
+def with_few_effects(state: SearchState, sensor: str, beside: Sequence[str] = ()) -> SearchState:
+    """The state without explanations that name more effects than may be beside a drift of a sensor.
+
+    Effects of the readings of another sensor do not count: a drift of this one cannot take their shape.
 
     Args:
-      beside: effects that do not count.
+      beside: effects that do not count either.
     """
-    counted = set(LIBRARY) - set(beside)
+    elsewhere = {
+        e.name for e in LIBRARY.values() if e.place is Place.SENSOR and e.needs not in ("", sensor)
+    }
+    counted = set(LIBRARY) - elsewhere - set(beside)
     few = (c for c in state.candidates if len(counted & {*c.names}) <= DRIFT_MOST_EFFECTS)
     return replace(state, candidates=tuple(few))
 
@@ -112,10 +123,22 @@ def what_is_likelier(state: SearchState, drifting: SearchState, sensor: str) -> 
     return ""
 
 
-def begins_off_zero(state: SearchState, sensor: str) -> bool:
-    """Whether the drift beside the best begins off zero in every trial."""
-    noise = state.problem.noise
-    return least_start(state.problem.log, sensor, noise, _replayed(state)) > DRIFT_START_SIGMA
+def is_off_zero(state: SearchState, sensor: str) -> bool:
+    """Whether the drift beside the best begins off zero in every trial, or is off it on average.
+
+    That is over several trials: where they begin, or in their means.
+    """
+    of = state.problem.log, sensor, state.problem.noise, _replayed(state)
+    begun = starts(*of)
+    if begun.size and np.abs(begun).min() > DRIFT_START_SIGMA:
+        return True
+    return _is_off(begun) or _is_off(means_sigma(*of))
+
+
+def _is_off(values: NDArray[np.float64]) -> bool:
+    """Whether three values or more are off zero on average."""
+    by_chance = 2.0 * norm.sf(DRIFT_START_SIGMA)
+    return values.size > 2 and bool(ttest_1samp(values, 0.0).pvalue < by_chance)
 
 
 def _replayed(state: SearchState) -> list[Prediction]:

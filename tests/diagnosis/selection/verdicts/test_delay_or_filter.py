@@ -88,18 +88,25 @@ def test_a_filter_beside_nothing_else_stays_open():
 
 
 @pytest.mark.parametrize(
-    ("beside", "gap", "kind"),
+    ("beside", "behind", "gap", "kind"),
     [
-        ([], 1.01, VerdictKind.UNDECIDED),
-        ([], 1.2, VerdictKind.NONE),
-        ([BIAS], 1.01, VerdictKind.EXPLAINED),
+        ([], 85.0, 1.01, VerdictKind.UNDECIDED),
+        ([], 95.0, 1.01, VerdictKind.NONE),
+        ([], 85.0, 1.2, VerdictKind.NONE),
+        ([BIAS], 85.0, 1.01, VerdictKind.EXPLAINED),
     ],
-    ids=["alone", "above the floor", "beside an effect"],
+    ids=["alone", "led by more", "above the floor", "beside an effect"],
 )
-def test_nothing_but_a_filter_is_never_told_where_a_delay_is_at_the_floor(beside, gap, kind):
-    """However far it is behind: it would be the one cause that there is."""
+def test_nothing_but_a_filter_is_told_where_a_delay_at_the_floor_is_far_behind(
+    beside, behind, gap, kind
+):
+    """It would be the one cause that there is; the squares of 1000 readings scatter by 45."""
     filtered = lagging([*beside, "torque_low_pass"], 100.0)
-    delayed = lagging([*beside, "torque_sensor_delay"], 300.0)
+    slopes = np.zeros((1000, filtered.fit.x.size))
+    slopes[:, np.isin(filtered.fit.parameterization.owners, ["torque_low_pass"])] = 2.0 * STRONG_SIGMA
+    fit = replace(filtered.fit, by_trial=(np.ones(1000),), jacobian=(slopes,))
+    filtered = replace(filtered, fit=fit)
+    delayed = lagging([*beside, "torque_sensor_delay"], 100.0 + behind)
     delayed = replace(delayed, floor=replace(delayed.floor, gap=gap))
     found = verdict_on([filtered, delayed])
     assert (found.kind, found.effects) == (kind, tuple(beside))

@@ -14,7 +14,7 @@ from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
-from diagnosis.selection.scoring.drift_evidence import widest_drift
+from diagnosis.selection.scoring.drift_evidence import wide_drifts
 from diagnosis.selection.stages import stage
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors import sensor_drift
@@ -28,7 +28,7 @@ from diagnosis.selection.stages.sensors.sensor_drift import (
 from diagnosis.workers import Workers
 
 NAMES = {TORQUE: OF_TORQUE, TIP: OF_TIP}
-BESIDE = {TORQUE: "tip_drag", TIP: "torque_scale"}  # effects that a drift does not tell
+BESIDE = {TORQUE: "tip_drag", TIP: "base_compliance"}  # effects that a drift does not tell
 
 
 def said(state, sensor):
@@ -94,12 +94,15 @@ def test_one_jump_is_no_drift(size_sigma, sensor):
         (("an effect",), Decision.KEPT),
         (("an effect", "its offset"), Decision.KEPT),
         (("an effect", "coulomb_friction"), Decision.DROPPED),
+        (("an effect", "of the other sensor"), Decision.KEPT),
     ],
-    ids=["one effect", "an offset beside it", "two effects"],
+    ids=["one effect", "an offset beside it", "two effects", "one of the other sensor"],
 )
 def test_a_drift_stands_beside_one_effect_at_most(monkeypatch, names, decision, sensor):
     """All of them leave nothing but noise beside the drift."""
+    (other,) = {*SENSORS} - {sensor}
     said = {"an effect": BESIDE[sensor], "its offset": OFFSETS[sensor]}
+    said["of the other sensor"] = OFFSETS[other]
     names = tuple(said.get(name, name) for name in names)
     _, drifting = searched(drifted(3.5, sensor), sensor)
     found = replace(drifting, candidates=(candidate(fit_effects(drifting.problem, names)),))
@@ -140,7 +143,7 @@ def test_sets_that_lead_are_fitted_once_and_those_far_behind_are_not(monkeypatch
     singles = [scored([name], score) for name, score in (("stiction", 0.0), ("tip_drag", 9.0))]
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, pairs=pairs, singles=tuple(singles))
-    sensor_drift._searched_again(state, TORQUE, widest_drift(state.problem, TORQUE), Workers())
+    sensor_drift._searched_again(state, TORQUE, wide_drifts(state.problem, TORQUE)[0], Workers())
     enough = 100.0 + CONTENDING
     assert asked == [(("tip_drag",), enough), (("torque_bias", "tip_drag"), enough)]
 
@@ -158,7 +161,7 @@ def test_pairs_with_the_leading_effect_that_a_drift_may_have_hidden_are_screened
     state = start_of_search(drifted(3.5), effects=("tip_drag", "stiction", "torque_bias"))
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, singles=(scored(["stiction"], 5.0), scored(["tip_drag"], 1.0)))
-    sensor_drift._searched_again(state, TORQUE, widest_drift(state.problem, TORQUE), Workers())
+    sensor_drift._searched_again(state, TORQUE, wide_drifts(state.problem, TORQUE)[0], Workers())
     assert asked == [(("tip_drag",), "stiction"), (("tip_drag",), "torque_bias")]
 
 
@@ -173,8 +176,8 @@ def test_a_drift_of_no_working_sensor_explains_nothing(sensor):
 def test_a_drift_is_as_large_beside_the_noise_of_a_reading_that_means_have_quietened(
     means_of, explained
 ):
-    """12 sigma of means of nine readings are 4 sigma of one."""
-    log = replace(drifted(2.0 * DRIFT_RANGE_SIGMA), means_of=means_of)
+    """36 sigma of means of nine readings are 12 sigma of one."""
+    log = replace(drifted(1.6 * DRIFT_RANGE_SIGMA), means_of=means_of)
     _, after = searched(log)
     assert bool(after.problem.noise.drifts) is explained
     assert after.best.floor.reached is explained

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import scored
 from drifting_logs import drifted, moved, off, searched, sliding
@@ -11,9 +12,9 @@ from diagnosis.log.trial import SENSORS
 from diagnosis.selection.stages.sensors import working_sensor as module
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
-    begins_off_zero,
     drifts,
     is_all_that_is_missing,
+    is_off_zero,
     range_sigma,
     spread_sigma,
     what_is_likelier,
@@ -60,18 +61,42 @@ def test_of_one_line_in_every_trial_less_is_allowed(sensor):
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
-def test_where_every_trial_begins_off_zero_is_told(sensor):
+def test_where_every_trial_is_off_zero_is_told(sensor):
     _, zeroed = searched(moved((0, 0, 4), (3, 0, 3), sensor=sensor), sensor)
     _, raised = searched(moved((3, 0, 3), (4, 0, 3), sensor=sensor), sensor)
-    assert (begins_off_zero(zeroed, sensor), begins_off_zero(raised, sensor)) == (False, True)
+    assert (is_off_zero(zeroed, sensor), is_off_zero(raised, sensor)) == (False, True)
+
+
+@pytest.mark.parametrize(
+    ("starts", "means", "off"),
+    [
+        ([2.5, 4.0, 5.0, 4.5, 5.5, 4.2], [0.0] * 6, True),
+        ([2.5, -4.0, 5.0, -4.5, 5.5, -4.2], [3.0, -3.1, 2.9, -3.0, 3.2, -2.8], False),
+        ([2.5, -4.0, 5.0, -4.5, 5.5, -4.2], [3.0, 3.1, 2.9, 3.0, 3.2, 2.8], True),
+        ([0.1, 5.0], [3.0, 3.1], False),
+        ([4.0, -5.0], [0.0, 0.0], True),
+        ([], [], False),
+    ],
+    ids=["on average", "either way", "in the means", "two trials", "every one", "no drift"],
+)
+def test_trials_are_off_zero_on_average_as_well(starts, means, off, monkeypatch):
+    state = searched(drifted(0.0))[1]
+    monkeypatch.setattr(module, "starts", lambda *_: np.array(starts))
+    monkeypatch.setattr(module, "means_sigma", lambda *_: np.array(means))
+    assert is_off_zero(state, "base_torque_n_mm") is off
 
 
 def test_effects_that_do_not_count_stand_beside_a_drift_as_well():
     state = searched(drifted(0.0))[1]
     sets = (("tip_drag",), ("tip_drag", "tip_angle_bias"), ("tip_drag", "stiction"))
     state = replace(state, candidates=tuple(scored(names, 1.0) for names in sets))
-    assert [c.names for c in with_few_effects(state).candidates] == [*sets[:1]]
-    assert [c.names for c in with_few_effects(state, ["tip_angle_bias"]).candidates] == [*sets[:2]]
+
+    def few(sensor, beside=()):
+        return [c.names for c in with_few_effects(state, sensor, beside).candidates]
+
+    assert few("tip_angle_deg") == [*sets[:1]]
+    assert few("tip_angle_deg", ["tip_angle_bias"]) == [*sets[:2]]
+    assert few("base_torque_n_mm") == [*sets[:2]]  # the offset is one of the other sensor
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
