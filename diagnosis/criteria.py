@@ -99,12 +99,18 @@ LOST_COUNTS_BESIDE = 3
 LOST_COUNTS_SIGMA, LOST_COUNTS_LEAST_DEG = 10.0, 0.3
 """Moves of the base on either side of a jump of its reading; least size of a jump that is looked at, in
 what usual moves are beyond those beside them, and in deg. Choices: the other sensors decide."""
-LOST_COUNTS_STEADY, LOST_COUNTS_STEP = 0.3, 1.5
+LOST_COUNTS_STEADY, LOST_COUNTS_STEP = 0.3, 2.5
 """Range of the moves on either side of a jump, in its size: more is a turn that gains speed; time from
 one sample to the next, in the median: more is a gap."""
 LOST_COUNTS_MOST, LOST_COUNTS_LEAVES = 3, 0.9
 """Jumps of a log that are looked at, largest first; share of the gap of a trial that shifting readings
 back has to leave at most: far beyond chance, and not so little that friction would hide it."""
+LOST_COUNTS_SMALL_SIGMA, LOST_COUNTS_MOST_SMALL = 4.0, 16
+LOST_COUNTS_GAIN, LOST_COUNTS_SHARE = 30.0, 0.3
+"""Beside an explanation: least size of a jump, in what usual moves are beyond those beside them; jumps
+of a trial that are looked at; cost that shifting readings back has to take off: odds of a million to
+one; and share of what the explanation leaves beyond noise that all of this has to take off before the
+log is searched again. Choices; what is found counts only where it brings an explanation to the noise."""
 SATURATED_LEAST_RUN = 20
 SATURATED_SHARE = 0.5
 SATURATED_NEAR_SIGMA = 1.5
@@ -514,6 +520,9 @@ SLIDING_MM_S = 0.05
 
 SIMPLE_LEAD = 10.0
 """Score by which unrelated or richer explanations have to lead: odds of 150 to 1."""
+LATE_LEAD = 20.0
+"""The same where trials began late: their past is taken to be one turn, and what the true one leaves may
+favour either. A choice, twice as much; one log was told wrongly by a lead of 11.3."""
 EQUAL_SCORE = 0.1
 """Score by which two explanations of the same size differ that no log can tell apart: odds of 1.05 to 1,
 what fits leave of their tolerance."""

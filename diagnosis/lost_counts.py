@@ -2,27 +2,33 @@
 
 Between two samples the reading moves by more than on either side,
 
-    jump = move - move clipped to what lies between the medians of a few moves before and after it,
+    jump = move - move clipped to what lies between those at the median rates just before and after it,
 
 far beyond its scatter, while moves on either side are steady: a shaft gains speed over several. Across
 a gap in the time nothing is told. Whether the shaft has moved so is for the other sensors to say: where
-the nominal rig leaves clearly less of them once the readings after the jump are shifted back, counts
-were lost. A fast turn of the shaft would leave far more.
+a rig leaves clearly less of them once the readings after the jump are shifted back, counts were lost. A
+fast turn of the shaft would leave far more.
+
+The nominal rig shows large jumps before anything else is known. Those that an effect hides from it, and
+small ones, show beside what the search has found (diagnosis.selection.jumps_beside).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
+from scipy.ndimage import percentile_filter
 
 from diagnosis.criteria import (
     LOST_COUNTS_BESIDE,
     LOST_COUNTS_LEAST_DEG,
     LOST_COUNTS_LEAVES,
     LOST_COUNTS_MOST,
+    LOST_COUNTS_MOST_SMALL,
     LOST_COUNTS_SIGMA,
+    LOST_COUNTS_SMALL_SIGMA,
     LOST_COUNTS_STEADY,
     LOST_COUNTS_STEP,
 )
@@ -32,66 +38,109 @@ from diagnosis.log.trial import Trial
 Array = NDArray[np.float64]
 
 _BASE = "base_angle_deg"
-GapOf = Callable[[RigLog], float]
+_NEAR, _USUAL = 101, 67  # moves of which a jump sticks out; percentile: of noise, a third are no jumps
+LeftOf = Callable[[RigLog], float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Jump:
+class Jump:
     """A jump of the base's reading.
 
     Attributes:
       number: of the trial.
       sample: first one after it.
+      at_s: its time.
     """
 
     number: int
     sample: int
+    at_s: float
     size_deg: float
 
+    def times(self, share: float) -> "Jump":
+        """A jump there of a share of its size."""
+        return replace(self, size_deg=share * self.size_deg)
 
-def with_counts_restored(log: RigLog, gap_of: GapOf) -> RigLog:
+
+def with_counts_restored(log: RigLog, left_of: LeftOf) -> RigLog:
     """The log with the readings of the base shifted back by what its encoder lost, and warnings.
 
     Args:
-      gap_of: root mean square of what the nominal rig leaves of a log with one trial, over the noise.
+      left_of: mean square / noise of what the nominal rig leaves of a log with one trial.
     """
-    for jump in _jumps(log):
+    jumps = _jumps(log, LOST_COUNTS_SIGMA, LOST_COUNTS_LEAST_DEG, steady=True)
+    left = dict[int, float]()
+    for jump in jumps[:LOST_COUNTS_MOST]:
         trial = log.trials[jump.number]
-        restored = _shifted(trial, jump)
-        before, after = (gap_of(replace(log, trials=(own,))) for own in (trial, restored))
-        if after < LOST_COUNTS_LEAVES * before:
-            trials = [restored if own is trial else own for own in log.trials]
-            log = replace(log, trials=tuple(trials), warnings=(*log.warnings, _said(trial, jump)))
+        if jump.number not in left:
+            left[jump.number] = left_of(_alone(log, trial))
+        after = left_of(_alone(log, _shifted(trial, jump)))
+        if after < LOST_COUNTS_LEAVES**2 * left[jump.number]:
+            left[jump.number] = after
+            log = _restored(log, jump)
     return log
 
 
-def _jumps(log: RigLog) -> list[_Jump]:
-    """The largest ones of all trials, largest first."""
+def small_jumps(log: RigLog) -> list[Jump]:
+    """Jumps that only an explanation may tell from noise: the largest of each trial."""
+    jumps = _jumps(log, LOST_COUNTS_SMALL_SIGMA, 0.0, steady=False)
+    by_trial = ([j for j in jumps if j.number == number] for number in range(len(log.trials)))
+    return [jump for own in by_trial for jump in own[:LOST_COUNTS_MOST_SMALL]]
+
+
+def with_jumps_restored(log: RigLog, jumps: Sequence[Jump]) -> RigLog:
+    """The log with the readings after these jumps shifted back, and warnings."""
+    for jump in jumps:
+        log = _restored(log, jump)
+    return log
+
+
+def _alone(log: RigLog, trial: Trial) -> RigLog:
+    return replace(log, trials=(trial,))
+
+
+def _restored(log: RigLog, jump: Jump) -> RigLog:
+    """The log with a jump shifted back, and a warning."""
+    trial = log.trials[jump.number]
+    trials = [_shifted(own, jump) if own is trial else own for own in log.trials]
+    return replace(log, trials=tuple(trials), warnings=(*log.warnings, _said(trial, jump)))
+
+
+def _jumps(log: RigLog, least_sigma: float, least_deg: float, *, steady: bool) -> list[Jump]:
+    """Those of all trials, largest first.
+
+    Args:
+      least_sigma, least_deg: least size, in usual jumps and in deg.
+      steady: whether only those between steady moves.
+    """
     sigma_deg = log.rig.sensors.base_angle_noise_deg
-    found = [
-        jump
-        for number, trial in enumerate(log.trials)
-        for jump in _jumps_of(trial["time_s"], trial[_BASE], number, sigma_deg)
-    ]
-    return sorted(found, key=lambda jump: -abs(jump.size_deg))[:LOST_COUNTS_MOST]
+    found = list[Jump]()
+    for number, trial in enumerate(log.trials):
+        samples, jumps = _jumps_of(trial["time_s"], trial[_BASE], steady=steady)
+        usual_deg = percentile_filter(np.abs(jumps), _USUAL, size=_NEAR) if jumps.size else jumps
+        least = np.maximum(least_sigma * np.maximum(usual_deg, sigma_deg), least_deg)
+        for i in np.flatnonzero(np.abs(jumps) > least):
+            sample = int(samples[i])
+            at_s = float(trial["time_s"][sample])
+            found.append(Jump(number=number, sample=sample, at_s=at_s, size_deg=float(jumps[i])))
+    return sorted(found, key=lambda jump: -abs(jump.size_deg))
 
 
-def _jumps_of(time_s: Array, base_deg: Array, number: int, sigma_deg: float) -> Iterator[_Jump]:
+def _jumps_of(time_s: Array, base_deg: Array, *, steady: bool) -> tuple[NDArray[np.intp], Array]:
+    """First samples after moves that may be jumps, and by how much these are more than those beside."""
     moves, beside = np.diff(base_deg), LOST_COUNTS_BESIDE
     if moves.size < 4 * beside:
-        return
-    medians = np.median(sliding_window_view(moves, beside), axis=1)
-    here = np.arange(beside, moves.size - beside)
-    before, after = medians[here - beside], medians[here + 1]
-    jumps = moves[here] - np.clip(moves[here], np.minimum(before, after), np.maximum(before, after))
-    scatter = max(float(np.median(np.abs(jumps[jumps != 0.0]))) if jumps.any() else 0.0, sigma_deg)
-    least = max(LOST_COUNTS_SIGMA * scatter, LOST_COUNTS_LEAST_DEG)
-    steady = np.maximum(_range_of(moves, here - beside), _range_of(moves, here + 1))
+        return np.zeros(0, np.intp), np.zeros(0)
     steps_s = np.diff(time_s)
+    medians = np.median(sliding_window_view(moves / steps_s, beside), axis=1)
+    here = np.arange(beside, moves.size - beside)
+    before, after = (medians[i] * steps_s[here] for i in (here - beside, here + 1))
+    jumps = moves[here] - np.clip(moves[here], np.minimum(before, after), np.maximum(before, after))
     even = steps_s[here] < LOST_COUNTS_STEP * np.median(steps_s)
-    sure = even & (np.abs(jumps) > least) & (steady < LOST_COUNTS_STEADY * np.abs(jumps))
-    for i in np.flatnonzero(sure):
-        yield _Jump(number=number, sample=int(here[i]) + 1, size_deg=float(jumps[i]))
+    if steady:
+        most = np.maximum(_range_of(moves, here - beside), _range_of(moves, here + 1))
+        even &= most < LOST_COUNTS_STEADY * np.abs(jumps)
+    return here + 1, np.where(even, jumps, 0.0)
 
 
 def _range_of(moves: Array, first: NDArray[np.intp]) -> Array:
@@ -99,16 +148,15 @@ def _range_of(moves: Array, first: NDArray[np.intp]) -> Array:
     return np.asarray(np.ptp(sliding_window_view(moves, LOST_COUNTS_BESIDE)[first], axis=1))
 
 
-def _shifted(trial: Trial, jump: _Jump) -> Trial:
+def _shifted(trial: Trial, jump: Jump) -> Trial:
     base = trial[_BASE].copy()
     base[jump.sample :] -= jump.size_deg
     return replace(trial, table=trial.table.assign(**{_BASE: base}))
 
 
-def _said(trial: Trial, jump: _Jump) -> str:
-    at_s = trial["time_s"][jump.sample]
+def _said(trial: Trial, jump: Jump) -> str:
     return (
-        f"{trial.name}: {_BASE} jumps by {jump.size_deg:.3g} deg at {at_s:.3f} s, and the other sensors "
-        "say that the shaft did not (lost counts); readings after it are shifted back by as much: check "
-        "the encoder and its cable"
+        f"{trial.name}: {_BASE} jumps by {jump.size_deg:.3g} deg at {jump.at_s:.3f} s, and the other "
+        "sensors say that the shaft did not (lost counts); readings after it are shifted back by as "
+        "much: check the encoder and its cable"
     )

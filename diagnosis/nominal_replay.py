@@ -86,7 +86,7 @@ def replay_nominal(log: RigLog) -> NominalReplay:
     Raises:
       SimulationFailed: the nominal rig cannot be simulated.
     """
-    read = averaged(with_counts_restored(log, _nominal_gap))
+    read = averaged(with_counts_restored(log, _left_by_the_nominal_rig))
     log = in_low_band(read)
     prepared, base_sigma_deg = prepare(log)
     predictions = replay(prepared)
@@ -142,13 +142,13 @@ def _begun_as_read(slow: PreparedLog, log: RigLog, noise: Noise) -> PreparedLog:
     return begun_as(slow, _begun(prepared, replay(prepared), as_read))
 
 
-def _nominal_gap(log: RigLog) -> float:
-    """Root mean square of what the nominal rig leaves, in units of the claimed noise."""
-    prepared, _ = prepare(in_low_band(averaged(log)))
+def _left_by_the_nominal_rig(log: RigLog) -> float:
+    """Mean square of what the nominal rig leaves, in units of the claimed noise."""
     claims = log.rig.sensors.by_column()
+    prepared, _ = prepare(in_low_band(averaged(log)))
     left = _residuals(prepared, replay(prepared))
     each = [values / (claims[s] or 1.0) for s, parts in left.items() for _, values in parts]
-    return float(np.sqrt(np.nanmean(np.concatenate(each) ** 2))) if each else 0.0
+    return float(np.nanmean(np.concatenate(each) ** 2)) if each else 0.0
 
 
 def _noise(

@@ -16,7 +16,7 @@ from diagnosis.assessment.assess import Assessment, assess
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.assessment.uncertainty.absent_effects import without_absent
 from diagnosis.criteria import REPLAYS_AFTER_STOP
-from diagnosis.fitting.decimation import decimated, decimated_noise
+from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.in_words import VARIABLES
@@ -32,8 +32,7 @@ from diagnosis.selection.candidate import candidate
 from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted, refused
-from diagnosis.selection.search import search
-from diagnosis.selection.state import SearchState
+from diagnosis.selection.search_of_log import search_log
 from diagnosis.selection.verdicts.changed import provisional, refuted
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stages import ASSESSING, CHECKING, REPLAYING, in_words
@@ -86,10 +85,9 @@ def diagnose(
     heard(REPLAYING, 0, 1)
     prepare_processes()
     nominal = _nominal_in_time(log, stop)
-    log = nominal.log
     heard(REPLAYING, 1, 1)
     with process_pool(workers, heard, stop) as pool, listening(stop):
-        found = _searched(log, nominal, pool)
+        nominal, found = search_log(log, nominal, testable_effects(log), pool)
         nominal = nominal.begun_as(found.problem, found.nominal)
         log = without(nominal.log, found.left_out)
         told = told_apart(found, pool)
@@ -143,18 +141,6 @@ def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
         return None
     stage, left_out = in_words(stop.left_out[0]), tuple(stop.left_out)
     return EarlyStop(why=stop.why, stage=stage, left_out=left_out, search=search)
-
-
-def _searched(log: RigLog, nominal: NominalReplay, workers: Workers) -> SearchState:
-    """The search for an explanation of the log."""
-    problem = nominal.problem
-    start = SearchState(
-        problem=problem,
-        coarse=decimated(problem, nominal.predictions, nominal.rig),
-        effects=testable_effects(log),
-        nominal=nominal.fit,
-    )
-    return search(start, workers)
 
 
 def _of_another_form(judged: Judged, nominal: NominalReplay, workers: Workers) -> Judged:

@@ -78,6 +78,7 @@ STAGES = {
     "drift of the torque sensor": _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
     "drift of the tip sensor": _coarse("fitting with a drift of the tip sensor", 0.3, 0, 0),
     "drift or offset": _whole("comparing drifts and offsets of a sensor", 1.0, 0, 0),
+    "lost counts": _whole("looking for counts that the encoder has lost", 1.0, 0, 0),
     ALIKE: _coarse("looking for equivalent explanations", 0.03, 24, 24),
     CHECKING: _coarse("checking on held-out trials", 0.0, 1, 1),
     "other forms of a law": _whole("comparing with other forms of a law", 1.0, 0, 0),

@@ -24,6 +24,7 @@ from diagnosis.fitting.held_out.cross_validation import shift_statistic
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.noise_reestimation import slow_where_coloured
+from diagnosis.fitting.nuisance import late_starts_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.swinging import swinging_where_coloured
 from diagnosis.selection.scoring.complexity import complexity_penalty
@@ -49,6 +50,7 @@ class Candidate:
       shift: held-out shift statistic; about 1 where all trials tell the same.
       shift_limit: largest that is of an explanation.
       of_means: whether samples are means of readings, whose noise may be below what a replay resolves.
+      begun_late: whether trials began wound up or moving, of which little of what was before is known.
       unresolved_cost: cost by which it may lead for what no model of a needle resolves.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
       swinging_hz: frequencies at which sensors with coloured noise swing, as no noise does.
@@ -64,6 +66,7 @@ class Candidate:
     shift: float = 0.0
     shift_limit: float = SHIFT_LIMIT
     of_means: bool = False
+    begun_late: bool = False
     unresolved_cost: float = 0.0
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     swinging_hz: Mapping[str, float] = field(default_factory=dict)
@@ -154,6 +157,7 @@ class Candidate:
             held_out_floor=floor_of(left),
             shift=shift_statistic(self.fit),
             of_means=problem.log.means_of > 1,
+            begun_late=bool(late_starts_of(problem.log)),
             unresolved_cost=unresolved_cost(problem),
             coloured=slow_where_coloured(problem, self.fit.by_trial),
             swinging_hz=swinging_where_coloured(problem, self.fit.by_trial),

@@ -29,6 +29,8 @@ def without_absent(
 ) -> Verdict:
     """The verdict without effects that may as well be absent; what was told stays confusable.
 
+    One that was undecided only between them and their absence is decided.
+
     Args:
       parameters: intervals by effect and parameter.
       sample_s: time between samples.
@@ -44,12 +46,12 @@ def without_absent(
     if not absent:
         return verdict
     told, left = verdict.effects, tuple(name for name in verdict.effects if name not in absent)
-    kind = verdict.kind
-    if kind is VerdictKind.EXPLAINED and not left:
-        kind = VerdictKind.NONE
-    if kind is VerdictKind.EXPLAINED and frozenset(left) in refused:
-        kind = VerdictKind.UNDECIDED
     others = [names for names in verdict.confusable if set(names) not in (set(told), set(left))]
+    kind, doubtful = verdict.kind, frozenset(left) in refused
+    if kind is VerdictKind.EXPLAINED and left and doubtful:
+        kind = VerdictKind.UNDECIDED
+    elif kind is VerdictKind.EXPLAINED or not (others or doubtful):
+        kind = VerdictKind.EXPLAINED if left else VerdictKind.NONE
     return replace(
         verdict,
         kind=kind,

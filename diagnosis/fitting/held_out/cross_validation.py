@@ -2,8 +2,9 @@
 
 Each trial is left out in turn: one Gauss-Newton step on the others moves the
 parameters, and the left-out trial is simulated with them. Which rate the tissue
-resists is a convention of the rig, not a result: it stays as fitted. What concerns one trial
-alone, as the past of one that began late, is fitted there, with the other parameters from the others.
+resists is a convention of the rig, not a result, and the clock of a sensor may run off by
+another rate in each trial: both stay as fitted. What concerns one trial alone, as the past of one
+that began late, is fitted there, with the other parameters from the others.
 """
 
 import numpy as np
@@ -19,6 +20,7 @@ from diagnosis.replay.replay import predict, residuals
 
 Array = NDArray[np.float64]
 
+_MAY_DIFFER = (*CONVENTIONS, "tip_clock", "torque_clock")
 _AT_BOUND = 1e-6  # from a bound, in the units of the fit
 _RIDGE = 3e-5  # on what nothing else tells
 
@@ -78,7 +80,7 @@ def _own(fit: Fit, trial: int) -> NDArray[np.int_]:
 
 def told_by_others(fit: Fit, trial: int) -> NDArray[np.int_]:
     """Indices of entries that are fitted again without a trial."""
-    found = np.array([owner not in CONVENTIONS for owner in fit.parameterization.owners], bool)
+    found = np.array([owner not in _MAY_DIFFER for owner in fit.parameterization.owners], bool)
     found[_own(fit, trial)] = False
     return np.flatnonzero(found)
 

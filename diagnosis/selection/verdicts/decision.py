@@ -4,7 +4,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.criteria import CLEAR_SHIFT, EQUAL_SCORE, NESTED_LEAD, NOMINAL_LEAD, SIMPLE_LEAD
+from diagnosis.criteria import (
+    CLEAR_SHIFT,
+    EQUAL_SCORE,
+    LATE_LEAD,
+    NESTED_LEAD,
+    NOMINAL_LEAD,
+    SIMPLE_LEAD,
+)
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.verdicts.delay_or_filter import takes_for_a_filter
@@ -41,7 +48,8 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         )
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
-    alike = [c for c in at_floor if c.score - reached <= SIMPLE_LEAD and says_something_else(best, c)]
+    asked = LATE_LEAD if best.begun_late else SIMPLE_LEAD
+    alike = [c for c in at_floor if c.score - reached <= asked and says_something_else(best, c)]
     late = [c for c in candidates if takes_for_a_filter(best, c) and may_be_it(best, c, reached)]
     alike += [c for c in late if c not in alike]
     leading = [

@@ -1,5 +1,7 @@
 """Effects whose intervals reach the value of no effect."""
 
+from dataclasses import replace
+
 import pytest
 from diagnosis_fixtures import scored
 
@@ -66,3 +68,20 @@ def test_where_the_rest_was_refused_it_is_open():
     found = without_absent(both, intervals, SAMPLE_S, refused)
     assert (found.kind, found.effects) == (VerdictKind.UNDECIDED, ("tip_angle_bias",))
     assert found.confusable == (("tip_angle_bias",), both.effects)
+
+
+@pytest.mark.parametrize(
+    ("others", "refused", "kind"),
+    [
+        ([], set(), VerdictKind.NONE),
+        ([], {frozenset()}, VerdictKind.UNDECIDED),
+        ([("tip_drag",)], set(), VerdictKind.UNDECIDED),
+    ],
+    ids=["its absence alone", "which was refused", "another effect as well"],
+)
+def test_what_was_open_only_between_an_effect_and_its_absence_is_decided(others, refused, kind):
+    one = verdict("torque_bias")
+    one = replace(one, kind=VerdictKind.UNDECIDED, confusable=(one.effects, (), *others))
+    found = without_absent(one, {"torque_bias": ABSENT["torque_bias"]}, SAMPLE_S, refused)
+    assert (found.kind, found.effects) == (kind, ())
+    assert found.confusable == ((), ("torque_bias",), *others)

@@ -20,13 +20,13 @@ from diagnosis.replay.rig_parameters import RigParameters
 SCALES = tuple(LIBRARY[name] for name in SCATTER)
 
 
-def linear(offsets):
+def linear(offsets, name="tip_angle_bias"):
     """A fit of one parameter to trials that each ask for their own value of it."""
     rng = np.random.default_rng(1)
     slopes = [np.ones((400, 1)) for _ in offsets]
     by_trial = [rng.normal(size=400) + offset for offset in offsets]
     middle = np.mean([r.mean() for r in by_trial])
-    return fit_of(("tip_angle_bias",), by_trial=[r - middle for r in by_trial], jacobian=slopes)
+    return fit_of((name,), by_trial=[r - middle for r in by_trial], jacobian=slopes)
 
 
 def test_a_parameter_that_is_held_by_its_bound_holds_the_others_on_held_out_trials():
@@ -50,6 +50,11 @@ def test_trials_that_tell_the_same_shift_by_about_one():
     # A chi-square of one: exceeds 9 once in 370 logs.
     assert shift_statistic(linear([0.0, 0.0])) < 9
     assert shift_statistic(linear([0.0, 1.0])) > 9
+
+
+@pytest.mark.parametrize("clock", ["tip_clock", "torque_clock"])
+def test_a_clock_may_run_off_by_another_rate_in_each_trial(clock):
+    assert shift_statistic(linear([0.0, 1.0], clock)) == 0.0
 
 
 def with_pasts(pulls):

@@ -41,6 +41,20 @@ def test_unrelated_effects_are_told_apart_by_more(lead, kind):
     assert found.effects == ("tip_drag",)
 
 
+@pytest.mark.parametrize(
+    ("begun_late", "lead", "kind"),
+    [
+        (True, 12, VerdictKind.UNDECIDED),
+        (True, 22, VerdictKind.EXPLAINED),
+        (False, 12, VerdictKind.EXPLAINED),
+    ],
+)
+def test_where_trials_began_late_more_of_a_lead_is_asked_for(begun_late, lead, kind):
+    best = scored(["tip_drag"], 100.0, begun_late=begun_late)
+    found = verdict_on([best, scored(["inserted_offset"], 100.0 + lead, begun_late=begun_late)])
+    assert (found.kind, found.effects) == (kind, ("tip_drag",))
+
+
 def test_what_is_above_the_noise_floor_explains_nothing():
     above = NoiseFloor(gap=2.0, slow=5.0)
     found = verdict_on([scored(["tip_drag"], 1.0, floor=above), scored([], 100.0, floor=above)])

@@ -1,0 +1,98 @@
+"""Counts that the encoder of the base has lost, beside an explanation: which jumps, and by how much.
+
+Each jump of the reading (diagnosis.lost_counts) is shifted back in the motion that drives the needle,
+and the trial is replayed: that changes the residual r by d. The explanation has taken up a part of what
+was lost, so that its parameters, of slopes J, answer. Of all jumps the one is taken that removes most,
+
+    gain = (d' r)^2 / d' d,    d and r without what J and jumps that were taken explain,
+
+and so on, while the gain is beyond chance. Their sizes follow from J and all d at once.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.criteria import LOST_COUNTS_GAIN
+from diagnosis.fitting.fit import Fit
+from diagnosis.fitting.problem import FitProblem
+from diagnosis.lost_counts import Jump
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.workers import Failure, Task, Workers
+
+Array = NDArray[np.float64]
+
+STAGE = "lost counts"
+_SIZES = (0.5, 2.0)  # of a jump, in the one that was read amid noise
+
+
+def jumps_beside(
+    problem: FitProblem, fit: Fit, jumps: Sequence[Jump], workers: Workers
+) -> tuple[list[Jump], float]:
+    """Jumps that the shaft did not make, with their sizes, and the cost that shifting back takes off.
+
+    Args:
+      fit: of the explanation to the problem.
+      jumps: of the log's base, largest first.
+    """
+    rig = fit.parameterization.rig(fit.x)
+    tasks = [Task(effects=fit.names, arguments=(problem, rig, jump)) for jump in jumps]
+    runs = workers.each(STAGE, _shifted_back, tasks)
+    told = [
+        (jump, _change(fit, jump.number, run))
+        for jump, run in zip(jumps, runs, strict=True)
+        if not isinstance(run, Failure)
+    ]
+    taken = list[tuple[Jump, Array]]()
+    while told:
+        gains = _gains(fit, [d for _, d in taken], [d for _, d in told])
+        best = int(np.argmax(gains))
+        if gains[best] < LOST_COUNTS_GAIN:
+            break
+        taken.append(told.pop(best))
+    return _sized(fit, taken)
+
+
+def _shifted_back(problem: FitProblem, rig: RigParameters, jump: Jump) -> Array:
+    """Residual of a trial whose base did not make a jump.
+
+    Raises:
+      SimulationFailed: the rig cannot be simulated.
+    """
+    trial = problem.log.trials[jump.number]
+    motion_deg = trial.base_motion_deg - jump.size_deg * (trial.time_s >= jump.at_s)
+    log = replace(problem.log, trials=(replace(trial, base_motion_deg=motion_deg),))
+    ((left,),) = replace(problem, log=log).residuals([rig], callback_alone=True)
+    return left
+
+
+def _change(fit: Fit, number: int, left: Array) -> Array:
+    """Change of all residuals, and of the prior's, by a change of one trial's."""
+    changes = [np.zeros_like(own) for own in fit.by_trial]
+    changes[number] = left - fit.by_trial[number]
+    return np.concatenate([*changes, np.zeros(fit.x.size)])
+
+
+def _gains(fit: Fit, taken: Sequence[Array], others: Sequence[Array]) -> Array:
+    """Cost that each of the others takes off beside what was taken, (n,)."""
+    basis, _ = np.linalg.qr(np.column_stack([fit.slopes, *taken]))
+    columns = np.column_stack(others)
+    beyond = columns - basis @ (basis.T @ columns)
+    left = fit.residual - basis @ (basis.T @ fit.residual)
+    squares = np.einsum("ij,ij->j", beyond, beyond)
+    return np.asarray((left @ beyond) ** 2 / np.maximum(squares, 1e-12))
+
+
+def _sized(fit: Fit, taken: Sequence[tuple[Jump, Array]]) -> tuple[list[Jump], float]:
+    """The jumps with the sizes that remove most together, if near those read; and what they take off."""
+    columns = np.column_stack([fit.slopes, *(d for _, d in taken)])
+    step = -np.linalg.lstsq(columns, fit.residual, rcond=None)[0]
+    sizes = step[fit.x.size :]
+    near = [_SIZES[0] < size < _SIZES[1] for size in sizes]
+    if not all(near):
+        return _sized(fit, [one for one, kept in zip(taken, near, strict=True) if kept])
+    left = fit.residual + columns @ step
+    sized = [jump.times(float(size)) for (jump, _), size in zip(taken, sizes, strict=True)]
+    return sized, float(fit.residual @ fit.residual - left @ left) if taken else 0.0

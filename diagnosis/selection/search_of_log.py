@@ -1,0 +1,63 @@
+"""The search of a log, and once more where its encoder has lost counts that only an explanation shows.
+
+An effect that is missing hides what lost counts do to the readings from the nominal rig; beside what the
+search has found it shows. What is restored so counts only where it brings an explanation to the noise.
+"""
+
+from diagnosis.criteria import LOST_COUNTS_SHARE
+from diagnosis.fitting.decimation import decimated
+from diagnosis.log.rig_log import RigLog
+from diagnosis.lost_counts import small_jumps, with_jumps_restored
+from diagnosis.nominal_replay import NominalReplay, replay_nominal
+from diagnosis.selection.jumps_beside import STAGE, jumps_beside
+from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.search import search
+from diagnosis.selection.state import SearchState
+from diagnosis.workers import Workers
+
+
+def search_log(
+    log: RigLog, nominal: NominalReplay, effects: tuple[str, ...], workers: Workers
+) -> tuple[NominalReplay, SearchState]:
+    """The search for an explanation of a log, and the nominal replay that it is beside.
+
+    Args:
+      log: as it was read.
+      nominal: its nominal replay.
+      effects: that may be tried.
+
+    Raises:
+      SimulationFailed: the nominal rig cannot be simulated.
+    """
+    found, explained = _searched(nominal, effects, workers).rechecked()
+    if explained or workers.stop.left_out:
+        return nominal, found
+    restored = _restored(log, found, workers)
+    if restored is log:
+        return nominal, found
+    anew = replay_nominal(restored)
+    again, explained = _searched(anew, effects, workers).rechecked()
+    if not explained:
+        entry = noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with them restored")
+        return nominal, found.noting(entry)
+    entry = noted(STAGE, Decision.KEPT, "beside an explanation the encoder of the base has lost counts")
+    return anew, again.noting(entry)
+
+
+def _searched(nominal: NominalReplay, effects: tuple[str, ...], workers: Workers) -> SearchState:
+    problem = nominal.problem
+    start = SearchState(
+        problem=problem,
+        coarse=decimated(problem, nominal.predictions, nominal.rig),
+        effects=effects,
+        nominal=nominal.fit,
+    )
+    return search(start, workers)
+
+
+def _restored(log: RigLog, found: SearchState, workers: Workers) -> RigLog:
+    """The log with counts restored that were lost beside the best explanation; itself: too few were."""
+    fit = found.best.fit
+    beyond = sum(float(r @ r) for r in fit.by_trial) - fit.samples
+    jumps, taken_off = jumps_beside(found.problem, fit, small_jumps(log), workers)
+    return with_jumps_restored(log, jumps) if taken_off > LOST_COUNTS_SHARE * beyond else log

@@ -1,0 +1,47 @@
+"""The search of a log, once more where counts were lost."""
+
+import pytest
+from lossy_logs import LOST_DEG, NAMES, read
+
+from diagnosis.nominal_replay import replay_nominal
+from diagnosis.selection import search_of_log as module
+from diagnosis.selection.jumps_beside import STAGE
+from diagnosis.selection.record import Decision
+from diagnosis.selection.search_of_log import search_log
+from diagnosis.workers import Workers
+
+
+def noted(state):
+    return [entry.decision for entry in state.record if entry.stage == STAGE]
+
+
+def test_counts_that_an_effect_hides_from_the_nominal_rig_are_restored():
+    log = read(LOST_DEG)
+    before = replay_nominal(log)
+    assert not any("lost counts" in warning for warning in before.log.warnings)
+    nominal, found = search_log(log, before, NAMES, Workers())
+    assert found.rechecked()[1]
+    assert found.best.names == NAMES
+    assert noted(found) == [Decision.KEPT]
+    (warning,) = [warning for warning in nominal.log.warnings if "lost counts" in warning]
+    assert "trial_02.csv" in warning
+
+
+def test_what_explains_nothing_is_not_restored(monkeypatch):
+    """No explanation holds without dry friction, lost counts or not."""
+    log = read(LOST_DEG)
+    before = replay_nominal(log)
+    monkeypatch.setattr(module, "LOST_COUNTS_SHARE", -1.0)  # however little they take off
+    nominal, found = search_log(log, before, (), Workers())
+    assert nominal is before
+    assert not found.rechecked()[1]
+    assert noted(found) in ([Decision.DROPPED], [])
+
+
+def test_a_log_that_has_lost_none_is_searched_once(monkeypatch):
+    log = read()
+    before = replay_nominal(log)
+    monkeypatch.setattr(module, "replay_nominal", pytest.fail)
+    nominal, found = search_log(log, before, NAMES, Workers())
+    assert nominal is before
+    assert noted(found) == []
