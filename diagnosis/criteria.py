@@ -627,7 +627,7 @@ LAG_ALONE_SIGMA = 2.0
 """Standard deviations of the sum of squares of noise by which a delay has to be behind a filter beside
 which nothing is missing: no model of a rig is known to less. A choice."""
 LAG_LITTLE = 1.0
-"""Sigma, root mean square of the change of readings, below which a filter of a sensor beside effects
+"""Sigma of a reading, root mean square of its change, below which a filter of a sensor beside effects
 does little: whether it is a filter or a delay is then no second cause, and does not make the effects
 undecided. A choice: as much as noise."""
 NOMINAL_LEAD = 10.0

@@ -49,7 +49,7 @@ class Candidate:
       held_out_failure: why they could not be simulated; empty: they could, or were not looked at.
       shift: held-out shift statistic; about 1 where all trials tell the same.
       shift_limit: largest that is of an explanation.
-      of_means: whether samples are means of readings, whose noise may be below what a replay resolves.
+      means_of: readings that a sample is the mean of: its noise may be below what a replay resolves.
       begun_late: whether trials began wound up or moving, of which little of what was before is known.
       unresolved_cost: cost by which it may lead for what no model of a needle resolves.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
@@ -65,7 +65,7 @@ class Candidate:
     held_out_failure: str = ""
     shift: float = 0.0
     shift_limit: float = SHIFT_LIMIT
-    of_means: bool = False
+    means_of: int = 1
     begun_late: bool = False
     unresolved_cost: float = 0.0
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
@@ -156,7 +156,7 @@ class Candidate:
             held_out=left,
             held_out_floor=floor_of(left),
             shift=shift_statistic(self.fit),
-            of_means=problem.log.means_of > 1,
+            means_of=problem.log.means_of,
             begun_late=bool(late_starts_of(problem.log)),
             unresolved_cost=unresolved_cost(problem),
             coloured=slow_where_coloured(problem, self.fit.by_trial),

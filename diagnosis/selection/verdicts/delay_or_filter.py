@@ -5,6 +5,8 @@ what a replay does not resolve. Every sensor has a bandwidth: beside effects tha
 changes readings by less than noise is no second cause, though the delay is named as what it may be.
 """
 
+import math
+
 import numpy as np
 
 from diagnosis.criteria import LAG_LITTLE, SCATTER
@@ -27,7 +29,8 @@ def takes_for_a_filter(best: Candidate, other: Candidate) -> bool:
 def lags_little(best: Candidate, other: Candidate) -> bool:
     """Whether the best has effects beside filters that do little, and the other a delay for these."""
     likelier = bool(best.named) and best.score <= other.score and takes_for_a_filter(best, other)
-    return likelier and _changes_sigma(best, {*best.names} - {*other.names}) < LAG_LITTLE
+    little = LAG_LITTLE * math.sqrt(best.means_of)  # in sigma of a reading
+    return likelier and _changes_sigma(best, {*best.names} - {*other.names}) < little
 
 
 def _changes_sigma(one: Candidate, effects: set[str]) -> float:

@@ -76,7 +76,7 @@ def hardly_led(one: Candidate, best: Candidate, reached: float) -> bool:
     lead, more = one.score - reached, len(best.names) - len(one.names)
     if one.explains and lead <= best.unresolved_cost:
         return True
-    doubtful = one.shift > SHIFT_LIMIT or one.of_means or not one.floor.reached
+    doubtful = one.shift > SHIFT_LIMIT or one.means_of > 1 or not one.floor.reached
     return says(one) != () and doubtful and lead <= more * PART_LEAD
 
 

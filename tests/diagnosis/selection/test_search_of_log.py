@@ -3,6 +3,7 @@
 import pytest
 from lossy_logs import LOST_DEG, NAMES, read
 
+from diagnosis.lost_counts import small_jumps
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.selection import search_of_log as module
 from diagnosis.selection.jumps_beside import STAGE
@@ -28,14 +29,29 @@ def test_counts_that_an_effect_hides_from_the_nominal_rig_are_restored():
 
 
 def test_what_explains_nothing_is_not_restored(monkeypatch):
-    """No explanation holds without dry friction, lost counts or not."""
+    """No explanation holds without dry friction, whatever a jump promises to take off."""
     log = read(LOST_DEG)
     before = replay_nominal(log)
-    monkeypatch.setattr(module, "LOST_COUNTS_SHARE", -1.0)  # however little they take off
+    monkeypatch.setattr(module, "jumps_beside", lambda *_: (small_jumps(log)[:1], 1e9))
     nominal, found = search_log(log, before, (), Workers())
     assert nominal is before
     assert not found.rechecked()[1]
-    assert noted(found) in ([Decision.DROPPED], [])
+    assert noted(found) == [Decision.DROPPED]
+
+
+@pytest.mark.parametrize(("share", "searches"), [(0.29, 1), (0.31, 2)])
+def test_the_log_is_searched_again_where_jumps_take_off_enough(share, searches, monkeypatch):
+    log = read(LOST_DEG)
+    before = replay_nominal(log)
+    made, searched = [], module._searched
+    monkeypatch.setattr(module, "_searched", lambda *given: made.append(1) or searched(*given))
+
+    def beside(_, fit, *__):
+        return small_jumps(log)[:1], share * (fit.cost - fit.prior - fit.samples)
+
+    monkeypatch.setattr(module, "jumps_beside", beside)
+    search_log(log, before, (), Workers())
+    assert len(made) == searches
 
 
 def test_a_log_that_has_lost_none_is_searched_once(monkeypatch):

@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.interface import DAMPING
+from diagnosis.freeform.families.interface import FILM
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
@@ -125,11 +125,11 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         effect=Effect(
             name=f"damping over {neutral.over}",
             title=f"damping that changes with {_WORDS[neutral.over]}",
-            place=Place.TISSUE,
+            place=Place.INTERFACE,
             parameters=shape,
             apply=partial(_apply_damping, curve, neutral),
         ),
-        places=DAMPING,
+        places=FILM,
         says="history",
         title="damping along the shaft",
         curve=partial(_damping, curve, neutral, ranges.damping_n_mm_s_per_mm),

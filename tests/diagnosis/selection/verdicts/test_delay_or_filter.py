@@ -74,6 +74,13 @@ def test_a_lag_that_does_little_beside_an_effect_is_no_second_cause(filtered_sig
     }
 
 
+def test_means_show_more_of_a_lag_than_a_reading_and_it_is_as_little():
+    filtered = lagging([BIAS, "torque_low_pass"], 100.0, 1.9)
+    delayed = lagging([BIAS, "torque_sensor_delay"], 102.0)
+    assert not lags_little(filtered, delayed)
+    assert lags_little(replace(filtered, means_of=4), delayed)
+
+
 def test_where_the_delay_is_likelier_it_stays_open():
     filtered = lagging([BIAS, "torque_low_pass"], 100.0, 0.5)
     delayed = lagging([BIAS, "torque_sensor_delay"], 98.0)

@@ -130,7 +130,7 @@ def test_what_asks_the_rigs_constants_to_be_off_by_chance_is_named_beside_the_be
     [
         ({"shift": 20.0}, 21.0, VerdictKind.UNDECIDED),
         ({"shift": 20.0}, 40.0, VerdictKind.EXPLAINED),
-        ({"of_means": True}, 21.0, VerdictKind.UNDECIDED),
+        ({"means_of": 2}, 21.0, VerdictKind.UNDECIDED),
         ({}, 21.0, VerdictKind.EXPLAINED),
     ],
 )
