@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from diagnosis.assessment.assess import Assessment, assess
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.assessment.uncertainty.absent_effects import without_absent
+from diagnosis.assessment.uncertainty.hidden_effects import with_hidden_effects
 from diagnosis.criteria import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.noise_reestimation import rescaled
@@ -33,6 +34,7 @@ from diagnosis.selection.contributions import strongest_first
 from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted, refused
 from diagnosis.selection.search_of_log import search_log
+from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdicts.changed import provisional, refuted
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stages import ASSESSING, CHECKING, REPLAYING, in_words
@@ -50,12 +52,14 @@ class Judged:
     Attributes:
       problem, coarse: with the noise from the residual of the best explanation.
       record: record of the search and of the verdict.
+      cut: whether the search was stopped.
     """
 
     problem: FitProblem
     coarse: FitProblem
     verdict: Verdict
     record: tuple[RecordEntry, ...]
+    cut: bool = False
 
 
 def diagnose(
@@ -90,17 +94,12 @@ def diagnose(
         nominal, found = search_log(log, nominal, testable_effects(log), pool)
         nominal = nominal.begun_as(found.problem, found.nominal)
         log = without(nominal.log, found.left_out)
-        told = told_apart(found, pool)
-        cut = bool(stop.left_out)
-        heard(CHECKING, 0, 1)
-        last = _of_another_form(_judged(told, cut=cut), nominal, pool)
-        heard(CHECKING, 1, 1)
-        heard(ASSESSING, 0, 1)
-        assessment = assess(
-            log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, pool
+        last, assessment = _concluded(log, nominal, found, pool)
+        more = with_hidden_effects(
+            found, last.verdict.best.fit, assessment.detection_limits, assessment.parameters, pool
         )
-        last, assessment = _without_absent(last, assessment)
-        heard(ASSESSING, 1, 1)
+        if more.best not in found.candidates:
+            last, assessment = _concluded(log, nominal, more, pool)
         missing, assessment = with_what_is_missing(
             log,
             last.problem,
@@ -119,7 +118,7 @@ def diagnose(
         assessment=assessment,
         missing=missing,
         record=last.record,
-        stopped=_early_stop(stop, cut),
+        stopped=_early_stop(stop, last.cut),
         diagnosed_on=diagnosed_on,
     )
 
@@ -134,6 +133,24 @@ def _nominal_in_time(log: RigLog, stop: StopSignal) -> NominalReplay:
         )
     stop.reserve(REPLAYS_AFTER_STOP * (time.monotonic() - began_s))
     return nominal
+
+
+def _concluded(
+    log: RigLog, nominal: NominalReplay, found: SearchState, workers: Workers
+) -> tuple[Judged, Assessment]:
+    """The verdict on what a search has found, and its assessment."""
+    told, heard = told_apart(found, workers), workers.progress
+    cut = bool(workers.stop.left_out)
+    heard(CHECKING, 0, 1)
+    last = _of_another_form(_judged(told, cut=cut), nominal, workers)
+    heard(CHECKING, 1, 1)
+    heard(ASSESSING, 0, 1)
+    assessment = assess(
+        log, last.problem, last.coarse, nominal.predictions, last.verdict, found.effects, workers
+    )
+    last, assessment = _without_absent(last, assessment)
+    heard(ASSESSING, 1, 1)
+    return last, assessment
 
 
 def _early_stop(stop: StopSignal, search: bool) -> EarlyStop | None:
@@ -199,4 +216,5 @@ def _judged(told: ToldApart, *, cut: bool) -> Judged:
         coarse=told.coarse,
         verdict=verdict,
         record=(*found.record, *judged(told.candidates)),
+        cut=cut,
     )

@@ -85,6 +85,7 @@ STAGES = {
     ASSESSING: _coarse("assessing the best explanation", 0.4, 1, 1),
     "adding another effect": _coarse("adding another effect", 0.03, 24, 24),
     "detection limits": _coarse("computing detection limits", 0.12, 20, 20),
+    "effects that hide": _whole("fitting effects that may hide", 1.0, 0, 0),
     "screening free-form laws": _coarse("screening free-form laws", 0.2, 0, 50),
     "free-form laws": _coarse("fitting free-form laws", 0.3, 0, 10),
     "screening effects beside a free-form law": _coarse(

@@ -23,6 +23,21 @@ def moved_by_hidden(
     Args:
       named: intervals of the parameters of the named effects.
     """
+    for effect, own, interval, value, hidden in _moves(limits, named):
+        yield _told(effect, own, interval, value, hidden, limits[hidden])
+
+
+def hidden_that_move(
+    limits: Mapping[str, DetectionLimit], named: Mapping[str, Mapping[str, Interval]]
+) -> list[str]:
+    """The effects of these warnings."""
+    return list(dict.fromkeys(hidden for *_, hidden in _moves(limits, named)))
+
+
+def _moves(
+    limits: Mapping[str, DetectionLimit], named: Mapping[str, Mapping[str, Interval]]
+) -> Iterator[tuple[str, Parameter, Interval, float, str]]:
+    """Each of these effects and parameters, its interval, what it would be, and beside which effect."""
     for effect, parameters in named.items():
         others = {hidden: limit for hidden, limit in limits.items() if not overlap(hidden, (effect,))}
         for own in LIBRARY[effect].reported:
@@ -32,7 +47,7 @@ def moved_by_hidden(
             moves = {h: value for h, value in near.items() if _by_much(own, interval, value)}
             if moves:
                 most = max(moves, key=lambda hidden: abs(moves[hidden] - interval.value))
-                yield _told(effect, own, interval, most, limits[most], moves[most])
+                yield effect, own, interval, moves[most], most
 
 
 def _by_much(own: Parameter, interval: Interval, value: float) -> bool:
@@ -46,7 +61,7 @@ def _by_much(own: Parameter, interval: Interval, value: float) -> bool:
 
 
 def _told(
-    effect: str, own: Parameter, interval: Interval, hidden: str, limit: DetectionLimit, value: float
+    effect: str, own: Parameter, interval: Interval, value: float, hidden: str, limit: DetectionLimit
 ) -> str:
     units = {p.name: p.unit for p in LIBRARY[hidden].reported}
     strength = ", ".join(f"{name} {_with_unit(v, units[name])}" for name, v in limit.parameters.items())
