@@ -520,9 +520,9 @@ SLIDING_MM_S = 0.05
 
 SIMPLE_LEAD = 10.0
 """Score by which unrelated or richer explanations have to lead: odds of 150 to 1."""
-LATE_LEAD = 20.0
-"""The same where trials began late: their past is taken to be one turn, and what the true one leaves may
-favour either. A choice, twice as much; one log was told wrongly by a lead of 11.3."""
+LATE_LEAD = 10.0
+"""Part of a lead that does not count where trials began late: their past is taken to be one turn, and
+what the true one leaves may favour either. A choice; one log was told wrongly by a lead of 11.3."""
 EQUAL_SCORE = 0.1
 """Score by which two explanations of the same size differ that no log can tell apart: odds of 1.05 to 1,
 what fits leave of their tolerance."""

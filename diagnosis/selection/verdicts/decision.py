@@ -7,7 +7,6 @@ from dataclasses import replace
 from diagnosis.criteria import (
     CLEAR_SHIFT,
     EQUAL_SCORE,
-    LATE_LEAD,
     NESTED_LEAD,
     NOMINAL_LEAD,
     SIMPLE_LEAD,
@@ -17,6 +16,7 @@ from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.verdicts.delay_or_filter import takes_for_a_filter
 from diagnosis.selection.verdicts.ranking import ranking_of
 from diagnosis.selection.verdicts.rivals import (
+    certain_lead,
     clearly_leads,
     differ_in_one_form,
     hardly_led,
@@ -48,8 +48,11 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
         )
     best = _simplest(at_floor)
     reached = min(c.score for c in at_floor if set(c.named) == set(best.named))
-    asked = LATE_LEAD if best.begun_late else SIMPLE_LEAD
-    alike = [c for c in at_floor if c.score - reached <= asked and says_something_else(best, c)]
+    alike = [
+        c
+        for c in at_floor
+        if certain_lead(best, c, reached) <= SIMPLE_LEAD and says_something_else(best, c)
+    ]
     late = [c for c in candidates if takes_for_a_filter(best, c) and may_be_it(best, c, reached)]
     alike += [c for c in late if c not in alike]
     leading = [

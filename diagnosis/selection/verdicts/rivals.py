@@ -5,7 +5,7 @@ Scores of candidates are compared; `reached` is that of the best.
 
 import math
 
-from diagnosis.criteria import LAG_ALONE_SIGMA, NEARLY, NESTED_LEAD, PART_LEAD, SHIFT_LIMIT
+from diagnosis.criteria import LAG_ALONE_SIGMA, LATE_LEAD, NEARLY, NESTED_LEAD, PART_LEAD, SHIFT_LIMIT
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.verdicts.delay_or_filter import lags_little
@@ -45,6 +45,21 @@ def may_be_it(best: Candidate, late: Candidate, reached: float) -> bool:
         return True
     by_chance = LAG_ALONE_SIGMA * math.sqrt(2.0 * samples)
     return not best.named and late.floor.reached and behind <= beyond + by_chance
+
+
+def certain_lead(best: Candidate, other: Candidate, reached: float) -> float:
+    """The lead of the best over another, without what the unknown past of late trials may have made.
+
+    What stiffness and damping would have to be off for the other has nothing to do with that.
+
+    Args:
+      reached: score of the best.
+    """
+    lead, of_priors = other.score - reached, other.fit.prior - best.fit.prior
+    if not best.begun_late:
+        return lead
+    of_readings = lead - max(of_priors, 0.0)
+    return lead - min(max(of_readings, 0.0), LATE_LEAD)
 
 
 def clearly_leads(one: Candidate, reached: float) -> bool:

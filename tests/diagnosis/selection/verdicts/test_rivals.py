@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, held, scored, verdict_of
 
@@ -9,8 +10,33 @@ from diagnosis.criteria import PART_LEAD, SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.verdicts.decision import verdict_on
-from diagnosis.selection.verdicts.rivals import differ_in_one_form, says, says_something_else
+from diagnosis.selection.verdicts.rivals import (
+    certain_lead,
+    differ_in_one_form,
+    says,
+    says_something_else,
+)
 from diagnosis.selection.verdicts.verdict import VerdictKind
+
+SCALES = tuple(LIBRARY[name] for name in SCATTER)
+
+
+@pytest.mark.parametrize(
+    ("begun_late", "of_prior", "certain"),
+    [(False, 0.0, 12.0), (True, 0.0, 2.0), (True, 12.0, 12.0), (True, 5.0, 5.0)],
+    ids=["from rest", "late", "a matter of the prior", "partly"],
+)
+def test_what_the_past_of_late_trials_may_have_made_of_a_lead_does_not_count(
+    begun_late, of_prior, certain
+):
+    best = scored(["base_angle_scale"], 100.0, begun_late=begun_late)
+    fit = fit_of(["tip_angle_scale"], nuisance=SCALES)
+    weights = fit.parameterization.weights
+    off = np.sqrt(of_prior / np.count_nonzero(weights))
+    x = np.where(weights > 0.0, off / np.maximum(weights, 1e-9), fit.x)
+    other = replace(scored(["tip_angle_scale"], 112.0), fit=replace(fit, x=x))
+    assert other.fit.prior == pytest.approx(of_prior)
+    assert certain_lead(best, other, 100.0) == pytest.approx(certain)
 
 
 @pytest.mark.parametrize(("lead", "beside"), [(8, True), (12, False)])
