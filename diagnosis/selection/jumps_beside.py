@@ -56,22 +56,22 @@ def jumps_beside(
 
 
 def _shifted_back(problem: FitProblem, rig: RigParameters, jump: Jump) -> Array:
-    """Residual of a trial whose base did not make a jump.
+    """Change of a trial's residual if its base did not make a jump.
 
     Raises:
       SimulationFailed: the rig cannot be simulated.
     """
     trial = problem.log.trials[jump.number]
     motion_deg = trial.base_motion_deg - jump.size_deg * (trial.time_s >= jump.at_s)
-    log = replace(problem.log, trials=(replace(trial, base_motion_deg=motion_deg),))
-    ((left,),) = replace(problem, log=log).residuals([rig], callback_alone=True)
-    return left
+    log = replace(problem.log, trials=(replace(trial, base_motion_deg=motion_deg), trial))
+    (without,), (as_read,) = replace(problem, log=log).residuals([rig], callback_alone=True)
+    return np.asarray(without - as_read)
 
 
-def _change(fit: Fit, number: int, left: Array) -> Array:
+def _change(fit: Fit, number: int, change: Array) -> Array:
     """Change of all residuals, and of the prior's, by a change of one trial's."""
     changes = [np.zeros_like(own) for own in fit.by_trial]
-    changes[number] = left - fit.by_trial[number]
+    changes[number] = change
     return np.concatenate([*changes, np.zeros(fit.x.size)])
 
 

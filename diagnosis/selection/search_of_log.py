@@ -14,6 +14,7 @@ from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.search import search
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
+from sim.needles.run import SimulationFailed
 
 
 def search_log(
@@ -27,7 +28,7 @@ def search_log(
       effects: that may be tried.
 
     Raises:
-      SimulationFailed: the nominal rig cannot be simulated.
+      SimulationFailed: the nominal rig cannot be simulated on the log as it was read.
     """
     found, explained = _searched(nominal, effects, workers).rechecked()
     if explained or workers.stop.left_out:
@@ -35,8 +36,11 @@ def search_log(
     restored = _restored(log, found, workers)
     if restored is log:
         return nominal, found
-    anew = replay_nominal(restored)
-    again, explained = _searched(anew, effects, workers).rechecked()
+    try:
+        anew = replay_nominal(restored)
+        again, explained = _searched(anew, effects, workers).rechecked()
+    except SimulationFailed as failed:
+        return nominal, found.noting(noted(STAGE, Decision.FAILED, str(failed)))
     if not explained:
         entry = noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with them restored")
         return nominal, found.noting(entry)

@@ -10,6 +10,7 @@ from diagnosis.selection.jumps_beside import STAGE
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search_of_log import search_log
 from diagnosis.workers import Workers
+from sim.needles.run import SimulationFailed
 
 
 def noted(state):
@@ -52,6 +53,18 @@ def test_the_log_is_searched_again_where_jumps_take_off_enough(share, searches, 
     monkeypatch.setattr(module, "jumps_beside", beside)
     search_log(log, before, (), Workers())
     assert len(made) == searches
+
+
+def test_a_rig_that_cannot_be_simulated_with_what_was_restored_stays_as_it_was(monkeypatch):
+    def fail(_):
+        raise SimulationFailed("no step converges")
+
+    log = read(LOST_DEG)
+    before = replay_nominal(log)
+    monkeypatch.setattr(module, "replay_nominal", fail)
+    nominal, found = search_log(log, before, NAMES, Workers())
+    assert nominal is before
+    assert noted(found) == [Decision.FAILED]
 
 
 def test_a_log_that_has_lost_none_is_searched_once(monkeypatch):
