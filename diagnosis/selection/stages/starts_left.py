@@ -89,7 +89,10 @@ def _slowest_s(problem: FitProblem, trial: PreparedTrial) -> float:
 
 
 def _with_pasts(state: SearchState) -> SearchState:
-    """The state of trials that all have a past, to which nothing but that has been fitted."""
+    """The state of trials that all have a past, to which nothing but that has been fitted.
+
+    Fits to the decimated log as it was are left out: its rows are others now.
+    """
     problem = state.problem
     trials = tuple(
         trial if trial.late_start else begun_late(problem.log.rig, trial, 0.0)
@@ -107,5 +110,8 @@ def _with_pasts(state: SearchState) -> SearchState:
         coarse=decimated(problem, replay(log, rig, problem.resolution), rig),
         nominal=nominal,
         candidates=(candidate(nominal),),
+        singles=(),
+        pairs=(),
+        triples=(),
         checked=None,
     )

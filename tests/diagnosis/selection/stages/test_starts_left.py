@@ -9,6 +9,7 @@ from diagnosis_fixtures import joined, log_of, start_of_search, turns
 from diagnosis.criteria import START_LEFT_SHARE
 from diagnosis.log.trial import Trial
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.prepare.noise.drift import AllowedDrift
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.single_effects import single_effects
@@ -55,6 +56,15 @@ def test_a_bent_needle_that_had_come_to_rest_is_explained_by_its_curvature_alone
     assert phase == pytest.approx(BENT.curvature_phase_deg, abs=5.0)
     assert decisions(after) == [Decision.KEPT]
     assert all(trial.late_start for trial in after.problem.log.trials)
+
+
+def test_another_noise_meets_no_fit_of_the_decimated_log_as_it_was(bent):
+    """Its rows are others once trials have a past."""
+    before, after = bent
+    assert before.singles
+    assert (after.singles, after.pairs, after.triples) == ((), (), ())
+    drifting = after.problem.noise.with_drift("tip_angle_deg", AllowedDrift(size=0.1))
+    assert after.renoised(drifting).best.names == after.best.names
 
 
 def test_readings_that_are_not_used_leave_the_log_too(bent):
