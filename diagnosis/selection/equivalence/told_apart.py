@@ -21,7 +21,12 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import Checked, check
-from diagnosis.selection.equivalence.equivalent_sets import Equivalent, covers, equivalent_sets
+from diagnosis.selection.equivalence.equivalent_sets import (
+    Equivalent,
+    Parts,
+    covers,
+    equivalent_sets,
+)
 from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
 from diagnosis.selection.fitting import candidates_of, fit_all
 from diagnosis.selection.scoring.replay_errors import without_replay_errors
@@ -154,11 +159,23 @@ def _fitted(
     sensors = tuple(name for name in best.names if name in IMPERFECTIONS)
     sets = [((*e.names, *sensors), e.parts) for e in equal]
     calls = [
-        (found.problem, names, found.problem.parameterization(names).joined(parts))
+        (found.problem, names, _start(found.problem, best, names, parts))
         for names, parts in sets
         if frozenset(names) not in known
     ]
     return found.adding(fit_all(_STAGE, calls, workers)) if calls else found
+
+
+def _start(problem: FitProblem, best: Candidate, names: tuple[str, ...], parts: Parts) -> Array:
+    """Where the fit of an equivalent set begins: what it shares with the best as there, or as is alike.
+
+    What is open besides, as the past of a trial, is that of the best.
+    """
+    own, known = problem.parameterization(names), best.fit.parts
+    starts = [own.joined(known | parts), own.joined(parts | known)]
+    runs = problem.residuals([own.rig(x) for x in starts], callback_alone=True)
+    left = [sum(float(run[i] @ run[i]) for run in runs) for i in range(len(starts))]
+    return starts[int(np.argmin(left))]
 
 
 def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:

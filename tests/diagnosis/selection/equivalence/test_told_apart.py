@@ -125,3 +125,28 @@ def test_what_takes_the_lead_is_told_from_its_own_equivalents(gain, monkeypatch)
     found = verdict_of(gain, *sorted(ALIKE), damping_error=1.1, stiffness_error=1.1)
     assert found.effects == ("torque_scale",)
     assert ("coulomb_friction",) in found.confusable
+
+
+@pytest.mark.parametrize(
+    ("alike", "begins"), [(1.5, "best"), (2.0, "alike")], ids=["as the best has it", "as is alike"]
+)
+def test_an_equivalent_set_begins_where_less_is_left(alike, begins):
+    """Whatever is open besides is that of the best."""
+    rig = RigParameters(tip_bias_deg=2.0, kinetic_n_mm_per_mm=0.001, damping_scale=1.02)
+    problem = start_of_search(log_of(rig, seconds=4.0), effects=()).problem
+    names = ("tip_angle_bias", "speed_dependent_friction")
+    best = candidate(fit_effects(problem, names))
+    at_bias = best.fit.parts["tip_angle_bias"]
+    shared = at_bias if begins == "alike" else at_bias * alike / 2.0
+    parts = {"tip_angle_bias": shared, "coulomb_friction": best.fit.parts[names[1]]}
+    known = best if begins == "best" else replace(best, fit=_with_bias(best.fit, 0.5 * at_bias))
+    swapped = ("tip_angle_bias", "coulomb_friction")
+    x = module._start(problem, known, swapped, parts)
+    found = problem.parameterization(swapped).parts(x)
+    assert found["tip_angle_bias"] == pytest.approx(at_bias)
+    assert found["damping_error"] == pytest.approx(best.fit.parts["damping_error"])
+
+
+def _with_bias(fit, bias):
+    own = np.array([owner == "tip_angle_bias" for owner in fit.parameterization.owners])
+    return replace(fit, x=np.where(own, bias, fit.x))
