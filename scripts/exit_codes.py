@@ -26,3 +26,12 @@ class ExitCode(IntEnum):
 def in_words() -> str:
     """All codes with their meaning, one line each."""
     return "\n".join(f"  {code.value:>3}  {code.words}" for code in ExitCode)
+
+
+def let_the_code_stand() -> None:
+    """Exit by a code after a Ctrl-C that was handled, also if it came within `exec`.
+
+    CPython takes such a one for unhandled, as in the definition of a data class that is imported: run
+    with `-m`, it ends by the signal all the same. It forgets that with the next `exec`.
+    """
+    exec("")

@@ -10,7 +10,7 @@ from rich.text import Text
 
 from models.errors import InvalidValue, NeedleError
 from scripts.arguments import parsed
-from scripts.exit_codes import ExitCode
+from scripts.exit_codes import ExitCode, let_the_code_stand
 from scripts.output_folder import release_folders
 from scripts.streams import complain, flush_output, give_up_output, show_what_can_be_shown
 from scripts.terminal import terminal
@@ -35,6 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         give_up_output()
         return ExitCode.REFUSED
     except KeyboardInterrupt:
+        let_the_code_stand()
         complain(f"needle {args.command}: interrupted; no incomplete file is left")
         return ExitCode.INTERRUPTED
     finally:

@@ -1,5 +1,8 @@
 """Exit codes: one list, which the help, the docs and the signals follow."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -12,7 +15,8 @@ from scripts.stop_signals import EXIT_CODES
 from sim.files import ResultSet
 from studies.crosscheck.findings import Check, Findings
 
-PAGE = Path(__file__).parents[2] / "docs" / "command-line.md"
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "command-line.md"
 
 
 def test_the_docs_list_every_code_in_the_same_words():
@@ -38,6 +42,24 @@ def test_a_command_exits_by_how_it_ended(what, code, monkeypatch, capsys):
 
     monkeypatch.setattr(insert, "list_protocols", listed)
     assert main(["protocols"]) == code
+
+
+INTERRUPTED_IN_EXEC = """
+import sys
+from scripts import main
+main._run = lambda *_: exec("raise KeyboardInterrupt")
+sys.exit(main.main(["protocols"]))
+"""
+
+
+def test_an_interrupt_within_exec_exits_by_the_code_as_well(tmp_path):
+    """Run with -m, CPython would end by the signal."""
+    (tmp_path / "interrupted.py").write_text(INTERRUPTED_IN_EXEC)
+    path = os.pathsep.join((str(tmp_path), str(ROOT)))
+    command = [sys.executable, "-m", "interrupted"]
+    path_too = {**os.environ, "PYTHONPATH": path}
+    ended = subprocess.run(command, env=path_too, capture_output=True, check=False)
+    assert ended.returncode == ExitCode.INTERRUPTED, ended.stderr
 
 
 @pytest.mark.parametrize(("measured", "code"), [(1.0, ExitCode.DONE), (2.0, ExitCode.BOUND_FAILS)])
