@@ -138,6 +138,7 @@ class Effect:
       differences: steps of finite differences, in the units of the fit, for one fit after the
         other. A wide step averages over the roughness that stick and slip cause in a residual.
       trial: the only trial that it concerns; empty: all.
+      differs: whether its strength may be another one in each trial.
       remedy: what to change in rig or model if it is found, as an instruction; values of parameters by
         name in braces, that of `corrects` as {constant}.
       corrects: constant of rig.yaml whose true value is the nominal one times the first parameter.
@@ -154,6 +155,7 @@ class Effect:
     needs: str = ""
     differences: tuple[float, ...] = (1e-3,)
     trial: str = ""
+    differs: bool = False
     remedy: str = ""
     corrects: str = ""
     check: str = ""

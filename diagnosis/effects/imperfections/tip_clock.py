@@ -19,4 +19,5 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="tip_angle_deg",
+    differs=True,
 )

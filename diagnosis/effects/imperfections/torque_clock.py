@@ -19,4 +19,5 @@ EFFECT = Effect(
     ),
     apply=_apply,
     needs="base_torque_n_mm",
+    differs=True,
 )

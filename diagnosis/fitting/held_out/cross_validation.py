@@ -20,7 +20,6 @@ from diagnosis.replay.replay import predict, residuals
 
 Array = NDArray[np.float64]
 
-_MAY_DIFFER = (*CONVENTIONS, "tip_clock", "torque_clock")
 _AT_BOUND = 1e-6  # from a bound, in the units of the fit
 _RIDGE = 3e-5  # on what nothing else tells
 
@@ -80,7 +79,9 @@ def _own(fit: Fit, trial: int) -> NDArray[np.int_]:
 
 def told_by_others(fit: Fit, trial: int) -> NDArray[np.int_]:
     """Indices of entries that are fitted again without a trial."""
-    found = np.array([owner not in _MAY_DIFFER for owner in fit.parameterization.owners], bool)
+    own = fit.parameterization
+    as_fitted = {*CONVENTIONS, *(effect.name for effect in own.all if effect.differs)}
+    found = np.array([owner not in as_fitted for owner in own.owners], bool)
     found[_own(fit, trial)] = False
     return np.flatnonzero(found)
 

@@ -18,6 +18,7 @@ from diagnosis.criteria import CONTENDING, SCATTER, SIMPLE_LEAD
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.checked import Checked, check
@@ -28,13 +29,14 @@ from diagnosis.selection.equivalence.equivalent_sets import (
     equivalent_sets,
 )
 from diagnosis.selection.equivalence.weak_forms import WeakForm, weak_forms, with_their_scores
-from diagnosis.selection.fitting import candidates_of, fit_all
+from diagnosis.selection.fitting import candidates_of, fit_in_turn
 from diagnosis.selection.scoring.replay_errors import without_replay_errors
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdicts.changed import with_open_effects
 from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind, distinct
 from diagnosis.workers import Failure, Task, Workers
+from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
 
@@ -159,23 +161,34 @@ def _fitted(
     sensors = tuple(name for name in best.names if name in IMPERFECTIONS)
     sets = [((*e.names, *sensors), e.parts) for e in equal]
     calls = [
-        (found.problem, names, _start(found.problem, best, names, parts))
+        (found.problem, names, parts, best.fit.parts)
         for names, parts in sets
         if frozenset(names) not in known
     ]
-    return found.adding(fit_all(_STAGE, calls, workers)) if calls else found
+    tasks = [Task(effects=call[1], arguments=call) for call in calls]
+    return found.adding(candidates_of(_STAGE, workers.each(_STAGE, _fit, tasks))) if tasks else found
 
 
-def _start(problem: FitProblem, best: Candidate, names: tuple[str, ...], parts: Parts) -> Array:
-    """Where the fit of an equivalent set begins: what it shares with the best as there, or as is alike.
+def _fit(problem: FitProblem, names: tuple[str, ...], alike: Parts, best: Parts) -> Fit:
+    """The fit of an equivalent set: what it shares with the best begins as there, or as is alike.
 
     What is open besides, as the past of a trial, is that of the best.
+
+    Raises:
+      SimulationFailed: as `fit_effects`.
     """
-    own, known = problem.parameterization(names), best.fit.parts
-    starts = [own.joined(known | parts), own.joined(parts | known)]
-    runs = problem.residuals([own.rig(x) for x in starts], callback_alone=True)
-    left = [sum(float(run[i] @ run[i]) for run in runs) for i in range(len(starts))]
-    return starts[int(np.argmin(left))]
+    own = problem.parameterization(names)
+    starts = [own.joined(parts) for parts in (best | alike, alike | best)]
+    return fit_in_turn(problem, names, min(starts, key=lambda x: _left(problem, own, x)))
+
+
+def _left(problem: FitProblem, own: Parameterization, x: Array) -> float:
+    """Sum of squares of the residuals there; infinite, if that cannot be simulated."""
+    try:
+        runs = problem.residuals([own.rig(x)], callback_alone=True)
+    except SimulationFailed:
+        return np.inf
+    return sum(float(run @ run) for (run,) in runs)
 
 
 def _beside(verdict: Verdict, alike: Sequence[tuple[str, ...]]) -> Verdict:

@@ -9,6 +9,7 @@ from diagnosis.selection import search_of_log as module
 from diagnosis.selection.jumps_beside import STAGE
 from diagnosis.selection.record import Decision
 from diagnosis.selection.search_of_log import search_log
+from diagnosis.stages import STAGES
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
 
@@ -25,6 +26,7 @@ def test_counts_that_an_effect_hides_from_the_nominal_rig_are_restored():
     assert found.rechecked()[1]
     assert found.best.names == NAMES
     assert noted(found) == [Decision.KEPT]
+    assert STAGE in STAGES
     (warning,) = [warning for warning in nominal.log.warnings if "lost counts" in warning]
     assert "trial_02.csv" in warning
 

@@ -15,6 +15,7 @@ from diagnosis.selection.equivalence.told_apart import told_apart
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StopReason, StopSignal
 from diagnosis.workers import Workers
+from sim.needles.run import SimulationFailed
 
 EFFECTS = ("damping_error", "stiffness_error", "torque_scale", "coulomb_friction")
 WORKERS = Workers()
@@ -130,7 +131,7 @@ def test_what_takes_the_lead_is_told_from_its_own_equivalents(gain, monkeypatch)
 @pytest.mark.parametrize(
     ("alike", "begins"), [(1.5, "best"), (2.0, "alike")], ids=["as the best has it", "as is alike"]
 )
-def test_an_equivalent_set_begins_where_less_is_left(alike, begins):
+def test_an_equivalent_set_begins_where_less_is_left(alike, begins, monkeypatch):
     """Whatever is open besides is that of the best."""
     rig = RigParameters(tip_bias_deg=2.0, kinetic_n_mm_per_mm=0.001, damping_scale=1.02)
     problem = start_of_search(log_of(rig, seconds=4.0), effects=()).problem
@@ -141,10 +142,31 @@ def test_an_equivalent_set_begins_where_less_is_left(alike, begins):
     parts = {"tip_angle_bias": shared, "coulomb_friction": best.fit.parts[names[1]]}
     known = best if begins == "best" else replace(best, fit=_with_bias(best.fit, 0.5 * at_bias))
     swapped = ("tip_angle_bias", "coulomb_friction")
-    x = module._start(problem, known, swapped, parts)
-    found = problem.parameterization(swapped).parts(x)
+    begun = []
+    monkeypatch.setattr(module, "fit_in_turn", lambda problem, names, x: begun.append(x))
+    module._fit(problem, swapped, parts, known.fit.parts)
+    found = problem.parameterization(swapped).parts(begun[0])
     assert found["tip_angle_bias"] == pytest.approx(at_bias)
     assert found["damping_error"] == pytest.approx(best.fit.parts["damping_error"])
+
+
+def test_a_start_that_cannot_be_simulated_is_not_taken(monkeypatch):
+    """Nor does it end the diagnosis."""
+    problem = start_of_search(log_of(RigParameters(), seconds=2.0), effects=()).problem
+    names, begun = ("tip_angle_bias",), []
+    own = problem.parameterization(names)
+    bad, good = ({"tip_angle_bias": np.array([bias])} for bias in (0.1, 3.0))
+
+    def residuals(_, rigs, **__):
+        if rigs[0] == own.rig(own.joined(bad)):
+            raise SimulationFailed("no step converges")
+        return [[np.ones(3)]]
+
+    monkeypatch.setattr(type(problem), "residuals", residuals)
+    monkeypatch.setattr(module, "fit_in_turn", lambda problem, names, x: begun.append(x))
+    for alike, best in ((bad, good), (good, bad)):
+        module._fit(problem, names, alike, best)
+    assert [own.parts(x)["tip_angle_bias"] for x in begun] == [good["tip_angle_bias"]] * 2
 
 
 def _with_bias(fit, bias):
