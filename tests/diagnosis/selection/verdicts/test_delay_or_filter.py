@@ -97,10 +97,10 @@ def test_a_filter_beside_nothing_else_stays_open():
 @pytest.mark.parametrize(
     ("beside", "behind", "gap", "kind"),
     [
-        ([], 85.0, 1.01, VerdictKind.UNDECIDED),
-        ([], 95.0, 1.01, VerdictKind.NONE),
-        ([], 85.0, 1.2, VerdictKind.NONE),
-        ([BIAS], 85.0, 1.01, VerdictKind.EXPLAINED),
+        ([], 40.0, 1.01, VerdictKind.UNDECIDED),
+        ([], 50.0, 1.01, VerdictKind.NONE),
+        ([], 40.0, 1.2, VerdictKind.NONE),
+        ([BIAS], 40.0, 1.01, VerdictKind.EXPLAINED),
     ],
     ids=["alone", "led by more", "above the floor", "beside an effect"],
 )
