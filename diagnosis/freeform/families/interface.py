@@ -34,10 +34,11 @@ PARTS = 6  # of the inserted length
 TURN_DEG, WAVES = 360.0, 8
 INTERFACE = {Place.INTERFACE: 1.0}
 DAMPING = {Place.TISSUE: 0.55, Place.INTERFACE: 0.45}
-"""Damping that differs from place to place or changes is likelier that of the tissue, as in layers."""
+"""Damping that differs from place to place is likelier that of the tissue, as in layers."""
 FILM = {Place.INTERFACE: 0.55, Place.TISSUE: 0.45}
-"""Damping that depends on how the shaft slides or slips is likelier that of the film around it."""
-_OF_SLIDING = (Variable.AXIAL_SPEED, *LATELY)
+"""Damping that changes with time, or with how the shaft slides or slips, is likelier that of the film
+around it, which dries or warms."""
+_OF_FILM = (Variable.TIME, Variable.TRIAL_SHARE, Variable.AXIAL_SPEED, *LATELY)
 _WHEN = dict.fromkeys(LATELY, " after sliding")
 _SIDE = Parameter(name="asymmetry", unit="-", low=-0.95, high=0.95, start=(0.0, 0.3, -0.3))
 
@@ -70,7 +71,7 @@ def level_of(ranges: LogRanges) -> Parameter:
 def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:
     beta = ranges.damping_n_mm_s_per_mm
     places = INTERFACE if variable is Variable.BASE_ANGLE else DAMPING
-    places = FILM if variable in _OF_SLIDING else places
+    places = FILM if variable in _OF_FILM else places
     once_a_turn = f", every {curve.period:.3g} deg" if curve.period else ""
 
     return Family(
