@@ -1,91 +1,53 @@
 """An encoder of the base that loses counts: its reading jumps, and the shaft does not.
 
-Between two samples the reading moves by more than on either side,
+Whether the shaft has moved so is for the other sensors to say: where a rig leaves clearly less of them
+once the readings after the jump are shifted back, counts were lost. A fast turn of the shaft would leave
+far more.
 
-    jump = move - move clipped to what lies between those at the median rates just before and after it,
+By how much is then for all sensors to say: the jump as it was read, which scatters by s, and N readings
+r of the others, in sigma, whose squares change as a parabola of what is shifted back,
 
-far beyond its scatter, while moves on either side are steady: a shaft gains speed over several. Across
-a gap in the time nothing is told. Whether the shaft has moved so is for the other sensors to say: where
-a rig leaves clearly less of them once the readings after the jump are shifted back, counts were lost. A
-fast turn of the shaft would leave far more.
+    (size - read)^2 / s^2 + N mean(r^2) / max(m, 1)  ->  least,
+
+m the mean of r^2 at the size as it was read, so that what a missing effect leaves weighs little.
 
 The nominal rig shows large jumps before anything else is known. Those that an effect hides from it, and
 small ones, show beside what the search has found (diagnosis.selection.jumps_beside).
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.ndimage import percentile_filter
 
-from diagnosis.criteria import (
-    LOST_COUNTS_BESIDE,
-    LOST_COUNTS_LEAST_DEG,
-    LOST_COUNTS_LEAVES,
-    LOST_COUNTS_MOST,
-    LOST_COUNTS_MOST_SMALL,
-    LOST_COUNTS_SIGMA,
-    LOST_COUNTS_SMALL_SIGMA,
-    LOST_COUNTS_STEADY,
-    LOST_COUNTS_STEP,
-)
+from diagnosis.criteria import LOST_COUNTS_LEAVES, LOST_COUNTS_MOST
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
+from diagnosis.prepare.motion.base_jumps import BASE, Jump, large_jumps
 
 Array = NDArray[np.float64]
 
-_BASE = "base_angle_deg"
-_NEAR, _USUAL = 101, 67  # moves of which a jump sticks out; percentile: of noise, a third are no jumps
-LeftOf = Callable[[RigLog], float]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Jump:
-    """A jump of the base's reading.
-
-    Attributes:
-      number: of the trial.
-      sample: first one after it.
-      at_s: its time.
-    """
-
-    number: int
-    sample: int
-    at_s: float
-    size_deg: float
-
-    def times(self, share: float) -> "Jump":
-        """A jump there of a share of its size."""
-        return replace(self, size_deg=share * self.size_deg)
+_FURTHEST = 3.0  # that a size is from the reading, in its scatter
+LeftOf = Callable[[RigLog], Array]
 
 
 def with_counts_restored(log: RigLog, left_of: LeftOf) -> RigLog:
     """The log with the readings of the base shifted back by what its encoder lost, and warnings.
 
     Args:
-      left_of: mean square / noise of what the nominal rig leaves of a log with one trial.
+      left_of: what the nominal rig leaves of a log with one trial, in sigma, NaN where nothing is read.
     """
-    jumps = _jumps(log, LOST_COUNTS_SIGMA, LOST_COUNTS_LEAST_DEG, steady=True)
     left = dict[int, float]()
-    for jump in jumps[:LOST_COUNTS_MOST]:
+    for jump in large_jumps(log)[:LOST_COUNTS_MOST]:
         trial = log.trials[jump.number]
         if jump.number not in left:
-            left[jump.number] = left_of(_alone(log, trial))
-        after = left_of(_alone(log, _shifted(trial, jump)))
+            left[jump.number] = _squares(left_of(_alone(log, trial)))
+        after = _squares(left_of(_alone(log, _shifted(trial, jump))))
         if after < LOST_COUNTS_LEAVES**2 * left[jump.number]:
+            log = _restored(log, _sized(log, jump, left_of))
             left[jump.number] = after
-            log = _restored(log, jump)
     return log
-
-
-def small_jumps(log: RigLog) -> list[Jump]:
-    """Jumps that only an explanation may tell from noise: the largest of each trial."""
-    jumps = _jumps(log, LOST_COUNTS_SMALL_SIGMA, 0.0, steady=False)
-    by_trial = ([j for j in jumps if j.number == number] for number in range(len(log.trials)))
-    return [jump for own in by_trial for jump in own[:LOST_COUNTS_MOST_SMALL]]
 
 
 def with_jumps_restored(log: RigLog, jumps: Sequence[Jump]) -> RigLog:
@@ -93,6 +55,22 @@ def with_jumps_restored(log: RigLog, jumps: Sequence[Jump]) -> RigLog:
     for jump in jumps:
         log = _restored(log, jump)
     return log
+
+
+def _sized(log: RigLog, jump: Jump, left_of: LeftOf) -> Jump:
+    """The jump with its likeliest size, from the reading and from what other sizes would leave."""
+    trial, step = log.trials[jump.number], jump.scatter_deg / jump.size_deg
+    each = [left_of(_alone(log, _shifted(trial, jump.times(1.0 + n * step)))) for n in (-1, 0, 1)]
+    less, read, more = (_squares(left) for left in each)
+    weight = np.isfinite(each[1]).sum() / max(read, 1.0)
+    slope, bend = weight * (more - less) / 2.0, weight * max(more - 2.0 * read + less, 0.0)
+    off = float(np.clip(-slope / (bend + 2.0), -_FURTHEST, _FURTHEST))  # in the scatter
+    return jump.times(1.0 + off * step)
+
+
+def _squares(left: Array) -> float:
+    """Mean square of what is left; 0: nothing is read."""
+    return float(np.nanmean(left**2)) if np.isfinite(left).any() else 0.0
 
 
 def _alone(log: RigLog, trial: Trial) -> RigLog:
@@ -106,57 +84,15 @@ def _restored(log: RigLog, jump: Jump) -> RigLog:
     return replace(log, trials=tuple(trials), warnings=(*log.warnings, _said(trial, jump)))
 
 
-def _jumps(log: RigLog, least_sigma: float, least_deg: float, *, steady: bool) -> list[Jump]:
-    """Those of all trials, largest first.
-
-    Args:
-      least_sigma, least_deg: least size, in usual jumps and in deg.
-      steady: whether only those between steady moves.
-    """
-    sigma_deg = log.rig.sensors.base_angle_noise_deg
-    found = list[Jump]()
-    for number, trial in enumerate(log.trials):
-        samples, jumps = _jumps_of(trial["time_s"], trial[_BASE], steady=steady)
-        usual_deg = percentile_filter(np.abs(jumps), _USUAL, size=_NEAR) if jumps.size else jumps
-        least = np.maximum(least_sigma * np.maximum(usual_deg, sigma_deg), least_deg)
-        for i in np.flatnonzero(np.abs(jumps) > least):
-            sample = int(samples[i])
-            at_s = float(trial["time_s"][sample])
-            found.append(Jump(number=number, sample=sample, at_s=at_s, size_deg=float(jumps[i])))
-    return sorted(found, key=lambda jump: -abs(jump.size_deg))
-
-
-def _jumps_of(time_s: Array, base_deg: Array, *, steady: bool) -> tuple[NDArray[np.intp], Array]:
-    """First samples after moves that may be jumps, and by how much these are more than those beside."""
-    moves, beside = np.diff(base_deg), LOST_COUNTS_BESIDE
-    if moves.size < 4 * beside:
-        return np.zeros(0, np.intp), np.zeros(0)
-    steps_s = np.diff(time_s)
-    medians = np.median(sliding_window_view(moves / steps_s, beside), axis=1)
-    here = np.arange(beside, moves.size - beside)
-    before, after = (medians[i] * steps_s[here] for i in (here - beside, here + 1))
-    jumps = moves[here] - np.clip(moves[here], np.minimum(before, after), np.maximum(before, after))
-    even = steps_s[here] < LOST_COUNTS_STEP * np.median(steps_s)
-    if steady:
-        most = np.maximum(_range_of(moves, here - beside), _range_of(moves, here + 1))
-        even &= most < LOST_COUNTS_STEADY * np.abs(jumps)
-    return here + 1, np.where(even, jumps, 0.0)
-
-
-def _range_of(moves: Array, first: NDArray[np.intp]) -> Array:
-    """Largest less smallest of a few moves from each of the first ones on, (N,)."""
-    return np.asarray(np.ptp(sliding_window_view(moves, LOST_COUNTS_BESIDE)[first], axis=1))
-
-
 def _shifted(trial: Trial, jump: Jump) -> Trial:
-    base = trial[_BASE].copy()
+    base = trial[BASE].copy()
     base[jump.sample :] -= jump.size_deg
-    return replace(trial, table=trial.table.assign(**{_BASE: base}))
+    return replace(trial, table=trial.table.assign(**{BASE: base}))
 
 
 def _said(trial: Trial, jump: Jump) -> str:
     return (
-        f"{trial.name}: {_BASE} jumps by {jump.size_deg:.3g} deg at {jump.at_s:.3f} s, and the other "
+        f"{trial.name}: {BASE} jumps by {jump.size_deg:.3g} deg at {jump.at_s:.3f} s, and the other "
         "sensors say that the shaft did not (lost counts); readings after it are shifted back by as "
         "much: check the encoder and its cable"
     )

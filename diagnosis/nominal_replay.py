@@ -142,13 +142,13 @@ def _begun_as_read(slow: PreparedLog, log: RigLog, noise: Noise) -> PreparedLog:
     return begun_as(slow, _begun(prepared, replay(prepared), as_read))
 
 
-def _left_by_the_nominal_rig(log: RigLog) -> float:
-    """Mean square of what the nominal rig leaves, in units of the claimed noise."""
+def _left_by_the_nominal_rig(log: RigLog) -> Array:
+    """What the nominal rig leaves of all sensors, in units of the claimed noise, (N,)."""
     claims = log.rig.sensors.by_column()
     prepared, _ = prepare(in_low_band(averaged(log)))
     left = _residuals(prepared, replay(prepared))
     each = [values / (claims[s] or 1.0) for s, parts in left.items() for _, values in parts]
-    return float(np.nanmean(np.concatenate(each) ** 2)) if each else 0.0
+    return np.concatenate(each) if each else np.zeros(0)
 
 
 def _noise(

@@ -1,8 +1,9 @@
 """Counts that the encoder of the base has lost, beside an explanation: which jumps, and by how much.
 
-Each jump of the reading (diagnosis.lost_counts) is shifted back in the motion that drives the needle,
-and the trial is replayed: that changes the residual r by d. The explanation has taken up a part of what
-was lost, so that its parameters, of slopes J, answer. Of all jumps the one is taken that removes most,
+Each jump of the reading (prepare.motion.base_jumps) is shifted back in the motion that drives the
+needle, and the trial is replayed: that changes the residual r by d. The explanation has taken up a part
+of what was lost, so that its parameters, of slopes J, answer. Of all jumps the one is taken that removes
+most,
 
     gain = (d' r)^2 / d' d,    d and r without what J and jumps that were taken explain,
 
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from diagnosis.criteria import LOST_COUNTS_GAIN
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.lost_counts import Jump
+from diagnosis.prepare.motion.base_jumps import Jump
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Failure, Task, Workers
 

@@ -7,8 +7,9 @@ search has found it shows. What is restored so counts only where it brings an ex
 from diagnosis.criteria import LOST_COUNTS_SHARE
 from diagnosis.fitting.decimation import decimated
 from diagnosis.log.rig_log import RigLog
-from diagnosis.lost_counts import small_jumps, with_jumps_restored
+from diagnosis.lost_counts import with_jumps_restored
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
+from diagnosis.prepare.motion.base_jumps import small_jumps
 from diagnosis.selection.jumps_beside import STAGE, jumps_beside
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.search import search

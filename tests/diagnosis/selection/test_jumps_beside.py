@@ -4,8 +4,8 @@ import pytest
 from lossy_logs import AT, LOST_DEG, NAMES, read
 
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.lost_counts import small_jumps
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.prepare.motion.base_jumps import small_jumps
 from diagnosis.selection.jumps_beside import jumps_beside
 from diagnosis.workers import Workers
 

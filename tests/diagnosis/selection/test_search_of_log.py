@@ -3,8 +3,8 @@
 import pytest
 from lossy_logs import LOST_DEG, NAMES, read
 
-from diagnosis.lost_counts import small_jumps
 from diagnosis.nominal_replay import replay_nominal
+from diagnosis.prepare.motion.base_jumps import small_jumps
 from diagnosis.selection import search_of_log as module
 from diagnosis.selection.jumps_beside import STAGE
 from diagnosis.selection.record import Decision
