@@ -119,6 +119,15 @@ class Layer(Record):
         return self
 
 
+class Section(Record):
+    """A section of the shaft with a law of its own, as far as it is inserted: a worn coating, say."""
+
+    interface: Interface
+    from_tip_mm: NonNegative
+    """Its end towards the tip."""
+    length_mm: Positive
+
+
 class Tissue(Record):
     """Layers along the depth, and the friction where the shaft enters."""
 
@@ -128,6 +137,8 @@ class Tissue(Record):
     """Dry torque in one place, where the shaft enters."""
     throughout: tuple[Interface, ...] = ()
     """Further laws over the whole inserted length."""
+    sections: tuple[Section, ...] = ()
+    """Further laws of sections of the shaft."""
     at_tip: tuple[Interface, ...] = ()
     """Laws in one place, at the tip: their torques are N mm in place of N mm per mm."""
     at_entry: tuple[Interface, ...] = ()

@@ -9,7 +9,7 @@ from models import units
 from models.contact import ContactCurve, ContactVariable
 from models.drive import Drive
 from models.needle import Needle
-from models.tissue import Interface, Layer, Tissue
+from models.tissue import Interface, Layer, Section, Tissue
 from sim.kernel import memory_map
 
 Array = NDArray[np.float64]
@@ -46,6 +46,7 @@ def law_table(needle: Needle, drive: Drive, tissue: Tissue, *, rows: int = 0) ->
     """
     table = _layers(tissue.layers, needle)
     table += [_over_inserted_length(law) for law in tissue.throughout]
+    table += [_section(section) for section in tissue.sections]
     table += [_at_tip(law) for law in tissue.at_tip]
     table += [_at_entry(law) for law in tissue.at_entry]
     table += [_over_free_length(law) for law in drive.in_sheath]
@@ -99,6 +100,15 @@ def _layers(layers: tuple[Layer, ...], needle: Needle) -> list[Array]:
 def _over_inserted_length(law: Interface) -> Array:
     row = _interface(law)
     row[[memory_map.L_TOP_FREE, memory_map.L_END_FREE, memory_map.L_END_INSERTED]] = 1.0
+    return row
+
+
+def _section(section: Section) -> Array:
+    """From the tip backwards; not beyond the place where the shaft enters."""
+    row = _over_inserted_length(section.interface)
+    row[memory_map.L_TOP_INSERTED] = 1.0
+    row[memory_map.L_TOP_CONST] = -(section.from_tip_mm + section.length_mm) * units.MM
+    row[memory_map.L_END_CONST] = -section.from_tip_mm * units.MM
     return row
 
 

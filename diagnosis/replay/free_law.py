@@ -41,7 +41,7 @@ from diagnosis.replay.variables import Variable
 from models.contact import ContactCurve
 from models.drive import Drive
 from models.needle import Needle
-from models.tissue import Interface, Tissue
+from models.tissue import Interface, Section, Tissue
 from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
@@ -56,7 +56,7 @@ _TORQUES = (
     "orientation_viscous_n_mm_s_per_mm",
     "orientation_dry_n_mm_per_mm",
 )
-_ADDED = ("curves", "throughout", "at_tip", "at_entry", "in_sheath")
+_ADDED = ("curves", "throughout", "sections", "at_tip", "at_entry", "in_sheath")
 _RECORDS = ("shaft", "grip")
 _OF_TORQUE = (Variable.TORQUE, Variable.PAST)  # curves of the drive
 _OF_TIP = (ActsOn.TIP_READING, ActsOn.TIP_GAIN)
@@ -80,7 +80,7 @@ class FreeLaw:
       shaft: another shaft of the needle.
       contact: factors on the torque of the nominal tissue over what a contact has been through.
       grip: of the chuck, or of the tissue's holder, which gives way.
-      throughout, at_tip, at_entry: additional laws (models.tissue).
+      throughout, sections, at_tip, at_entry: additional laws (models.tissue).
       in_sheath: additional laws of the free shaft (models.drive).
 
     Raises:
@@ -98,6 +98,7 @@ class FreeLaw:
     contact: ContactCurve | None = None
     grip: FreeGrip = FreeGrip()  # noqa: RUF009 - frozen
     throughout: tuple[Interface, ...] = ()
+    sections: tuple[Section, ...] = ()
     at_tip: tuple[Interface, ...] = ()
     at_entry: tuple[Interface, ...] = ()
     in_sheath: tuple[Interface, ...] = ()
@@ -112,7 +113,7 @@ class FreeLaw:
     @property
     def more_rows(self) -> int:
         """Number of additional rows in the law table."""
-        laws = (self.throughout, self.at_tip, self.at_entry, self.in_sheath)
+        laws = (self.throughout, self.sections, self.at_tip, self.at_entry, self.in_sheath)
         return sum(map(len, laws)) + self.along_depth.parts
 
     def times(self, strength: float) -> "FreeLaw":
@@ -132,6 +133,9 @@ class FreeLaw:
             grip=self.grip.times(strength),
             contact=_raised(self.contact, strength) if self.contact else None,
             throughout=tuple(_stronger(law, strength) for law in self.throughout),
+            sections=tuple(
+                own.but(interface=_stronger(own.interface, strength)) for own in self.sections
+            ),
             at_tip=tuple(_stronger(law, strength) for law in self.at_tip),
             at_entry=tuple(_stronger(law, strength) for law in self.at_entry),
             in_sheath=tuple(_stronger(law, strength) for law in self.in_sheath),
@@ -191,7 +195,11 @@ class FreeLaw:
             changes |= {"rate_curve": self.rate_curve, "rate_range_rad_s": self.rate_range_rad_s}
         shaped = tuple(layer.but(interface=layer.interface.but(**changes)) for layer in layers)
         whole: Tissue = tissue.but(
-            layers=shaped, throughout=self.throughout, at_tip=self.at_tip, at_entry=self.at_entry
+            layers=shaped,
+            throughout=self.throughout,
+            sections=self.sections,
+            at_tip=self.at_tip,
+            at_entry=self.at_entry,
         )
         return whole
 

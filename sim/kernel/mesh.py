@@ -70,7 +70,7 @@ def cover(
         + row[memory_map.L_TOP_FREE] * free
         + row[memory_map.L_TOP_INSERTED] * inserted
     )
-    top = _clip(top, 0.0, x[n])
+    top = _clip(top, row[memory_map.L_TOP_FREE] * free, x[n])
     near = 1e-9 * (x[n] - x[0])
     if row[memory_map.L_POINT] != 0.0:
         if top >= free + inserted - near:

@@ -5,7 +5,7 @@ import pytest
 
 from models.drive import Drive
 from models.needle import NITINOL
-from models.tissue import Interface, Layer, Tissue
+from models.tissue import Interface, Layer, Section, Tissue
 from sim.kernel import memory_map as column
 from sim.law_table import law_table
 
@@ -77,3 +77,12 @@ def test_padding_rows_have_no_friction_and_only_fill_up():
 def test_a_table_that_others_may_share_cannot_be_changed():
     with pytest.raises(ValueError, match="read-only"):
         law_table(NITINOL, Drive(), VISCOUS)[0, 0] = 1.0
+
+
+@pytest.mark.parametrize(("free", "inserted"), [(50.0, 100.0), (80.0, 60.0)])
+def test_a_section_of_the_shaft_moves_with_its_tip(free, inserted):
+    section = Section(interface=Interface(kinetic_n_mm_per_mm=2e-3), from_tip_mm=10.0, length_mm=30.0)
+    row = law_table(NITINOL, Drive(), VISCOUS.but(sections=(section,)))[1]
+    ends = [end_mm(row, which, free=free, inserted=inserted) for which in ("TOP", "END")]
+    assert ends == pytest.approx([free + inserted - 40.0, free + inserted - 10.0])
+    assert row[column.L_KINETIC] == pytest.approx(2e-3)

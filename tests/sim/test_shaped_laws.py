@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from models.drive import Drive
 from models.errors import InvalidValue
 from models.needle import STIFFNESS_POINTS, Needle
-from models.tissue import RATE_POINTS, Interface, Layer, Tissue
+from models.tissue import RATE_POINTS, Interface, Layer, Section, Tissue
 from sim.discretisation import Arrangement, Discretisation
 from sim.kernel import memory_map
 from sim.needles.run import Run
@@ -132,6 +132,19 @@ def test_a_law_at_the_tip_acts_there_alone() -> None:
     assert steady_n_mm(run) == pytest.approx(torque, rel=1e-5)
     lag_deg = math.degrees(torque * (10.0 + LENGTH_MM) / NEEDLE.rigidity_n_mm2)
     assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-4)
+
+
+@pytest.mark.parametrize(("from_tip_mm", "inside_mm"), [(20.0, 30.0), (LENGTH_MM - 10.0, 10.0)])
+def test_a_law_of_a_section_acts_where_that_is_inserted(from_tip_mm: float, inside_mm: float) -> None:
+    """A torque per length t over a length l, whose middle is x from the chuck, twists by t l x / GJ."""
+    law = Interface(viscous_n_mm_s_per_mm=0.02, kinetic_n_mm_per_mm=0.004)
+    section = Section(interface=law, from_tip_mm=from_tip_mm, length_mm=30.0)
+    run = turned(Tissue(layers=(Layer(interface=Interface()),), sections=(section,)))
+    torque = (0.02 * RATE + 0.004) * inside_mm
+    assert steady_n_mm(run) == pytest.approx(torque, rel=1e-5)
+    middle_mm = 10.0 + LENGTH_MM - from_tip_mm - inside_mm / 2.0
+    lag_deg = math.degrees(torque * middle_mm / NEEDLE.rigidity_n_mm2)
+    assert run.base_deg[-1] - run.tip_deg[-1] == pytest.approx(lag_deg, rel=1e-2)
 
 
 def test_a_law_where_the_shaft_enters_acts_there_alone() -> None:

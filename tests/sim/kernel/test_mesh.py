@@ -43,3 +43,14 @@ def test_a_mesh_fixed_to_the_tissue_stretches_only_its_free_part():
     mesh, x = np.array([0, 0.5, 1.0, 1.5, 2.0]), np.zeros(5)
     place_nodes(head, mesh, 1.2, x)
     assert x == pytest.approx([0, 0.6, 1.2, 1.7, 2.2])
+
+
+@pytest.mark.parametrize(("middle", "covered"), [(0.6, 0.4), (0.35, 0.25), (0.2, 0.1), (0.05, 0.0)])
+def test_what_begins_in_the_tissue_does_not_reach_out_of_it(middle, covered):
+    """A section of 0.4 about a place of a shaft whose first 0.3 are free."""
+    free = 0.3
+    row = _row(middle - 0.2 - free, middle + 0.2 - free)
+    row[[memory_map.L_TOP_FREE, memory_map.L_END_FREE]] = 1.0
+    loads, point = np.zeros((8, 4)), np.zeros(2)
+    cover(row, np.linspace(0, 1, 9), free, 0.7, True, loads, point)
+    assert loads.sum() == pytest.approx(covered)

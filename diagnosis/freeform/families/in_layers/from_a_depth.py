@@ -1,0 +1,115 @@
+"""Free laws of tissue that is another from a depth below the surface on.
+
+- damping
+- dry friction in addition
+
+Layers of one thickness blur where it begins; here the depth is fitted.
+"""
+
+from dataclasses import replace
+from functools import partial
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import level_of
+from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.replay.along_depth import AlongDepth
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+
+_FROM = (0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85)
+"""Of the greatest depth, where it is looked for."""
+_TIMES = (2.0, 0.5)  # the damping above it
+_STEP_MM = 1e-3  # from one side to the other as it is drawn
+_DIFFERENCES = (1e-1, 1e-2)
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """Both laws; at one inserted length the first is an effect of the library (two layers)."""
+    deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
+    friction = _friction(deepest, ranges)
+    return (friction, _damping(deepest, ranges)) if Variable.DEPTH in ranges.ends else (friction,)
+
+
+def _depth(deepest_mm: float, starts: int) -> Parameter:
+    return Parameter(
+        name="depth",
+        unit="mm",
+        low=1.0,
+        high=deepest_mm,
+        start=starts * tuple(share * deepest_mm for share in _FROM),
+        logarithmic=True,
+        neutral=None,
+    )
+
+
+def _damping(deepest_mm: float, ranges: LogRanges) -> Family:
+    factors = tuple(times for times in _TIMES for _ in _FROM)
+    times = Parameter(
+        name="times", unit="-", low=0.02, high=50.0, start=factors, logarithmic=True, neutral=1.0
+    )
+    return Family(
+        effect=Effect(
+            name="damping over position, from a depth on",
+            title="tissue whose damping is another from a depth on",
+            place=Place.TISSUE,
+            parameters=(_depth(deepest_mm, len(_TIMES)), times),
+            apply=_apply_damping,
+            differences=_DIFFERENCES,
+        ),
+        places={Place.TISSUE: 0.6, Place.INTERFACE: 0.4},
+        says="position",
+        title="damping along the shaft",
+        curve=partial(_dampings, deepest_mm, ranges.damping_n_mm_s_per_mm),
+        x_unit="mm below the surface",
+        unit="N mm s / rad / mm",
+    )
+
+
+def _friction(deepest_mm: float, ranges: LogRanges) -> Family:
+    level = level_of(ranges)
+    return Family(
+        effect=Effect(
+            name="dry friction over position, from a depth on",
+            title="dry friction of tissue from a depth on",
+            place=Place.INTERFACE,
+            parameters=(
+                _depth(deepest_mm, 1),
+                replace(level, start=tuple(level.start[-1] / (1.0 - share) for share in _FROM)),
+            ),
+            apply=_apply_friction,
+            differences=_DIFFERENCES,
+        ),
+        places={Place.INTERFACE: 0.6, Place.TISSUE: 0.4},
+        says="position",
+        title="dry friction along the shaft",
+        curve=partial(_step, deepest_mm, 0.0),
+        x_unit="mm below the surface",
+        unit="N mm / mm",
+    )
+
+
+def _dampings(deepest_mm: float, beta: float, depth: float, times: float) -> Points:
+    return _step(deepest_mm, beta, depth, beta * times)
+
+
+def _step(deepest_mm: float, above: float, depth: float, below: float) -> Points:
+    return (0.0, depth, depth + _STEP_MM, max(deepest_mm, depth + 2.0 * _STEP_MM)), (
+        above,
+        above,
+        below,
+        below,
+    )
+
+
+def _apply_damping(rig: RigParameters, depth: float, times: float) -> RigParameters:
+    return _with(rig, AlongDepth(damping=(1.0, times), thicknesses_mm=(depth,)))
+
+
+def _apply_friction(rig: RigParameters, depth: float, level: float) -> RigParameters:
+    return _with(rig, AlongDepth(friction_n_mm_per_mm=(0.0, level), thicknesses_mm=(depth,)))
+
+
+def _with(rig: RigParameters, along: AlongDepth) -> RigParameters:
+    return replace(rig, free=FreeLaw(along_depth=along))

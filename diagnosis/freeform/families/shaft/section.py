@@ -1,0 +1,130 @@
+"""Free laws of a shaft whose surface differs along its length: a coating that is worn.
+
+- dry friction of one section, anywhere
+- dry friction that changes along the shaft, from its tip on
+
+Only where the inserted length varies: at one length these are laws of the depth below the surface
+(in_layers).
+"""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.interface import PARTS, level_of
+from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.ranges import LogRanges
+from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.replay.free_law import FreeLaw
+from diagnosis.replay.rig_parameters import RigParameters
+from diagnosis.replay.variables import Variable
+from models.tissue import Interface, Section
+
+_FROM = (0.02, 0.12, 0.24, 0.36, 0.48, 0.6, 0.75)  # of the greatest depth, where one is looked for
+_LONG = 0.2  # of it
+_STEP_MM = 1e-3  # from one section to the next as it is drawn
+_PLACES = {Place.INTERFACE: 0.6, Place.NEEDLE: 0.4}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Sections:
+    """Equally long sections, from the tip up to the greatest depth of a log, and a curve over them."""
+
+    curve: SmoothCurve
+    length_mm: float
+
+    @property
+    def from_tip_mm(self) -> tuple[float, ...]:
+        return tuple(i * self.length_mm for i in range(self.curve.places.size))
+
+
+def families(ranges: LogRanges) -> tuple[Family, ...]:
+    """Both laws, if the inserted length varies."""
+    if Variable.DEPTH not in ranges.ends:
+        return ()
+    deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
+    sections = _Sections(curve=smooth_curve(0.0, 1.0, PARTS), length_mm=deepest / PARTS)
+    return (_one_section(deepest, ranges), _along_the_shaft(sections, ranges))
+
+
+def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
+    starts = tuple(share * deepest_mm for share in _FROM)
+    level = level_of(ranges)
+    from_tip = Parameter(
+        name="from_tip",
+        unit="mm",
+        low=1.0,
+        high=deepest_mm,
+        start=starts,
+        logarithmic=True,
+        neutral=None,
+    )
+    return Family(
+        effect=Effect(
+            name="dry friction over position, in one section of the shaft",
+            title="dry friction of one section of the shaft",
+            place=Place.INTERFACE,
+            parameters=(
+                from_tip,
+                replace(from_tip, name="length", start=(_LONG * deepest_mm,) * len(starts)),
+                replace(level, high=level.high / _LONG, start=(level.start[0] / _LONG,) * len(starts)),
+            ),
+            apply=_apply_one,
+            differences=(1e-1, 1e-2),
+        ),
+        places=_PLACES,
+        says="position",
+        title="dry friction along the shaft",
+        curve=_one,
+        x_unit="mm from the tip",
+        unit="N mm / mm",
+    )
+
+
+def _one(from_tip: float, length: float, level: float) -> Points:
+    end = from_tip + length
+    ends = (0.0, from_tip, from_tip + _STEP_MM, end, end + _STEP_MM, end + from_tip)
+    return ends, (0.0, 0.0, level, level, 0.0, 0.0)
+
+
+def _apply_one(rig: RigParameters, from_tip: float, length: float, level: float) -> RigParameters:
+    return replace(rig, free=FreeLaw(sections=(_dry(from_tip, length, level),)))
+
+
+def _along_the_shaft(sections: _Sections, ranges: LogRanges) -> Family:
+    level = level_of(ranges)
+    neutral = (replace(p, start=(0.0,) * len(level.start)) for p in coordinates_of(sections.curve))
+    return Family(
+        effect=Effect(
+            name="dry friction over position, from the tip",
+            title="dry friction that changes along the shaft",
+            place=Place.INTERFACE,
+            parameters=(level, *neutral),
+            apply=partial(_apply_all, sections),
+            differences=(1e-2,),
+        ),
+        places=_PLACES,
+        says="position",
+        title="dry friction along the shaft",
+        curve=partial(_levels, sections),
+        x_unit="mm from the tip",
+        unit="N mm / mm",
+    )
+
+
+def _levels(sections: _Sections, level: float, *c: float) -> Points:
+    middles = tuple(start + sections.length_mm / 2.0 for start in sections.from_tip_mm)
+    return middles, level * np.array(sections.curve.factors(c))
+
+
+def _apply_all(sections: _Sections, rig: RigParameters, level: float, *c: float) -> RigParameters:
+    each = zip(sections.from_tip_mm, sections.curve.factors(c), strict=True)
+    own = tuple(_dry(from_tip, sections.length_mm, level * factor) for from_tip, factor in each)
+    return replace(rig, free=FreeLaw(sections=own))
+
+
+def _dry(from_tip_mm: float, length_mm: float, level: float) -> Section:
+    law = Interface(kinetic_n_mm_per_mm=level)
+    return Section(interface=law, from_tip_mm=from_tip_mm, length_mm=length_mm)
