@@ -55,7 +55,7 @@ def with_colour(problem: FitProblem, best: Fit) -> Noise:
     plain, left = problem.noise.uncoloured, _in_units_of_sensors(problem, best)
     claims = problem.log.rig.sensors.by_column()  # a filter hides most of what differences show
     gaps = {
-        s: floor_of([v / plain[s] for _, v in parts]).gap * plain[s] / max(plain[s], claims[s])
+        s: floor_of([v[np.isfinite(v)] for _, v in parts]).gap / max(plain[s], claims[s])
         for s, parts in left.items()
     }
     few = {s: COLOUR_MOST_PARTS if gap <= COLOUR_PARTS_GAP else 1 for s, gap in gaps.items()}

@@ -194,14 +194,18 @@ def test_what_is_slow_is_seen_over_seconds_where_noise_is_coloured(long):
     assert floor.slow > floor.slow_limit
 
 
-@pytest.mark.parametrize(("beside", "swings"), [(0.0, True), (3.0, False)])
-def test_noise_swings_where_little_else_is_left(beside, swings, problem):
-    """AR(2) noise of 12 Hz, alone and beside what a model lacks: three times as much, and slow."""
+@pytest.mark.parametrize(
+    ("beside", "outlier", "swings"), [(0.0, 0.0, True), (0.0, 40.0, True), (3.0, 0.0, False)]
+)
+def test_noise_swings_where_little_else_is_left(beside, outlier, swings, problem):
+    """AR(2) noise of 12 Hz: alone, with an outlier, and beside what a model lacks, which is three times
+    as much, and slow."""
     rng, step_s = np.random.default_rng(6), 0.01
     kept, turn = np.exp(-step_s / 0.05), 2 * np.pi * 12.0 * step_s
     one = lfilter([1.0], [1.0, -2 * kept * np.cos(turn), kept**2], rng.normal(size=SAMPLES + 500))[500:]
     time_s = step_s * np.arange(SAMPLES)
     torque = one / one.std() + beside * np.sqrt(2) * np.sin(2 * np.pi * 0.3 * time_s)
+    torque[SAMPLES // 2] += outlier
     wide = replace(problem, log=replace(problem.log, trials=problem.log.trials * 3))
     by_trial = [np.concatenate([torque, rng.normal(size=SAMPLES)])] * 3
     colour = with_colour(wide, fit_of((), by_trial=by_trial)).colour["base_torque_n_mm"]
