@@ -226,11 +226,27 @@ def _below_noise(sensor: str, residuals: Sequence[Array], sigma: float) -> str:
 
 
 def base_noise_deg(rig: NominalRig, trials: Sequence[Trial]) -> float:
-    """Noise of the base's encoder: the claim, unless the scatter of the quietest trial differs."""
+    """Noise of the base's encoder: the claim, unless the scatter of the quietest trial differs.
+
+    Rows that were moved to where the base was do not scatter, and tell nothing.
+    """
     claimed = rig.sensors.base_angle_noise_deg
-    found = min(white_noise([trial[BASE]], order=_ORDER, times_s=[trial["time_s"]]) for trial in trials)
+    each = (
+        white_noise([_where_not_moved(trial)], order=_ORDER, times_s=[trial["time_s"]])
+        for trial in trials
+    )
+    found = min((own for own in each if np.isfinite(own)), default=np.nan)
     near = claimed > 0 and (not np.isfinite(found) or _agrees(found, claimed))
     return claimed if near else float(np.nan_to_num(found))
+
+
+def _where_not_moved(trial: Trial) -> Array:
+    """Readings of the base, (N,); NaN where rows were moved in time by what they read."""
+    rows = trial.file_rows
+    if rows.errors_s is None:
+        return trial[BASE]
+    moved = np.interp(trial["time_s"], rows.taken_s, rows.taken_s != rows.stamps_s)
+    return np.where(moved > 0, np.nan, trial[BASE])
 
 
 def _agrees(found: float, claimed: float) -> bool:

@@ -1,11 +1,13 @@
 """Noise of the sensors, from the data."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, RIG, TIP, TORQUE, trial, turns
 from scipy.signal import lfilter
 
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, FileRows
 from diagnosis.prepare.noise.drift import AllowedDrift, Drift
 from diagnosis.prepare.noise.sensor_noise import Noise, base_noise_deg, estimate_noise
 
@@ -61,6 +63,20 @@ def test_the_quietest_trial_tells_the_encoders_noise():
     rng = np.random.default_rng(3)
     loud, quiet = (trial(turns() + rng.normal(0, s * BASE, turns().size)) for s in (9.0, 4.0))
     assert base_noise_deg(RIG, [loud, quiet]) == pytest.approx(4 * BASE, rel=0.16)
+
+
+def test_rows_that_were_moved_to_where_the_base_was_tell_no_noise():
+    """Nine tenths of them lie on the curve to which they were moved; the others scatter."""
+    angle = turns()
+    moved = np.arange(angle.size) >= angle.size / 10
+    read = angle + np.where(moved, 0.0, np.random.default_rng(4).normal(0, 5 * BASE, angle.size))
+    one = trial(read)
+    stamps_s = one["time_s"] + 1e-3 * moved
+    rows = FileRows(stamps_s=stamps_s, taken_s=one["time_s"], errors_s=np.zeros((1, angle.size)))
+    assert base_noise_deg(RIG, [one]) < BASE
+    assert base_noise_deg(RIG, [replace(one, rows=rows)]) == pytest.approx(5 * BASE, rel=0.3)
+    every = replace(rows, stamps_s=one["time_s"] + 1e-3)
+    assert base_noise_deg(RIG, [replace(one, rows=every)]) == BASE
 
 
 def test_a_residual_far_below_its_noise_names_the_units():
