@@ -27,6 +27,7 @@ from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StoppedEarly, StopSignal
+from models.errors import UnwritableOutput
 from scripts.exit_codes import ExitCode
 from scripts.output_folder import output_folder
 from scripts.progress_line import progress_line
@@ -88,15 +89,23 @@ def run(
                 raise
             complain(f"needle diagnose: {early}")
             return EXIT_CODES[stop.requested]
-        written = write_report(found, destination) if destination else None
-        if json_only:
-            console.print_json(json.dumps(as_json(found)))
-        else:
-            _summary(found, console)
+        try:
+            written = write_report(found, destination) if destination else None
+        except UnwritableOutput:
+            _show(found, console, json_only=json_only)
+            raise
+        _show(found, console, json_only=json_only)
         code = tell(written, console, shown=() if json_only else None) if written else ExitCode.DONE
         if save_effect and effect_file:
             _save(found, save_effect, effect_file, force=force)
     return EXIT_CODES[stop.requested] or code
+
+
+def _show(found: Diagnosis, console: Console, *, json_only: bool) -> None:
+    if json_only:
+        console.print_json(json.dumps(as_json(found)))
+    else:
+        _summary(found, console)
 
 
 def _save(found: Diagnosis, name: str, path: Path, *, force: bool) -> None:

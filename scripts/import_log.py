@@ -13,8 +13,7 @@ from diagnosis.lab_files.preview import write_preview
 from diagnosis.lab_files.read_mapping import read_mapping
 from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.readers.read import read_lab_files
-from diagnosis.lab_files.write_log import imported, log_paths, write_log
-from diagnosis.log.rig_log import read_rig_log
+from diagnosis.lab_files.write_log import imported, log_paths, read_back, write_log
 from scripts.output_folder import output_folder
 from scripts.results import tell
 from scripts.tables import print_table
@@ -106,11 +105,11 @@ def _write(
     outputs, inputs = partial(log_paths, mapping), (path, *(file.path for file in files))
     destination = output_folder(out, DEFAULT, outputs, inputs=inputs, force=force)
     trials = imported(mapping, files)
+    log = read_back(mapping, trials)
     written = write_log(mapping, trials, destination)
     for note in (note for trial in trials for note in trial.notes):
         console.print(note, highlight=False)
     code = tell(written, console)
-    log = read_rig_log(destination.folder)
     for warning in log.warnings:
         console.print(f"warning: {warning}", highlight=False)
     count, trials_read = len(log.warnings), len(log.trials)

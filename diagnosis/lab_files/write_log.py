@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pandas as pd
 import yaml
@@ -10,6 +11,8 @@ from diagnosis.lab_files.mapping import ImportMapping, as_rig
 from diagnosis.lab_files.readers.lab_table import LabFile
 from diagnosis.lab_files.series import refuse_unreadable
 from diagnosis.lab_files.trial_tables import ImportedTrial, imported_trial
+from diagnosis.log.rig_log import RigLog, read_rig_log
+from diagnosis.log.trial import UnusableLog
 from sim.files import Destination, ResultSet, publishing, write_text
 
 _DIGITS = "%.9g"
@@ -28,6 +31,24 @@ def imported(mapping: ImportMapping, files: Sequence[LabFile]) -> tuple[Imported
 def log_paths(mapping: ImportMapping, folder: Path) -> list[Path]:
     """All files that `write_log` writes."""
     return [folder / "rig.yaml", *(folder / trial.file for trial in mapping.trials)]
+
+
+def read_back(mapping: ImportMapping, trials: Sequence[ImportedTrial]) -> RigLog:
+    """The log as it will be read, from a temporary folder, before anything is written where it belongs.
+
+    Raises:
+      UnusableLog: it is refused as a log.
+    """
+    with TemporaryDirectory() as folder:
+        write_log(mapping, trials, Destination(folder=Path(folder)))
+        try:
+            return read_rig_log(Path(folder))
+        except UnusableLog as refused:
+            reason = str(refused).replace(f"{folder}/", "")
+            raise UnusableLog(
+                f"nothing was written, since this log would be refused; correct the column's unit, sign "
+                f"or zero in the mapping, or its file: {reason}"
+            ) from refused
 
 
 def write_log(

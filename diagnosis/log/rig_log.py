@@ -34,11 +34,13 @@ class RigLog:
     """A rig's log: the nominal rig and its trials.
 
     Attributes:
+      rig: the nominal rig, with the noise of samples.
       warnings: what is doubtful, and what was done about it.
       name: name of its folder; empty: it was not read from one.
       means_of: number of readings that a sample is the mean of.
       smoothed_above_hz: corner of the filter by which readings were smoothed, by sensor.
       noise_left: noise in their low band / that of a reading, by sensor; 1 for others.
+      as_read: the nominal rig as rig.yaml states it, where samples are no single readings; None: `rig`.
     """
 
     rig: NominalRig
@@ -48,6 +50,12 @@ class RigLog:
     means_of: int = 1
     smoothed_above_hz: Mapping[str, float] = field(default_factory=dict)
     noise_left: Mapping[str, float] = field(default_factory=dict)
+    as_read: NominalRig | None = None
+
+    @property
+    def stated_rig(self) -> NominalRig:
+        """The nominal rig as rig.yaml states it."""
+        return self.as_read or self.rig
 
 
 def read_rig_log(folder: Path) -> RigLog:

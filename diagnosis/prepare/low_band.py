@@ -39,7 +39,13 @@ def in_low_band(log: RigLog) -> RigLog:
         step_s = float(np.median([_step_s(trial["time_s"]) for trial in trials]))
         left = {sensor: float(np.linalg.norm(_kernel(corner_hz, step_s)))}
         quieter = log.rig.model_copy(update={"sensors": log.rig.sensors.scaled(left)})
-        log = replace(log, trials=trials, rig=quieter, noise_left={**log.noise_left, **left})
+        log = replace(
+            log,
+            trials=trials,
+            rig=quieter,
+            noise_left={**log.noise_left, **left},
+            as_read=log.stated_rig,
+        )
     return log
 
 

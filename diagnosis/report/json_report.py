@@ -58,7 +58,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "beside_hidden": {name: limit.beside for name, limit in told.detection_limits.items()},
         "cannot_tell": list(unidentifiable(diagnosis.log)),
         "replay_error": told.numerical_error,
-        "rig": diagnosis.log.rig.model_dump(mode="json"),
+        "rig": diagnosis.log.stated_rig.model_dump(mode="json"),
         "noise": dict(diagnosis.noise.sigma),
         "noise_colour": {
             s: {"share": own.share, **own.numbers()} for s, own in diagnosis.noise.colour.items()

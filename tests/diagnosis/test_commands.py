@@ -16,6 +16,7 @@ from diagnosis.report import write
 from diagnosis.report.answer import answer
 from diagnosis.report.fallible import Page
 from diagnosis.report.sentences import largest_parts
+from models.errors import UnwritableOutput
 from scripts import diagnose as command
 from scripts import replay as replaying
 from scripts.main import main
@@ -62,6 +63,18 @@ def test_a_summary_is_printed_and_every_file_is_named(dry, tmp_path, monkeypatch
     before, after = (parts.signal["tip_angle_deg"] for parts in (told.breakdown, told.breakdown_after))
     assert re.search(rf"tip_angle_deg\s+│ {over_sigma(before)}\s+│ {over_sigma(after)}", said)
     assert largest_parts(dry.found) in said
+
+
+def test_the_answer_is_printed_also_where_no_report_can_be_written(dry, tmp_path, monkeypatch, capsys):
+    def unwritable(*_):
+        raise UnwritableOutput("the disk is full")
+
+    monkeypatch.setattr(command, "diagnose", lambda log, **_: dry.found)
+    monkeypatch.setattr(command, "write_report", unwritable)
+    assert main(["diagnose", str(dry.folder), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr()
+    assert answer(dry.found)[0] in " ".join(said.out.split())
+    assert "the disk is full" in said.err
 
 
 def test_a_report_that_exists_is_kept_before_any_work_is_done(dry, tmp_path, monkeypatch, capsys):

@@ -70,3 +70,36 @@ def test_fields_are_given_by_name_and_numbers_may_be_written_as_text():
     with pytest.raises(TypeError):
         Place(1.0)
     assert Place(x_mm="1.5") == Place(x_mm=1.5, name="somewhere")
+
+
+@pytest.mark.parametrize(
+    ("found", "fix"),
+    [
+        ("0,59", "write it with a point: 0.59"),
+        ("0.59 mm", "in the unit of the field's name: 0.59"),
+        ("far", ""),
+    ],
+)
+def test_a_number_that_was_written_otherwise_is_answered_with_how_to_write_it(found, fix):
+    with pytest.raises(InvalidValue) as raised:
+        Place(x_mm=found)
+    assert raised.value.expected == "a number"
+    assert fix in raised.value.fix
+    assert bool(fix) is bool(raised.value.fix)
+
+
+def test_a_missing_field_is_looked_for_among_the_names_that_are_not_known():
+    with pytest.raises(InvalidValue, match="'x' looks like it: rename it"):
+        Place(x=1.0)
+    with pytest.raises(InvalidValue, match="this field has no default"):
+        Place(speed=1.0)
+
+
+@pytest.mark.parametrize(("found", "fix"), [(None, "indent its fields"), ("steel", "")])
+def test_a_value_in_place_of_fields_is_told_in_plain_words(found, fix):
+    class Rig(Record):
+        place: Place
+
+    with pytest.raises(InvalidValue, match="expected fields with values, as 'name: value'") as raised:
+        Rig(place=found)
+    assert fix in raised.value.fix

@@ -44,6 +44,7 @@ def averaged(log: RigLog) -> RigLog:
         trials=tuple(_means(trial, count * step_s, count, coarse) for trial in log.trials),
         warnings=(*log.warnings, said),
         means_of=count,
+        as_read=log.stated_rig,
     )
 
 

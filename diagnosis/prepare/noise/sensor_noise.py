@@ -4,6 +4,7 @@ Claims are usually right to about 15 %. If the scatter of the data is less than 
 the claim, that of the data is used, with a warning.
 """
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -179,7 +180,7 @@ def estimate_noise(
     claims = rig.sensors.by_column()
     sigma, warnings = (
         {BASE: base_sigma_deg},
-        {BASE: _scatters_otherwise(BASE, base_sigma_deg, claims[BASE])},
+        {BASE: _scatters_otherwise(BASE, base_sigma_deg, claims[BASE], means_of)},
     )
     left = {sensor: [values for _, values in residuals.get(sensor, ())] for sensor in SENSORS}
     for sensor in SENSORS:
@@ -196,16 +197,17 @@ def estimate_noise(
         residuals, COLOUR_AT_ONCE_SHARE
     )
     for sensor in SENSORS:
-        warnings[sensor] = _scatters_otherwise(sensor, noise[sensor], claims[sensor]) or _below_noise(
-            sensor, left[sensor], noise[sensor]
-        )
+        warnings[sensor] = _scatters_otherwise(
+            sensor, noise[sensor], claims[sensor], means_of
+        ) or _below_noise(sensor, left[sensor], noise[sensor])
     said = tuple(warning for column, warning in warnings.items() if warning and column not in told)
     return replace(noise, warnings=said, least=least)
 
 
-def _scatters_otherwise(column: str, found: float, claimed: float) -> str:
+def _scatters_otherwise(column: str, found: float, claimed: float, means_of: int) -> str:
     if claimed <= 0 or _agrees(found, claimed):
         return ""
+    found, claimed = (math.sqrt(means_of) * own for own in (found, claimed))  # of a single reading
     return (
         f"{column}: the readings scatter by {found:.3g}, rig.yaml claims {claimed:.3g}; "
         "the readings are believed: correct rig.yaml, or look for a fast disturbance"

@@ -27,7 +27,7 @@ def rig_section(found: Diagnosis) -> list[str]:
 
 
 def _constants(found: Diagnosis) -> Iterator[tuple[str, str]]:
-    for group, record in dict(found.log.rig).items():
+    for group, record in dict(found.log.stated_rig).items():
         if isinstance(record, Record):
             yield from ((f"{group}.{name}", f"{value:g}") for name, value in dict(record).items())
 
@@ -36,7 +36,13 @@ def _trial(trial: Trial) -> tuple[str, ...]:
     measured = ", ".join(sensor for sensor in SENSORS if trial.has(sensor)) or "nothing"
     lengths = (_range(trial, name) for name in ("inserted_mm", "free_mm", "speed_mm_s"))
     time = trial["time_s"]
-    return (trial.name, f"{time[-1] - time[0]:.1f}", str(time.size), *lengths, measured)
+    return (
+        trial.name,
+        f"{time[-1] - time[0]:.1f}",
+        str(trial.file_rows.stamps_s.size),
+        *lengths,
+        measured,
+    )
 
 
 def _range(trial: Trial, column: str) -> str:

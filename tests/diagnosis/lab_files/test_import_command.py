@@ -108,6 +108,24 @@ def test_nothing_of_the_users_is_replaced(tmp_path, capsys):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["mapping.yaml", "trial_00.csv"]
 
 
+def test_a_log_that_would_be_refused_replaces_none(tmp_path, capsys):
+    content = mapping_of(["run.csv"])
+    source, mapping, log = write_csv(tmp_path), tmp_path / "mine.yaml", tmp_path / "log"
+    command = ["import", str(source), "--map", str(mapping), "--out", str(log), "--force"]
+    mapping.write_text(yaml.safe_dump(content))
+    assert main(command) == 0
+    before = {path: path.read_bytes() for path in log.iterdir()}
+    column = content["columns"]["base_torque_n_mm"]
+    column["sign"] = -column.get("sign", 1)
+    mapping.write_text(yaml.safe_dump(content))
+    capsys.readouterr()
+    assert main(command) == 2
+    said = capsys.readouterr()
+    assert "nothing was written" in said.err
+    assert "wrote" not in said.out
+    assert {path: path.read_bytes() for path in log.iterdir()} == before
+
+
 @pytest.mark.parametrize("change", ["missing", "text", "unknown column"])
 def test_bad_input_exits_2_and_names_the_file(tmp_path, capsys, change):
     source = write_csv(tmp_path)

@@ -6,8 +6,9 @@ from lab_files import KNOWN, RIG, mapping_of, write_csv
 
 from diagnosis.lab_files.mapping import ImportMapping
 from diagnosis.lab_files.readers.read import read_lab_files
-from diagnosis.lab_files.write_log import imported, log_paths, write_log
+from diagnosis.lab_files.write_log import imported, log_paths, read_back, write_log
 from diagnosis.log.rig_log import read_rig_log
+from diagnosis.log.trial import UnusableLog
 from models.errors import OutputExists
 from sim.files import Destination
 
@@ -39,3 +40,15 @@ def test_all_files_are_named_before_they_are_written(tmp_path):
     assert sorted(log_paths(mapping, folder)) == sorted(folder.iterdir())
     with pytest.raises(OutputExists):
         written(tmp_path)
+
+
+def test_a_log_that_would_be_refused_is_read_back_before_it_is_written(tmp_path):
+    content = mapping_of(["run.csv"])
+    files = read_lab_files([write_csv(tmp_path)])
+    mapping = ImportMapping(**content)
+    assert len(read_back(mapping, imported(mapping, files)).trials) == 1
+    column = content["columns"]["base_torque_n_mm"]
+    column["sign"] = -column.get("sign", 1)
+    mapping = ImportMapping(**content)
+    with pytest.raises(UnusableLog, match="nothing was written.*sign.*trial_00.csv: base_torque_n_mm"):
+        read_back(mapping, imported(mapping, files))
