@@ -14,7 +14,7 @@ from diagnosis.log.nominal_rig import (
 from diagnosis.log.trial import UnusableLog
 from diagnosis.log.unit_hints import look_alike
 from models.errors import InvalidValue
-from models.names import is_file, refuse_no_file_name
+from models.names import is_file, is_folder, refuse_no_file_name
 from models.plain_yaml import read_record, read_yaml
 from models.record import Record
 
@@ -33,7 +33,9 @@ def read_rig(path: Path) -> NominalRig:
       UnusableLog: names the file, the field or line, and how to fix it.
     """
     if not is_file(path):
-        raise UnusableLog(f"{path}: expected a rig-log/1 folder with a file 'rig.yaml'; there is none")
+        raise UnusableLog(
+            f"{path}: expected a rig-log/1 folder with a file 'rig.yaml'; {_instead_of(path)}"
+        )
     try:
         content = read_yaml(path, expected="a mapping that starts with 'format: rig-log/1'")
         for section, record in _SECTIONS.items():
@@ -45,6 +47,18 @@ def read_rig(path: Path) -> NominalRig:
     _refuse_implausible(path, rig)
     _refuse_odd_files(path, [entry.file for entry in rig.trials])
     return rig
+
+
+def _instead_of(path: Path) -> str:
+    """What is there in place of a rig.yaml, and the way out."""
+    folder = path.parent
+    if is_file(folder):
+        return f"{folder} is a file: give its folder"
+    if not is_folder(folder):
+        return f"there is no folder {folder}"
+    if is_file(folder / "rig.yml"):
+        return "there is none; rename rig.yml"
+    return "there is none; `needle import` makes a log of a lab's own files"
 
 
 def _refuse_other_names(place: str, content: dict[Any, Any], record: type[Record]) -> None:

@@ -21,17 +21,14 @@ from diagnosis.criteria import (
     READING_RANGE,
     SHORTEST_SAMPLE_S,
 )
-from diagnosis.log.trial import COLUMNS, OPTIONAL, REQUIRED, Trial, UnusableLog
-from diagnosis.log.unit_hints import look_alike
+from diagnosis.log.trial import COLUMNS, OPTIONAL, Trial, UnusableLog
+from diagnosis.log.trial_header import NO_TEXT, check_header
 from models.names import is_file, is_folder
 
 Array = NDArray[np.float64]
 
 _CHUNK_BYTES = 1 << 20
 _WRITE = "write numbers with a decimal point, and commas between the cells only"
-_NO_TEXT = (
-    "expected UTF-8 text, found a binary file or another encoding; export the table as CSV in UTF-8"
-)
 
 
 def refuse_too_large(paths: Sequence[Path]) -> None:
@@ -64,7 +61,7 @@ def read_trial(path: Path) -> Trial:
       UnusableLog: names the file, the line or column, and how to fix it.
     """
     try:
-        _check_header(path, *_first_lines(path))
+        check_header(path)
         # A text file stays one, whatever its name ends in.
         table = pd.read_csv(
             path,
@@ -75,7 +72,7 @@ def read_trial(path: Path) -> Trial:
             low_memory=False,
         )
     except UnicodeDecodeError as error:
-        raise UnusableLog(f"{path}: {_NO_TEXT}") from error
+        raise UnusableLog(f"{path}: {NO_TEXT}") from error
     except (OSError, ValueError, csv.Error) as error:
         raise UnusableLog(
             f"{path}: expected a readable CSV file; {str(error).strip()}; {_WRITE}"
@@ -97,55 +94,6 @@ def _count_lines(path: Path, *, most: int) -> int:
     except OSError as error:
         raise UnusableLog(f"{path}: expected a readable CSV file; {error}") from error
     return lines
-
-
-def _first_lines(path: Path) -> tuple[str, str]:
-    with path.open(encoding="utf-8-sig") as file:
-        first, second = file.readline(_CHUNK_BYTES), file.readline(_CHUNK_BYTES)
-    if "\0" in first + second:
-        raise UnusableLog(f"{path}: {_NO_TEXT}")
-    return first.strip(), second.strip()
-
-
-def _check_header(path: Path, first: str, second: str) -> None:
-    place = f"{path}, line 1"
-    if not first:
-        raise UnusableLog(f"{place}: expected the names of the columns, found an empty line or file")
-    if "," not in first:
-        raise UnusableLog(
-            f"{place}: expected names with commas between, found {first[:60]!r}; "
-            "export with commas between the cells and decimal points in the numbers"
-        )
-    header, cells = _cells(first), _cells(second)
-    _check_names(place, [name.strip() for name in header])
-    if second and len(cells) != len(header):
-        raise UnusableLog(
-            f"{path}, line 2: expected {len(header)} cells as in the header, found {len(cells)}; "
-            "write numbers with a decimal point, and no comma at the end of a line"
-        )
-
-
-def _cells(line: str) -> list[str]:
-    return next(csv.reader([line], skipinitialspace=True), [])
-
-
-def _check_names(place: str, names: Sequence[str]) -> None:
-    double = [name for name in COLUMNS if names.count(name) > 1]
-    if double:
-        raise UnusableLog(f"{place}: column {double[0]!r} appears twice; rename or remove one")
-    unknown = [name for name in names if name not in COLUMNS]
-    for name in (name for name in COLUMNS if name not in names):
-        alike = look_alike(unknown, name, COLUMNS)
-        if alike:
-            raise UnusableLog(
-                f"{place}: column {name!r} is missing; {alike.found!r} looks like it: {alike.fix}, "
-                "or give it another name if it is something else"
-            )
-        if name in REQUIRED:
-            raise UnusableLog(
-                f"{place}: column {name!r} is missing; expected {', '.join(REQUIRED)} "
-                f"and what was measured; the file has {', '.join(names)[:300]}; add or rename it"
-            )
 
 
 def _known_columns(table: pd.DataFrame) -> pd.DataFrame:
@@ -171,7 +119,7 @@ def _numbers(path: Path, column: pd.Series, *, empty_allowed: bool) -> pd.Series
     if wrong.size:
         row = int(wrong[0])
         span = f"{round(low, 3) + 0.0:g} to {high:g}"
-        got = "an empty cell" if pd.isna(column.iloc[row]) else repr(str(column.iloc[row])[:40])
+        got = "an empty cell or NaN" if pd.isna(column.iloc[row]) else repr(str(column.iloc[row])[:40])
         fix = "leave cells empty where the sensor gave nothing" if empty_allowed else "correct the row"
         raise UnusableLog(
             f"{path}, line {row + 2}, column {column.name!r}: expected a number from {span}, "

@@ -59,11 +59,14 @@ def _verdict(found: Diagnosis) -> str:
                     f"noise), but does not count: {best.objection}"
                 )
             least = (
-                f"at best {in_sigma(near.gap_after)}" if near.effects else "which none of them lowers"
+                f"at best {in_sigma(near.gap_after)} (σ = sensor noise), with {named}: "
+                f"{near.power_explained_percent:.0f} % of its power"
+                if near.effects
+                else "which none of them lowers (σ = sensor noise)"
             )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
-                f"residual {before}, {least} (σ = sensor noise)"
+                f"residual {before}, {least}"
             )
 
 
@@ -151,7 +154,10 @@ def with_one_more(found: Diagnosis) -> str:
     named = ", ".join(f"with {name} {in_sigma(gap)}" for name, gap in first)
     little = here - first[0][1] < ALMOST_NOTHING_SIGMA * max(here, 1.0)
     change = "changes almost nothing" if little else "would lower the residual"
-    return f"Adding another effect {change}: on the trials of the fit it is {in_sigma(here)}, {named}."
+    return (
+        f"Adding another effect {change}: on the trials of the fit the residual is {in_sigma(here)}, "
+        f"{named}."
+    )
 
 
 def replay_quality(found: Diagnosis) -> list[str]:
@@ -203,7 +209,7 @@ def leading(found: Diagnosis) -> str:
     own = found.assessment.shape.leads
     if own is None:
         return (
-            "It cannot be said which residual leads: this needs both sensors, for at least eight seconds"
+            "It is not clear which residual leads: this needs both sensors, for at least eight seconds"
         )
     interval = f"(95 % interval {1000 * own.low_s:.0f} to {1000 * own.high_s:.0f} ms)"
     if own.signal:
@@ -214,12 +220,12 @@ def leading(found: Diagnosis) -> str:
         )
     if abs(own.correlation) <= own.chance_limit:
         return (
-            "It cannot be said which residual leads: their correlation of "
+            "It is not clear which residual leads: their correlation of "
             f"{own.correlation:.2f} is within chance ({own.chance_limit:.2f})"
         )
     return (
-        f"It cannot be said which residual leads: that of {SENSORS[0]} is ahead of that of "
-        f"{SENSORS[1]} by {1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
+        f"It is not clear which residual leads: perhaps that of {SENSORS[0]}, by "
+        f"{1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
     )
 
 

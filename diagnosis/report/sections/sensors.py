@@ -8,9 +8,15 @@ from diagnosis.result import Diagnosis
 
 def sensors_section(found: Diagnosis) -> list[str]:
     """Everything under this heading."""
-    beside = imperfections(found) or "The sensors show noise alone; no other fault had to be allowed for"
+    beside = imperfections(found) or _nothing_beside_noise(found)
     return [
         html.heading("Sensors and numerical error"),
         html.paragraph(f"{beside}."),
         html.bullets(replay_quality(found)),
     ]
+
+
+def _nothing_beside_noise(found: Diagnosis) -> str:
+    if found.noise.notes:
+        return "No fault of the sensors but their noise had to be allowed for; of that the warnings tell"
+    return "The sensors show noise alone; no other fault had to be allowed for"

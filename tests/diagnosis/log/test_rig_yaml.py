@@ -119,3 +119,17 @@ def test_a_yaml_bomb_is_refused_at_once(log):
     start = time.process_time()
     assert "alias" in refusal(log)
     assert time.process_time() - start < _ENDLESS_S
+
+
+def test_where_there_is_no_rig_yaml_the_way_out_is_told(log, tmp_path):
+    def said(folder):
+        with pytest.raises(UnusableLog) as raised:
+            read_rig_log(folder)
+        return str(raised.value)
+
+    assert "turns.csv is a file: give its folder" in said(log / "turns.csv")
+    assert "there is no folder" in said(tmp_path / "nowhere")
+    (log / "rig.yaml").rename(log / "rig.yml")
+    assert "rename rig.yml" in said(log)
+    (log / "rig.yml").unlink()
+    assert "needle import" in said(log)
