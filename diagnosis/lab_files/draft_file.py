@@ -99,7 +99,10 @@ def _rig(draft: Draft) -> Iterator[str]:
         if NOISES[name] not in have and NOISES[name] in SENSORS:
             yield _line(f"  {name}", 1.0, "this sensor is not there: any number will do")
         else:
-            reason = "scatter of the readings, at rest if there is a rest"
+            told = value is not None or name in draft.noise_in_files
+            reason = (
+                "scatter of the readings, at rest if there is a rest" if told else "not read: fill in"
+            )
             times = f"times the factor: {draft.noise_in_files.get(name)} is the scatter of the readings"
             yield _line(f"  {name}", value, times if name in draft.noise_in_files else reason)
     if draft.loops is not None:

@@ -109,11 +109,14 @@ def noise_of(column: GuessedColumn | None, trials: Trials, motions: Motions) -> 
     """Standard deviation of white noise: at rest, or in whole trials if there is no rest.
 
     Returns:
-      In units of rig-log/1, or of the file if its scale is unknown; None without such a column.
+      In units of rig-log/1, or of the file if its scale is unknown; None without such a column, or if
+      none can be read.
     """
     if column is None or column.source.derive:
         return None
     parts = [own[column.wanted] for own in trials.values() if column.wanted in own]
+    if not parts:
+        return None
     rests = [
         own[column.wanted].values[motions[name].at_rest(_on_time(column, own[column.wanted]).time_s)]
         for name, own in trials.items()

@@ -28,6 +28,7 @@ _DEPTH |= {"carriage": 2, "z": 3}
 _SPEED = {"speed*": 3, "vel*": 3, "feed": 2, "v": 2}
 _TIME = {"stamp": 5, "timestamp*": 5, "time*": 4, "t": 4, "zeit": 4, "clock": 2}
 _NONE = -100.0
+MOST_BACKWARDS = 0.02  # share of the rows of a column of times that are earlier than the one before
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +47,7 @@ class NameGuess:
 
 
 def guessed_times(table: LabTable) -> str | None:
-    """The column of times of a table, by its name and increasing values; None: none."""
+    """The column of times of a table, by its name and values that nearly all increase; None: none."""
     rising = [name for name, values in table.columns.items() if _rises(values)]
     scored = {name: _weight(words_of(name), _TIME) for name in rising}
     best = max(scored, key=lambda name: scored[name], default=None)
@@ -154,7 +155,9 @@ def _matches(word: str, stem: str) -> bool:
 
 def _rises(values: Array) -> bool:
     steps = np.diff(values)
-    return bool(steps.size and np.isfinite(values).all() and (steps >= 0).all() and steps.any())
+    if not steps.size or not np.isfinite(values).all() or not steps.any():
+        return False
+    return bool(np.mean(steps < 0) <= MOST_BACKWARDS)
 
 
 def _span(values: Array) -> float:

@@ -112,3 +112,11 @@ def test_the_rate_of_a_column_is_told_from_another_speed():
     assert is_rate_of(-3 * np.cos(time), time, angle)
     assert not is_rate_of(np.cos(3 * time), time, angle)
     assert not is_rate_of(np.zeros(time.size), time, angle)
+
+
+def test_a_few_times_that_go_back_are_an_error_of_the_rows_and_not_another_column():
+    time_s = np.arange(200.0)
+    time_s[[50, 51]] = time_s[[51, 50]]
+    assert guessed_times(LabTable(title="x", columns={"time": time_s})) == "time"
+    time_s[::20] -= 5.0
+    assert guessed_times(LabTable(title="x", columns={"time": time_s})) is None
