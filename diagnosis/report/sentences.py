@@ -10,6 +10,7 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
 _NOTHING = "the nominal model as it is"
+_TOGETHER = 0.6  # of the residual on unseen trials: what is left of all trials fitted at once
 _NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %
 
 
@@ -27,7 +28,8 @@ def _best_so_far(found: Diagnosis) -> str:
     verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
     residual = f"residual {in_sigma(gap.before)} → {in_sigma(gap.after)} (σ = sensor noise)"
     if verdict.kind is VerdictKind.UNKNOWN:
-        return f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
+        none = f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
+        return f"{none}{_of_all_trials_together(found)}"
     sets = "; or ".join(titles(names) or _NOTHING for names in verdict.confusable)
     return f"{sets}: undecided, because others were not tried: {residual}"
 
@@ -66,8 +68,21 @@ def _verdict(found: Diagnosis) -> str:
             )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
-                f"residual {before}, {least}"
+                f"residual {before}, {least}{_of_all_trials_together(found)}"
             )
+
+
+def _of_all_trials_together(found: Diagnosis) -> str:
+    """What fits all trials at once far better than it predicts one from the others; mostly empty."""
+    best, near = found.verdict.best, found.assessment.nearest
+    if not best.named or best.fit.gap > _TOGETHER * near.gap_after:
+        return ""
+    leaves = "leave" if len(best.named) > 1 else "leaves"
+    return (
+        f". {_capital(titles(best.named))} {leaves} {in_sigma(best.fit.gap)} of all trials together, "
+        "but no trial is predicted from the others: check whether all were recorded on the same rig, "
+        "with the same columns"
+    )
 
 
 def nearest(found: Diagnosis) -> str:

@@ -205,6 +205,16 @@ def test_an_unknown_log_is_told_with_the_gap_of_the_nearest_not_of_the_law(dry):
     assert f"at best {in_sigma(near)}" in headline(replace(found, missing=missing_with()))
 
 
+@pytest.mark.parametrize(("times", "told"), [(3.0, True), (1.0, False)])
+def test_trials_that_fit_together_and_not_from_each_other_may_differ(dry, times, told):
+    best = dry.found.verdict.best
+    near = replace(dry.found.assessment.nearest, gap_after=times * best.fit.gap)
+    found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
+    found = replace(found, assessment=replace(dry.found.assessment, nearest=near))
+    said = f"{in_sigma(best.fit.gap)} of all trials together, but no trial is predicted from the others"
+    assert (said in headline(found)) is told
+
+
 def test_an_unknown_log_that_nothing_comes_nearer_to_has_no_best(dry):
     near = replace(dry.found.assessment.nearest, effects=())
     told = replace(dry.found.assessment, nearest=near)
