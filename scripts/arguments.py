@@ -34,6 +34,13 @@ class Parser(argparse.ArgumentParser):
         self.error(f"unknown argument {first!r}; {meant or f'see {self.prog} --help'}")
 
 
+def _seconds(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected seconds, as 30, found {text!r}") from None
+
+
 def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
     """The arguments by name; exits with code 2 if they are wrong."""
     found, unknown = parser().parse_known_args(arguments)
@@ -137,7 +144,7 @@ def _add_diagnose(diagnose: Parser) -> None:
     )
     diagnose.add_argument(
         "--limit",
-        type=float,
+        type=_seconds,
         metavar="SECONDS",
         help="time limit for everything: the best explanation by then is reported, marked as such",
     )
@@ -183,7 +190,7 @@ def _add_blind(blind: Parser) -> None:
     make.add_argument("--short", action="store_true", help="three trials of about 40 s in all")
     score = _subcommand(actions, "score", "diagnose the logs, then compare with the ground truth")
     score.add_argument("folder", type=Path, metavar="DIR", help="a folder with logs/ and answers/")
-    score.add_argument("--limit", type=float, metavar="SECONDS", help="time for each diagnosis")
+    score.add_argument("--limit", type=_seconds, metavar="SECONDS", help="time for each diagnosis")
     score.add_argument(
         "--trials", type=int, metavar="N", help="use the first N trials of every log only"
     )

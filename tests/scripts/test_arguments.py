@@ -61,3 +61,9 @@ def test_every_command_that_writes_says_where():
 def parsed_parser(command):
     needed = {"import": ["a.csv"], "replay": ["log"]}.get(command, [])
     return parsed([command, *needed]).parser
+
+
+def test_a_limit_with_a_unit_is_answered_with_how_to_write_it(capsys):
+    with pytest.raises(SystemExit):
+        parsed(["diagnose", "log", "--limit", "30s"])
+    assert "expected seconds, as 30, found '30s'" in capsys.readouterr().err

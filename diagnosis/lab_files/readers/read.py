@@ -9,7 +9,7 @@ from diagnosis.lab_files.readers.mcap_file import read_mcap_file
 from diagnosis.lab_files.readers.parquet_file import read_parquet_file
 from diagnosis.lab_files.readers.text_file import read_text_file
 from models.errors import InvalidValue
-from models.names import is_file
+from models.names import is_file, is_folder
 from models.user_text import unprintable
 
 _READERS: dict[str, Callable[[Path], LabFile]] = {
@@ -37,7 +37,8 @@ def read_lab_files(paths: Sequence[Path]) -> tuple[LabFile, ...]:
     names = [path.name for path in paths]
     for path in paths:
         if not is_file(path):
-            raise InvalidValue("FILE", path, "the path of a file that exists")
+            fix = "list the files in it" if is_folder(path) else ""
+            raise InvalidValue("FILE", path, "the path of a file that exists", fix)
         if names.count(path.name) > 1:
             raise InvalidValue("FILE", path, "different file names", "rename one of the two")
         if path.suffix.lower() in _OTHER:

@@ -46,3 +46,8 @@ def test_a_name_that_nobody_can_read_names_its_file(values, tmp_path, monkeypatc
     monkeypatch.setitem(module._READERS, ".mat", lambda _: damaged)
     with pytest.raises(InvalidValue, match=r"run\.mat.*control characters"):
         read_lab_files([path])
+
+
+def test_a_folder_is_answered_with_its_files(tmp_path):
+    with pytest.raises(InvalidValue, match="list the files in it"):
+        read_lab_files([tmp_path])
