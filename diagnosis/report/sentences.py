@@ -10,6 +10,7 @@ from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
 _NOTHING = "the nominal model as it is"
+_FAR_FROM_CLAIMED = 10.0  # times the noise in rig.yaml: what no model explains is likely in it
 _TOGETHER = 0.6  # of the residual on unseen trials: what is left of all trials fitted at once
 _NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %
 
@@ -26,7 +27,7 @@ def headline(found: Diagnosis) -> str:
 def _best_so_far(found: Diagnosis) -> str:
     """What a search that was cut short has come to: never that nothing else is there."""
     verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
-    residual = f"residual {in_sigma(gap.before)} → {in_sigma(gap.after)} (σ = sensor noise)"
+    residual = f"residual {in_sigma(gap.before)} → {in_sigma(gap.after)} {_what_sigma_is(found)}"
     if verdict.kind is VerdictKind.UNKNOWN:
         none = f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
         return f"{none}{_of_all_trials_together(found)}"
@@ -36,7 +37,8 @@ def _best_so_far(found: Diagnosis) -> str:
 
 def _verdict(found: Diagnosis) -> str:
     gap, effects = found.assessment.gap, found.verdict.effects
-    before, after = f"{in_sigma(gap.before)}", f"{in_sigma(gap.after)} (σ = sensor noise)"
+    sigma = _what_sigma_is(found)
+    before, after = f"{in_sigma(gap.before)}", f"{in_sigma(gap.after)} {sigma}"
     match found.verdict.kind:
         case VerdictKind.NONE:
             return f"No gap beyond noise: the nominal model explains the log, residual {after}"
@@ -51,25 +53,34 @@ def _verdict(found: Diagnosis) -> str:
             if found.verdict.other_form:
                 return (
                     f"Unknown: residual {before}. {_capital(titles(near.effects))} would leave "
-                    f"{in_sigma(near.gap_after)} (σ = sensor noise), but {found.verdict.other_form} "
+                    f"{in_sigma(near.gap_after)} {sigma}, but {found.verdict.other_form} "
                     "leaves clearly less"
                 )
             best, named = found.verdict.best, titles(near.effects) or _NOTHING
             if best.floor.small and best.objection and {*best.named} == {*near.effects}:
                 return (
-                    f"Unknown: {named} would leave a residual of {in_sigma(near.gap_after)} (σ = sensor "
-                    f"noise), but does not count: {best.objection}"
+                    f"Unknown: {named} would leave a residual of {in_sigma(near.gap_after)} {sigma}, "
+                    f"but does not count: {best.objection}"
                 )
             least = (
-                f"at best {in_sigma(near.gap_after)} (σ = sensor noise), with {named}: "
+                f"at best {in_sigma(near.gap_after)} {sigma}, with {named}: "
                 f"{near.power_explained_percent:.0f} % of its power"
                 if near.effects
-                else "which none of them lowers (σ = sensor noise)"
+                else f"which none of them lowers {sigma}"
             )
             return (
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
                 f"residual {before}, {least}{_of_all_trials_together(found)}"
             )
+
+
+def _what_sigma_is(found: Diagnosis) -> str:
+    """In parentheses: the sensors' noise, or what was taken for it where rig.yaml states far less."""
+    claims = found.log.rig.sensors.by_column()
+    times = max((found.noise[s] / claims[s] for s in SENSORS if claims[s] > 0.0), default=1.0)
+    if times < _FAR_FROM_CLAIMED:
+        return "(σ = sensor noise)"
+    return f"(σ = what the readings scatter by, {times:.0f} times the noise in rig.yaml)"
 
 
 def _of_all_trials_together(found: Diagnosis) -> str:

@@ -215,6 +215,16 @@ def test_trials_that_fit_together_and_not_from_each_other_may_differ(dry, times,
     assert (said in headline(found)) is told
 
 
+@pytest.mark.parametrize("times", [3.0, 300.0])
+def test_sigma_is_no_noise_where_rig_yaml_states_far_less(dry, times):
+    claims = dry.found.log.rig.sensors
+    quieter = claims.but(tip_angle_noise_deg=dry.found.noise["tip_angle_deg"] / times)
+    rig = dry.found.log.rig.but(sensors=quieter)
+    told = headline(replace(dry.found, log=replace(dry.found.log, rig=rig)))
+    assert ("(σ = sensor noise)" in told) is (times < 10.0)
+    assert ("300 times the noise in rig.yaml" in told) is (times > 10.0)
+
+
 def test_an_unknown_log_that_nothing_comes_nearer_to_has_no_best(dry):
     near = replace(dry.found.assessment.nearest, effects=())
     told = replace(dry.found.assessment, nearest=near)
