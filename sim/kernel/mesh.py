@@ -62,7 +62,8 @@ def cover(
 ) -> None:
     """What a row's sites load the nodes with, m: (n, 4), left node then right node.
 
-    A point row fills `point` instead. `tip_loaded`: the tip carries torque.
+    A point row fills `point` instead. `tip_loaded`: the tip carries torque. What begins in the tissue,
+    by L_TOP_FREE, does not reach out of it.
     """
     n = x.size - 1
     top = (
