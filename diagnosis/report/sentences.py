@@ -63,7 +63,8 @@ def _verdict(found: Diagnosis) -> str:
                     f"but does not count: {best.objection}"
                 )
             least = (
-                f"at best {in_sigma(near.gap_after)} {sigma}, with {named}: "
+                f"at best {in_sigma(near.gap_after)} {sigma}, with {named}, which "
+                f"{'explain' if len(near.effects) > 1 else 'explains'} "
                 f"{near.power_explained_percent:.0f} % of its power"
                 if near.effects
                 else f"which none of them lowers {sigma}"
