@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.freeform.families.in_layers.layers import place_of
 from diagnosis.freeform.families.interface import level_of
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
@@ -32,18 +33,6 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     return (friction, _damping(deepest, ranges)) if Variable.DEPTH in ranges.ends else (friction,)
 
 
-def _depth(deepest_mm: float, starts: int) -> Parameter:
-    return Parameter(
-        name="depth",
-        unit="mm",
-        low=1.0,
-        high=deepest_mm,
-        start=starts * tuple(share * deepest_mm for share in _FROM),
-        logarithmic=True,
-        neutral=None,
-    )
-
-
 def _damping(deepest_mm: float, ranges: LogRanges) -> Family:
     factors = tuple(times for times in _TIMES for _ in _FROM)
     times = Parameter(
@@ -54,7 +43,7 @@ def _damping(deepest_mm: float, ranges: LogRanges) -> Family:
             name="damping over position, from a depth on",
             title="tissue whose damping is another from a depth on",
             place=Place.TISSUE,
-            parameters=(_depth(deepest_mm, len(_TIMES)), times),
+            parameters=(place_of("depth", deepest_mm, len(_TIMES) * _FROM), times),
             apply=_apply_damping,
             differences=_DIFFERENCES,
         ),
@@ -75,7 +64,7 @@ def _friction(deepest_mm: float, ranges: LogRanges) -> Family:
             title="dry friction of tissue from a depth on",
             place=Place.INTERFACE,
             parameters=(
-                _depth(deepest_mm, 1),
+                place_of("depth", deepest_mm, _FROM),
                 replace(level, start=tuple(level.start[-1] / (1.0 - share) for share in _FROM)),
             ),
             apply=_apply_friction,

@@ -151,17 +151,21 @@ def _apply_elastic(
 
 def _where(deepest_mm: float, starts: int) -> tuple[Parameter, Parameter]:
     """Depth and thickness of one layer, which are looked for anywhere, as often as there are starts."""
-    depth = Parameter(
-        name="depth",
+    depth = place_of("depth", deepest_mm, starts * _FROM)
+    return depth, replace(depth, name="thickness", start=(_THICK * deepest_mm,) * len(depth.start))
+
+
+def place_of(name: str, deepest_mm: float, shares: Sequence[float]) -> Parameter:
+    """A place in the tissue, or on the inserted shaft, looked for from shares of the depth on."""
+    return Parameter(
+        name=name,
         unit="mm",
         low=1.0,
         high=deepest_mm,
-        start=starts * tuple(share * deepest_mm for share in _FROM),
+        start=tuple(share * deepest_mm for share in shares),
         logarithmic=True,
         neutral=None,
     )
-    thickness = replace(depth, name="thickness", start=(_THICK * deepest_mm,) * len(depth.start))
-    return depth, thickness
 
 
 def _one_dry_layer(deepest_mm: float, ranges: LogRanges) -> Family:
@@ -181,7 +185,7 @@ def _one_dry_layer(deepest_mm: float, ranges: LogRanges) -> Family:
         places=_FRICTION,
         says=SAYS,
         title="dry friction along the shaft",
-        curve=partial(_box, 0.0),
+        curve=partial(box, 0.0),
         x_unit="mm below the surface",
         unit="N mm / mm",
     )
@@ -219,10 +223,11 @@ def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
 
 
 def _one_layers(beta: float, depth: float, thickness: float, times: float) -> Points:
-    return _box(beta, depth, thickness, beta * times)
+    return box(beta, depth, thickness, beta * times)
 
 
-def _box(outside: float, depth: float, thickness: float, inside: float) -> Points:
+def box(outside: float, depth: float, thickness: float, inside: float) -> Points:
+    """A curve that is another from a place on, over a length."""
     above, below = depth, depth + thickness
     ends = (0.0, above, above + _STEP_MM, below, below + _STEP_MM, below + depth)
     return ends, (outside, outside, inside, inside, outside, outside)

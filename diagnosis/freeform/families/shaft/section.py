@@ -12,7 +12,8 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.effects.effect import Effect, Place
+from diagnosis.freeform.families.in_layers.layers import box, place_of
 from diagnosis.freeform.families.interface import PARTS, level_of
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
@@ -24,7 +25,6 @@ from models.tissue import Interface, Section
 
 _FROM = (0.02, 0.12, 0.24, 0.36, 0.48, 0.6, 0.75)  # of the greatest depth, where one is looked for
 _LONG = 0.2  # of it
-_STEP_MM = 1e-3  # from one section to the next as it is drawn
 _PLACES = {Place.INTERFACE: 0.6, Place.NEEDLE: 0.4}
 
 
@@ -50,17 +50,8 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
-    starts = tuple(share * deepest_mm for share in _FROM)
-    level = level_of(ranges)
-    from_tip = Parameter(
-        name="from_tip",
-        unit="mm",
-        low=1.0,
-        high=deepest_mm,
-        start=starts,
-        logarithmic=True,
-        neutral=None,
-    )
+    level, starts = level_of(ranges), len(_FROM)
+    from_tip = place_of("from_tip", deepest_mm, _FROM)
     return Family(
         effect=Effect(
             name="dry friction over position, in one section of the shaft",
@@ -68,8 +59,8 @@ def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
             place=Place.INTERFACE,
             parameters=(
                 from_tip,
-                replace(from_tip, name="length", start=(_LONG * deepest_mm,) * len(starts)),
-                replace(level, high=level.high / _LONG, start=(level.start[0] / _LONG,) * len(starts)),
+                replace(from_tip, name="length", start=(_LONG * deepest_mm,) * starts),
+                replace(level, high=level.high / _LONG, start=(level.start[0] / _LONG,) * starts),
             ),
             apply=_apply_one,
             differences=(1e-1, 1e-2),
@@ -77,16 +68,10 @@ def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
         places=_PLACES,
         says="position",
         title="dry friction along the shaft",
-        curve=_one,
+        curve=partial(box, 0.0),
         x_unit="mm from the tip",
         unit="N mm / mm",
     )
-
-
-def _one(from_tip: float, length: float, level: float) -> Points:
-    end = from_tip + length
-    ends = (0.0, from_tip, from_tip + _STEP_MM, end, end + _STEP_MM, end + from_tip)
-    return ends, (0.0, 0.0, level, level, 0.0, 0.0)
 
 
 def _apply_one(rig: RigParameters, from_tip: float, length: float, level: float) -> RigParameters:
