@@ -105,6 +105,8 @@ one sample to the next, in the median: more is a gap."""
 LOST_COUNTS_MOST, LOST_COUNTS_LEAVES = 3, 0.9
 """Jumps of a log that are looked at, largest first; share of the gap of a trial that shifting readings
 back has to leave at most: far beyond chance, and not so little that friction would hide it."""
+LOST_COUNTS_FURTHEST = 3.0
+"""Scatter of a jump as it was read by which its size may differ from that at most. A choice."""
 LOST_COUNTS_SMALL_SIGMA, LOST_COUNTS_MOST_SMALL = 4.0, 16
 LOST_COUNTS_GAIN, LOST_COUNTS_SHARE = 30.0, 0.3
 """Beside an explanation: least size of a jump, in what usual moves are beyond those beside them; jumps
@@ -278,6 +280,9 @@ DERIVATIVE_WINDOW_S = 0.1
 NAME_LEAST_SCORE = 2.0
 """Weight of a name from which a column is proposed: one word of the quantity. Set on the names in
 tests/diagnosis/lab_files/guesses/test_names.py; it fills a draft alone."""
+MOST_BACKWARDS = 0.02
+"""Share of the rows of a column of times that are earlier than the one before: more is another column. A
+choice: such rows are refused by their number."""
 SAME_MOTION = 0.9
 """Correlation from which a column is the rate of another one."""
 RADIANS_AT_MOST = 13.0

@@ -21,14 +21,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import LOST_COUNTS_LEAVES, LOST_COUNTS_MOST
+from diagnosis.criteria import LOST_COUNTS_FURTHEST, LOST_COUNTS_LEAVES, LOST_COUNTS_MOST
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.motion.base_jumps import BASE, Jump, large_jumps
 
 Array = NDArray[np.float64]
 
-_FURTHEST = 3.0  # that a size is from the reading, in its scatter
 LeftOf = Callable[[RigLog], Array]
 
 
@@ -64,7 +63,9 @@ def _sized(log: RigLog, jump: Jump, left_of: LeftOf) -> Jump:
     less, read, more = (_squares(left) for left in each)
     weight = np.isfinite(each[1]).sum() / max(read, 1.0)
     slope, bend = weight * (more - less) / 2.0, weight * max(more - 2.0 * read + less, 0.0)
-    off = float(np.clip(-slope / (bend + 2.0), -_FURTHEST, _FURTHEST))  # in the scatter
+    off = float(
+        np.clip(-slope / (bend + 2.0), -LOST_COUNTS_FURTHEST, LOST_COUNTS_FURTHEST)
+    )  # in the scatter
     return jump.times(1.0 + off * step)
 
 

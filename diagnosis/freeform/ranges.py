@@ -91,6 +91,11 @@ class LogRanges:
         return max(float((trial.free_mm + trial.inserted_mm).max()) for trial in trials)
 
     @property
+    def deepest_mm(self) -> float:
+        """Inserted length, at most."""
+        return max(float(trial.schedule.inserted_mm.max()) for trial in self.problem.log.trials)
+
+    @property
     def deg_per_n_mm(self) -> float:
         """Twist of the longest nominal shaft over the torque that it asks for."""
         return self.longest_mm / self.problem.log.rig.rigidity_n_mm2 / units.DEG

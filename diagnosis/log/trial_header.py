@@ -54,13 +54,19 @@ def check_header(path: Path) -> None:
             f"{path}, line 2: expected {len(header)} cells as in the header, found {len(cells)}; "
             "write numbers with a decimal point, and no comma at the end of a line"
         )
-    time = dict(zip((name.strip() for name in header), cells, strict=False)).get("time_s", "").strip()
-    if time and not _is_number(time):
-        what = "dates; seconds are expected" if any(c.isdigit() for c in time) else "units: delete it"
-        raise UnusableLog(
-            f"{path}, line 2, column 'time_s': expected a number, found {time[:40]!r}, as in a row of "
-            f"{what}; {_IMPORT}"
-        )
+    named = dict(zip((name.strip() for name in header), cells, strict=False))
+    _refuse_units_or_dates(path, named.get("time_s", "").strip())
+
+
+def _refuse_units_or_dates(path: Path, time: str) -> None:
+    """Refuse a first row whose time is no number."""
+    if not time or _is_number(time):
+        return
+    what = "dates; seconds are expected" if any(c.isdigit() for c in time) else "units: delete it"
+    raise UnusableLog(
+        f"{path}, line 2, column 'time_s': expected a number, found {time[:40]!r}, as in a row of "
+        f"{what}; {_IMPORT}"
+    )
 
 
 def _is_number(text: str) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.criteria import NAME_LEAST_SCORE, SAME_MOTION
+from diagnosis.criteria import MOST_BACKWARDS, NAME_LEAST_SCORE, SAME_MOTION
 from diagnosis.lab_files.readers.lab_table import Array, LabTable
 from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, unit_in
 from diagnosis.log.unit_hints import words_of
@@ -28,7 +28,6 @@ _DEPTH |= {"carriage": 2, "z": 3}
 _SPEED = {"speed*": 3, "vel*": 3, "feed": 2, "v": 2}
 _TIME = {"stamp": 5, "timestamp*": 5, "time*": 4, "t": 4, "zeit": 4, "clock": 2}
 _NONE = -100.0
-MOST_BACKWARDS = 0.02  # share of the rows of a column of times that are earlier than the one before
 
 
 @dataclass(frozen=True, kw_only=True)

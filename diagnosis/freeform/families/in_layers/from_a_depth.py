@@ -9,8 +9,8 @@ Layers of one thickness blur where it begins; here the depth is fitted.
 from dataclasses import replace
 from functools import partial
 
-from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.in_layers.layers import place_of
+from diagnosis.effects.effect import Effect, Place
+from diagnosis.freeform.families.in_layers.layers import factor_of_damping, place_of
 from diagnosis.freeform.families.interface import level_of
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
@@ -27,17 +27,14 @@ _DIFFERENCES = (1e-1, 1e-2)
 
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
-    """Both laws; at one inserted length the first is an effect of the library (two layers)."""
-    deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
+    """Both laws; at one inserted length another damping is an effect of the library (two layers)."""
+    deepest = ranges.deepest_mm
     friction = _friction(deepest, ranges)
     return (friction, _damping(deepest, ranges)) if Variable.DEPTH in ranges.ends else (friction,)
 
 
 def _damping(deepest_mm: float, ranges: LogRanges) -> Family:
-    factors = tuple(times for times in _TIMES for _ in _FROM)
-    times = Parameter(
-        name="times", unit="-", low=0.02, high=50.0, start=factors, logarithmic=True, neutral=1.0
-    )
+    times = factor_of_damping(tuple(times for times in _TIMES for _ in _FROM))
     return Family(
         effect=Effect(
             name="damping over position, from a depth on",
@@ -84,12 +81,8 @@ def _dampings(deepest_mm: float, beta: float, depth: float, times: float) -> Poi
 
 
 def _step(deepest_mm: float, above: float, depth: float, below: float) -> Points:
-    return (0.0, depth, depth + _STEP_MM, max(deepest_mm, depth + 2.0 * _STEP_MM)), (
-        above,
-        above,
-        below,
-        below,
-    )
+    end = max(deepest_mm, depth + 2.0 * _STEP_MM)
+    return (0.0, depth, depth + _STEP_MM, end), (above, above, below, below)
 
 
 def _apply_damping(rig: RigParameters, depth: float, times: float) -> RigParameters:

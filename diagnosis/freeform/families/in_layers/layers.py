@@ -50,7 +50,7 @@ class _Layers:
 
 def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Families of layers that may be missing."""
-    deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
+    deepest = ranges.deepest_mm
     layers = _Layers(curve=smooth_curve(0.0, 1.0, PARTS), deepest_mm=deepest)
     fine = _Layers(curve=rough_curve(0.0, 1.0, FINE), deepest_mm=deepest)
     friction = (_friction(layers, ranges), _one_dry_layer(deepest, ranges))
@@ -201,9 +201,7 @@ def _apply_one_dry_layer(
 def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
     depth, thickness = _where(deepest_mm, len(_TIMES))
     factors = tuple(times for times in _TIMES for _ in _FROM)
-    times = Parameter(
-        name="times", unit="-", low=0.02, high=50.0, start=factors, logarithmic=True, neutral=1.0
-    )
+    times = factor_of_damping(factors)
     return Family(
         effect=Effect(
             name="damping over position, in one layer",
@@ -224,6 +222,13 @@ def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
 
 def _one_layers(beta: float, depth: float, thickness: float, times: float) -> Points:
     return box(beta, depth, thickness, beta * times)
+
+
+def factor_of_damping(starts: tuple[float, ...]) -> Parameter:
+    """Damping of a part of the tissue over that of the rest."""
+    return Parameter(
+        name="times", unit="-", low=0.02, high=50.0, start=starts, logarithmic=True, neutral=1.0
+    )
 
 
 def box(outside: float, depth: float, thickness: float, inside: float) -> Points:

@@ -44,7 +44,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     """Both laws, if the inserted length varies."""
     if Variable.DEPTH not in ranges.ends:
         return ()
-    deepest = max(float(trial.schedule.inserted_mm.max()) for trial in ranges.problem.log.trials)
+    deepest = ranges.deepest_mm
     sections = _Sections(curve=smooth_curve(0.0, 1.0, PARTS), length_mm=deepest / PARTS)
     return (_one_section(deepest, ranges), _along_the_shaft(sections, ranges))
 
