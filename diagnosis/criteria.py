@@ -410,6 +410,11 @@ COLOUR_MOST = 3.0
 """Coloured noise / the larger of the claim and of the scatter from sample to sample, at most, where
 these two agree: then the noise is white as claimed. What a late torque and friction in the bearing left
 of the nominal rig passed for twelve times the claim, and hid both."""
+COLOUR_FAR_ABOVE_CLAIM = 30.0
+"""Scatter from sample to sample / claim from which readings have no coloured noise: nobody is that wrong
+about a sensor, so that it is the rig that shakes. A friction damper with play, whose load cell is 34
+times better than its torque scatters, left all that no model explains to noise of 9 and 13 Hz, and
+20 N mm of the 25 of its dry friction."""
 COLOUR_MOST_PARTS, COLOUR_OSCILLATES_ABOVE_HZ, COLOUR_PARTS_GAP = 3, 4.0, 2.0
 """Correlated parts that noise may have, each for COLOUR_CHI_SQUARE; the frequency from which on it may
 oscillate; and what the residual of a sensor may come to for more than one part. Physical: a needle is

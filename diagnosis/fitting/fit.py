@@ -97,6 +97,13 @@ class Fit:
         """The vector by effect."""
         return self.parameterization.parts(self.x)
 
+    @property
+    def trial_at_bound(self) -> bool:
+        """Whether what concerns one trial only, as its past does, stopped at a bound."""
+        low, high = self.parameterization.bounds()
+        held = (self.x <= low) | (self.x >= high)
+        return bool(np.any(held & self.parameterization.about_one_trial))
+
 
 def fit_effects(
     problem: FitProblem,

@@ -92,8 +92,8 @@ def _of_all_trials_together(found: Diagnosis) -> str:
     leaves = "leave" if len(best.named) > 1 else "leaves"
     return (
         f". {_capital(titles(best.named))} {leaves} {in_sigma(best.fit.gap)} of all trials together, "
-        "but no trial is predicted from the others: check whether all were recorded on the same rig, "
-        "with the same columns"
+        f"but predictions from the other trials {in_sigma(near.gap_after)}: check whether all were "
+        "recorded on the same rig, with the same columns"
     )
 
 

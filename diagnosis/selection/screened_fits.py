@@ -36,7 +36,8 @@ def fit_screened(
     is still fitted, what that contains, and other starts of what came there at a bound of its range.
     A fit that cannot come near enough to be of use is given up.
     Further starts of a set come after the first of each, and not at all where they promise to leave no
-    less than that has. Where a fit leaves far more than was promised, it begins once more elsewhere.
+    less than that has. Where a fit leaves far more than was promised, or has wound up a trial's past as
+    far as it goes, it begins once more elsewhere.
 
     Args:
       used: how many sets are of use, where none comes to the noise floor.
@@ -76,7 +77,7 @@ def _fit_neutrally(
     used: int,
     workers: Workers,
 ) -> Made:
-    """Fits of sets that left more than was promised, once more, from where nothing was taken over."""
+    """Fits of sets once more, from where nothing was taken over."""
     calls = [(problem, s, _enough(problem, s.names, found, used)) for s in broken]
     tasks = [Task(effects=call[1].names, arguments=call) for call in calls]
     return candidates_of(stage, workers.each(stage, _fit_from_neutral, tasks)) if tasks else ([], ())
@@ -87,9 +88,9 @@ def _fit_from_neutral(problem: FitProblem, one: Screened, enough: float) -> Fit:
 
 
 def _is_broken(one: Screened, new: Sequence[Candidate]) -> bool:
-    """Whether every fit of a set leaves far more than was promised."""
-    left = [c.fit.cost for c in new if c.names == one.names]
-    return bool(left) and min(left) > PROMISE_BROKEN * one.cost
+    """Whether every fit of a set leaves far more than was promised, or a past at its bound."""
+    own = [c.fit for c in new if c.names == one.names]
+    return bool(own) and all(f.trial_at_bound or f.cost > PROMISE_BROKEN * one.cost for f in own)
 
 
 def _enough(problem: FitProblem, names: tuple[str, ...], found: Sequence[Candidate], used: int) -> float:

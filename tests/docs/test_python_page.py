@@ -1,5 +1,6 @@
 """The Python of docs/python.md runs as written; diagnoses are cut short, and fewer."""
 
+import json
 import re
 from pathlib import Path
 
@@ -49,7 +50,11 @@ def test_simulate(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_validate(tmp_path, monkeypatch):
     names = ran(blocks("Validate")[0], tmp_path, monkeypatch)
-    assert (tmp_path / "out" / "validate" / "validate.json").is_file()
+    content = json.loads((tmp_path / "out" / "validate" / "validate.json").read_text())
+    assert content["passed"] is True
+    for source in ("second_order", "without_callbacks"):
+        assert sum(p["source"] == source for p in content["poles"]) == 48
+    assert {p["drive"] for p in content["poles"]} == {"torque", "angle"}
     assert "every bound holds" in names["findings"]._repr_html_()
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from diagnosis.criteria import (
     COLOUR_AT_ONCE_SHARE,
     COLOUR_CHI_SQUARE,
+    COLOUR_FAR_ABOVE_CLAIM,
     COLOUR_LEAST_SHARE,
     COLOUR_MOST,
     LEAST_DIFFERENCES,
@@ -191,8 +192,7 @@ def estimate_noise(
             found = min(found, NOISE_RATIO[1] * claims[sensor])
         found = max(found, least.get(sensor, 0.0))
         sigma[sensor] = found
-    right = [s for s in SENSORS if claims[s] > 0 and _agrees(sigma[s], claims[s])]
-    most = {s: COLOUR_MOST * max(claims[s], sigma[s]) for s in right}
+    most = {s: _most_coloured(sigma[s], claims[s]) for s in SENSORS}
     noise = Noise(sigma=sigma, white=sigma, most=most, means_of=means_of).with_colour(
         residuals, COLOUR_AT_ONCE_SHARE
     )
@@ -202,6 +202,15 @@ def estimate_noise(
         ) or _below_noise(sensor, left[sensor], noise[sensor])
     said = tuple(warning for column, warning in warnings.items() if warning and column not in told)
     return replace(noise, warnings=said, least=least)
+
+
+def _most_coloured(scatter: float, claimed: float) -> float:
+    """Largest noise that may be coloured, if readings scatter so much from sample to sample."""
+    if claimed <= 0:
+        return math.inf
+    if scatter > COLOUR_FAR_ABOVE_CLAIM * claimed:
+        return 0.0
+    return COLOUR_MOST * max(claimed, scatter) if _agrees(scatter, claimed) else math.inf
 
 
 def _scatters_otherwise(column: str, found: float, claimed: float, means_of: int) -> str:

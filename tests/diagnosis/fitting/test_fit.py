@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import RIG, TIP, TORQUE, log_of, problem_of
+from diagnosis_fixtures import RIG, TIP, TORQUE, fit_of, log_of, problem_of
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
+from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting import fit as module
 from diagnosis.fitting.fit import completed, fit_effects, nominal_fit
 from diagnosis.fitting.fit_status import FitStatus, Stopping, Termination
@@ -109,6 +110,22 @@ def test_a_parameter_that_stops_at_a_bound_is_named():
     fit = fit_effects(problem, ("tip_sensor_delay",), start_of(problem, "tip_sensor_delay"))
     assert fit.x[0] == 0.0
     assert fit.status.at_bound == ("tip_sensor_delay.delay",)
+
+
+def test_a_past_that_stops_at_a_bound_is_no_parameter_of_an_effect():
+    past = Effect(
+        name="start of a.csv",
+        title="what the base turned by before a.csv began",
+        place=Place.DRIVE,
+        parameters=(Parameter(name="wound", unit="deg", low=-1.0, high=1.0, start=(0.0,)),),
+        apply=lambda rig, _: rig,
+        trial="a.csv",
+    )
+    most = parameterization_of(("tip_drag",)).bounds()[1][0]
+    for x, at_bound in (((0.0, 1.0), True), ((0.0, 0.5), False), ((most, 0.5), False)):
+        found = fit_of(("tip_drag",), nuisance=(past,), x=x)
+        assert found.trial_at_bound is at_bound
+        assert not found.status.at_bound
 
 
 def test_the_cost_is_that_of_residuals_and_of_the_prior():

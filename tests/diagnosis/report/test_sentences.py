@@ -211,7 +211,8 @@ def test_trials_that_fit_together_and_not_from_each_other_may_differ(dry, times,
     near = replace(dry.found.assessment.nearest, gap_after=times * best.fit.gap)
     found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
     found = replace(found, assessment=replace(dry.found.assessment, nearest=near))
-    said = f"{in_sigma(best.fit.gap)} of all trials together, but no trial is predicted from the others"
+    left, unseen = in_sigma(best.fit.gap), in_sigma(near.gap_after)
+    said = f"{left} of all trials together, but predictions from the other trials {unseen}"
     assert (said in headline(found)) is told
 
 

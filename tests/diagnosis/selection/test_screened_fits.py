@@ -11,6 +11,7 @@ from diagnosis.criteria import (
     NEAR_FLOOR,
     PROMISE_BROKEN,
 )
+from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection import fitting, screened_fits
 from diagnosis.selection.record import Decision
@@ -181,6 +182,16 @@ def test_what_leaves_far_more_than_promised_is_fitted_once_more_from_a_neutral_s
     assert {c.names: c.fit.cost for c in found} == pytest.approx(
         {("stiction",): 0.5 * PROMISE_BROKEN * 2000.0, ("tip_drag",): 0.99 * PROMISE_BROKEN * 2000.0}
     )
+
+
+@pytest.mark.parametrize("wound", [True, False])
+def test_a_fit_that_wound_up_a_past_as_far_as_it_goes_begins_once_more(wound, made, monkeypatch):
+    monkeypatch.setattr(Fit, "trial_at_bound", property(lambda fit: wound and fit.cost > 2000.0))
+    monkeypatch.setattr(screened_fits, "neutral_start", lambda *_: np.array([1900.0]))
+    kept = start_of(("stiction",), 2000.0, 2100.0)
+    (found,), _ = fit_screened("single effects", NO_LOG, [kept], 9, Workers())
+    assert len(made) == (2 if wound else 1)
+    assert found.fit.cost == pytest.approx(1900.0 if wound else 2100.0)
 
 
 def test_a_fit_that_fails_is_recorded_and_the_others_go_on(made):

@@ -130,9 +130,14 @@ def test_what_is_far_above_the_claim_is_no_noise(size, coloured):
     assert ("base_torque_n_mm" in noise.colour) is coloured
     if coloured:
         assert noise["base_torque_n_mm"] == pytest.approx(np.hypot(size, 0.5) * TORQUE, rel=0.25)
-    for claim in (0.0, 0.02 * TORQUE):  # none, and one that is no measure of what the readings do
-        other = RIG.but(sensors=RIG.sensors.but(base_torque_noise_n_mm=claim))
-        assert estimate_noise(other, {"base_torque_n_mm": parts}, BASE).colour
+    for claim in (0.0, 0.04 * TORQUE):  # none, and one that is no measure of what the readings do
+        assert estimate_noise(claiming(claim), {"base_torque_n_mm": parts}, BASE).colour
+    shaken = claiming(0.01 * TORQUE)  # a sensor that is so much better than its readings
+    assert not estimate_noise(shaken, {"base_torque_n_mm": parts}, BASE).colour
+
+
+def claiming(torque_noise):
+    return RIG.but(sensors=RIG.sensors.but(base_torque_noise_n_mm=torque_noise))
 
 
 def test_each_sensor_may_have_a_drift_of_its_own():
