@@ -2,6 +2,7 @@
 
 import statistics
 
+from diagnosis.criteria import FAR_GAP
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.family import Family
@@ -58,6 +59,7 @@ DOUBT = (
 )
 SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
+_HINT = "still far above the noise, so that a curve is no more than a hint"
 _OTHERS = 3
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
@@ -79,15 +81,24 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
     where = UNSEEN if missing.best.held_out and not alone else SEEN
     first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
+    depends = (
+        f"What is missing acts {PLACES[law.place]} ({_how_probable(missing, law.place)}) and depends on "
+        f"{VARIABLES[law.variable]}: {first_course}."
+    )
+    falls = f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
+    if first.gap_after > FAR_GAP:
+        return f"{depends} {_with_so_many_more(len(more), beside)} {falls}: {_HINT}."
     each = zip(missing.beside, more, strict=True)
     others = "".join(f" {_more_of(law, course)}" for law, course in each)
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
-    told = (
-        f"What is missing acts {PLACES[law.place]} ({_how_probable(missing, law.place)}) and depends on "
-        f"{VARIABLES[law.variable]}: {first_course}.{others} {reduces} "
-        f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
-    )
-    return f"{told}{_beside(missing)}.{_likeness(law)}"
+    return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{_likeness(law)}"
+
+
+def _with_so_many_more(count: int, beside: str) -> str:
+    """That a law, with so many beside it, reduces a residual that stays far above the noise."""
+    if count == 0:
+        return f"A free-form law of this kind{beside} reduces"
+    return f"This law{beside} and {'another one' if count == 1 else f'{count} others'} reduce"
 
 
 def _how_probable(missing: Missing, place: Place) -> str:

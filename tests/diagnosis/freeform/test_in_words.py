@@ -157,6 +157,27 @@ def test_laws_that_were_fitted_together_are_told_one_by_one():
     assert "with the time" not in said  # as if that were enough
 
 
+@pytest.mark.parametrize(
+    ("beside", "said"),
+    [
+        ((), "A free-form law of this kind reduces the residual from 89.0 σ to 23.0 σ"),
+        ((LAW,), "This law and another one reduce the residual from 89.0 σ to 23.0 σ"),
+        ((LAW, LAW), "This law and 2 others reduce the residual from 89.0 σ to 23.0 σ"),
+    ],
+)
+def test_laws_that_leave_far_more_than_noise_are_hints(beside, said):
+    best = replace(
+        seen_fit(), others=tuple(free_fit(1.0, name=str(i)).family for i in range(len(beside)))
+    )
+    missing = missing_with(beside=beside, best=best)
+    far = replace(missing.depends_on[0], gap_after=23.0)
+    told = what_is_missing(replace(missing, depends_on=(far, *missing.depends_on[1:])), 89.0)
+    assert said in told
+    assert "still far above the noise, so that" in told
+    assert "another law" not in told
+    assert "hint" not in what_is_missing(missing, 89.0)
+
+
 def test_that_a_law_grows_with_another_variable_is_told():
     factor = replace(LAW, variable="time", title="factor of the friction", unit="-", multiplies=True)
     law = seen_fit()
