@@ -36,6 +36,7 @@ from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, n
 from diagnosis.selection.search_of_log import search_log
 from diagnosis.selection.state import SearchState
 from diagnosis.selection.verdicts.changed import provisional, refuted
+from diagnosis.selection.verdicts.plainly_named import plainly_named
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 from diagnosis.stages import ASSESSING, CHECKING, REPLAYING, in_words
 from diagnosis.stopping import EarlyStop, StoppedEarly, StopSignal, listening
@@ -143,6 +144,7 @@ def _concluded(
     cut = bool(workers.stop.left_out)
     heard(CHECKING, 0, 1)
     last = _of_another_form(_judged(told, cut=cut), nominal, workers)
+    last = replace(last, verdict=plainly_named(last.verdict, last.problem))
     heard(CHECKING, 1, 1)
     heard(ASSESSING, 0, 1)
     assessment = assess(
