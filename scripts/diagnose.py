@@ -20,10 +20,16 @@ from diagnosis.pipeline import diagnose
 from diagnosis.report.answer import answer
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sensors import imperfections
-from diagnosis.report.sentences import explanations, label_of, largest_parts, largest_residual
+from diagnosis.report.sentences import (
+    NOT_AN_EXPLANATION,
+    explanations,
+    label_of,
+    largest_parts,
+    largest_residual,
+)
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
-from diagnosis.residuals.residual_breakdown import ResidualBreakdown
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown, band_name
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import StoppedEarly, StopSignal
@@ -136,6 +142,7 @@ def _summary(found: Diagnosis, console: Console) -> None:
     elif found.assessment.nearest.effects:
         parameters = as_json(found)["nearest"]["parameters"]
         print_table(console, _parameter_table(parameters, "What comes nearest"), keys=2)
+        console.print(NOT_AN_EXPLANATION, highlight=False)
     if found.verdict.kind is not VerdictKind.UNKNOWN:  # then no explanation has a probability
         print_table(console, _ranking_table(found))
     if told.detection_limits and not found.verdict.effects:
@@ -156,7 +163,7 @@ def _by_part(parts: ResidualBreakdown) -> Iterator[tuple[str, float]]:
     yield from parts.signal.items()
     yield from parts.phase.items()
     for low, high, value in parts.band_hz:
-        yield f"{low:g} to {high:g} Hz", value
+        yield band_name(low, high), value
     for depth, value in parts.depth_mm:
         yield f"{depth:g} mm deep", value
 

@@ -19,6 +19,7 @@ from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.criteria import FAR_GAP
+from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
 from diagnosis.fitting.noise_floor import floor_of
@@ -51,6 +52,7 @@ class Nearest:
       gap_after: rms of residual / sigma with it, on held-out trials.
       power_explained_percent: share of the power of the nominal residual beyond noise.
       at_bound: parameters that stopped at a bound, as effect.parameter.
+      imperfections: what its fit allows for in the sensors.
     """
 
     effects: tuple[str, ...]
@@ -58,6 +60,7 @@ class Nearest:
     gap_after: float
     power_explained_percent: float
     at_bound: tuple[str, ...]
+    imperfections: tuple[str, ...] = ()
 
 
 def nearest_of(
@@ -71,12 +74,14 @@ def nearest_of(
     Args:
       parameters: intervals of all fitted parameters, by effect.
     """
+    held = (*best.fit.status.at_bound, *best.fit.constants_at_bound)
     return Nearest(
         effects=effects,
         parameters={name: parameters[name] for name in effects if name in parameters},
         gap_after=gap.after,
         power_explained_percent=_power_percent(gap),
-        at_bound=tuple(p for p in best.fit.status.at_bound if p.partition(".")[0] in effects),
+        at_bound=tuple(p for p in held if p.partition(".")[0] in effects),
+        imperfections=tuple(name for name in best.names if name in IMPERFECTIONS),
     )
 
 

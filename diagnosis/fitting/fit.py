@@ -16,6 +16,7 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
+from diagnosis.criteria import SCATTER
 from diagnosis.effects import FITTED
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, far_for
@@ -98,11 +99,22 @@ class Fit:
         return self.parameterization.parts(self.x)
 
     @property
+    def constants_at_bound(self) -> tuple[str, ...]:
+        """Stiffness and damping, where not named, that stopped at a bound, as effect.parameter."""
+        told = [f"{e.name}.{p.name}" for e in self.parameterization.all for p in e.parameters]
+        mine = [owner in SCATTER and owner not in self.names for owner in self.parameterization.owners]
+        return tuple(name for name, at, own in zip(told, self._held, mine, strict=True) if at and own)
+
+    @property
     def trial_at_bound(self) -> bool:
         """Whether what concerns one trial only, as its past does, stopped at a bound."""
+        return bool(np.any(self._held & self.parameterization.about_one_trial))
+
+    @property
+    def _held(self) -> NDArray[np.bool_]:
+        """Mask of the entries of the vector that are at a bound."""
         low, high = self.parameterization.bounds()
-        held = (self.x <= low) | (self.x >= high)
-        return bool(np.any(held & self.parameterization.about_one_trial))
+        return np.asarray((self.x <= low) | (self.x >= high))
 
 
 def fit_effects(

@@ -64,6 +64,7 @@ _OTHERS = 3
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
+_SEEN_AGAIN = 0.9  # of a period, over which a law is known where it is said to repeat
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
@@ -82,7 +83,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     where = UNSEEN if missing.best.held_out and not alone else SEEN
     first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
     depends = (
-        f"What is missing acts {PLACES[law.place]} ({_how_probable(missing, law.place)}) and depends on "
+        f"What is missing acts {_where(missing, law.place)} and depends on "
         f"{VARIABLES[law.variable]}: {first_course}."
     )
     falls = f"the residual from {in_sigma(gap_before)} to {in_sigma(first.gap_after)} {where}"
@@ -101,11 +102,18 @@ def _with_so_many_more(count: int, beside: str) -> str:
     return f"This law{beside} and {'another one' if count == 1 else f'{count} others'} reduce"
 
 
-def _how_probable(missing: Missing, place: Place) -> str:
-    """The probability of a place, and the other that is nearly as likely."""
+def _where(missing: Missing, place: Place) -> str:
+    """The place of the leading law, and others that are nearly as likely or more so."""
     others = {p: own for p, own in missing.place.items() if p is not place and own >= _NEARLY}
-    more = "".join(f"; {PLACES[p]}: {own:.2f}" for p, own in others.items())
-    return f"probability {missing.place[place]:.2f}{more}"
+    own = missing.place[place]
+    likelier = max(others, key=others.__getitem__, default=place)
+    if others and others[likelier] > own:
+        return (
+            f"{PLACES[likelier]} (probability {others[likelier]:.2f}) or {PLACES[place]} ({own:.2f}), "
+            "whose law leaves least,"
+        )
+    more = "".join(f"; {PLACES[p]}: {one:.2f}" for p, one in others.items())
+    return f"{PLACES[place]} (probability {own:.2f}{more})"
 
 
 def laws_of(missing: Missing) -> list[tuple[Law, float]]:
@@ -115,7 +123,13 @@ def laws_of(missing: Missing) -> list[tuple[Law, float]]:
     """
     laws = (missing.law, *missing.beside) if missing.law else ()
     each = zip(laws, missing.best.told[: len(laws)], strict=True)
-    return [(law, 0.0 if law.multiplies else _period_deg(missing.best.fit, f)) for law, f in each]
+    return [(law, 0.0 if law.multiplies else _seen_period_deg(law, missing, f)) for law, f in each]
+
+
+def _seen_period_deg(law: Law, missing: Missing, family: Family) -> float:
+    """The angle after which a law repeats, deg; 0: it does not, or the log does not reach that far."""
+    period = _period_deg(missing.best.fit, family)
+    return period if law.x[-1] - law.x[0] >= _SEEN_AGAIN * period else 0.0
 
 
 def _more_of(law: Law, course: str) -> str:

@@ -105,6 +105,7 @@ def _nearest(nearest: Nearest) -> dict[str, Any]:
         "gap_after": nearest.gap_after,
         "power_explained_percent": nearest.power_explained_percent,
         "at_bound": list(nearest.at_bound),
+        "imperfections": list(nearest.imperfections),
     }
 
 

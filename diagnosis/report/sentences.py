@@ -3,15 +3,20 @@
 from collections.abc import Sequence
 
 from diagnosis.criteria import ALMOST_NOTHING_SIGMA, SHOWN_PROBABILITY
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
+NOT_AN_EXPLANATION = (
+    "This is not an explanation: something else is at work as well, or instead. The intervals tell how "
+    "far parts of the log agree on a value of this model; the value of the rig may be another."
+)
 _NOTHING = "the nominal model as it is"
 _FAR_FROM_CLAIMED = 10.0  # times the noise in rig.yaml: what no model explains is likely in it
 _TOGETHER = 0.6  # of the residual on unseen trials: what is left of all trials fitted at once
+_SETS = 4  # explanations that are told in a sentence
 _NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %
 
 
@@ -31,8 +36,7 @@ def _best_so_far(found: Diagnosis) -> str:
     if verdict.kind is VerdictKind.UNKNOWN:
         none = f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
         return f"{none}{_of_all_trials_together(found)}"
-    sets = "; or ".join(titles(names) or _NOTHING for names in verdict.confusable)
-    return f"{sets}: undecided, because others were not tried: {residual}"
+    return f"{_each_of(verdict.confusable)}: undecided, because others were not tried: {residual}"
 
 
 def _verdict(found: Diagnosis) -> str:
@@ -46,7 +50,7 @@ def _verdict(found: Diagnosis) -> str:
             verb = "explain" if len(effects) > 1 else "explains"
             return _capital(f"{titles(effects)} {verb} the gap: residual {before} → {after}")
         case VerdictKind.UNDECIDED:
-            sets = "; or ".join(titles(names) or _NOTHING for names in found.verdict.confusable)
+            sets = _each_of(found.verdict.confusable)
             return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
         case _:
             near = found.assessment.nearest
@@ -57,15 +61,17 @@ def _verdict(found: Diagnosis) -> str:
                     "leaves clearly less"
                 )
             best, named = found.verdict.best, titles(near.effects) or _NOTHING
+            named += _beside_sensors(near.imperfections)
+            power = f"{near.power_explained_percent:.0f} % of its power"
             if best.floor.small and best.objection and {*best.named} == {*near.effects}:
                 return (
-                    f"Unknown: {named} would leave a residual of {in_sigma(near.gap_after)} {sigma}, "
-                    f"but does not count: {best.objection}"
+                    f"Unknown: residual {before}. {_capital(named)} would leave "
+                    f"{in_sigma(near.gap_after)} {sigma} and explain {power}, but "
+                    f"{'do' if len(near.effects) > 1 else 'does'} not count: {best.objection}"
                 )
             least = (
                 f"at best {in_sigma(near.gap_after)} {sigma}, with {named}, which "
-                f"{'explain' if len(near.effects) > 1 else 'explains'} "
-                f"{near.power_explained_percent:.0f} % of its power"
+                f"{'explain' if len(near.effects) > 1 else 'explains'} {power}"
                 if near.effects
                 else f"which none of them lowers {sigma}"
             )
@@ -73,6 +79,20 @@ def _verdict(found: Diagnosis) -> str:
                 "Unknown: no effect of the library, nor two or three together, explains the gap: "
                 f"residual {before}, {least}{_of_all_trials_together(found)}"
             )
+
+
+def _each_of(sets: Sequence[Sequence[str]]) -> str:
+    """Sets of effects, the first of them where they are many."""
+    shown = sets if len(sets) <= _SETS + 1 else sets[:_SETS]
+    told = "; or ".join(titles(names) or _NOTHING for names in shown)
+    more = len(sets) - len(shown)
+    return f"{told}; or one of {more} others, which report.json lists" if more else told
+
+
+def _beside_sensors(imperfections: Sequence[str]) -> str:
+    """What the sensors do beside the effects that are named, as the end of a phrase."""
+    each = " and ".join(IMPERFECTIONS[name].title for name in imperfections)
+    return f", beside {each}" if each else ""
 
 
 def _what_sigma_is(found: Diagnosis) -> str:

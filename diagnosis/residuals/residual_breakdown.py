@@ -47,6 +47,11 @@ class ResidualBreakdown:
         return f"{words} and {when} ({in_sigma(self.phase[phase])})"
 
 
+def band_name(low_hz: float, high_hz: float) -> str:
+    """A band of frequencies in words; the last one ends where the samples do."""
+    return f"above {low_hz:g} Hz" if high_hz == BANDS_HZ[-1][1] else f"{low_hz:g} to {high_hz:g} Hz"
+
+
 def _first(parts: Mapping[str, float]) -> str:
     """The part with the largest residual; empty without parts."""
     return max(parts, key=lambda part: parts[part], default="")

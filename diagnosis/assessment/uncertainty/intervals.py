@@ -4,7 +4,8 @@ Three errors move a fitted parameter: the noise of the sensors, with the covaria
 squares including the prior; the remaining noise of the base angle in the motion that drives the
 replay; and the numerical error of the replay. The second is found by repetition: noise is added to
 the smoothed motion, which is smoothed again, and one Gauss-Newton step gives the shift of the fit.
-The third is the shift by a Gauss-Newton step for a finer replay.
+The third is the shift by a Gauss-Newton step for a finer replay. Where a model is incomplete, what it
+leaves takes the place of the noise (`incomplete_model`).
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.assessment.uncertainty.incomplete_model import covariance_of_incomplete
 from diagnosis.criteria import INTERVAL_Z
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.fit import Fit
@@ -49,7 +51,7 @@ def covariance(
 
     Args:
       change: change of the prediction by a finer replay, / sigma, by trial and sensor; empty: ignored.
-      left: factor by which the residual exceeds the noise; the noise is taken to be larger by it.
+      left: factor by which the residual exceeds the noise, of an incomplete model.
     """
     if fit.x.size == 0:
         return np.zeros((0, 0))
@@ -57,7 +59,8 @@ def covariance(
     again = _shifts(problem, fit, inverse)
     moved = [np.concatenate([*c.values(), _NOTHING]) for c in change]
     finer = _answer(fit, inverse, moved) if moved else np.zeros(fit.x.size)
-    return np.asarray(left**2 * inverse + again.T @ again / len(again) + np.outer(finer, finer))
+    known = covariance_of_incomplete(problem, fit, inverse, left) if left > 1.0 else inverse
+    return np.asarray(known + again.T @ again / len(again) + np.outer(finer, finer))
 
 
 def intervals(fit: Fit, spread: Array) -> dict[str, dict[str, Interval]]:

@@ -14,6 +14,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
@@ -27,8 +28,10 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import UNITS, Variable
 from models.tissue import Interface
 
+Array = NDArray[np.float64]
+
 AT_TIP, ALONG, OF_FIBRES = (1, 2, 3, 4), (1, 2), (2,)  # waves in a turn
-_SHOWN_DEG = np.linspace(-180.0, 180.0, 49)
+_HALF_TURN_DEG, _SHOWN = 180.0, 49  # angles at which a law is shown
 _EITHER = {Place.NEEDLE: 0.5, Place.TISSUE: 0.5}
 _TISSUE = {Place.TISSUE: 0.7, Place.NEEDLE: 0.3}
 _MOST_UNEVEN = 0.95  # of the damping, that it changes over a turn
@@ -68,7 +71,7 @@ def _angle(
         places=places,
         says="tip_angle",
         title=where,
-        curve=partial(_over_a_turn, waves),
+        curve=partial(_over_angles, shown_deg(ranges), waves),
         x_unit="deg",
         unit="N mm" if tip else "N mm / mm",
     )
@@ -144,14 +147,14 @@ def _uneven_damping(ranges: LogRanges) -> Family:
         places={Place.INTERFACE: 0.6, Place.NEEDLE: 0.4},
         says="tip_angle",
         title="damping along the shaft",
-        curve=partial(_damping_over_a_turn, beta),
+        curve=partial(_damping_over_angles, shown_deg(ranges), beta),
         x_unit="deg",
         unit="N mm s / rad / mm",
     )
 
 
-def _damping_over_a_turn(beta: float, *c: float) -> Points:
-    angle, waves = _over_a_turn(ALONG, *_kept_below(beta, c))
+def _damping_over_angles(shown: Array, beta: float, *c: float) -> Points:
+    angle, waves = _over_angles(shown, ALONG, *_kept_below(beta, c))
     return angle, beta + np.asarray(waves)
 
 
@@ -191,7 +194,7 @@ def _uneven_friction(ranges: LogRanges) -> Family:
         places={Place.INTERFACE: 0.6, Place.NEEDLE: 0.4},
         says="tip_angle",
         title="dry friction along the shaft",
-        curve=_friction_over_a_turn,
+        curve=partial(_friction_over_angles, shown_deg(ranges)),
         x_unit="deg",
         unit="N mm / mm",
     )
@@ -211,8 +214,8 @@ def _level_and_waves(level: Parameter) -> tuple[Parameter, ...]:
     )
 
 
-def _friction_over_a_turn(level: float, *c: float) -> Points:
-    angle, waves = _over_a_turn(ALONG, *c)
+def _friction_over_angles(shown: Array, level: float, *c: float) -> Points:
+    angle, waves = _over_angles(shown, ALONG, *c)
     return angle, level + _sum_of_sizes(c) + np.asarray(waves)
 
 
@@ -235,11 +238,19 @@ def _friction_wave(cycles: int, sine: float, cosine: float) -> Interface:
     )
 
 
-def _over_a_turn(waves: Sequence[int], *c: float) -> Points:
-    angle = np.radians(_SHOWN_DEG)
+def _over_angles(shown: Array, waves: Sequence[int], *c: float) -> Points:
+    angle = np.radians(shown)
     each = zip(waves, c[::2], c[1::2], strict=True)
     waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each]
-    return _SHOWN_DEG, np.sum(waves, axis=0)
+    return shown, np.sum(waves, axis=0)
+
+
+def shown_deg(ranges: LogRanges) -> Array:
+    """Angles of a turn that the base has been at: of others a log says nothing."""
+    low, high = ranges.ends[Variable.BASE_ANGLE]
+    if high - low >= 2.0 * _HALF_TURN_DEG:
+        low, high = -_HALF_TURN_DEG, _HALF_TURN_DEG
+    return np.linspace(low, high, _SHOWN)
 
 
 def _apply_angle(waves: Sequence[int], tip: bool, rig: RigParameters, *c: float) -> RigParameters:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 from diagnosis.criteria import TURNING_DEG_S
 
+_TOLD_S = 0.01  # of readings that are not used
+
 
 @dataclass(frozen=True, kw_only=True)
 class LateStart:
@@ -26,7 +28,8 @@ class LateStart:
         rate_deg_s = abs(self.rate_deg_s)
         moving = f" and moving at {rate_deg_s:.0f} deg/s" if rate_deg_s > TURNING_DEG_S else ""
         twist = f"by about {abs(self.twist_deg):.2g} deg" if self.twist_deg else ""
-        return f"{twist}{moving} (first {self.unused_s:.2g} s)".removeprefix(" and").strip()
+        unused = f" (first {self.unused_s:.2g} s)" if self.unused_s >= _TOLD_S else ""
+        return f"{twist}{moving}{unused}".removeprefix(" and").strip()
 
 
 def late_start_warning(starts: Mapping[str, LateStart]) -> str:

@@ -10,6 +10,7 @@ from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import HATCHES, PREDICTIONS, WIDE
 from diagnosis.report.sentences import label_of
+from diagnosis.residuals.residual_breakdown import band_name
 from diagnosis.result import Diagnosis
 
 
@@ -19,7 +20,7 @@ def draw_breakdown(found: Diagnosis) -> Figure:
     figure, axes = subplots(1, 4, figsize=(WIDE, 3))
     both = (found.assessment.breakdown, found.assessment.breakdown_after)
     signals, phases = list(both[0].signal), list(both[0].phase)
-    bands = [f"{low:g} to {high:g} Hz" for low, high, _ in both[0].band_hz]
+    bands = [band_name(low, high) for low, high, _ in both[0].band_hz]
     depths = [f"{depth:g} mm" for depth, _ in both[0].depth_mm]
     _bars(axes[0], signals, [[w.signal[k] for k in signals] for w in both], "by signal")
     _bars(axes[1], phases, [[w.phase[k] for k in phases] for w in both], "by phase of the motion")

@@ -6,7 +6,7 @@ from typing import Any
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
-from diagnosis.report.sentences import nearest
+from diagnosis.report.sentences import NOT_AN_EXPLANATION, nearest
 from diagnosis.report.tables import parameter_table
 from diagnosis.result import Diagnosis
 
@@ -17,10 +17,6 @@ _INTERVALS = (
     "smaller one. Stiffness and damping of the rig are left open in every fit, as a share of their "
     "nominal values."
 )
-_NEAREST = (
-    "This is not an explanation: something else is at work as well, or instead. The intervals are "
-    "widened by the residual that remains, but they treat it as noise."
-)
 
 
 def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:
@@ -28,7 +24,7 @@ def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]
     if sentence := nearest(found):
         own = report["nearest"]["parameters"]
         parts = [html.heading("What comes nearest"), html.paragraph(f"{sentence}.")]
-        return [*parts, *_values(found, own), *([html.paragraph(_NEAREST)] if own else [])]
+        return [*parts, *_values(found, own), *([html.paragraph(NOT_AN_EXPLANATION)] if own else [])]
     own = report["parameters"]
     return [html.heading("Parameters"), *_values(found, own)] if own else []
 

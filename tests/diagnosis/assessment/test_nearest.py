@@ -5,12 +5,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import scored
+from diagnosis_fixtures import fit_of, scored
 
 from diagnosis.assessment import nearest as module
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.nearest import nearest_of
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.selection.verdicts.verdict import VerdictKind
@@ -43,6 +44,17 @@ def test_it_tells_the_parameters_of_its_effects_and_what_stopped_at_a_bound():
     near = nearest_of(best, ("coulomb_friction",), PARAMETERS, gap(5.0, 2.0))
     assert near.parameters == {"coulomb_friction": {"level": LEVEL}}
     assert near.at_bound == ("coulomb_friction.level",)
+
+
+def test_a_constant_of_the_rig_at_its_bound_and_what_the_sensors_do_are_told():
+    names = ("coulomb_friction", "torque_clock")
+    fit = fit_of(names, nuisance=(LIBRARY["damping_error"],))
+    least = fit.parameterization.bounds()[0][-1]
+    fit = replace(fit, x=np.append(fit.x[:-1], least))
+    best = replace(scored(names, 0.0), fit=fit)
+    near = nearest_of(best, ("coulomb_friction", "damping_error"), PARAMETERS, gap(5.0, 2.0))
+    assert near.at_bound == ("damping_error.scale",)
+    assert near.imperfections == ("torque_clock",)
 
 
 @pytest.mark.parametrize(("left", "effects"), [(0.9, ("tip_drag",)), (1.1, ())])

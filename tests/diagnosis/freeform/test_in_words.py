@@ -9,6 +9,7 @@ from free_forms import LAW, VOCABULARY, covered, free_fit, linear_fit, missing_w
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
+from diagnosis.freeform.families.angle import families as families_over_angles
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.in_words import (
     DOUBT,
@@ -98,6 +99,15 @@ def test_a_place_that_is_nearly_as_likely_is_told():
     )
 
 
+def test_a_place_that_is_likelier_than_that_of_the_law_comes_first():
+    places = dict.fromkeys(Place, 0.08) | {Place.INTERFACE: 0.29, Place.TISSUE: 0.37}
+    said = what_is_missing(missing_with(place=places), 8.9)
+    assert (
+        "acts in the tissue (probability 0.37) or between shaft and tissue (0.29), whose law leaves "
+        "least, and depends on"
+    ) in said
+
+
 def test_gaps_of_the_decimated_log_are_not_told_beside_those_of_the_log_itself():
     """Means have less noise: in sigma, they leave more than the nominal rig does on all samples."""
     told = missing_with(best=seen_fit())
@@ -116,8 +126,9 @@ def test_only_a_law_of_a_periodic_family_repeats_itself():
     angle = turns()
     seen = (0.9 * angle, 0.02 * angle)
     families = families_of(covered(angle, tip=angle, torque=0.01 * angle, seen=seen))
+    turn = replace(LAW, x=(-180.0, 0.0, 180.0))
     found = {
-        family.name: laws_of(missing_with(best=fit_of(family)))[0][1]
+        family.name: laws_of(missing_with(turn, best=fit_of(family)))[0][1]
         for family in families
         if family.says in ("tip_angle", "rate", "base_angle")
     }
@@ -126,6 +137,14 @@ def test_only_a_law_of_a_periodic_family_repeats_itself():
     assert found["tip reading over tip_angle"] == 0.0
     assert found["tip torque over tip_angle, over many turns"] == 0.0
     assert {round(period) for name, period in found.items() if "rate" in name} == {0}
+
+
+def test_a_law_that_is_known_over_less_than_a_turn_is_not_said_to_repeat():
+    (around,) = (
+        f for f in families_over_angles(covered(turns())) if f.name == "tip torque over tip_angle"
+    )
+    half = replace(LAW, x=(-90.0, 0.0, 90.0))
+    assert laws_of(missing_with(half, best=fit_of(around)))[0][1] == 0.0
 
 
 def test_that_a_law_repeats_is_said():

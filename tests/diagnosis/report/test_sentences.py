@@ -7,6 +7,8 @@ import pytest
 from free_forms import missing_with
 
 from diagnosis.assessment.advice import advise
+from diagnosis.effects import LIBRARY
+from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.in_sigma import in_sigma
 from diagnosis.prepare.prepare import prepare
 from diagnosis.report.sentences import (
@@ -134,6 +136,37 @@ def test_sets_that_fit_alike_are_told_in_words(dry):
     kind = VerdictKind.UNDECIDED
     said = headline(concluding(dry.found, kind=kind, confusable=(TWO, ("stiction",))))
     assert f"{titles(TWO)}; or {titles(('stiction',))}" in said
+
+
+@pytest.mark.parametrize(
+    ("count", "said"), [(5, ""), (7, "; or one of 3 others, which report.json lists")]
+)
+def test_of_many_sets_that_fit_alike_the_first_are_told(dry, count, said):
+    sets = tuple((name,) for name in list(LIBRARY)[:count])
+    told = headline(concluding(dry.found, kind=VerdictKind.UNDECIDED, confusable=sets))
+    assert ("others" in told) is bool(said)
+    assert said in told
+    assert titles(sets[3]) in told
+
+
+def test_what_the_sensors_do_beside_the_nearest_explanation_is_told_with_it(dry):
+    near = replace(dry.found.assessment.nearest, imperfections=("tip_clock",))
+    found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=())
+    found = replace(found, assessment=replace(dry.found.assessment, nearest=near))
+    named = titles(near.effects)
+    assert f"with {named}, beside a clock of the tip sensor that drifts, which explains" in headline(
+        found
+    )
+
+
+def test_what_would_leave_little_but_does_not_count_is_told_with_its_power(dry):
+    far = NoiseFloor(gap=1.01, slow=1.5)
+    best = replace(dry.found.verdict.best, floor=far)
+    found = concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=(), best=best)
+    told = headline(found)
+    power = f"{found.assessment.nearest.power_explained_percent:.0f} % of its power"
+    assert told.startswith(f"Unknown: residual {in_sigma(found.assessment.gap.before)}. Dry (Coulomb)")
+    assert f"and explain {power}, but does not count: not white" in told
 
 
 def test_what_the_named_effect_cannot_be_told_from_stands_beside_it(dry):

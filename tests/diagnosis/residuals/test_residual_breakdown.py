@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 
+from diagnosis.criteria import BANDS_HZ
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.replay.prediction import Prediction
-from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
+from diagnosis.residuals.residual_breakdown import ResidualBreakdown, band_name, residual_breakdown
 from diagnosis.residuals.trial_residual import trial_residuals
 
 
@@ -55,6 +56,10 @@ def test_a_gap_is_found_in_its_band_and_at_its_depth(found):
 def parts(signal, phase):
     """A breakdown with these two parts."""
     return ResidualBreakdown(signal=signal, phase=phase, band_hz=[], depth_mm=[], time_s=[])
+
+
+def test_the_last_band_ends_where_the_samples_do():
+    assert [band_name(*band) for band in BANDS_HZ][-2:] == ["1 to 10 Hz", "above 10 Hz"]
 
 
 def test_the_words_name_the_largest_signal_and_phase_of_the_numbers(found):

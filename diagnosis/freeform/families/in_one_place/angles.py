@@ -12,9 +12,10 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.families.angle import ALONG, waves_over
+from diagnosis.freeform.families.angle import ALONG, shown_deg, waves_over
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
 from diagnosis.freeform.family import Family, Points, coordinates
@@ -23,7 +24,9 @@ from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 
-_TURN_DEG, _QUARTER_DEG = 360.0, 90.0
+Array = NDArray[np.float64]
+
+_QUARTER_DEG = 90.0
 _SLOW_WAVES = (1, 2, 3)
 _SHOWN = np.linspace(-1.0, 1.0, 49)
 _FIBRES = {Place.TISSUE: 0.6, Place.NEEDLE: 0.4}
@@ -49,7 +52,7 @@ def _bent(spot: Spot, ranges: LogRanges) -> Family:
         places=spot.places,
         says=Variable.BASE_ANGLE,
         title=f"torque {spot.words}",
-        curve=partial(_over, ALONG, 0.5 * _TURN_DEG),
+        curve=partial(_over, ALONG, shown_deg(ranges)),
         x_unit="deg",
         unit=spot.unit,
     )
@@ -75,7 +78,7 @@ def _wound(ranges: LogRanges, *, tip: bool) -> Family:
         places=_FIBRES,
         says="tip_angle",
         title=where,
-        curve=partial(_over, waves, farthest_deg),
+        curve=partial(_over, waves, farthest_deg * _SHOWN),
         x_unit="deg",
         unit="N mm" if tip else "N mm / mm",
     )
@@ -86,8 +89,7 @@ def _apply_wound(waves: Sequence[float], tip: bool, rig: RigParameters, *c: floa
     return replace(rig, free=FreeLaw(at_tip=laws) if tip else FreeLaw(throughout=laws))
 
 
-def _over(waves: Sequence[float], farthest_deg: float, *c: float) -> Points:
-    angle_deg = farthest_deg * _SHOWN
+def _over(waves: Sequence[float], angle_deg: Array, *c: float) -> Points:
     each = zip(waves, c[::2], c[1::2], strict=True)
     angle = np.radians(angle_deg)
     return angle_deg, np.sum([a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in each], axis=0)

@@ -9,6 +9,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.angle import families
 from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.replay.variables import Variable
 
 ANGLE = turns(6.0)
 SLIDING = covered(ANGLE, tip=ANGLE, speed=2.0 * np.sin(np.linspace(0, 9, ANGLE.size)))
@@ -97,7 +98,8 @@ def test_uneven_damping_is_told_as_damping_and_stays_positive():
 
 def test_friction_over_the_angle_is_a_level_and_what_waves_add_to_it():
     """Never below the level, which it reaches at the easiest angle of a single wave."""
-    angles, level = FAMILIES[KEYED].curve(0.002, 0.0, 0.0, 0.0003, 0.0004)
+    around = {family.name: family for family in families(covered(3.0 * ANGLE))}
+    angles, level = around[KEYED].curve(0.002, 0.0, 0.0, 0.0003, 0.0004)
     x = 2 * np.radians(angles)
     np.testing.assert_allclose(level, 0.0025 + 0.0003 * np.sin(x) + 0.0004 * np.cos(x))
     # Points every 7.5 deg: 15 deg of this wave.
@@ -111,6 +113,16 @@ def test_friction_over_the_angle_is_a_level_and_what_waves_add_to_it():
         for law in laws
     )
     assert told == pytest.approx(0.0025 + 0.0003 * np.sin(2 * at) + 0.0004 * np.cos(2 * at))
+
+
+@pytest.mark.parametrize(("times", "turn"), [(1.0, False), (5.0, True)])
+def test_a_law_is_shown_at_the_angles_that_the_base_has_been_at(times, turn):
+    low, high = covered(times * ANGLE).ends[Variable.BASE_ANGLE]
+    assert (high - low > 360.0) is turn
+    for family in families(covered(times * ANGLE)):
+        if family.x_unit == "deg":
+            angles, _ = family.curve(*(p.start[0] for p in family.effect.parameters))
+            assert (angles[0], angles[-1]) == pytest.approx((-180.0, 180.0) if turn else (low, high))
 
 
 def test_friction_whose_waves_are_none_is_that_of_the_library():

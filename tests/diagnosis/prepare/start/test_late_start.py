@@ -17,6 +17,7 @@ def test_one_warning_names_every_trial_its_twist_and_what_is_not_used():
 def test_a_base_that_moves_is_told():
     assert MOVING.words == "by about 5 deg and moving at 42 deg/s (first 0.5 s)"
     assert replace(MOVING, twist_deg=0.0).words == "moving at 42 deg/s (first 0.5 s)"
+    assert replace(MOVING, unused_s=2e-5).words == "by about 5 deg and moving at 42 deg/s"
     assert replace(TWISTED, twist_deg=0.0).words == f"(first {TWISTED.unused_s:.2g} s)"
 
 
