@@ -10,9 +10,12 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.lost_counts import with_jumps_restored
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.motion.base_jumps import small_jumps
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.selection.jumps_beside import STAGE, jumps_beside
 from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.scoring.drift_evidence import in_noise, wide_drifts
 from diagnosis.selection.search import search
+from diagnosis.selection.stages.sensors.sensor_drift import promises
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
@@ -61,8 +64,18 @@ def _searched(nominal: NominalReplay, effects: tuple[str, ...], workers: Workers
 
 
 def _restored(log: RigLog, found: SearchState, workers: Workers) -> RigLog:
-    """The log with counts restored that were lost beside the best explanation; itself: too few were."""
-    fit = found.best.fit
-    beyond = sum(float(r @ r) for r in fit.by_trial) - fit.samples
-    jumps, taken_off = jumps_beside(found.problem, fit, small_jumps(log), workers)
-    return with_jumps_restored(log, jumps) if taken_off > LOST_COUNTS_SHARE * beyond else log
+    """The log with counts restored that were lost beside the best explanation; itself: too few were.
+
+    A drift of the torque may leave so much more that they are a small part of it.
+    """
+    steady = found.problem.noise
+    drifting = [
+        noise for noise in wide_drifts(found.problem, TORQUE)[-1:] if promises(found, noise, found.best)
+    ]
+    for noise in (steady, *drifting):
+        problem, fit = found.renoised(noise).problem, in_noise(found.best, found.problem, noise).fit
+        beyond = sum(float(r @ r) for r in fit.by_trial) - fit.samples
+        jumps, taken_off = jumps_beside(problem, fit, small_jumps(log), workers)
+        if taken_off > LOST_COUNTS_SHARE * beyond:
+            return with_jumps_restored(log, jumps)
+    return log

@@ -1,10 +1,15 @@
 """The search of a log, once more where counts were lost."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
+from diagnosis_fixtures import TORQUE as DRIFT_SIZE
 from lossy_logs import LOST_DEG, NAMES, read
 
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.motion.base_jumps import small_jumps
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.selection import search_of_log as module
 from diagnosis.selection.jumps_beside import STAGE
 from diagnosis.selection.record import Decision
@@ -12,6 +17,12 @@ from diagnosis.selection.search_of_log import search_log
 from diagnosis.stages import STAGES
 from diagnosis.workers import Workers
 from sim.needles.run import SimulationFailed
+
+
+def drifting(trial, most):
+    """A trial whose torque drifts by up to so many sigma."""
+    course = most * DRIFT_SIZE * np.sin(2.0 * np.linspace(0.0, 1.0, len(trial.table)))
+    return replace(trial, table=trial.table.assign(**{TORQUE: trial[TORQUE] + course}))
 
 
 def noted(state):
@@ -29,6 +40,17 @@ def test_counts_that_an_effect_hides_from_the_nominal_rig_are_restored():
     assert STAGE in STAGES
     (warning,) = [warning for warning in nominal.log.warnings if "lost counts" in warning]
     assert "trial_02.csv" in warning
+
+
+def test_counts_that_a_drift_of_the_torque_hides_are_restored():
+    """Beside what the drift leaves they are little: one in each direction, so that it is no offset."""
+    log = read(LOST_DEG)
+    log = replace(log, trials=tuple(map(drifting, log.trials, (8.0, -5.0))))
+    _, found = search_log(log, replay_nominal(log), NAMES, Workers())
+    assert found.rechecked()[1]
+    assert found.best.names == NAMES
+    assert noted(found) == [Decision.KEPT]
+    assert TORQUE in found.problem.noise.drifts
 
 
 def test_what_explains_nothing_is_not_restored(monkeypatch):

@@ -57,7 +57,7 @@ def _with_drift(state: SearchState, sensor: str, workers: Workers) -> SearchStat
         return state
     leading = leading_on_the_log(state)
     noises = wide_drifts(state.problem, sensor)
-    promising = [noise for noise in noises if any(_promises(state, noise, c) for c in leading)]
+    promising = [noise for noise in noises if any(promises(state, noise, c) for c in leading)]
     near = [noise for noise in promising if _comes_near(state, noise)]
     for noise in near:
         again = _searched_again(state, sensor, noise, workers)
@@ -82,7 +82,7 @@ def _objection(state: SearchState, drifting: SearchState, sensor: str) -> str:
     return ""
 
 
-def _promises(state: SearchState, noise: Noise, one: Candidate) -> bool:
+def promises(state: SearchState, noise: Noise, one: Candidate) -> bool:
     """Whether a drift would take off most of what an explanation leaves beyond noise."""
     taken_off = one.fit.cost - in_noise(one, state.problem, noise).fit.cost
     return taken_off > DRIFT_SHARE * max(one.fit.cost - one.fit.prior - one.fit.samples, 0.0)

@@ -47,6 +47,7 @@ from diagnosis.selection.stages.stage import leading_on_the_log
 from diagnosis.selection.state import SearchState
 
 _TIP_OFFSET = "tip_angle_bias"
+_SEVERAL = 3  # trials, whose scatter tells whether their mean is by chance
 
 
 def drifts(state: SearchState, sensor: str) -> bool:
@@ -126,19 +127,21 @@ def what_is_likelier(state: SearchState, drifting: SearchState, sensor: str) -> 
 def is_off_zero(state: SearchState, sensor: str) -> bool:
     """Whether the drift beside the best begins off zero in every trial, or is off it on average.
 
-    That is over several trials: where they begin, or in their means.
+    Of several trials it begins to the same side, or they are off on average where they begin, or in
+    their means: an offset would be the same in all.
     """
     of = state.problem.log, sensor, state.problem.noise, _replayed(state)
     begun = starts(*of)
-    if begun.size and np.abs(begun).min() > DRIFT_START_SIGMA:
+    to_a_side = begun.size < _SEVERAL or bool(np.ptp(np.sign(begun)) == 0)
+    if begun.size and to_a_side and np.abs(begun).min() > DRIFT_START_SIGMA:
         return True
     return _is_off(begun) or _is_off(means_sigma(*of))
 
 
 def _is_off(values: NDArray[np.float64]) -> bool:
-    """Whether three values or more are off zero on average."""
+    """Whether several values are off zero on average."""
     by_chance = 2.0 * norm.sf(DRIFT_START_SIGMA)
-    return values.size > 2 and bool(ttest_1samp(values, 0.0).pvalue < by_chance)
+    return values.size >= _SEVERAL and bool(ttest_1samp(values, 0.0).pvalue < by_chance)
 
 
 def _replayed(state: SearchState) -> list[Prediction]:

@@ -61,7 +61,7 @@ def test_drifts_of_both_sensors_at_once_explain_nothing():
 
 def test_where_slopes_promise_too_little_beside_a_drift_nothing_is_fitted(monkeypatch):
     """A drift takes off much of what dry friction leaves, and never comes near the noise."""
-    monkeypatch.setattr(sensor_drift, "_promises", lambda *_: True)
+    monkeypatch.setattr(sensor_drift, "promises", lambda *_: True)
     monkeypatch.setattr(sensor_drift, "_searched_again", pytest.fail)
     dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.002), speed=-1.0, seconds=8.0)
     state = nominal_rig(start_of_search(dry, effects=()), Workers())
@@ -107,7 +107,7 @@ def test_a_drift_stands_beside_one_effect_at_most(monkeypatch, names, decision, 
     _, drifting = searched(drifted(3.5, sensor), sensor)
     found = replace(drifting, candidates=(candidate(fit_effects(drifting.problem, names)),))
     monkeypatch.setattr(sensor_drift, "_searched_again", lambda *_: found)
-    monkeypatch.setattr(sensor_drift, "_promises", lambda *_: True)
+    monkeypatch.setattr(sensor_drift, "promises", lambda *_: True)
     state = nominal_rig(start_of_search(drifted(3.5, sensor), effects=()), Workers())
     after = STAGES[sensor](state, Workers())
     kept = bool(after.problem.noise.drifts)
@@ -116,7 +116,7 @@ def test_a_drift_stands_beside_one_effect_at_most(monkeypatch, names, decision, 
 
 @pytest.mark.parametrize("sensor", SENSORS)
 def test_nothing_is_searched_anew_where_drift_brings_no_explanation_near(monkeypatch, sensor):
-    monkeypatch.setattr(sensor_drift, "_promises", lambda *_: True)
+    monkeypatch.setattr(sensor_drift, "promises", lambda *_: True)
     dry = log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0, seconds=8.0)
     state = nominal_rig(start_of_search(dry, effects=()), Workers())
     after = STAGES[sensor](state, Workers())

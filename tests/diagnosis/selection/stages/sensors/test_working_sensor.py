@@ -75,9 +75,20 @@ def test_where_every_trial_is_off_zero_is_told(sensor):
         ([2.5, -4.0, 5.0, -4.5, 5.5, -4.2], [3.0, 3.1, 2.9, 3.0, 3.2, 2.8], True),
         ([0.1, 5.0], [3.0, 3.1], False),
         ([4.0, -5.0], [0.0, 0.0], True),
+        ([4.0, 5.0, 30.0], [0.0] * 3, True),
+        ([4.0, -5.0, -6.0], [0.0] * 3, False),
         ([], [], False),
     ],
-    ids=["on average", "either way", "in the means", "two trials", "every one", "no drift"],
+    ids=[
+        "on average",
+        "either way",
+        "in the means",
+        "two trials",
+        "every one",
+        "to one side",
+        "to both sides",
+        "no drift",
+    ],
 )
 def test_trials_are_off_zero_on_average_as_well(starts, means, off, monkeypatch):
     state = searched(drifted(0.0))[1]
