@@ -1,26 +1,44 @@
-"""A picture of a draft: every guessed column over time, rests, reversals, and the loops."""
+"""A picture of a draft: every guessed column over time, rests, reversals, and the loops.
 
+If the angle of the base cannot be drawn over time, every column of the first trial is drawn over the
+number of its row, so that a person can tell which is which.
+"""
+
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from diagnosis.lab_files.guesses.draft import Draft
 from diagnosis.lab_files.motion import Motion
+from diagnosis.lab_files.readers.lab_table import LabTable
 from diagnosis.lab_files.series import Series
 from models.user_text import in_figure
 from sim.files import writing
 
 _MOST_TRIALS = 4
 _MOST_POINTS = 5000
+_MOST_COLUMNS, _COLUMNS_ABREAST = 48, 3
 
 
 def write_preview(draft: Draft, path: Path) -> None:
     """Draw the first trials, values as they are in the files."""
+    known = any("base_angle_deg" in own for own in draft.series.values())
+    figure = _guesses_over_time(draft) if known else _columns_over_rows(draft.tables)
+    try:
+        with writing(path) as part:
+            figure.savefig(part, dpi=100, format="png")
+    finally:
+        plt.close(figure)
+
+
+def _guesses_over_time(draft: Draft) -> Figure:
     trials = list(draft.series)[:_MOST_TRIALS]
     names = [column.wanted for column in draft.columns]
-    rows, columns = max(len(names), 1), max(len(trials), 1) + 1
+    rows, columns = len(names), len(trials) + 1
     size = (3.6 * columns, 1.7 * rows + 1)
     figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
     for axis in axes[:, -1]:
@@ -35,11 +53,26 @@ def write_preview(draft: Draft, path: Path) -> None:
         axes[0, k].set_title(in_figure(trial), fontsize=9)
         axes[-1, k].set_xlabel("time in the files, s")
     _loops(axes[0, -1], draft, trials)
-    try:
-        with writing(path) as part:
-            figure.savefig(part, dpi=100, format="png")
-    finally:
-        plt.close(figure)
+    return figure
+
+
+def _columns_over_rows(tables: Sequence[LabTable]) -> Figure:
+    drawn = [(table, name) for table in tables for name in table.columns][:_MOST_COLUMNS]
+    rows = -(-len(drawn) // _COLUMNS_ABREAST)
+    size = (4.5 * _COLUMNS_ABREAST, 1.7 * rows + 1)
+    figure, axes = plt.subplots(
+        rows, _COLUMNS_ABREAST, figsize=size, layout="constrained", squeeze=False
+    )
+    for axis in axes.flat[len(drawn) :]:
+        axis.set_axis_off()
+    for axis, (table, name) in zip(axes.flat, drawn, strict=False):
+        few = _few(table.rows)
+        axis.plot(np.arange(1, table.rows + 1)[few], table.columns[name][few], lw=0.7)
+        axis.set_title(in_figure(name), fontsize=9)
+    left_out = sum(len(table.columns) for table in tables) - len(drawn)
+    beside = f" ({left_out} more columns are not drawn)" if left_out else ""
+    figure.supxlabel(in_figure(f"row of {', '.join(table.title for table in tables)}{beside}"))
+    return figure
 
 
 def _over_time(axis: Axes, series: Series, motion: Motion | None) -> None:

@@ -23,7 +23,7 @@ from diagnosis.lab_files.guesses.guessed import GuessedColumn, GuessedTimes
 from diagnosis.lab_files.guesses.hysteresis import LoopShape
 from diagnosis.lab_files.mapping import ImportMapping, TrialSource
 from diagnosis.lab_files.motion import Motion, motion_of
-from diagnosis.lab_files.readers.lab_table import LabFile
+from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
 from diagnosis.lab_files.series import Series, raw_series
 from models.errors import InvalidValue
 
@@ -48,6 +48,7 @@ class Draft:
       unused: columns for which no use was found.
       motions: motions of the base, by trial.
       series: guessed columns as they are in the files, by trial.
+      tables: all columns of the first trial.
     """
 
     trials: tuple[TrialSource, ...]
@@ -62,6 +63,7 @@ class Draft:
     unused: tuple[str, ...]
     motions: Mapping[str, Motion]
     series: Mapping[str, Mapping[str, Series]]
+    tables: tuple[LabTable, ...]
 
 
 def drafted(files: Sequence[LabFile]) -> Draft:
@@ -100,6 +102,7 @@ def drafted(files: Sequence[LabFile]) -> Draft:
         unused=tuple(unused),
         motions=motions,
         series=series,
+        tables=tuple(tables),
     )
 
 
