@@ -9,7 +9,9 @@ import pandas as pd
 
 from diagnosis.criteria import MOST_BYTES_PER_ROW, MOST_ROWS
 from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable
-from diagnosis.lab_files.readers.text_layout import TextLayout, is_date, is_empty, text_layout
+from diagnosis.lab_files.readers.text_cells import is_date, is_empty
+from diagnosis.lab_files.readers.text_header import settings
+from diagnosis.lab_files.readers.text_layout import TextLayout, text_layout
 from models.errors import InvalidValue
 
 _EXPORT = "export the table as text with one line per sample and a header"
@@ -37,7 +39,9 @@ def read_text_file(path: Path) -> LabFile:
             notes.append(f"{path.name}: {name!r} {note}")
         if values is not None:
             columns[str(name)] = values
-    return LabFile(path=path, tables=(LabTable(title=path.name, columns=columns),), notes=tuple(notes))
+    table = LabTable(title=path.name, columns=columns)
+    above = settings(lines[: layout.first_row], layout.separator, layout.decimal)
+    return LabFile(path=path, tables=(table,), scalars=above, notes=tuple(notes))
 
 
 def _text(path: Path) -> str:

@@ -50,6 +50,12 @@ def test_times_of_a_calendar_become_seconds(tmp_path):
     assert np.diff(columns["time"]) == pytest.approx(0.75, abs=1e-6)
 
 
+def test_the_settings_of_the_recorder_are_kept(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("Interval,0.0005,Interval,0.0005\nChannel,Force,Channel,In\n0,1,0,2\n1,1,1,2\n")
+    assert read_text_file(path).scalars == {"Interval": 0.0005}
+
+
 def test_a_separator_behind_the_last_number_makes_no_column(tmp_path):
     columns, _ = read(tmp_path, "t;x;\n0,0;1,5;\n0,1;2,5;\n")
     assert [name for name in columns if name] == ["t", "x"]
