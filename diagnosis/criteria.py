@@ -283,6 +283,9 @@ tests/diagnosis/lab_files/guesses/test_names.py; it fills a draft alone."""
 MOST_BACKWARDS = 0.02
 """Share of the rows of a column of times that are earlier than the one before: more is another column. A
 choice: such rows are refused by their number."""
+EVEN_STEPS = 0.01
+"""Share by which the steps of a column may differ for it to be asked whether it holds the times. A
+choice: it fills a draft alone."""
 SAME_MOTION = 0.9
 """Correlation from which a column is the rate of another one."""
 RADIANS_AT_MOST = 13.0

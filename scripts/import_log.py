@@ -73,7 +73,7 @@ def table(draft: Draft) -> Table:
     """Every guess with its reason."""
     shown = Table("column", "field", "guess", "because", title="Guesses: please check each one")
     for time in draft.times:
-        shown.add_row("time_s", "column", time.source.column, "by its name; it rises")
+        shown.add_row("time_s", "column", time.source.column, time.because)
         shown.add_row("", "unit", str(time.source.unit), time.reason, end_section=True)
     for column in draft.columns:
         fields = [name for name in _FIELDS if name in column.reasons]

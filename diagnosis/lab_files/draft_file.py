@@ -42,7 +42,7 @@ def _trials(draft: Draft) -> Iterator[str]:
 def _times(draft: Draft) -> Iterator[str]:
     yield "times:\n" if draft.times else "times: []\n"
     for time in draft.times:
-        yield f"  - column: {_value(time.source.column)}\n"
+        yield _line("  - column", time.source.column, time.because)
         yield _line("    unit", time.source.unit, time.reason)
         if time.source.guess:
             yield "    guess: true\n"

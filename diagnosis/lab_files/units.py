@@ -74,6 +74,7 @@ UNITS: dict[MeasuredQuantity, dict[str, float]] = {
     MeasuredQuantity.TIME: _TIMES,
 }
 """Units of rig-log/1 in one of these, by the letters and digits of its name."""
+_BRACKETED = re.compile(r"[\[({<]([^\])}>]*)[\])}>]\W*$")
 _WITHOUT_SCALE = {
     "counts",
     "count",
@@ -107,7 +108,7 @@ def unit_in(name: str) -> str:
 
     `torque [Nm]`, `disp (in)`, `base_angle_rad`, `speed / rpm`.
     """
-    bracketed = re.search(r"[\[({<]([^\])}>]*)[\])}>]\W*$", name.replace("°", "deg"))
+    bracketed = _BRACKETED.search(name.replace("°", "deg"))
     if bracketed:
         return bracketed[1].strip()
     parts = [part for part in re.split(r"[\s_/,:]+", name.strip()) if part]
@@ -115,6 +116,12 @@ def unit_in(name: str) -> str:
         if is_unit(" ".join(parts[first:])):
             return " ".join(parts[first:])
     return ""
+
+
+def without_unit(name: str) -> str:
+    """A column's name without the bracketed unit at its end: that `V` is no velocity."""
+    bracketed = _BRACKETED.search(name)
+    return name[: bracketed.start()] if bracketed and is_unit(bracketed[1]) else name
 
 
 def _plain(unit: str) -> str:

@@ -1,4 +1,4 @@
-"""Trials, times and columns of a draft: what names and numbers tell, without the motion."""
+"""Trials and columns of a draft: what names and numbers tell, without the motion."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -10,11 +10,11 @@ from diagnosis.lab_files.guesses.names import (
     NameGuess,
     angular_rate,
     guessed_columns,
-    guessed_times,
     is_rate_of,
 )
+from diagnosis.lab_files.guesses.times import times_of
 from diagnosis.lab_files.guesses.unit_guess import guessed_unit
-from diagnosis.lab_files.mapping import ColumnSource, TimeSource, TrialSource
+from diagnosis.lab_files.mapping import ColumnSource, TrialSource
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
 from diagnosis.lab_files.units import MeasuredQuantity
 from diagnosis.log.trial import REQUIRED, SENSORS
@@ -39,23 +39,6 @@ def guessed_trials(files: Sequence[LabFile], open_: Open) -> list[TrialSource]:
         TrialSource(file=f"trial_{i + 1:02d}.csv", lab_files=names, guess=len(kinds) > 1)
         for i, names in enumerate(together)
     ]
-
-
-def guessed_time_columns(files: Sequence[LabFile], open_: Open) -> list[GuessedTimes]:
-    """The column of times of each table."""
-    found: dict[str, GuessedTimes] = {}
-    for file in files:
-        for table in file.tables:
-            name = guessed_times(table)
-            if name is None:
-                numbers = ", ".join(f"{key} = {value:g}" for key, value in file.scalars.items())
-                beside = f" (single numbers in the file: {numbers})" if numbers else ""
-                open_.append(
-                    f"times: {table.title} has no column of increasing times; state 'sample_hz'{beside}"
-                )
-            elif name not in found:
-                found[name] = _guessed_time(table, name, open_)
-    return list(found.values())
 
 
 def guessed_sources(
@@ -89,15 +72,6 @@ def guessed_sources(
     return sorted(found, key=lambda column: order.index(column.wanted))
 
 
-def _guessed_time(table: LabTable, name: str, open_: Open) -> GuessedTimes:
-    ros = table.ros_units or name.endswith(".log_time")
-    unit = guessed_unit(name, table.columns[name], MeasuredQuantity.TIME, ros_units=ros)
-    if not unit.known:
-        open_.append(f"times.{name}: {unit.reason}")
-    source = TimeSource(column=name, unit=unit.unit, guess=unit.asked)
-    return GuessedTimes(source=source, reason=unit.reason)
-
-
 def _guessed_column(guess: NameGuess, derive: Any, open_: Open) -> GuessedColumn:
     table, name, wanted = guess.table, guess.column, guess.wanted
     quantity = ColumnSource(column=name, derive=derive).quantity(wanted) or MeasuredQuantity.ANGLE
@@ -121,7 +95,7 @@ def _rates_of_the_base(guesses: Sequence[NameGuess]) -> list[NameGuess]:
     speed, base = by_name.get("speed_mm_s"), by_name.get("base_angle_deg")
     if speed is None or base is None or speed.table is not base.table:
         return []
-    columns, time = base.table.columns, guessed_times(base.table)
+    columns, time = base.table.columns, times_of(base.table)
     if time is None or not is_rate_of(columns[speed.column], columns[time], columns[base.column]):
         return []
     return [speed]

@@ -8,7 +8,6 @@ import numpy as np
 from diagnosis.lab_files.guesses.columns import (
     Open,
     guessed_sources,
-    guessed_time_columns,
     guessed_trials,
 )
 from diagnosis.lab_files.guesses.from_motion import (
@@ -21,6 +20,7 @@ from diagnosis.lab_files.guesses.from_motion import (
 )
 from diagnosis.lab_files.guesses.guessed import GuessedColumn, GuessedTimes
 from diagnosis.lab_files.guesses.hysteresis import LoopShape
+from diagnosis.lab_files.guesses.times import guessed_time_columns
 from diagnosis.lab_files.mapping import ImportMapping, TrialSource
 from diagnosis.lab_files.motion import Motion, motion_of
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable

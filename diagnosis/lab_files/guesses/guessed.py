@@ -9,9 +9,10 @@ from diagnosis.lab_files.mapping import ColumnSource, TimeSource
 
 @dataclass(frozen=True, kw_only=True)
 class GuessedTimes:
-    """A column of times, and the reason for its unit."""
+    """A column of times, why it is one, and the reason for its unit."""
 
     source: TimeSource
+    because: str
     reason: str
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.criteria import MOST_BACKWARDS, NAME_LEAST_SCORE, SAME_MOTION
+from diagnosis.criteria import NAME_LEAST_SCORE, SAME_MOTION
 from diagnosis.lab_files.readers.lab_table import Array, LabTable
-from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, unit_in
+from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, unit_in, without_unit
 from diagnosis.log.unit_hints import words_of
 
 # A star stands for any end of a word; numbers at the end do not count.
@@ -26,7 +26,6 @@ _TORQUE |= {"force*": 2, "load": 2}
 _DEPTH = {"insert*": 4, "depth": 4, "penetr*": 4, "tiefe": 4, "stage": 2, "axial": 2, "linear": 2}
 _DEPTH |= {"carriage": 2, "z": 3}
 _SPEED = {"speed*": 3, "vel*": 3, "feed": 2, "v": 2}
-_TIME = {"stamp": 5, "timestamp*": 5, "time*": 4, "t": 4, "zeit": 4, "clock": 2}
 _NONE = -100.0
 
 
@@ -43,14 +42,6 @@ class NameGuess:
     table: LabTable
     column: str
     alike: tuple[str, ...] = ()
-
-
-def guessed_times(table: LabTable) -> str | None:
-    """The column of times of a table, by its name and values that nearly all increase; None: none."""
-    rising = [name for name, values in table.columns.items() if _rises(values)]
-    scored = {name: _weight(words_of(name), _TIME) for name in rising}
-    best = max(scored, key=lambda name: scored[name], default=None)
-    return best if best is not None and scored[best] > 0 else None
 
 
 def guessed_columns(tables: Sequence[LabTable], taken: Iterable[str]) -> tuple[NameGuess, ...]:
@@ -87,9 +78,11 @@ def angular_rate(tables: Sequence[LabTable], used: Iterable[str]) -> tuple[LabTa
             words, unit = _all_words(table, name), unit_in(name)
             turns = factor_of(unit, MeasuredQuantity.ANGULAR_RATE) is not None
             called = (
-                _has(words, _RATE) and _has(words, _BASE) and not factor_of(unit, MeasuredQuantity.SPEED)
+                has_word(words, _RATE)
+                and has_word(words, _BASE)
+                and not factor_of(unit, MeasuredQuantity.SPEED)
             )
-            if name not in used and (turns or called) and not _has(words, f"{_TIP} {_COMMANDED}"):
+            if name not in used and (turns or called) and not has_word(words, f"{_TIP} {_COMMANDED}"):
                 return table, name
     return None
 
@@ -105,15 +98,25 @@ def is_rate_of(values: Array, time_s: Array, position: Array) -> bool:
     return bool(np.ptp(rate) > 0 and abs(np.corrcoef(smooth, rate)[0, 1]) >= SAME_MOTION)
 
 
+def has_word(words: Sequence[str], stems: str) -> bool:
+    """Whether any word is one of these stems."""
+    return any(_matches(word, stem) for word in words for stem in stems.split())
+
+
+def weight_of(words: Sequence[str], weights: Mapping[str, float]) -> float:
+    """The largest weight of a stem among these words."""
+    return max((weight for stem, weight in weights.items() if has_word(words, stem)), default=0.0)
+
+
 def _score(wanted: str, table: LabTable, name: str) -> float:
     """Score of a name and its unit: weights of words for it, 2 for a unit, minus words against it."""
     words, unit = _all_words(table, name), unit_in(name)
     known = [quantity for quantity in MeasuredQuantity if factor_of(unit, quantity) is not None]
     foreign = bool(known) and QUANTITIES[wanted] not in known
-    base, tip = 2.0 * _has(words, _BASE), 2.0 * _has(words, _TIP)
-    rate = _has(words, _RATE) or MeasuredQuantity.ANGULAR_RATE in known
-    angle = 2.0 * _has(words, _ANGLE)
-    torque, depth = _weight(words, _TORQUE), _weight(words, _DEPTH)
+    base, tip = 2.0 * has_word(words, _BASE), 2.0 * has_word(words, _TIP)
+    rate = has_word(words, _RATE) or MeasuredQuantity.ANGULAR_RATE in known
+    angle = 2.0 * has_word(words, _ANGLE)
+    torque, depth = weight_of(words, _TORQUE), weight_of(words, _DEPTH)
     still = 3.0 * (_span(table.columns[name]) == 0)
     # A linear rig has lengths for angles and forces for torques: asked, but not ruled out.
     linear = wanted in ("base_angle_deg", "base_torque_n_mm")
@@ -125,38 +128,23 @@ def _score(wanted: str, table: LabTable, name: str) -> float:
         "tip_angle_deg": (tip > 0 and not (rate or torque), angle + tip),
         "base_torque_n_mm": (torque > 0 and not tip, torque + base / 2 + ("z" in words)),
         "tip_torque_n_mm": (torque > 0 and tip > 0, torque + tip),
-        "inserted_mm": (depth > 0 and not (rate or torque or tip or _has(words, "free")), depth),
-        "free_mm": (_has(words, "free") and not rate, 3.0),
-        "speed_mm_s": (rate and not (tip or base), _weight(words, _SPEED)),
+        "inserted_mm": (depth > 0 and not (rate or torque or tip or has_word(words, "free")), depth),
+        "free_mm": (has_word(words, "free") and not rate, 3.0),
+        "speed_mm_s": (rate and not (tip or base), weight_of(words, _SPEED)),
     }[wanted]
     if not fits or (foreign and not linear):
         return _NONE
     unit_weight = 2.0 if known and not foreign else 0.0
-    against = 2.0 * _has(words, _COMMANDED) + 5.0 * _has(words, _OTHER)
+    against = 2.0 * has_word(words, _COMMANDED) + 5.0 * has_word(words, _OTHER)
     return weight + unit_weight - against
 
 
 def _all_words(table: LabTable, name: str) -> list[str]:
-    return [*words_of(name), *words_of(table.words.get(name, ""))]
-
-
-def _has(words: Sequence[str], stems: str) -> bool:
-    return any(_matches(word, stem) for word in words for stem in stems.split())
-
-
-def _weight(words: Sequence[str], weights: Mapping[str, float]) -> float:
-    return max((weight for stem, weight in weights.items() if _has(words, stem)), default=0.0)
+    return [*words_of(without_unit(name)), *words_of(table.words.get(name, ""))]
 
 
 def _matches(word: str, stem: str) -> bool:
     return word.startswith(stem[:-1]) if stem.endswith("*") else word.rstrip("0123456789") == stem
-
-
-def _rises(values: Array) -> bool:
-    steps = np.diff(values)
-    if not steps.size or not np.isfinite(values).all() or not steps.any():
-        return False
-    return bool(np.mean(steps < 0) <= MOST_BACKWARDS)
 
 
 def _span(values: Array) -> float:

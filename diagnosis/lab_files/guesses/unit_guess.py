@@ -44,7 +44,7 @@ def guessed_unit(name: str, values: Array, quantity: MeasuredQuantity, *, ros_un
     """The unit of a column that measures a quantity."""
     if ros_units:
         return UnitGuess(unit=_ROS[quantity], known=True, asked=False, reason="ROS's units (REP 103)")
-    stated = unit_in(name)
+    stated = name if factor_of(name, quantity) is not None else unit_in(name)
     if stated and factor_of(stated, quantity) is not None:
         return UnitGuess(unit=stated, known=True, asked=False, reason="from the name")
     if stated:

@@ -59,6 +59,8 @@ def test_every_reason_stands_beside_its_guess(tmp_path):
     for column in draft.columns:
         for reason in column.reasons.values():
             assert reason in text
+    for time in draft.times:
+        assert f'{time.source.column}"  # {time.because}' in text
 
 
 def test_an_odd_name_survives(tmp_path):

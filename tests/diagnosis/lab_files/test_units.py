@@ -4,7 +4,14 @@ import math
 
 import pytest
 
-from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, is_unit, unit_in
+from diagnosis.lab_files.units import (
+    QUANTITIES,
+    MeasuredQuantity,
+    factor_of,
+    is_unit,
+    unit_in,
+    without_unit,
+)
 from diagnosis.log.trial import COLUMNS
 
 POUND_N, INCH_MM = 4.4482216152605, 25.4
@@ -74,6 +81,13 @@ def test_a_unit_of_something_else_has_none(unit, quantity):
 )
 def test_a_unit_is_found_in_a_name(name, unit):
     assert unit_in(name) == unit
+
+
+@pytest.mark.parametrize(
+    ("name", "rest"), [("Force [V]", "Force "), ("moment (Mz)", "moment (Mz)"), ("v", "v")]
+)
+def test_a_name_is_cut_before_its_unit_in_brackets(name, rest):
+    assert without_unit(name) == rest
 
 
 def test_every_column_has_a_quantity_and_its_own_unit_has_the_factor_1():

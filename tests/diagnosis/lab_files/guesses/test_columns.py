@@ -1,20 +1,21 @@
-"""Trials, times and columns that are drafted from names and numbers."""
+"""Trials and columns that are drafted from names and numbers."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from diagnosis.lab_files.guesses.columns import guessed_sources, guessed_time_columns, guessed_trials
+from diagnosis.lab_files.guesses.columns import guessed_sources, guessed_trials
+from diagnosis.lab_files.guesses.times import guessed_time_columns
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
 
 TIME = np.arange(0, 10, 0.01)
 
 
-def file(name, *, scalars=None, **columns):
+def file(name, **columns):
     content = {key.replace("__", " "): np.asarray(value, float) for key, value in columns.items()}
     table = LabTable(title=name, columns=content)
-    return LabFile(path=Path(name), tables=(table,), scalars=scalars or {})
+    return LabFile(path=Path(name), tables=(table,))
 
 
 def sources(one):
@@ -47,11 +48,6 @@ def test_files_that_do_not_pair_are_asked_for():
     open_ = []
     guessed_trials([file("m1", t=TIME, m=TIME), file("m2", t=TIME, m=TIME), file("c1", t=TIME)], open_)
     assert "which files belong together" in open_[0]
-
-
-def test_without_times_the_single_numbers_of_the_file_are_shown():
-    _, open_ = sources(file("a", motor_angle=TIME[::-1], scalars={"fs": 256.0}))
-    assert "fs = 256" in open_[0]
 
 
 def test_everything_that_cannot_be_mapped_is_named_in_one_run():

@@ -8,7 +8,6 @@ import pytest
 from diagnosis.lab_files.guesses.names import (
     angular_rate,
     guessed_columns,
-    guessed_times,
     is_rate_of,
 )
 from diagnosis.lab_files.readers.lab_table import LabTable
@@ -69,6 +68,12 @@ def test_a_rate_is_no_angle_and_an_axial_speed_has_a_length():
     assert "inserted_mm" not in guessed("stage depth (deg)")
 
 
+def test_the_volts_of_a_sensor_are_no_velocity():
+    columns = {"base_angle_deg": "motor angle [V]", "base_torque_n_mm": "Force (V)"}
+    assert guessed(*columns.values(), "Input 2 [V]") == columns
+    assert angular_rate([table_of("Input 1 [V]")], []) is None
+
+
 def test_a_joint_is_known_by_the_name_that_its_message_gives():
     words = {"/js.position[0]": "slide", "/js.position[1]": "needle_tip"}
     assert (
@@ -84,19 +89,8 @@ def test_columns_that_would_do_as_well_are_told():
 def test_the_columns_of_rig_log_are_those_of_the_same_names():
     trial = read_rig_log(EXAMPLES / "rig-log").trials[0].table
     table = LabTable(title="x", columns={name: trial[name].to_numpy() for name in trial})
-    assert guessed_times(table) == "time_s"
     found = guessed_columns([table], ["time_s"])
     assert {g.wanted: g.column for g in found} == {n: n for n in trial if n != "time_s"}
-
-
-def test_times_rise_and_are_called_so():
-    rising = np.arange(5.0)
-    columns = {"t": rising[::-1], "time": rising, "travel": rising, "x.stamp": rising}
-    assert guessed_times(LabTable(title="x", columns=columns)) == "x.stamp"
-    del columns["x.stamp"]
-    assert guessed_times(LabTable(title="x", columns=columns)) == "time"
-    del columns["time"]
-    assert guessed_times(LabTable(title="x", columns=columns)) is None
 
 
 def test_a_rate_of_the_base_is_found_where_there_is_no_angle():
@@ -112,11 +106,3 @@ def test_the_rate_of_a_column_is_told_from_another_speed():
     assert is_rate_of(-3 * np.cos(time), time, angle)
     assert not is_rate_of(np.cos(3 * time), time, angle)
     assert not is_rate_of(np.zeros(time.size), time, angle)
-
-
-def test_a_few_times_that_go_back_are_an_error_of_the_rows_and_not_another_column():
-    time_s = np.arange(200.0)
-    time_s[[50, 51]] = time_s[[51, 50]]
-    assert guessed_times(LabTable(title="x", columns={"time": time_s})) == "time"
-    time_s[::20] -= 5.0
-    assert guessed_times(LabTable(title="x", columns={"time": time_s})) is None

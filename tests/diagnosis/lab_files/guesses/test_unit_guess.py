@@ -14,6 +14,11 @@ def test_a_unit_in_the_name_is_taken_without_a_question():
     assert (guess.unit, guess.known, guess.asked) == ("deg", True, False)
 
 
+def test_a_name_that_is_nothing_but_a_unit_is_the_unit():
+    guess = guessed_unit("ms", RAMP, MeasuredQuantity.TIME, ros_units=False)
+    assert (guess.unit, guess.known, guess.asked) == ("ms", True, False)
+
+
 def test_a_unit_of_another_quantity_is_asked_for():
     guess = guessed_unit("disp (in)", RAMP, MeasuredQuantity.ANGLE, ros_units=False)
     assert (guess.unit, guess.known, guess.asked) == ("in", False, True)
