@@ -6,7 +6,7 @@ from typing import Any
 
 from diagnosis.lab_files.guesses.draft import NOISES, Draft
 from diagnosis.lab_files.guesses.guessed import GuessedColumn
-from diagnosis.log.nominal_rig import NominalNeedle, NominalTissue
+from diagnosis.log.nominal_rig import NominalInertia, NominalNeedle, NominalTissue
 from diagnosis.log.trial import REQUIRED, SENSORS
 
 _HEAD = """\
@@ -93,6 +93,8 @@ def _rig(draft: Draft) -> Iterator[str]:
     """Lines for needle and tissue, left blank: no log contains the nominal constants of its rig."""
     for section, record in (("needle", NominalNeedle), ("tissue", NominalTissue)):
         yield f"{section}:\n" + "".join(f"  {name}:\n" for name in record.model_fields)
+    zeros = ", ".join(f"{name}: 0.0" for name in NominalInertia.model_fields)
+    yield f"# inertia: {{{zeros}}}  # of what turns with the shaft, if it is more than a bare needle\n"
     yield "sensors:\n"
     have = {column.wanted for column in draft.columns}
     for name, value in draft.noise.items():

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from diagnosis.lab_files.units import QUANTITIES, RATES, MeasuredQuantity, factor_of
-from diagnosis.log.nominal_rig import NominalNeedle, NominalTissue, SensorNoise
+from diagnosis.log.nominal_rig import NominalInertia, NominalNeedle, NominalTissue, SensorNoise
 from diagnosis.log.trial import COLUMNS
 from models.record import Record
 
@@ -20,6 +20,7 @@ MEASURED = tuple(name for name in COLUMNS if name != "time_s")
 SECTIONS: dict[str, type[Record]] = {
     "needle": NominalNeedle,
     "tissue": NominalTissue,
+    "inertia": NominalInertia,
     "sensors": SensorNoise,
 }
 
@@ -103,6 +104,8 @@ class ImportMapping(Record):
     """Columns that the rig does not measure: one number for all rows of all trials."""
     needle: dict[str, float | None]
     tissue: dict[str, float | None]
+    inertia: dict[str, float | None] = Field(default_factory=dict)
+    """What turns with the needle; may be left out, as in `rig.yaml`."""
     sensors: dict[str, float | None]
 
     def constant(self, trial: TrialSource, column: str) -> float | None:
@@ -119,5 +122,5 @@ def guesses(mapping: ImportMapping) -> list[str]:
 
 def as_rig(mapping: ImportMapping) -> dict[str, Any]:
     """The content of `rig.yaml`."""
-    sections = {name: getattr(mapping, name) for name in SECTIONS}
+    sections = {name: stated for name in SECTIONS if (stated := getattr(mapping, name))}
     return {"format": "rig-log/1", **sections, "trials": [{"file": t.file} for t in mapping.trials]}

@@ -70,7 +70,9 @@ def _blanks(mapping: ImportMapping) -> list[str]:
                 )
     for section, record in SECTIONS.items():
         values = getattr(mapping, section)
-        found += [f"{section}.{n}: state a number" for n in record.model_fields if values.get(n) is None]
+        fields = record.model_fields.items()
+        needed = [n for n, field in fields if n in values or field.is_required()]
+        found += [f"{section}.{n}: state a number" for n in needed if values.get(n) is None]
     return found
 
 

@@ -63,6 +63,13 @@ def test_every_reason_stands_beside_its_guess(tmp_path):
         assert f'{time.source.column}"  # {time.because}' in text
 
 
+def test_the_line_of_the_inertia_is_one_to_take_the_mark_off(tmp_path):
+    text = mapping_text(draft_of(write_csv(tmp_path)))
+    assert "inertia" not in yaml.safe_load(text)
+    content = yaml.safe_load(text.replace("# inertia:", "inertia:"))
+    assert content["inertia"] == {"base_kg_m2": 0.0, "tip_kg_m2": 0.0}
+
+
 def test_an_odd_name_survives(tmp_path):
     name = 'torque: "N m" # it\'s [odd]'
     table = LAB.rename(columns={"torque (N m)": name})

@@ -3,7 +3,14 @@
 import pytest
 from lab_files import RIG, mapping_of
 
-from diagnosis.lab_files.mapping import ColumnSource, ImportMapping, TimeSource, as_rig, guesses
+from diagnosis.lab_files.mapping import (
+    SECTIONS,
+    ColumnSource,
+    ImportMapping,
+    TimeSource,
+    as_rig,
+    guesses,
+)
 from diagnosis.lab_files.units import MeasuredQuantity
 from diagnosis.log.nominal_rig import NominalRig
 
@@ -54,3 +61,11 @@ def test_what_is_integrated_is_a_rate():
         == MeasuredQuantity.LENGTH
     )
     assert ColumnSource(column="z", derive="differentiate").quantity("inserted_mm") is None
+
+
+def test_a_mapping_has_every_section_of_rig_yaml():
+    assert set(SECTIONS) | {"format", "trials"} == set(NominalRig.model_fields)
+    plain = as_rig(ImportMapping(**mapping_of(["run.csv"])))
+    assert "inertia" not in plain
+    content = as_rig(ImportMapping(**mapping_of(["run.csv"], inertia={"tip_kg_m2": 1e-6})))
+    assert content == {**plain, "inertia": {"tip_kg_m2": 1e-6}}

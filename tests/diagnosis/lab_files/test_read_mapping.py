@@ -66,6 +66,13 @@ def test_all_that_is_blank_is_named_at_once_and_never_accepted(tmp_path):
     assert "tissue" not in message
 
 
+def test_inertia_may_be_left_out_but_not_left_blank(tmp_path):
+    assert read(tmp_path).inertia == {}
+    assert read(tmp_path, inertia={"base_kg_m2": 2e-6}).inertia == {"base_kg_m2": 2e-6}
+    assert "inertia.tip_kg_m2: state a number" in refusal(tmp_path, inertia={"tip_kg_m2": None})
+    assert "inertia.base: expected one of" in refusal(tmp_path, inertia={"base": 1.0})
+
+
 @pytest.mark.parametrize(
     ("changes", "named"),
     [

@@ -13,8 +13,8 @@ from models.errors import OutputExists
 from sim.files import Destination
 
 
-def written(tmp_path):
-    mapping = ImportMapping(**mapping_of(["run.csv"]))
+def written(tmp_path, **changes):
+    mapping = ImportMapping(**mapping_of(["run.csv"], **changes))
     files = read_lab_files([write_csv(tmp_path)])
     write_log(mapping, imported(mapping, files), Destination(folder=tmp_path / "log"))
     return mapping, tmp_path / "log"
@@ -28,6 +28,11 @@ def test_the_log_is_read_back_as_the_trial_that_the_file_was_made_of(tmp_path):
         np.testing.assert_allclose(log.trials[0][name], KNOWN[name], atol=1e-6, err_msg=name)
     assert log.rig.needle.diameter_mm == RIG["needle"]["diameter_mm"]
     assert log.warnings == ()
+
+
+def test_the_inertia_of_the_mapping_is_that_of_the_rig(tmp_path):
+    _, folder = written(tmp_path, inertia={"base_kg_m2": 2e-6})
+    assert read_rig_log(folder).rig.inertia.base_kg_m2 == 2e-6
 
 
 def test_rig_yaml_says_what_it_was_made_of(tmp_path):
