@@ -70,6 +70,14 @@ def test_the_line_of_the_inertia_is_one_to_take_the_mark_off(tmp_path):
     assert content["inertia"] == {"base_kg_m2": 0.0, "tip_kg_m2": 0.0}
 
 
+def test_milliseconds_that_can_only_be_seconds_are_a_blank(tmp_path):
+    table = LAB.assign(**{"t (ms)": LAB["t (ms)"] / 1000})
+    draft = draft_of(write_csv(tmp_path, table))
+    (time,) = yaml.safe_load(mapping_text(draft))["times"]
+    assert time["unit"] is None
+    assert any("times.t (ms): 'ms' in the name" in item for item in draft.open)
+
+
 def test_an_odd_name_survives(tmp_path):
     name = 'torque: "N m" # it\'s [odd]'
     table = LAB.rename(columns={"torque (N m)": name})

@@ -49,3 +49,19 @@ def test_without_a_unit_the_magnitude_asks(values, quantity, unit):
 def test_ros_has_units_of_its_own():
     guess = guessed_unit("effort", RAMP, MeasuredQuantity.TORQUE, ros_units=True)
     assert (guess.unit, guess.asked) == ("N m", False)
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "told"),
+    [
+        ("Time [ms]", 0.001, "1e-06 s apart, 's' 0.001 s"),
+        ("time (s)", 10.0, "10 s apart, 'ms' 0.01 s"),
+        ("Time [ms]", 0.2, ""),
+        ("time (s)", 1.0, ""),
+        ("Time [ms]", 0.0, ""),
+    ],
+)
+def test_a_unit_that_puts_the_rows_impossibly_far_apart_is_asked_for_and_not_used(name, step, told):
+    guess = guessed_unit(name, step * np.arange(9), MeasuredQuantity.TIME, ros_units=False)
+    assert (guess.unit is None) == guess.asked == bool(told)
+    assert told in guess.reason
