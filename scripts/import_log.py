@@ -74,15 +74,14 @@ def table(draft: Draft) -> Table:
     shown = Table("column", "field", "guess", "because", title="Guesses: please check each one")
     for time in draft.times:
         shown.add_row("time_s", "column", time.source.column, time.because)
-        shown.add_row("", "unit", str(time.source.unit), time.reason, end_section=True)
+        shown.add_row("", "unit", _shown(time.source.unit), time.reason, end_section=True)
     for column in draft.columns:
         fields = [name for name in _FIELDS if name in column.reasons]
         for i, name in enumerate(fields):
-            value = getattr(column.source, name)
             shown.add_row(
                 "" if i else column.wanted,
                 name,
-                f"{value:g}" if isinstance(value, float) else str(value),
+                _shown(getattr(column.source, name)),
                 column.reasons[name],
                 end_section=i == len(fields) - 1,
             )
@@ -90,6 +89,12 @@ def table(draft: Draft) -> Table:
         if value is not None:
             shown.add_row("sensors", sensor, f"{value:g}", "scatter of the readings at rest")
     return shown
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "unknown: fill in"
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _write(

@@ -10,6 +10,10 @@ from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable
 from models.errors import InvalidValue
 
 
+class NoTimes(InvalidValue):
+    """A table has no column of times, and no sampling rate is stated."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Series:
     """One column with its own times.
@@ -89,9 +93,11 @@ def _times(mapping: ImportMapping, table: LabTable) -> Array:
             return time.seconds * table.columns[time.column]
     if mapping.sample_hz is not None:
         return np.arange(table.rows) / mapping.sample_hz
-    stated = [time.column for time in mapping.times]
-    raise InvalidValue(
-        f"{table.title}: times", stated, "the column of times in this file, or 'sample_hz'"
+    raise NoTimes(
+        f"{table.title}: times",
+        ", ".join(time.column for time in mapping.times) or None,
+        "a column of this file under 'times', or 'sample_hz'",
+        "name the column that holds its times, or state its samples per second",
     )
 
 

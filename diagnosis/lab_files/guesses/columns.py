@@ -13,7 +13,7 @@ from diagnosis.lab_files.guesses.names import (
     is_rate_of,
 )
 from diagnosis.lab_files.guesses.times import times_of
-from diagnosis.lab_files.guesses.unit_guess import guessed_unit
+from diagnosis.lab_files.guesses.unit_guess import UnitGuess, guessed_unit
 from diagnosis.lab_files.mapping import ColumnSource, TrialSource
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
 from diagnosis.lab_files.units import MeasuredQuantity
@@ -84,9 +84,19 @@ def _guessed_column(guess: NameGuess, derive: Any, open_: Open) -> GuessedColumn
     if derive:
         reasons["derive"] = f"no column of {wanted}; computed from this one"
     if unit.asked:
-        open_.append(f"{wanted}: unit of {name!r}: {unit.reason}")
+        open_.append(f"{wanted}: unit of {name!r}: {unit.reason}{_answer(unit, quantity)}")
     source = ColumnSource(column=name, unit=unit.unit, derive=derive, guess=True)
     return GuessedColumn(wanted=wanted, source=source, reasons=reasons, known=unit.known)
+
+
+def _answer(unit: UnitGuess, quantity: MeasuredQuantity) -> str:
+    """What to write in the mapping where the question of a unit is open."""
+    if unit.known:
+        return ""
+    if unit.unit is not None:
+        return " write it in the line 'factor'"
+    factor = f"'factor', {quantity} per unit of the file"
+    return f" write it in the line 'unit', e.g. {quantity}; or add {factor}"
 
 
 def _rates_of_the_base(guesses: Sequence[NameGuess]) -> list[NameGuess]:

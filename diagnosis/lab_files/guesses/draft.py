@@ -24,7 +24,7 @@ from diagnosis.lab_files.guesses.times import guessed_time_columns
 from diagnosis.lab_files.mapping import ImportMapping, TrialSource
 from diagnosis.lab_files.motion import Motion, motion_of
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
-from diagnosis.lab_files.series import Series, raw_series
+from diagnosis.lab_files.series import NoTimes, Series, raw_series
 from models.errors import InvalidValue
 
 NOISES = {
@@ -128,6 +128,8 @@ def _series(
         for column in columns:
             try:
                 one = raw_series(mapping, trial, files, column.wanted)
+            except NoTimes:
+                continue  # asked for already, once for each table
             except InvalidValue as error:
                 open_.append(str(error))
             else:

@@ -64,7 +64,7 @@ def _guessed_time(table: LabTable, name: str, open_: list[str]) -> GuessedTimes:
     ros = table.ros_units or name.endswith(".log_time")
     unit = guessed_unit(name, table.columns[name], MeasuredQuantity.TIME, ros_units=ros)
     if not unit.known:
-        open_.append(f"times.{name}: {unit.reason}")
+        open_.append(f"times.{name}: {unit.reason} write it in the line 'unit'")
     called = _called_times(table) is not None
     source = TimeSource(column=name, unit=unit.unit, guess=unit.asked or not called)
     if called:

@@ -82,6 +82,14 @@ def test_three_columns_that_cannot_be_mapped_are_named_in_one_run(tmp_path, caps
         assert any(name in line for line in said), name
 
 
+def test_an_unknown_unit_is_said_in_words(tmp_path, capsys):
+    table = LAB.rename(columns={"torque (N m)": "torque"})
+    assert main(["import", str(write_csv(tmp_path, table)), "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().out
+    assert "None" not in said
+    assert "unknown: fill in" in said
+
+
 def test_warnings_of_the_log_are_shown(tmp_path, capsys):
     content = mapping_of(["run.csv"])
     content["columns"]["base_torque_n_mm"]["zero"] = 0.0

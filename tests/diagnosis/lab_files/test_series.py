@@ -8,7 +8,7 @@ from lab_files import KNOWN, LAB, mapping_of
 
 from diagnosis.lab_files.mapping import ImportMapping
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
-from diagnosis.lab_files.series import raw_series, refuse_unreadable
+from diagnosis.lab_files.series import NoTimes, raw_series, refuse_unreadable
 from models.errors import InvalidValue
 
 
@@ -54,6 +54,14 @@ def test_all_columns_that_are_not_there_are_named_at_once():
     for name in ("columns.free_mm", "'gone'", "columns.tip_angle_deg", "'away'"):
         assert name in str(caught.value)
     assert "base_angle_deg" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("times", "found"), [([], "nothing"), (["gone", "away"], "'gone, away'")])
+def test_without_times_it_is_said_what_to_write(times, found):
+    stated = [{"column": name, "unit": "s"} for name in times]
+    mapping = ImportMapping(**mapping_of(["run.csv"], times=stated))
+    with pytest.raises(NoTimes, match=f"'sample_hz', found {found}; name the column"):
+        raw_series(mapping, mapping.trials[0], [file_of("run.csv", COLUMNS)], "free_mm")
 
 
 def test_a_file_that_was_not_given_is_named():

@@ -57,6 +57,14 @@ def test_everything_that_cannot_be_mapped_is_named_in_one_run():
         assert any(name in item for item in open_), name
 
 
+def test_a_unit_that_is_not_known_is_asked_for_with_what_to_write():
+    _, open_ = sources(file("a", t=TIME, motor_angle__in=np.sin(TIME), torque=np.cos(TIME)))
+    (torque,) = (item for item in open_ if item.startswith("base_torque_n_mm"))
+    assert "'unit', e.g. N mm; or add 'factor', N mm per unit of the file" in torque
+    (angle,) = (item for item in open_ if item.startswith("base_angle_deg"))
+    assert angle.endswith("how many deg is it? write it in the line 'factor'")
+
+
 def test_a_rate_is_integrated_and_a_depth_differentiated_where_nothing_else_is_there():
     found, _ = sources(file("a", t=TIME, motor__rpm=np.sin(TIME), depth__mm=TIME))
     assert found["base_angle_deg"].source.derive == "integrate"

@@ -59,6 +59,12 @@ def test_a_file_of_nothing_known_gives_a_draft_and_no_error(tmp_path):
     assert len(draft.open) >= 5
 
 
+def test_missing_times_are_asked_for_once(tmp_path):
+    draft, columns = draft_of(write_csv(tmp_path, LAB.drop(columns=["t (ms)"])))
+    assert len(columns) > 3
+    assert len([item for item in draft.open if "sample_hz" in item]) == 1
+
+
 def test_a_mat_file_without_names_of_units_is_asked_about(tmp_path):
     draft, _ = draft_of(write_mat(tmp_path))
     assert not any("'run.torque_n_m'" in item for item in draft.open)
