@@ -62,6 +62,10 @@ def _columns(draft: Draft) -> Iterator[str]:
         yield "  base_angle_deg:\n" + _line("    column", None, "which one?") + "    unit:\n"
     for column in draft.columns:
         yield from _column(column)
+    for one in draft.tip_candidates:
+        unit = f", unit: {_value(one.unit)}" if one.unit else ""
+        entry = f"{{column: {_value(one.column)}{unit}, sign: {one.sign}}}"
+        yield f"  # tip_angle_deg: {entry}  # {_one_line(one.reason)}\n"
     if draft.unused:
         yield "# not used: " + ", ".join(map(repr, draft.unused)) + "\n"
 

@@ -21,6 +21,7 @@ from diagnosis.lab_files.guesses.from_motion import (
 from diagnosis.lab_files.guesses.guessed import GuessedColumn, GuessedTimes
 from diagnosis.lab_files.guesses.hysteresis import LoopShape
 from diagnosis.lab_files.guesses.times import guessed_time_columns
+from diagnosis.lab_files.guesses.tip_candidates import TipCandidate, tip_candidates
 from diagnosis.lab_files.mapping import ImportMapping, TrialSource
 from diagnosis.lab_files.motion import Motion, motion_of
 from diagnosis.lab_files.readers.lab_table import LabFile, LabTable
@@ -46,6 +47,7 @@ class Draft:
       loops: loops of torque over base angle, in `loop_units`; None: no torque or no reversals.
       open: what the user has to decide or add.
       unused: columns for which no use was found.
+      tip_candidates: those of them that may be the angle of the tip.
       motions: motions of the base, by trial.
       series: guessed columns as they are in the files, by trial.
       tables: all columns of the first trial.
@@ -61,6 +63,7 @@ class Draft:
     loop_units: tuple[str, str]
     open: tuple[str, ...]
     unused: tuple[str, ...]
+    tip_candidates: tuple[TipCandidate, ...]
     motions: Mapping[str, Motion]
     series: Mapping[str, Mapping[str, Series]]
     tables: tuple[LabTable, ...]
@@ -89,6 +92,8 @@ def drafted(files: Sequence[LabFile]) -> Draft:
     }
     used = {c.source.column for c in columns} | {time.source.column for time in times}
     unused = [n for t in tables for n in t.columns if n not in used and not n.endswith(".log_time")]
+    candidates = tip_candidates(columns, tables, unused)
+    open_ += [f"tip_angle_deg: {one.column!r}: {one.reason}" for one in candidates]
     return Draft(
         trials=tuple(trials),
         times=tuple(times),
@@ -100,6 +105,7 @@ def drafted(files: Sequence[LabFile]) -> Draft:
         loop_units=(_unit(base, "deg"), _unit(torque, "N mm")),
         open=tuple(open_),
         unused=tuple(unused),
+        tip_candidates=candidates,
         motions=motions,
         series=series,
         tables=tuple(tables),

@@ -9,7 +9,8 @@ import numpy as np
 
 from diagnosis.criteria import EVEN_STEPS, MOST_BACKWARDS
 from diagnosis.lab_files.guesses.guessed import GuessedTimes
-from diagnosis.lab_files.guesses.names import guessed_columns, has_word, weight_of
+from diagnosis.lab_files.guesses.name_scores import has_word, weight_of
+from diagnosis.lab_files.guesses.names import guessed_columns
 from diagnosis.lab_files.guesses.unit_guess import guessed_unit
 from diagnosis.lab_files.mapping import TimeSource
 from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable

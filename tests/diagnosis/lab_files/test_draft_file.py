@@ -78,6 +78,16 @@ def test_milliseconds_that_can_only_be_seconds_are_a_blank(tmp_path):
     assert any("times.t (ms): 'ms' in the name" in item for item in draft.open)
 
 
+def test_a_candidate_for_the_tip_is_a_comment_and_no_guess(tmp_path):
+    table = LAB.rename(columns={"tip camera (deg)": "second angle (deg)"})
+    draft = draft_of(write_csv(tmp_path, table))
+    text = mapping_text(draft)
+    assert "tip_angle_deg" not in yaml.safe_load(text)["columns"]
+    assert any("second angle" in item and "is it at the tip?" in item for item in draft.open)
+    columns = yaml.safe_load(text.replace("  # tip_angle_deg:", "  tip_angle_deg:"))["columns"]
+    assert columns["tip_angle_deg"] == {"column": "second angle (deg)", "unit": "deg", "sign": 1}
+
+
 def test_an_odd_name_survives(tmp_path):
     name = 'torque: "N m" # it\'s [odd]'
     table = LAB.rename(columns={"torque (N m)": name})

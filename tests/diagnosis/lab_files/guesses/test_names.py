@@ -74,6 +74,19 @@ def test_the_volts_of_a_sensor_are_no_velocity():
     assert angular_rate([table_of("Input 1 [V]")], []) is None
 
 
+def test_volts_alone_are_no_speed_and_coordinates_no_angle():
+    assert guessed("V", "V #2") == {}
+    assert guessed("V (mm/s)") == {"speed_mm_s": "V (mm/s)"}
+    place = [f"Tip position {axis}" for axis in "xyz"]
+    assert "tip_angle_deg" not in guessed(*place, *(f"Tip orientation {axis}" for axis in "xyzw"))
+    assert guessed("Base orientation z", "Base orientation w") == {}
+
+
+def test_an_angle_about_an_axis_stays_an_angle():
+    assert guessed("tip rotation x", "tip rotation z")["tip_angle_deg"].startswith("tip rotation")
+    assert guessed("tip position z")["tip_angle_deg"] == "tip position z"  # no other coordinate
+
+
 def test_a_joint_is_known_by_the_name_that_its_message_gives():
     words = {"/js.position[0]": "slide", "/js.position[1]": "needle_tip"}
     assert (
