@@ -303,9 +303,10 @@ alone, as a question."""
 
 AVERAGED_ABOVE_HZ = 220.0
 AVERAGING_S = 0.01
-AVERAGED_LEAST_SHARE = 0.5
+AVERAGED_LEAST_SHARE, ALIKE_RATES = 0.5, 1.5
 """Samples a second from which means over a hundredth of a second, a step of the replay, are diagnosed in
-their place; and the share of its samples that a window has to have."""
+their place; the share of its samples that a window has to have; and the longest median step of a trial /
+the shortest, above which there are no means: less leaves their windows two thirds of their samples."""
 STEADY_DEPTH_MM = 0.2
 """A depth that changes by less is constant: what is left is the reading of the stage."""
 GAP_STEPS = 1.7

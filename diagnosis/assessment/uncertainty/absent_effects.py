@@ -3,8 +3,9 @@
 The score of an explanation knows white noise. The intervals of its parameters also know what the
 noise of the base encoder and the error of the replay do. Where the interval of an effect's strength
 reaches the value at which there is no effect, the explanation without it says the same, and more
-simply; but where that was refused, it is open. A time below a small share of a sample is none: no replay
-resolves it.
+simply; but where that was refused, it is open. And so it is where nothing but a filter of a sensor is
+left, which may be a delay, if that was not refused. A time below a small share of a sample is none: no
+replay resolves it.
 """
 
 import math
@@ -14,6 +15,7 @@ from dataclasses import replace
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.criteria import RESOLVED_SHARE_OF_SAMPLE
 from diagnosis.effects.effect import Parameter
+from diagnosis.selection.verdicts.delay_or_filter import delays_in_place
 from diagnosis.selection.verdicts.ranking import NOTHING
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
 
@@ -47,8 +49,12 @@ def without_absent(
         return verdict
     told, left = verdict.effects, tuple(name for name in verdict.effects if name not in absent)
     others = [names for names in verdict.confusable if set(names) not in (set(told), set(left))]
+    late = (
+        [] if left else [(n,) for n in delays_in_place(verdict.best) if frozenset((n,)) not in refused]
+    )
+    others += [names for names in late if names not in others]
     kind, doubtful = verdict.kind, frozenset(left) in refused
-    if kind is VerdictKind.EXPLAINED and left and doubtful:
+    if kind is VerdictKind.EXPLAINED and (late or (left and doubtful)):
         kind = VerdictKind.UNDECIDED
     elif kind is VerdictKind.EXPLAINED or not (others or doubtful):
         kind = VerdictKind.EXPLAINED if left else VerdictKind.NONE

@@ -6,6 +6,8 @@ noise has the standard deviation sigma / sqrt(n). The mean response in a window 
 of its inputs, so base angle, lengths and torques are all averaged. The first and the last sample are
 kept, so that the motion of the base begins and ends where it did; their sensor readings are left out,
 and those of the last window, which may be a part of one: its motion is noisier.
+Where trials were recorded at quite different rates, all stay as they are: means of one window would have
+different noise in each, or none at all in a slow one.
 Of readings in coarse steps, whose error is that of rounding and lasts, a mean is no better than the
 median, which is on a step.
 """
@@ -18,7 +20,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import AVERAGED_ABOVE_HZ, AVERAGED_LEAST_SHARE, AVERAGING_S
+from diagnosis.criteria import (
+    ALIKE_RATES,
+    AVERAGED_ABOVE_HZ,
+    AVERAGED_LEAST_SHARE,
+    AVERAGING_S,
+)
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.rounding import steps_of
@@ -30,7 +37,7 @@ def averaged(log: RigLog) -> RigLog:
     """The log with means over windows as samples, if it has more samples than are of use."""
     step_s = float(np.median(np.concatenate([np.diff(trial["time_s"]) for trial in log.trials])))
     count = int(AVERAGING_S / step_s + 1e-6)
-    if step_s * AVERAGED_ABOVE_HZ >= 1 or count < 2:
+    if step_s * AVERAGED_ABOVE_HZ >= 1 or count < 2 or _at_different_rates(log):
         return log
     said = (
         f"{1 / step_s:.0f} samples a second: means of {count} samples are diagnosed; predictions in the "
@@ -46,6 +53,12 @@ def averaged(log: RigLog) -> RigLog:
         means_of=count,
         as_read=log.stated_rig,
     )
+
+
+def _at_different_rates(log: RigLog) -> bool:
+    """Whether trials have such different steps that no window suits all of them."""
+    steps_s = [float(np.median(np.diff(trial["time_s"]))) for trial in log.trials]
+    return max(steps_s) > ALIKE_RATES * min(steps_s)
 
 
 def _means(trial: Trial, window_s: float, count: int, coarse: Collection[str]) -> Trial:

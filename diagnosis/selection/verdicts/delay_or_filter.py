@@ -26,6 +26,20 @@ def takes_for_a_filter(best: Candidate, other: Candidate) -> bool:
     return bool(mine) and filters and delay and {e.needs for e in mine} == {theirs[0].needs}
 
 
+def delays_in_place(one: Candidate) -> tuple[str, ...]:
+    """Delays of the library that make late the sensors which filters of an explanation make late."""
+    late = {
+        FITTED[name].needs
+        for name in one.names
+        if name in IMPERFECTIONS and FITTED[name].delays_a_sensor
+    }
+    return tuple(
+        e.name
+        for e in LIBRARY.values()
+        if e.delays_a_sensor and e.needs in late and e.name not in one.names
+    )
+
+
 def lags_little(best: Candidate, other: Candidate) -> bool:
     """Whether the best has effects beside filters that do little, and the other a delay for these."""
     likelier = bool(best.named) and best.score <= other.score and takes_for_a_filter(best, other)

@@ -31,6 +31,21 @@ def verdict(*names):
     return verdict_on([scored(names, 100.0)])
 
 
+@pytest.mark.parametrize(
+    ("refused", "kind", "more"),
+    [
+        (set(), VerdictKind.UNDECIDED, (("torque_sensor_delay",),)),
+        ({frozenset({"torque_sensor_delay"})}, VerdictKind.NONE, ()),
+    ],
+    ids=["that was not tried", "which explains nothing"],
+)
+def test_a_filter_of_which_nothing_else_is_left_may_be_a_delay(refused, kind, more):
+    filtered = verdict("torque_low_pass", "torque_bias")
+    found = without_absent(filtered, {"torque_bias": ABSENT["torque_bias"]}, SAMPLE_S, refused)
+    assert (found.kind, found.effects) == (kind, ())
+    assert found.confusable == ((), ("torque_bias",), *more)
+
+
 @pytest.mark.parametrize("name", ABSENT)
 def test_an_effect_that_may_as_well_be_absent_is_told_only_beside_the_others(name):
     both = verdict("tip_angle_bias", name)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import BASE, RIG, TIP, log_with, trial, turns
+from diagnosis_fixtures import BASE, RIG, TIP, joined, log_with, trial, turns
 
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.motion.averaging import averaged
@@ -27,6 +27,19 @@ def test_ten_samples_become_one_with_a_third_of_the_noise():
     assert np.std(noise) == pytest.approx(TIP / np.sqrt(10), rel=0.07)
     assert log.rig.sensors.tip_angle_noise_deg == pytest.approx(TIP / np.sqrt(10))
     assert "1000 samples a second" in log.warnings[-1]
+
+
+@pytest.mark.parametrize("step", [0.05, 0.01, 0.002])
+def test_trials_at_quite_different_rates_stay_as_they_are(step):
+    """A window that suits the fast ones has no or few samples of the slow one."""
+    log = joined(fast(), fast(), fast(), fast(step=step))
+    assert averaged(log) is log
+
+
+def test_rates_that_differ_by_little_are_averaged():
+    log = averaged(joined(fast(), fast(), fast(step=0.0013)))
+    assert log.means_of == 10
+    assert [np.isfinite(one["tip_angle_deg"]).mean() > 0.95 for one in log.trials] == [True] * 3
 
 
 def test_the_motion_begins_and_ends_where_it_did():
