@@ -11,7 +11,7 @@ and so on, while the gain is beyond chance. Their sizes follow from J and all d 
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,23 +29,49 @@ STAGE = "lost counts"
 _SIZES = (0.5, 2.0)  # of a jump, in the one that was read amid noise
 
 
-def jumps_beside(
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ShiftedBack:
+    """What a jump does to the readings beside an explanation.
+
+    Attributes:
+      change: of residuals by trial, if the shaft did not make it, (N,) each.
+    """
+
+    jump: Jump
+    change: tuple[Array, ...]
+
+
+def shifted_back(
     problem: FitProblem, fit: Fit, jumps: Sequence[Jump], workers: Workers
-) -> tuple[list[Jump], float]:
-    """Jumps that the shaft did not make, with their sizes, and the cost that shifting back takes off.
+) -> list[ShiftedBack]:
+    """What each jump does, where it can be simulated.
 
     Args:
       fit: of the explanation to the problem.
-      jumps: of the log's base, largest first.
+      jumps: of the log's base.
     """
     rig = fit.parameterization.rig(fit.x)
-    tasks = [Task(effects=fit.names, arguments=(problem, rig, jump)) for jump in jumps]
-    runs = workers.each(STAGE, _shifted_back, tasks)
-    told = [
-        (jump, _change(fit, jump.number, run))
-        for jump, run in zip(jumps, runs, strict=True)
-        if not isinstance(run, Failure)
+    numbers = list(dict.fromkeys(jump.number for jump in jumps))
+    runs = [*((number, None) for number in numbers), *((jump.number, jump) for jump in jumps)]
+    tasks = [Task(effects=fit.names, arguments=(problem, rig, *run)) for run in runs]
+    each = workers.each(STAGE, _residual, tasks)
+    as_read = dict(zip(numbers, each, strict=False))
+    return [
+        ShiftedBack(jump=jump, change=_of_one(fit, jump.number, run - before))
+        for jump, run in zip(jumps, each[len(numbers) :], strict=True)
+        if not isinstance(run, Failure) and not isinstance(before := as_read[jump.number], Failure)
     ]
+
+
+def jumps_beside(fit: Fit, each: Sequence[ShiftedBack]) -> tuple[list[Jump], float]:
+    """Jumps that the shaft did not make, with their sizes, and the cost that shifting back takes off.
+
+    Args:
+      fit: of the explanation.
+      each: in the units of its residuals.
+    """
+    prior = np.zeros(fit.x.size)
+    told = [(own.jump, np.concatenate([*own.change, prior])) for own in each]
     taken = list[tuple[Jump, Array]]()
     while told:
         gains = _gains(fit, [d for _, d in taken], [d for _, d in told])
@@ -56,24 +82,23 @@ def jumps_beside(
     return _sized(fit, taken)
 
 
-def _shifted_back(problem: FitProblem, rig: RigParameters, jump: Jump) -> Array:
-    """Change of a trial's residual if its base did not make a jump.
+def _residual(problem: FitProblem, rig: RigParameters, number: int, jump: Jump | None) -> Array:
+    """Residual of a trial, without a jump of its base if there is one.
 
     Raises:
       SimulationFailed: the rig cannot be simulated.
     """
-    trial = problem.log.trials[jump.number]
-    motion_deg = trial.base_motion_deg - jump.size_deg * (trial.time_s >= jump.at_s)
-    log = replace(problem.log, trials=(replace(trial, base_motion_deg=motion_deg), trial))
-    (without,), (as_read,) = replace(problem, log=log).residuals([rig], callback_alone=True)
-    return np.asarray(without - as_read)
+    trial = problem.log.trials[number]
+    off = jump.size_deg * (trial.time_s >= jump.at_s) if jump else 0.0
+    moved = replace(trial, base_motion_deg=trial.base_motion_deg - off)
+    alone = replace(problem, log=replace(problem.log, trials=(moved,)))
+    ((found,),) = alone.residuals([rig], callback_alone=True)
+    return np.asarray(found)
 
 
-def _change(fit: Fit, number: int, change: Array) -> Array:
-    """Change of all residuals, and of the prior's, by a change of one trial's."""
-    changes = [np.zeros_like(own) for own in fit.by_trial]
-    changes[number] = change
-    return np.concatenate([*changes, np.zeros(fit.x.size)])
+def _of_one(fit: Fit, number: int, change: Array) -> tuple[Array, ...]:
+    """Changes of all residuals by that of one trial."""
+    return tuple(change if i == number else np.zeros_like(own) for i, own in enumerate(fit.by_trial))
 
 
 def _gains(fit: Fit, taken: Sequence[Array], others: Sequence[Array]) -> Array:

@@ -4,14 +4,17 @@ An effect that is missing hides what lost counts do to the readings from the nom
 search has found it shows. What is restored so counts only where it brings an explanation to the noise.
 """
 
+from dataclasses import replace
+
 from diagnosis.criteria import LOST_COUNTS_SHARE
 from diagnosis.fitting.decimation import decimated
+from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.log.rig_log import RigLog
 from diagnosis.lost_counts import with_jumps_restored
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.motion.base_jumps import small_jumps
 from diagnosis.prepare.noise.sensor_noise import TORQUE
-from diagnosis.selection.jumps_beside import STAGE, jumps_beside
+from diagnosis.selection.jumps_beside import STAGE, jumps_beside, shifted_back
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.scoring.drift_evidence import in_noise, wide_drifts
 from diagnosis.selection.search import search
@@ -72,10 +75,12 @@ def _restored(log: RigLog, found: SearchState, workers: Workers) -> RigLog:
     drifting = [
         noise for noise in wide_drifts(found.problem, TORQUE)[-1:] if promises(found, noise, found.best)
     ]
+    each = shifted_back(found.problem, found.best.fit, small_jumps(log), workers)
     for noise in (steady, *drifting):
-        problem, fit = found.renoised(noise).problem, in_noise(found.best, found.problem, noise).fit
+        fit = in_noise(found.best, found.problem, noise).fit
         beyond = sum(float(r @ r) for r in fit.by_trial) - fit.samples
-        jumps, taken_off = jumps_beside(problem, fit, small_jumps(log), workers)
+        changes = [replace(own, change=in_units_of(found.problem, own.change, noise)) for own in each]
+        jumps, taken_off = jumps_beside(fit, changes)
         if taken_off > LOST_COUNTS_SHARE * beyond:
             return with_jumps_restored(log, jumps)
     return log

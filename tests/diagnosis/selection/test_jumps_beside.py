@@ -6,7 +6,7 @@ from lossy_logs import AT, LOST_DEG, NAMES, read
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.motion.base_jumps import small_jumps
-from diagnosis.selection.jumps_beside import jumps_beside
+from diagnosis.selection.jumps_beside import jumps_beside, shifted_back
 from diagnosis.workers import Workers
 
 
@@ -14,7 +14,7 @@ def found_beside(log):
     """The jumps, and the share of what dry friction leaves beyond noise that they take off."""
     problem = replay_nominal(log).problem
     fit = fit_effects(problem, NAMES)
-    jumps, taken_off = jumps_beside(problem, fit, small_jumps(log), Workers())
+    jumps, taken_off = jumps_beside(fit, shifted_back(problem, fit, small_jumps(log), Workers()))
     return jumps, taken_off / max(fit.cost - fit.samples, 1.0)
 
 
@@ -37,4 +37,17 @@ def test_what_the_encoder_has_not_lost_is_not_found(turned_deg):
 def test_where_nothing_jumps_nothing_is_replayed():
     log = read(LOST_DEG)
     problem = replay_nominal(log).problem
-    assert jumps_beside(problem, fit_effects(problem, NAMES), [], Workers()) == ([], 0.0)
+    fit = fit_effects(problem, NAMES)
+    assert shifted_back(problem, fit, [], Workers()) == []
+    assert jumps_beside(fit, []) == ([], 0.0)
+
+
+def test_a_jump_changes_the_trial_that_it_is_in_from_its_time_on():
+    log = read(LOST_DEG)
+    problem = replay_nominal(log).problem
+    fit = fit_effects(problem, NAMES)
+    for own in shifted_back(problem, fit, small_jumps(log), Workers()):
+        there, other = own.change[own.jump.number], own.change[1 - own.jump.number]
+        assert not other.any()
+        assert not there[: own.jump.sample - 1].any()  # of the torque, which comes first
+        assert there[own.jump.sample :].any()

@@ -71,7 +71,7 @@ def test_the_log_is_searched_again_where_jumps_take_off_enough(share, searches, 
     made, searched = [], module._searched
     monkeypatch.setattr(module, "_searched", lambda *given: made.append(1) or searched(*given))
 
-    def beside(_, fit, *__):
+    def beside(fit, _):
         return small_jumps(log)[:1], share * (fit.cost - fit.prior - fit.samples)
 
     monkeypatch.setattr(module, "jumps_beside", beside)
