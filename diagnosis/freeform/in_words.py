@@ -3,6 +3,7 @@
 import statistics
 
 from diagnosis.criteria import FAR_GAP
+from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.family import Family
@@ -65,6 +66,7 @@ _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
 _SEEN_AGAIN = 0.9  # of a period, over which a law is known where it is said to repeat
+_STRONGER = 1.05  # times as strong one way, from which that is told
 _MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
@@ -77,7 +79,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     if missing.law is None:
         return f"No free-form law that was tried does better than the library. {DOUBT}."
     law, first = missing.law, missing.depends_on[0]
-    beside = f", beside {' and '.join(law.beside)}," if law.beside else ""
+    beside = f", beside {' and '.join(FITTED[n].title for n in law.beside)}," if law.beside else ""
     # Of a trial that no other tells of:
     alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
     where = UNSEEN if missing.best.held_out and not alone else SEEN
@@ -170,12 +172,7 @@ def course_of(law: Law) -> str:
         change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
         return f"{law.title}, {change} at {0.5 * (law.x[1] + law.x[2]):.2f} {law.x_unit}"
     if law.variable == "direction":
-        back, forth = law.y[0], law.y[-1]
-        if back * forth > 0:
-            stronger = abs(forth) > abs(back)
-            way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
-            return f"{law.title} is {ratio:.2g} times as strong {way}"
-        return f"{law.title} is {forth:.3g}{own} forwards, {back:.3g}{own} backwards"
+        return f"{law.title} {_by_direction(law.y[0], law.y[-1], own)}"
     x, y = _determined(law)
     low, high = min(y), max(y)
     if high == low:
@@ -187,6 +184,17 @@ def course_of(law: Law) -> str:
         between = f"between {x[0]:.3g} and {x[-1]:.3g}{unit}"
         return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
     return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
+
+
+def _by_direction(back: float, forth: float, unit: str) -> str:
+    """How a law differs between the directions of turning."""
+    if back * forth <= 0:
+        return f"is {forth:.3g}{unit} forwards, {back:.3g}{unit} backwards"
+    stronger = abs(forth) > abs(back)
+    way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
+    if ratio < _STRONGER:
+        return f"is {forth:.3g}{unit} in both directions"
+    return f"is {ratio:.2g} times as strong {way}"
 
 
 def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import LAW, VOCABULARY, covered, free_fit, linear_fit, missing_with
 
+from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.families.angle import families as families_over_angles
@@ -46,6 +47,7 @@ def test_every_family_says_a_variable_of_the_vocabulary():
         ({"y": (0.001, 0.004, 0.0015)}, "friction along the shaft varies between 0.001 and 0.004"),
         ({"variable": "direction", "y": (0.001, 0.002)}, "is 2 times as strong forwards"),
         ({"variable": "direction", "y": (0.003, 0.002)}, "is 1.5 times as strong backwards"),
+        ({"variable": "direction", "y": (0.00202, 0.002)}, "is 0.002 N mm / mm in both directions"),
         ({"variable": "direction", "y": (-0.1, 0.2)}, "is 0.2 N mm / mm forwards, -0.1 N mm / mm back"),
         (
             {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
@@ -162,7 +164,8 @@ def fit_of(family):
 
 def test_effects_beside_a_law_are_named():
     said = what_is_missing(missing_with(replace(LAW, beside=("tip_drag", "torque_bias"))), 8.9)
-    assert "A free-form law of this kind, beside tip_drag and torque_bias, reduces" in said
+    each = " and ".join(LIBRARY[name].title for name in ("tip_drag", "torque_bias"))
+    assert f"A free-form law of this kind, beside {each}, reduces" in said
 
 
 def test_laws_that_were_fitted_together_are_told_one_by_one():
