@@ -50,7 +50,7 @@ def read_rig(path: Path) -> NominalRig:
 
 
 def _instead_of(path: Path) -> str:
-    """What is there in place of a rig.yaml, and the way out."""
+    """What is there in place of a rig.yaml, and what to do."""
     folder = path.parent
     if is_file(folder):
         return f"{folder} is a file: give its folder"
