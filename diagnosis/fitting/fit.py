@@ -103,18 +103,13 @@ class Fit:
         """Stiffness and damping, where not named, that stopped at a bound, as effect.parameter."""
         told = [f"{e.name}.{p.name}" for e in self.parameterization.all for p in e.parameters]
         mine = [owner in SCATTER and owner not in self.names for owner in self.parameterization.owners]
-        return tuple(name for name, at, own in zip(told, self._held, mine, strict=True) if at and own)
+        held = self.parameterization.held(self.x)
+        return tuple(name for name, at, own in zip(told, held, mine, strict=True) if at and own)
 
     @property
     def trial_at_bound(self) -> bool:
         """Whether what concerns one trial only, as its past does, stopped at a bound."""
-        return bool(np.any(self._held & self.parameterization.about_one_trial))
-
-    @property
-    def _held(self) -> NDArray[np.bool_]:
-        """Mask of the entries of the vector that are at a bound."""
-        low, high = self.parameterization.bounds()
-        return np.asarray((self.x <= low) | (self.x >= high))
+        return bool(np.any(self.parameterization.held(self.x) & self.parameterization.about_one_trial))
 
 
 def fit_effects(
@@ -161,7 +156,7 @@ def fit_effects(
         x, status = _minimised(objective, x, stopping, most_iterations)
         if status.termination is Termination.BEHIND:
             break
-    return _fit(objective, names, x, replace(status, at_bound=_at_bound(objective, x)))
+    return _fit(objective, names, x, replace(status, at_bound=_at_bound(parameterization, x)))
 
 
 def completed(problem: FitProblem, fit: Fit) -> Fit:
@@ -214,12 +209,10 @@ def _minimised(
     return np.asarray(x).ravel(), FitStatus.of_message(said.getvalue())
 
 
-def _at_bound(objective: Objective, x: Array) -> tuple[str, ...]:
+def _at_bound(parameterization: Parameterization, x: Array) -> tuple[str, ...]:
     """Parameters of the named effects that stopped at a bound, as effect.parameter."""
-    parameterization = objective.parameterization
     names = [f"{e.name}.{p.name}" for e in parameterization.effects for p in e.parameters]
-    held = (x <= objective.low) | (x >= objective.high)
-    return tuple(name for name, at in zip(names, held, strict=False) if at)
+    return tuple(name for name, at in zip(names, parameterization.held(x), strict=False) if at)
 
 
 def _fit(objective: Objective, names: Sequence[str], x: Array, status: FitStatus) -> Fit:

@@ -56,6 +56,11 @@ class Parameterization:
         high = [p.to_fit(p.high) for p in self.parameters]
         return np.array(low), np.array(high)
 
+    def held(self, x: Array) -> NDArray[np.bool_]:
+        """Mask of the entries of a vector that are at a bound."""
+        low, high = self._bounds
+        return np.asarray((x <= low) | (x >= high))
+
     def parts(self, x: Array) -> dict[str, Array]:
         """The part of a vector that belongs to each effect, by name."""
         ends = np.cumsum([len(e.parameters) for e in self.all])

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t
+from scipy.stats import norm, t
 
 from diagnosis.criteria import INTERVAL_Z
 from diagnosis.fitting.fit import Fit
@@ -69,5 +69,5 @@ def _scatter_of(pulls: Array) -> Array:
     """Covariance of the sum of pulls, (n, n), for an interval of the normal distribution."""
     count = len(pulls)
     about = pulls - pulls.mean(axis=0)
-    wider = float(t.ppf(0.975, count - 1)) / INTERVAL_Z
+    wider = float(t.ppf(norm.cdf(INTERVAL_Z), count - 1)) / INTERVAL_Z
     return np.asarray(wider**2 * count / (count - 1) * about.T @ about)

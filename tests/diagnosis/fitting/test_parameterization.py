@@ -92,3 +92,12 @@ def test_where_there_is_no_rig_nothing_can_be_simulated():
     parameterization = Parameterization(effects=(refused,), nuisance=())
     with pytest.raises(SimulationFailed, match="nothing at all"):
         parameterization.rig(np.zeros(1))
+
+
+def test_entries_at_a_bound_are_held():
+    two = parameterization_of(("tip_sensor_delay", "tip_drag"))
+    low, high = two.bounds()
+    middle = 0.5 * (low + high)
+    assert two.held(middle).tolist() == [False, False]
+    assert two.held(np.array([low[0], high[1]])).tolist() == [True, True]
+    assert two.held(np.array([middle[0], high[1]])).tolist() == [False, True]
