@@ -702,6 +702,10 @@ leaves above the noise; of gaps above the noise, this share of them."""
 RESOLVED_SHARE_OF_SAMPLE = 0.02
 """A delay whose interval begins below this share of a sample may as well be absent. Set on logs of
 several independent rigs: delays that were named, and were none, began below 0.003 of a sample."""
+DIFFERING_SHARE = 0.1
+"""Share of the power beyond noise that values of a parameter of its own in each trial have to take off
+what the nearest explanation of an unknown log leaves, to be told as a difference of the trials. A
+choice: it adds a sentence, and decides on no verdict."""
 INTERVAL_Z = 1.959964
 """Derived: 95 % of a normal distribution."""
 CONFIDENCE = 0.95

@@ -211,3 +211,8 @@ def held(names, score):
     (effect,) = names
     bound = f"{effect}.{LIBRARY[effect].reported[0].name}"
     return replace(one, fit=replace(one.fit, status=replace(one.fit.status, at_bound=(bound,))))
+
+
+def concluding(found, **verdict):
+    """A diagnosis with another verdict."""
+    return replace(found, verdict=replace(found.verdict, **verdict))

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
+from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
 from diagnosis.criteria import FAR_GAP
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.fit import nominal_fit
@@ -53,6 +54,7 @@ class Nearest:
       power_explained_percent: share of the power of the nominal residual beyond noise.
       at_bound: parameters that stopped at a bound, as effect.parameter.
       imperfections: what its fit allows for in the sensors.
+      by_trial: its parameters with a value of their own in each trial, of an unknown log.
     """
 
     effects: tuple[str, ...]
@@ -61,6 +63,7 @@ class Nearest:
     power_explained_percent: float
     at_bound: tuple[str, ...]
     imperfections: tuple[str, ...] = ()
+    by_trial: tuple[ValuesByTrial, ...] = ()
 
 
 def nearest_of(
@@ -68,11 +71,13 @@ def nearest_of(
     effects: tuple[str, ...],
     parameters: Mapping[str, Mapping[str, Interval]],
     gap: GapReduction,
+    by_trial: tuple[ValuesByTrial, ...] = (),
 ) -> Nearest:
     """The record of the best candidate; `effects`: strongest first.
 
     Args:
       parameters: intervals of all fitted parameters, by effect.
+      by_trial: parameters with a value of their own in each trial.
     """
     held = (*best.fit.status.at_bound, *best.fit.constants_at_bound)
     return Nearest(
@@ -82,6 +87,7 @@ def nearest_of(
         power_explained_percent=_power_percent(gap),
         at_bound=tuple(p for p in held if p.partition(".")[0] in effects),
         imperfections=tuple(name for name in best.names if name in IMPERFECTIONS),
+        by_trial=by_trial,
     )
 
 

@@ -6,7 +6,8 @@ They open the page and the summary on the screen.
 from diagnosis.criteria import CERTAIN_PROBABILITY
 from diagnosis.freeform.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
-from diagnosis.report.sentences import explanation_name, explanations, headline, titles
+from diagnosis.report.sentences.names import explanation_name, explanations, titles
+from diagnosis.report.sentences.verdict import headline
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 

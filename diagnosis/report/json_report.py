@@ -16,7 +16,7 @@ from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Dependence, Law, Missing
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
-from diagnosis.report.sentences import explanation_name
+from diagnosis.report.sentences.names import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
@@ -106,6 +106,7 @@ def _nearest(nearest: Nearest) -> dict[str, Any]:
         "power_explained_percent": nearest.power_explained_percent,
         "at_bound": list(nearest.at_bound),
         "imperfections": list(nearest.imperfections),
+        "by_trial": [{**asdict(own), "differs": own.differs} for own in nearest.by_trial],
     }
 
 

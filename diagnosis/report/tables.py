@@ -5,11 +5,12 @@ from itertools import groupby
 from typing import Any
 
 from diagnosis.assessment.detection_limits import DetectionLimit
+from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report.html_parts import table
-from diagnosis.report.sentences import explanations
+from diagnosis.report.sentences.names import explanations
 from diagnosis.result import Diagnosis
 from diagnosis.selection.record import Decision, RecordEntry
 
@@ -26,6 +27,22 @@ def parameter_table(parameters: Mapping[str, Any]) -> str:
     ]
     head = ("effect", "parameter", "value", "95 % interval", "unit")
     return table(head, rows, "Fitted parameters")
+
+
+def trial_table(by_trial: Sequence[ValuesByTrial], trials: Sequence[str]) -> str:
+    """Parameters with a value of their own in each trial."""
+    rows = [
+        (
+            own.effect,
+            own.parameter,
+            *("does not tell" if v is None else f"{v:.3g}" for v in own.values),
+            own.unit,
+            over_sigma(own.gap_own),
+        )
+        for own in by_trial
+    ]
+    head = ("effect", "parameter", *trials, "unit", "residual / σ")
+    return table(head, rows, "Values by trial")
 
 
 def explanation_table(found: Diagnosis) -> str:

@@ -12,7 +12,7 @@ from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.fallible import Page, write_page
 from diagnosis.report.json_report import as_json
-from diagnosis.report.sentences import headline
+from diagnosis.report.sentences.verdict import headline
 from diagnosis.result import Diagnosis
 from diagnosis.workers import Workers, process_pool
 from sim.files import Destination, ResultSet, publishing, write_text

@@ -15,7 +15,7 @@ from diagnosis.nominal_replay import replay_nominal
 from diagnosis.report import write
 from diagnosis.report.answer import answer
 from diagnosis.report.fallible import Page
-from diagnosis.report.sentences import largest_parts
+from diagnosis.report.sentences.residual import largest_parts
 from models.errors import UnwritableOutput
 from scripts import diagnose as command
 from scripts import replay as replaying

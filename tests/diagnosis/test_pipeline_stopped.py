@@ -8,7 +8,7 @@ from diagnosis.assessment.assess import TO_ITS_END
 from diagnosis.pipeline import diagnose
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.report.json_report import as_json
-from diagnosis.report.sentences import headline
+from diagnosis.report.sentences.verdict import headline
 from diagnosis.selection.record import Decision
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stages import in_words

@@ -12,7 +12,7 @@ from diagnosis.criteria import TURNING_DEG_S
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
-from diagnosis.report.sentences import label_of
+from diagnosis.report.sentences.names import label_of
 from diagnosis.residuals.along_motion import BASE_ANGLE, RATE, SINCE_REVERSAL, Coordinate, part_means
 from diagnosis.residuals.motion import direction
 from diagnosis.residuals.trial_residual import TrialResidual, by_sensor, trial_residuals

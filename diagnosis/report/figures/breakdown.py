@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import HATCHES, PREDICTIONS, WIDE
-from diagnosis.report.sentences import label_of
+from diagnosis.report.sentences.names import label_of
 from diagnosis.residuals.residual_breakdown import band_name
 from diagnosis.result import Diagnosis
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE
-from diagnosis.report.sentences import label_of
+from diagnosis.report.sentences.names import label_of
 from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 

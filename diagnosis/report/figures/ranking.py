@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS
-from diagnosis.report.sentences import explanations
+from diagnosis.report.sentences.names import explanations
 from diagnosis.result import Diagnosis
 
 _SHOWN = 6

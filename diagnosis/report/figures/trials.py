@@ -21,7 +21,7 @@ from diagnosis.report.figures.style import (
     block_means,
     rms,
 )
-from diagnosis.report.sentences import best_in_words, label_of
+from diagnosis.report.sentences.names import best_in_words, label_of
 from diagnosis.residuals.between_readings import between_readings
 from diagnosis.residuals.trial_residual import TrialResidual, trial_residuals
 from diagnosis.result import Diagnosis

@@ -5,7 +5,8 @@ from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.loops import describe_loops, draw_loops
 from diagnosis.report.figures.trials import describe_trial, draw_trial
 from diagnosis.report.figures.twist import describe_twist, draw_twist
-from diagnosis.report.sentences import best_in_words, label_of, reduction
+from diagnosis.report.sentences.names import best_in_words, label_of
+from diagnosis.report.sentences.residual import reduction
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind
 

@@ -7,7 +7,8 @@ from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
-from diagnosis.report.sentences import alike, with_one_more
+from diagnosis.report.sentences.residual import with_one_more
+from diagnosis.report.sentences.verdict import alike
 from diagnosis.report.tables import explanation_table
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind

@@ -3,11 +3,12 @@
 from collections.abc import Mapping
 from typing import Any
 
+from diagnosis.in_sigma import in_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
-from diagnosis.report.sentences import NOT_AN_EXPLANATION, nearest
-from diagnosis.report.tables import parameter_table
+from diagnosis.report.sentences.nearest import NOT_AN_EXPLANATION, differing_trials, nearest
+from diagnosis.report.tables import parameter_table, trial_table
 from diagnosis.result import Diagnosis
 
 _INTERVALS = (
@@ -18,15 +19,38 @@ _INTERVALS = (
     "nominal values."
 )
 
+_TRIALS = (
+    "Each row gives one parameter a value of its own in each trial and keeps all others common. The "
+    "last column is the residual of all trials together with these values; with common values it is "
+    "{common}. Only the linear model of the fit is used: a value far from the common one shows a "
+    "direction more than a size. Parameters that act alike each take over what one of them does."
+)
+
 
 def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:
     """Everything under this heading; `report` is report.json. Nothing where nothing was fitted."""
     if sentence := nearest(found):
         own = report["nearest"]["parameters"]
         parts = [html.heading("What comes nearest"), html.paragraph(f"{sentence}.")]
-        return [*parts, *_values(found, own), *([html.paragraph(NOT_AN_EXPLANATION)] if own else [])]
+        doubt = [html.paragraph(NOT_AN_EXPLANATION)] if own else []
+        return [*parts, *_values(found, own), *doubt, *_by_trial(found)]
     own = report["parameters"]
     return [html.heading("Parameters"), *_values(found, own)] if own else []
+
+
+def _by_trial(found: Diagnosis) -> list[str]:
+    """Values of its own in each trial, of an unknown log of several trials."""
+    own = found.assessment.nearest.by_trial
+    if not own:
+        return []
+    common = in_sigma(own[0].gap_common)
+    sentence = differing_trials(found)
+    return [
+        html.heading("Trial by trial", level=3),
+        html.paragraph(_TRIALS.format(common=common)),
+        *([html.paragraph(f"{sentence}.")] if sentence else []),
+        trial_table(own, [trial.name for trial in found.log.trials]),
+    ]
 
 
 def _values(found: Diagnosis, parameters: Mapping[str, Any]) -> list[str]:

@@ -2,7 +2,7 @@
 
 from diagnosis.report import html_parts as html
 from diagnosis.report.sensors import imperfections
-from diagnosis.report.sentences import replay_quality
+from diagnosis.report.sentences.residual import replay_quality
 from diagnosis.result import Diagnosis
 
 

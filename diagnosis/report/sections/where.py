@@ -5,7 +5,8 @@ from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.along_motion import describe_along_motion, draw_along_motion
 from diagnosis.report.figures.breakdown import describe_breakdown, draw_breakdown
 from diagnosis.report.figures.memory import describe_memory, draw_memory
-from diagnosis.report.sentences import best_in_words, largest_parts, largest_residual, leading
+from diagnosis.report.sentences.names import best_in_words
+from diagnosis.report.sentences.residual import largest_parts, largest_residual, leading
 from diagnosis.result import Diagnosis
 
 _BREAKDOWN = (

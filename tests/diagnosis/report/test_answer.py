@@ -7,7 +7,8 @@ from free_forms import missing_with
 
 from diagnosis.freeform.in_words import what_is_missing
 from diagnosis.report.answer import answer
-from diagnosis.report.sentences import headline, titles
+from diagnosis.report.sentences.names import titles
+from diagnosis.report.sentences.verdict import headline
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import EarlyStop
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from diagnosis.report.figures.ranking import describe_ranking, draw_ranking
-from diagnosis.report.sentences import explanations
+from diagnosis.report.sentences.names import explanations
 
 
 def paired(found):

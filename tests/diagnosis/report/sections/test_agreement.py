@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.sections import agreement
 from diagnosis.report.sections.agreement import agreement_section
-from diagnosis.report.sentences import reduction
+from diagnosis.report.sentences.residual import reduction
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
 

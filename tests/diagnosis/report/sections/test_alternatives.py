@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.sections import alternatives
 from diagnosis.report.sections.alternatives import alternatives_section
-from diagnosis.report.sentences import alike
+from diagnosis.report.sentences.verdict import alike
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
 

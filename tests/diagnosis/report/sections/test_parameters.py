@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from matplotlib.figure import Figure
 
+from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
 from diagnosis.report.sections import parameters
 from diagnosis.report.sections.parameters import parameters_section
 from diagnosis.selection.verdicts.verdict import VerdictKind
@@ -49,3 +50,27 @@ def test_where_nothing_came_nearer_there_are_no_intervals_to_speak_of(dry):
     said = "".join(parameters_section(unknown, {**dry.report, "nearest": {"parameters": {}}}))
     assert "nothing that was tried improves on the nominal model" in said
     assert "intervals" not in said
+
+
+def test_values_by_trial_stand_below_what_comes_nearest(dry):
+    own = ValuesByTrial(
+        effect="torque_bias",
+        parameter="bias",
+        unit="N mm",
+        values=(0.25, -0.5),
+        gap_common=3.0,
+        gap_own=1.5,
+    )
+    near = replace(dry.found.assessment.nearest, by_trial=(own,))
+    unknown = replace(
+        dry.found,
+        verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN, effects=()),
+        assessment=replace(dry.found.assessment, nearest=near),
+    )
+    said = "".join(parameters_section(unknown, dry.report))
+    assert "Trial by trial" in said
+    assert "with common values it is 3.00 σ" in said
+    assert "(0.25, -0.5 N mm)" in said
+    assert "trial_02.csv" in said
+    alone = "".join(parameters_section(dry.found, dry.report))
+    assert "Trial by trial" not in alone

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.report.sections.sensors import sensors_section
-from diagnosis.report.sentences import replay_quality
+from diagnosis.report.sentences.residual import replay_quality
 
 
 def test_noise_and_numerical_error_are_told_of_each_sensor(dry):

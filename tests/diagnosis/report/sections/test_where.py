@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from diagnosis.report.sections import where
 from diagnosis.report.sections.where import where_section
-from diagnosis.report.sentences import largest_parts, leading
+from diagnosis.report.sentences.residual import largest_parts, leading
 
 PICTURES = ("draw_breakdown", "draw_along_motion", "draw_memory")
 

@@ -1,0 +1,90 @@
+"""What is left of a log, and where."""
+
+from diagnosis.criteria import ALMOST_NOTHING_SIGMA
+from diagnosis.in_sigma import in_sigma
+from diagnosis.log.trial import SENSORS
+from diagnosis.report.sentences.names import best_in_words
+from diagnosis.result import Diagnosis
+
+_NO_SHRINK = 5e-4  # of the gap: what rounds to 0.0 %
+
+
+def reduction(found: Diagnosis) -> str:
+    """How much of the gap is explained."""
+    gap = found.assessment.gap
+    seen = "On held-out trials, which the fit has not seen,"
+    if len(found.log.trials) == 1:
+        seen = "On the only trial, which is also the one that was fitted,"
+    if abs(gap.shrink) < _NO_SHRINK:
+        return f"{seen} the residual is {in_sigma(gap.after)}. 1 σ is the noise floor."
+    return (
+        f"{seen} the residual falls from {in_sigma(gap.before)} to "
+        f"{in_sigma(gap.after)}: by {100 * gap.shrink:.1f} % "
+        f"(95 % interval {100 * gap.shrink_low:.1f} to {100 * gap.shrink_high:.1f} %). "
+        "1 σ is the noise floor."
+    )
+
+
+def with_one_more(found: Diagnosis) -> str:
+    """What adding another effect would change; empty where nothing was tried."""
+    first = list(found.assessment.with_one_more.items())[:3]
+    if not first:
+        return ""
+    here = found.verdict.best.fit.gap
+    named = ", ".join(f"with {name} {in_sigma(gap)}" for name, gap in first)
+    little = here - first[0][1] < ALMOST_NOTHING_SIGMA * max(here, 1.0)
+    change = "changes almost nothing" if little else "would lower the residual"
+    return (
+        f"Adding another effect {change}: on the trials of the fit the residual is {in_sigma(here)}, "
+        f"{named}."
+    )
+
+
+def replay_quality(found: Diagnosis) -> list[str]:
+    """Noise and numerical error of each sensor."""
+    error = found.assessment.numerical_error
+    lines = [
+        f"{sensor}: σ = {found.noise[sensor]:.3g}; numerical error: "
+        + (f"{in_sigma(error[sensor])}" if sensor in error else "not computed")
+        for sensor in found.assessment.breakdown.signal
+    ]
+    base = found.noise["base_angle_deg"]
+    return [*lines, f"base_angle_deg: σ = {base:.3g}, smoothed as far as the motion allows"]
+
+
+def largest_residual(found: Diagnosis) -> str:
+    """Where along time the residual of the nominal model is largest."""
+    stretch, value = found.assessment.breakdown.worst
+    return f"Largest residual of the nominal model: {in_sigma(value)}, {stretch}"
+
+
+def largest_parts(found: Diagnosis) -> str:
+    """In which signal and phase the residual is largest, before and after the best explanation."""
+    before, after = (b.largest for b in (found.assessment.breakdown, found.assessment.breakdown_after))
+    nominal = f"Residual of the nominal model: {before}"
+    return nominal if after == before else f"{nominal}; of {best_in_words(found)}: {after}"
+
+
+def leading(found: Diagnosis) -> str:
+    """Which signal's residual leads the other's, or why that cannot be said."""
+    own = found.assessment.shape.leads
+    if own is None:
+        return (
+            "It is not clear which residual leads: this needs both sensors, for at least eight seconds"
+        )
+    interval = f"(95 % interval {1000 * own.low_s:.0f} to {1000 * own.high_s:.0f} ms)"
+    if own.signal:
+        other = next(sensor for sensor in SENSORS if sensor != own.signal)
+        return (
+            f"The residual of {own.signal} leads that of {other} by {1000 * own.by_s:.0f} ms "
+            f"{interval}, correlation {own.correlation:.2f}"
+        )
+    if abs(own.correlation) <= own.chance_limit:
+        return (
+            "It is not clear which residual leads: their correlation of "
+            f"{own.correlation:.2f} is within chance ({own.chance_limit:.2f})"
+        )
+    return (
+        f"It is not clear which residual leads: perhaps that of {SENSORS[0]}, by "
+        f"{1000 * own.by_s:.0f} ms {interval}, correlation {own.correlation:.2f}"
+    )

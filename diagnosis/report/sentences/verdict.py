@@ -1,0 +1,124 @@
+"""The verdict in one sentence."""
+
+from collections.abc import Sequence
+
+from diagnosis.effects import IMPERFECTIONS
+from diagnosis.in_sigma import in_sigma
+from diagnosis.log.trial import SENSORS
+from diagnosis.report.sentences.names import capital, titles
+from diagnosis.result import Diagnosis
+from diagnosis.selection.verdicts.verdict import VerdictKind
+
+_NOTHING = "the nominal model as it is"
+_FAR_FROM_CLAIMED = 10.0  # times the noise in rig.yaml: what no model explains is likely in it
+_TOGETHER = 0.6  # of the residual on unseen trials: what is left of all trials fitted at once
+_SETS = 4  # explanations that are told in a sentence
+
+
+def headline(found: Diagnosis) -> str:
+    """The verdict in one sentence, marked where the diagnosis was stopped early."""
+    early = found.stopped
+    if early is None:
+        return _verdict(found)
+    told = _best_so_far(found) if early.search else _verdict(found)
+    return f"Stopped early ({early.why}, while {early.stage}): best so far: {told}"
+
+
+def _best_so_far(found: Diagnosis) -> str:
+    """What a search that was cut short has come to: never that nothing else is there."""
+    verdict, near, gap = found.verdict, found.assessment.nearest, found.assessment.gap
+    residual = f"residual {in_sigma(gap.before)} → {in_sigma(gap.after)} {_what_sigma_is(found)}"
+    if verdict.kind is VerdictKind.UNKNOWN:
+        none = f"{titles(near.effects) or _NOTHING}, which does not explain the gap: {residual}"
+        return f"{none}{_of_all_trials_together(found)}"
+    return f"{_each_of(verdict.confusable)}: undecided, because others were not tried: {residual}"
+
+
+def _verdict(found: Diagnosis) -> str:
+    gap, effects = found.assessment.gap, found.verdict.effects
+    sigma = _what_sigma_is(found)
+    before, after = f"{in_sigma(gap.before)}", f"{in_sigma(gap.after)} {sigma}"
+    match found.verdict.kind:
+        case VerdictKind.NONE:
+            return f"No gap beyond noise: the nominal model explains the log, residual {after}"
+        case VerdictKind.EXPLAINED:
+            verb = "explain" if len(effects) > 1 else "explains"
+            return capital(f"{titles(effects)} {verb} the gap: residual {before} → {after}")
+        case VerdictKind.UNDECIDED:
+            sets = _each_of(found.verdict.confusable)
+            return f"Undecided: these explain the gap equally well: {sets}; residual {before} → {after}"
+        case _:
+            near = found.assessment.nearest
+            if found.verdict.other_form:
+                return (
+                    f"Unknown: residual {before}. {capital(titles(near.effects))} would leave "
+                    f"{in_sigma(near.gap_after)} {sigma}, but {found.verdict.other_form} "
+                    "leaves clearly less"
+                )
+            best, named = found.verdict.best, titles(near.effects) or _NOTHING
+            named += _beside_sensors(near.imperfections)
+            power = f"{near.power_explained_percent:.0f} % of its power"
+            if best.floor.small and best.objection and {*best.named} == {*near.effects}:
+                return (
+                    f"Unknown: residual {before}. {capital(named)} would leave "
+                    f"{in_sigma(near.gap_after)} {sigma} and explain {power}, but "
+                    f"{'do' if len(near.effects) > 1 else 'does'} not count: {best.objection}"
+                )
+            least = (
+                f"at best {in_sigma(near.gap_after)} {sigma}, with {named}, which "
+                f"{'explain' if len(near.effects) > 1 else 'explains'} {power}"
+                if near.effects
+                else f"which none of them lowers {sigma}"
+            )
+            return (
+                "Unknown: no effect of the library, nor two or three together, explains the gap: "
+                f"residual {before}, {least}{_of_all_trials_together(found)}"
+            )
+
+
+def _each_of(sets: Sequence[Sequence[str]]) -> str:
+    """Sets of effects, the first of them where they are many."""
+    shown = sets if len(sets) <= _SETS + 1 else sets[:_SETS]
+    told = "; or ".join(titles(names) or _NOTHING for names in shown)
+    more = len(sets) - len(shown)
+    return f"{told}; or one of {more} others, which report.json lists" if more else told
+
+
+def _beside_sensors(imperfections: Sequence[str]) -> str:
+    """What the sensors do beside the effects that are named, as the end of a phrase."""
+    each = " and ".join(IMPERFECTIONS[name].title for name in imperfections)
+    return f", beside {each}" if each else ""
+
+
+def _what_sigma_is(found: Diagnosis) -> str:
+    """In parentheses: the sensors' noise, or what was taken for it where rig.yaml states far less."""
+    claims = found.log.rig.sensors.by_column()
+    times = max((found.noise[s] / claims[s] for s in SENSORS if claims[s] > 0.0), default=1.0)
+    if times < _FAR_FROM_CLAIMED:
+        return "(σ = sensor noise)"
+    return f"(σ = what the readings scatter by, {times:.0f} times the noise in rig.yaml)"
+
+
+def _of_all_trials_together(found: Diagnosis) -> str:
+    """What fits all trials at once far better than it predicts one from the others; mostly empty."""
+    best, near = found.verdict.best, found.assessment.nearest
+    if not best.named or best.fit.gap > _TOGETHER * near.gap_after:
+        return ""
+    leaves = "leave" if len(best.named) > 1 else "leaves"
+    return (
+        f". {capital(titles(best.named))} {leaves} {in_sigma(best.fit.gap)} of all trials together, "
+        f"but predictions from the other trials {in_sigma(near.gap_after)}: check whether all were "
+        "recorded on the same rig, with the same columns"
+    )
+
+
+def alike(found: Diagnosis) -> str:
+    """What the accepted effects cannot be told from, in one sentence; else empty."""
+    verdict = found.verdict
+    if verdict.kind is not VerdictKind.EXPLAINED or not verdict.confusable:
+        return ""
+    others = "; or ".join(titles(names) for names in verdict.confusable[1:])
+    return (
+        f"Cannot be told from: {others}. These change the readings of this log in the same way, or "
+        "nearly so; the named cause is the likeliest one, not the only one"
+    )

@@ -1,0 +1,53 @@
+"""What comes nearest to an explanation of an unknown log."""
+
+from dataclasses import replace
+
+from diagnosis_fixtures import concluding
+
+from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
+from diagnosis.report.sentences.nearest import differing_trials, nearest
+from diagnosis.selection.verdicts.verdict import VerdictKind
+from diagnosis.stopping import EarlyStop
+
+SEARCH = EarlyStop(why="limit of 30 s", stage="fitting pairs", left_out=("pairs",), search=True)
+
+
+def test_of_a_search_that_was_cut_short_the_nearest_is_that_of_what_was_tried(dry):
+    found = replace(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()), stopped=SEARCH)
+    assert "No explanation that was tried so far reaches the noise" in nearest(found)
+
+
+def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
+    assert nearest(dry.found) == ""
+    said = nearest(concluding(dry.found, kind=VerdictKind.UNKNOWN, effects=()))
+    assert said.startswith(
+        "Nearest: dry (Coulomb) friction along the shaft (coulomb_friction level 0.00"
+    )
+    assert "% of the power of the gap" in said
+    assert "the remaining residual is largest in " in said
+
+
+ZEROED = ValuesByTrial(
+    effect="tip_angle_bias",
+    parameter="bias",
+    unit="deg",
+    values=(0.1, None, -2.4),
+    gap_common=10.0,
+    gap_own=5.0,
+)
+
+
+def with_values(found, *by_trial):
+    near = replace(found.assessment.nearest, by_trial=by_trial)
+    return replace(found, assessment=replace(found.assessment, nearest=near))
+
+
+def test_what_differs_between_trials_is_told_with_its_values(dry):
+    said = differing_trials(with_values(dry.found, ZEROED))
+    assert "if tip_angle_bias.bias has a value of its own in each (0.1, –, -2.4 deg)" in said
+    assert "leaves 5.00 σ of all trials together instead of 10.0 σ" in said
+
+
+def test_trials_that_hardly_differ_are_not_said_to(dry):
+    assert differing_trials(dry.found) == ""
+    assert differing_trials(with_values(dry.found, replace(ZEROED, gap_own=9.9))) == ""
