@@ -26,6 +26,15 @@ class Resolution:
         return replace(self, elements=self.elements // 2, step_s=min(2 * self.step_s, LONGEST_STEP_S))
 
     @property
+    def nearer_the_usual(self) -> "Resolution":
+        """Half as fine, as long as that is no coarser than what logs are replayed with; or itself."""
+        return replace(
+            self,
+            elements=max(self.elements // 2, min(self.elements, FINE.elements)),
+            step_s=min(2 * self.step_s, max(self.step_s, FINE.step_s)),
+        )
+
+    @property
     def refined(self) -> "Resolution":
         """Twice as fine in space and time."""
         return replace(self, elements=2 * self.elements, step_s=self.step_s / 2)

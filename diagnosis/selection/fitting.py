@@ -31,6 +31,7 @@ Made = tuple[list[Candidate], tuple[RecordEntry, ...]]
 
 
 _LEADING_SIGMA = 0.1  # tolerance of a fit that leads to where one with slopes of its own begins
+_FINER_ITERATIONS = 2  # with known slopes
 
 
 def fit_all(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> Made:
@@ -50,11 +51,31 @@ def fit_in_turn(
     """
     if problem.callback_alone:
         return fit_effects(problem, names, start, enough)
-    rough = replace(problem, differences_halved=True, tolerance_sigma=_LEADING_SIGMA)
-    first = fit_effects(rough, names, start, enough)
+    first = _leading(problem, names, start, enough)
     if first.gap > SLOPES_OF_ITS_OWN or first.status.termination is Termination.BEHIND:
         return first
     return fit_effects(problem, names, first.x, enough, from_a_fit=True)
+
+
+def _leading(problem: FitProblem, names: Sequence[str], start: Array | None, enough: float) -> Fit:
+    """A fit with slopes of coarser runs; on a finer mesh than usual, from mesh to mesh."""
+    usual = problem.resolution.nearer_the_usual
+    if usual == problem.resolution:
+        rough = replace(problem, differences_halved=True, tolerance_sigma=_LEADING_SIGMA)
+        return fit_effects(rough, names, start, enough)
+    coarser = _leading(replace(problem, resolution=usual), names, start, enough)
+    finer = on_a_finer_mesh(problem, coarser)
+    return replace(finer, status=coarser.status) if coarser.status.ended_early else finer
+
+
+def on_a_finer_mesh(problem: FitProblem, coarser: Fit) -> Fit:
+    """A fit, taken on to a problem of a finer mesh, which hardly changes its slopes.
+
+    Raises:
+      SimulationFailed: as `fit_effects`.
+    """
+    slopes, most = coarser.slopes, _FINER_ITERATIONS
+    return fit_effects(problem, coarser.names, coarser.x, slopes=slopes, most_iterations=most)
 
 
 def candidates_of(stage: str, results: Sequence[Fit | Failure]) -> Made:

@@ -91,7 +91,8 @@ def _residual(problem: FitProblem, rig: RigParameters, number: int, jump: Jump |
     trial = problem.log.trials[number]
     off = jump.size_deg * (trial.time_s >= jump.at_s) if jump else 0.0
     moved = replace(trial, base_motion_deg=trial.base_motion_deg - off)
-    alone = replace(problem, log=replace(problem.log, trials=(moved,)))
+    usual = problem.resolution.nearer_the_usual  # most of the error of both runs cancels
+    alone = replace(problem, log=replace(problem.log, trials=(moved,)), resolution=usual)
     ((found,),) = alone.residuals([rig], callback_alone=True)
     return np.asarray(found)
 

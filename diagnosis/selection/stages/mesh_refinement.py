@@ -20,11 +20,11 @@ from diagnosis.criteria import (
     REFINE_SHARE,
     REFINE_SIGMA,
 )
-from diagnosis.fitting.fit import Fit, fit_effects
+from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.resolution import Resolution
 from diagnosis.selection.candidate import Candidate
-from diagnosis.selection.fitting import candidates_of, in_question
+from diagnosis.selection.fitting import candidates_of, in_question, on_a_finer_mesh
 from diagnosis.selection.record import RecordEntry, dropped
 from diagnosis.selection.scoring.unresolved import contending
 from diagnosis.selection.stages.stage import stopped_in
@@ -35,7 +35,6 @@ from sim.needles.run import SimulationFailed
 Array = NDArray[np.float64]
 
 STAGE = "mesh refinement"
-_ITERATIONS = 2
 
 
 def finer_mesh_near_the_floor(state: SearchState, workers: Workers) -> SearchState:
@@ -107,17 +106,13 @@ def _fitted_again(
     tasks = [
         Task(
             effects=c.names,
-            arguments=(replace(problem, nuisance=c.fit.parameterization.nuisance), c.names, c.fit),
+            arguments=(replace(problem, nuisance=c.fit.parameterization.nuisance), c.fit),
         )
         for c in near
     ]
-    found, record = candidates_of(STAGE, workers.each(STAGE, _with_known_slopes, tasks))
+    found, record = candidates_of(STAGE, workers.each(STAGE, on_a_finer_mesh, tasks))
     out = [c for c in candidates if c not in near]
     return found, (
         *record,
         *dropped(STAGE, out, f"behind the best by more than {contending(problem):.3g}"),
     )
-
-
-def _with_known_slopes(problem: FitProblem, names: tuple[str, ...], coarser: Fit) -> Fit:
-    return fit_effects(problem, names, coarser.x, slopes=coarser.slopes, most_iterations=_ITERATIONS)

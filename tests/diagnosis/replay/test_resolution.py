@@ -29,3 +29,11 @@ def test_half_as_fine_is_so_where_samples_limit_the_step_and_where_they_do_not()
 def test_no_step_is_longer_than_a_simulation_takes():
     slow = Resolution(elements=6, step_s=0.08)
     assert slow.halved.step_s == LONGEST_STEP_S < 2 * slow.step_s
+
+
+def test_nearer_the_usual_is_half_as_fine_down_to_what_logs_are_replayed_with():
+    assert FINE.refined.nearer_the_usual == FINE
+    assert FINE.nearer_the_usual == FINE
+    assert COARSE.nearer_the_usual == COARSE
+    long = Resolution(elements=48, step_s=FINE.step_s)
+    assert long.nearer_the_usual == Resolution(elements=24, step_s=FINE.step_s)

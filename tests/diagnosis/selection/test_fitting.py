@@ -19,6 +19,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.replay.resolution import FINE
 from diagnosis.selection import fitting
 from diagnosis.selection.fitting import fit_all, fit_beside, fit_finalists, in_question
 from diagnosis.selection.record import Decision
@@ -107,6 +108,25 @@ def test_slopes_are_of_half_as_fine_runs_until_a_fit_to_the_log_comes_near_the_n
     monkeypatch.setattr(fitting, "fit_effects", fit_effects)
     fitting.fit_in_turn(replace(NO_LOG, callback_alone=decimated), ("tip_drag",), np.zeros(1))
     assert seen == goes
+
+
+@pytest.mark.parametrize(
+    ("ended", "own_slopes"), [(Termination.OFFSET, True), (Termination.BEHIND, False)]
+)
+def test_on_a_finer_mesh_than_usual_a_fit_goes_from_mesh_to_mesh(ended, own_slopes, monkeypatch):
+    seen = []
+
+    def fit_effects(problem, names, start, enough=np.inf, *, slopes=None, **_):
+        seen.append((problem.resolution, slopes is not None))
+        status = FitStatus(termination=ended if slopes is None else Termination.ITERATIONS, message="")
+        return fit_of(names, by_trial=[np.ones(FITTED_SAMPLES)], status=status)
+
+    monkeypatch.setattr(fitting, "fit_effects", fit_effects)
+    finest = FINE.refined.refined
+    fit = fitting.fit_in_turn(replace(NO_LOG, resolution=finest), ("tip_drag",), np.zeros(1))
+    meshes = [(FINE, False), (FINE.refined, True), (finest, True)]
+    assert seen == meshes + ([(finest, False)] if own_slopes else [])
+    assert fit.status.termination is ended
 
 
 @pytest.mark.parametrize(

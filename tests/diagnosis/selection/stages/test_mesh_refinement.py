@@ -104,14 +104,14 @@ def refined(monkeypatch, matters, *, fails=False, candidates=None):
     """What comes of candidates where some resolutions matter; no fit is made."""
     calls = []
 
-    def with_known_slopes(problem, names, coarser):
-        calls.append(names)
+    def on_a_finer_mesh(problem, coarser):
+        calls.append(coarser.names)
         if fails:
             raise SimulationFailed("lost its numbers")
         return coarser
 
     monkeypatch.setattr(module, "_matters", lambda problem, best, there: matters(problem, there))
-    monkeypatch.setattr(module, "_with_known_slopes", with_known_slopes)
+    monkeypatch.setattr(module, "on_a_finer_mesh", on_a_finer_mesh)
     problem = small()
     candidates = candidates or [scored(["tip_drag"], 1.0)]
     return calls, *refined_mesh(problem, candidates, Workers())
