@@ -732,6 +732,14 @@ torque sensor that zeroes itself, 0.72 to 0.85 of three other laws that ten step
 FINAL_NUMBERS = 90
 """Numbers that free-form laws may have in all that go to the log itself, if they are more than two: each
 is a simulation of it. A choice that saves time."""
+PLAINER_LEAVES, PLAINER_SETS = 1.02, 2
+"""Residual of a set of fewer parameters over that of the best, up to which it is told as the nearest
+explanation where both are above FAR_GAP; and how many such sets go to the log itself. Choices: far
+above the noise a likelihood that knows noise alone prefers any law with more freedom. No verdict rests
+on it."""
+AS_NEAR_LEAVES, AS_NEAR_SETS = 1.1, 6
+"""Residual on the decimated log over that of the nearest explanation, up to which other sets are told to
+come about as near, and how many of them. Choices: no verdict rests on them."""
 FAR_GAP = 1.6
 """Gap on the log above which free-form laws are not fitted to their end on it, plain laws are not looked
 for in their place, and what comes nearest is checked by runs half as fine. A choice: no verdict rests on

@@ -35,6 +35,7 @@ from diagnosis.selection.equivalence.told_apart import ToldApart, told_apart
 from diagnosis.selection.record import Decision, RecordEntry, dropped, judged, noted, refused
 from diagnosis.selection.search_of_log import search_log
 from diagnosis.selection.state import SearchState
+from diagnosis.selection.verdicts.about_as_near import with_what_is_as_near
 from diagnosis.selection.verdicts.changed import provisional, refuted
 from diagnosis.selection.verdicts.plainly_named import plainly_named
 from diagnosis.selection.verdicts.verdict import Verdict, VerdictKind
@@ -144,7 +145,8 @@ def _concluded(
     cut = bool(workers.stop.left_out)
     heard(CHECKING, 0, 1)
     last = _of_another_form(_judged(told, cut=cut), nominal, workers)
-    last = replace(last, verdict=plainly_named(last.verdict, last.problem))
+    verdict = with_what_is_as_near(last.verdict, told.state)
+    last = replace(last, verdict=plainly_named(verdict, last.problem))
     heard(CHECKING, 1, 1)
     heard(ASSESSING, 0, 1)
     assessment = assess(

@@ -69,6 +69,7 @@ STAGES = {
     "finer mesh near the floor": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "finer mesh": _whole("fitting with a finer mesh", 5.0, 0, 0),
     "simpler effects": _whole("fitting simpler effects in the best", 1.0, 0, 0),
+    "plainer sets": _whole("fitting plainer sets that leave hardly more", 1.0, 0, 1),
     "noise of the best": _whole("fitting with the noise that the best leaves", 1.0, 0, 0),
     "starts of trials": _whole("fitting what wound trials up before they began", 1.0, 0, 0),
     "outliers beside the best": _whole("fitting without outliers", 1.0, 0, 0),

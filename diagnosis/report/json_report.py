@@ -22,6 +22,7 @@ from diagnosis.residuals.residual_shape import ResidualShape
 from diagnosis.result import Diagnosis
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import RecordEntry
+from diagnosis.selection.verdicts.verdict import Verdict
 from diagnosis.stopping import EarlyStop
 
 FORMAT = "gap-report/1"
@@ -41,7 +42,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "parameters": _parameters(told.parameters),
         "covariance": _covariance(told.joint),
         "gap": {**asdict(told.gap), "noise": 1.0},
-        "nearest": _nearest(told.nearest),
+        "nearest": _nearest(told.nearest, verdict),
         **missing,
         "sensors": {
             "imperfections": _parameters(told.imperfections),
@@ -97,7 +98,7 @@ def _covariance(joint: JointUncertainty) -> dict[str, Any]:
     }
 
 
-def _nearest(nearest: Nearest) -> dict[str, Any]:
+def _nearest(nearest: Nearest, verdict: Verdict) -> dict[str, Any]:
     """The best that was tried, whatever the verdict."""
     return {
         "effects": list(nearest.effects),
@@ -106,6 +107,7 @@ def _nearest(nearest: Nearest) -> dict[str, Any]:
         "power_explained_percent": nearest.power_explained_percent,
         "at_bound": list(nearest.at_bound),
         "imperfections": list(nearest.imperfections),
+        "as_near": [list(names) for names in verdict.as_near],
         "by_trial": [{**asdict(own), "differs": own.differs} for own in nearest.by_trial],
     }
 

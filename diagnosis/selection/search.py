@@ -9,7 +9,7 @@ it, another one is tried in place of each of them.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
 tissue may go along with a sliding shaft, noise may grow with rate or torque, outliers may be left, noise
 may be weakly coloured or of 1/f, the torque may drift, readings may jump, and those of the tip may
-drift.
+drift. What is far above the noise all the same is compared with plainer sets that leave hardly more.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -19,6 +19,7 @@ from diagnosis.selection.stages.best import (
     best_to_its_end,
     best_with_imperfections_in_place,
     best_without_each_effect,
+    plainer_than_the_best,
     scatter_of_the_best,
 )
 from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
@@ -97,9 +98,11 @@ STAGES: tuple[Stage, ...] = (
         )
     ),
     drift_or_offset,
+    scatter_of_the_best,
     finer_mesh,
     simpler_effects_in_the_best,
     best_with_imperfections_in_place,
+    plainer_than_the_best,
 )
 
 

@@ -1,5 +1,6 @@
 """What a search has come to: the problem, fine and coarse, what was fitted, and the record."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from diagnosis.fitting.decimation import decimated_noise
@@ -49,6 +50,17 @@ class SearchState:
     def best(self) -> Candidate:
         """Of least score."""
         return min(self.candidates, key=lambda c: c.score)
+
+    def about_as_near(self, names: Sequence[str], leaves: float) -> list[Candidate]:
+        """Sets of as many effects that leave little more on the decimated log, smallest residual first.
+
+        Args:
+          leaves: residual over that of these effects, up to which they do.
+        """
+        alike = {1: self.singles, 2: self.pairs}.get(len(names), self.triples)
+        own = [c.fit.gap for c in alike if {*c.names} == {*names}]
+        near = [c for c in alike if own and c.fit.gap <= leaves * min(own)]
+        return sorted(near, key=lambda c: c.fit.gap)
 
     def adding(self, made: Made) -> "SearchState":
         """The state with more candidates."""

@@ -7,7 +7,12 @@ from diagnosis.in_sigma import in_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
-from diagnosis.report.sentences.nearest import NOT_AN_EXPLANATION, differing_trials, nearest
+from diagnosis.report.sentences.nearest import (
+    NOT_AN_EXPLANATION,
+    about_as_near,
+    differing_trials,
+    nearest,
+)
 from diagnosis.report.tables import parameter_table, trial_table
 from diagnosis.result import Diagnosis
 
@@ -33,6 +38,8 @@ def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]
         own = report["nearest"]["parameters"]
         parts = [html.heading("What comes nearest"), html.paragraph(f"{sentence}.")]
         doubt = [html.paragraph(NOT_AN_EXPLANATION)] if own else []
+        if others := about_as_near(found):
+            doubt.append(html.paragraph(f"{others}."))
         return [*parts, *_values(found, own), *doubt, *_by_trial(found)]
     own = report["parameters"]
     return [html.heading("Parameters"), *_values(found, own)] if own else []

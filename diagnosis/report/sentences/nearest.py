@@ -38,6 +38,17 @@ def nearest(found: Diagnosis) -> str:
     )
 
 
+def about_as_near(found: Diagnosis) -> str:
+    """Which other sets come about as near to an unknown log, in one sentence; else empty."""
+    others = [" + ".join(names) for names in found.verdict.as_near]
+    if not others:
+        return ""
+    return (
+        "Others come about as near, within a tenth of the residual on the decimated log: "
+        f"{'; '.join(others)}. What all of them lack decides which leads"
+    )
+
+
 def differing_trials(found: Diagnosis) -> str:
     """Which parameter of the nearest explanation differs most between trials; mostly empty."""
     own = next((one for one in found.assessment.nearest.by_trial if one.differs), None)

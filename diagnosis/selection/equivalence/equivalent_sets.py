@@ -4,14 +4,15 @@ Some sets no log can tell apart: a torque gain of 1.1 is stiffness and damping b
 from the model. The readings that the chosen explanation predicts, without noise, take the place of the
 log; beside half of what was chosen (where secants are good to third order) every effect of the
 library is simulated once, and small sets of these columns that add up to all that was chosen are
-fitted to those readings. What a late sensor changes is far from straight where friction is sharp: what
-is beside it is looked at once more with all of its delay, which stays open. A set is equivalent if the
-cost that it leaves could not tell it from the chosen one, and is next to nothing of what the chosen one
-changed.
+fitted to those readings. Stiffness and damping that it names may scatter about another set, or be the
+other set's doing: both are looked at. What a late sensor changes is far from straight where friction is
+sharp: what is beside it is looked at once more with all of its delay, which stays open. A set is
+equivalent if the cost that it leaves could not tell it from the chosen one, and is next to nothing of
+what the chosen one changed.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -116,14 +117,30 @@ def equivalent_sets(
     if not best.named:
         return ()
     found = _beside_half(coarse, best, (), effects, workers)
+    if _names_scatter(best):
+        found = _more_of(found, _beside_half(coarse, best, (), effects, workers, scatters=False))
     late = tuple(name for name in best.named if coarse.library[name].delays_a_sensor)
     if late and set(best.named) - set(late):
         others = [name for name in effects if name not in late]
-        known = [set(one.names) for one in found]
         whole = _beside_half(coarse, best, late, others, workers)
-        beside = [replace(one, names=(*one.names, *late)) for one in whole]
-        found += tuple(one for one in beside if not any(own <= set(one.names) for own in known))
+        found = _more_of(found, [replace(one, names=(*one.names, *late)) for one in whole])
     return found
+
+
+def _more_of(found: tuple[Equivalent, ...], others: Iterable[Equivalent]) -> tuple[Equivalent, ...]:
+    """Both, but for others that contain one that is equal, or that is the same."""
+    known = [({*one.names}, one.told_apart) for one in found]
+    new = (
+        one
+        for one in others
+        if not any(own == {*one.names} or (own < {*one.names} and not apart) for own, apart in known)
+    )
+    return (*found, *new)
+
+
+def _names_scatter(best: Candidate) -> bool:
+    """Whether it names stiffness or damping that every fit leaves open."""
+    return bool({*SCATTER} & ({*best.named} - {*best.names}))
 
 
 def _beside_half(
@@ -132,9 +149,11 @@ def _beside_half(
     whole: tuple[str, ...],
     effects: Sequence[str],
     workers: Workers,
+    *,
+    scatters: bool = True,
 ) -> tuple[Equivalent, ...]:
     """Sets that are equivalent to named effects of the best but for some, which stay whole and open."""
-    chosen = _chosen(coarse, best, whole)
+    chosen = _chosen(coarse, best, whole, scatters=scatters)
     tasks = [Task(effects=(name,), arguments=(chosen, name)) for name in effects]
     results = workers.each("what cannot be told apart", _column, tasks)
     columns = [c for c in results if not isinstance(c, Failure) and c.change.any()]
@@ -146,14 +165,17 @@ def covers(names: Sequence[str], others: Sequence[str]) -> bool:
     return set(others) <= {inner for n in names for inner in (n, *FITTED[n].contains)}
 
 
-def _chosen(coarse: FitProblem, best: Candidate, whole: tuple[str, ...]) -> _Chosen:
+def _chosen(
+    coarse: FitProblem, best: Candidate, whole: tuple[str, ...], *, scatters: bool = True
+) -> _Chosen:
     """Without pasts, and without scatter where it does not name it: what is alike is alike without them.
 
-    Stiffness and damping that it names may be what scatters about another set.
+    Args:
+      scatters: whether stiffness and damping that it names may be what scatters about another set.
     """
     sensors = (coarse.library[n] for n in best.names if n not in LIBRARY or n in whole)
     own = {name: best.fit.parts[name] for name in best.named if name not in whole}
-    allowed = {*CONVENTIONS, *(SCATTER if {*SCATTER} & {*best.named} - {*best.names} else ())}
+    allowed = {*CONVENTIONS, *(SCATTER if scatters and _names_scatter(best) else ())}
     open_ = (*sensors, *(e for e in coarse.nuisance if e.name in allowed))
     kept = {e.name: best.fit.parts[e.name] for e in open_ if e.name not in own}
     # Without noise, slopes of runs half as fine would lead nowhere near the end.

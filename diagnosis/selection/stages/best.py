@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
+from diagnosis.criteria import CONTENDING, FAR_GAP, FINALISTS, PLAINER_LEAVES, PLAINER_SETS, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.bounded_least_squares import promised_reduction
@@ -24,6 +24,23 @@ def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
     if best.fit.status.termination is not Termination.BEHIND:
         return state
     return state.adding(fit_all("best to its end", [(state.problem, best.names, best.fit.x)], workers))
+
+
+def plainer_than_the_best(state: SearchState, workers: Workers) -> SearchState:
+    """Sets of fewer parameters that leave hardly more, where all of them are far above the noise."""
+    best = state.best
+    if best.fit.gap <= FAR_GAP:
+        return state
+    known = {frozenset(c.names) for c in state.candidates}
+    plainer = {
+        frozenset(c.names): c
+        for c in sorted(state.about_as_near(best.names, PLAINER_LEAVES), key=lambda c: -c.fit.gap)
+        if c.fit.size < best.fit.size and frozenset(c.names) not in known
+    }
+    other = {key: len(key - {*best.names}) for key in plainer}
+    least = sorted(plainer, key=lambda key: (plainer[key].fit.size, other[key], plainer[key].fit.gap))
+    calls = [(state.problem, plainer[key].names, plainer[key].fit.x) for key in least[:PLAINER_SETS]]
+    return state.adding(fit_all("plainer sets", calls, workers))
 
 
 def best_without_each_effect(state: SearchState, workers: Workers) -> SearchState:

@@ -7,8 +7,10 @@ from dataclasses import replace
 from diagnosis.criteria import (
     CLEAR_SHIFT,
     EQUAL_SCORE,
+    FAR_GAP,
     NESTED_LEAD,
     NOMINAL_LEAD,
+    PLAINER_LEAVES,
     SIMPLE_LEAD,
 )
 from diagnosis.effects import IMPERFECTIONS
@@ -43,7 +45,7 @@ def verdict_on(candidates: Sequence[Candidate]) -> Verdict:
             kind=VerdictKind.UNKNOWN,
             effects=(),
             confusable=(),
-            best=_first_of_equals(candidates),
+            best=_nearest(candidates),
             ranking=ranking_of(candidates, known=False),
         )
     best = _simplest(at_floor)
@@ -114,6 +116,17 @@ def _without_needless_scatter(at_floor: Sequence[Candidate]) -> list[Candidate]:
         return list(at_floor)
     kept = replace(exact, score=min(c.score for c in nominal))
     return sorted((kept, *(c for c in at_floor if c.names)), key=lambda c: c.score)
+
+
+def _nearest(candidates: Sequence[Candidate]) -> Candidate:
+    """The likeliest; far above the noise, of those that leave hardly more, one of fewest parameters."""
+    first = _first_of_equals(candidates)
+    if first.fit.gap <= FAR_GAP:
+        return first
+    most = PLAINER_LEAVES * first.fit.gap
+    plainer = [c for c in candidates if c.fit.gap <= most and c.fit.size < first.fit.size]
+    other = {c.names: len({*c.names} - {*first.names}) for c in plainer}
+    return min(plainer, key=lambda c: (c.fit.size, other[c.names], c.fit.gap), default=first)
 
 
 def _first_of_equals(candidates: Sequence[Candidate]) -> Candidate:

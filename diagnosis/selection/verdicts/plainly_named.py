@@ -5,6 +5,7 @@ motion is dry friction, whichever of the two a search has met first. Where nothi
 plain one is told. Where both explain it, the verdict tells both.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from diagnosis.fitting.problem import FitProblem
@@ -20,10 +21,16 @@ def plainly_named(verdict: Verdict, problem: FitProblem) -> Verdict:
       problem: that its best was fitted to.
     """
     best = verdict.best
-    if verdict.kind is not VerdictKind.UNKNOWN or any(trial.slides for trial in problem.log.trials):
+    names = plain_names(best.names, problem)
+    if verdict.kind is not VerdictKind.UNKNOWN or names == best.names:
         return verdict
-    if _SHARED not in best.names or _PLAIN in best.names:
-        return verdict
-    names = tuple(_PLAIN if name == _SHARED else name for name in best.names)
     fit = replace(best.fit, names=names, parameterization=problem.parameterization(names))
     return replace(verdict, best=replace(best, fit=fit))
+
+
+def plain_names(names: Sequence[str], problem: FitProblem) -> tuple[str, ...]:
+    """A set of effects, with plain dry friction in place of that which is shared with no motion."""
+    slides = any(trial.slides for trial in problem.log.trials)
+    if slides or _SHARED not in names or _PLAIN in names:
+        return tuple(names)
+    return tuple(_PLAIN if name == _SHARED else name for name in names)

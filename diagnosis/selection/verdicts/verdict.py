@@ -38,6 +38,7 @@ class Verdict:
         the library alone, sets of several that were fitted, `NOTHING` and `UNEXPLAINED`.
       other_form: free-form law that leaves clearly less than the best, in plain words; empty: none is
         known.
+      as_near: sets that come about as near to an unknown log as the best, nearest first.
     """
 
     kind: VerdictKind
@@ -47,6 +48,7 @@ class Verdict:
     rivals: tuple[Candidate, ...] = ()
     ranking: tuple[tuple[tuple[str, ...], float], ...]
     other_form: str = ""
+    as_near: tuple[tuple[str, ...], ...] = ()
 
     @property
     def settled(self) -> bool:

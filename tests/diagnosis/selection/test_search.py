@@ -57,9 +57,11 @@ def test_the_stages_are_these_in_this_order():
         "drift_of_the_tip_sensor",
         "outliers_and_another_imperfection",
         "drift_or_offset",
+        "scatter_of_the_best",
         "finer_mesh",
         "simpler_effects_in_the_best",
         "best_with_imperfections_in_place",
+        "plainer_than_the_best",
     ]
 
 

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_fixtures import log_of, scored, start_of_search
+from diagnosis_fixtures import FITTED_SAMPLES, fit_of, log_of, scored, start_of_search
 
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, RecordEntry
 from diagnosis.selection.state import SearchState
 
@@ -57,3 +58,14 @@ def test_only_what_was_checked_and_leaves_nothing_beyond_noise_is_at_the_floor(u
     assert explained
     assert state.at_the_floor(state.best)
     assert not state.at_the_floor(scored(("tip_drag",), 1.0))
+
+
+@pytest.mark.parametrize(("leaves", "near"), [(1.05, 1), (1.2, 2), (0.9, 0)])
+def test_about_as_near_are_sets_of_as_many_effects_that_leave_little_more(start, leaves, near):
+    def leaving(gap, name):
+        return candidate(fit_of((name,), by_trial=[np.full(FITTED_SAMPLES, gap)]))
+
+    singles = (leaving(11.0, "stiction"), leaving(10.0, "tip_drag"))
+    state = replace(start, singles=singles, pairs=(leaving(1.0, "tip_drag"),))
+    found = state.about_as_near(("tip_drag",), leaves)
+    assert [c.names[0] for c in found] == ["tip_drag", "stiction"][:near]

@@ -64,10 +64,13 @@ def test_values_by_trial_stand_below_what_comes_nearest(dry):
     near = replace(dry.found.assessment.nearest, by_trial=(own,))
     unknown = replace(
         dry.found,
-        verdict=replace(dry.found.verdict, kind=VerdictKind.UNKNOWN, effects=()),
+        verdict=replace(
+            dry.found.verdict, kind=VerdictKind.UNKNOWN, effects=(), as_near=(("tip_drag",),)
+        ),
         assessment=replace(dry.found.assessment, nearest=near),
     )
     said = "".join(parameters_section(unknown, dry.report))
+    assert "on the decimated log: tip_drag." in said
     assert "Trial by trial" in said
     assert "with common values it is 3.00 σ" in said
     assert "(0.25, -0.5 N mm)" in said

@@ -5,7 +5,7 @@ from dataclasses import replace
 from diagnosis_fixtures import concluding
 
 from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
-from diagnosis.report.sentences.nearest import differing_trials, nearest
+from diagnosis.report.sentences.nearest import about_as_near, differing_trials, nearest
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import EarlyStop
 
@@ -51,3 +51,10 @@ def test_what_differs_between_trials_is_told_with_its_values(dry):
 def test_trials_that_hardly_differ_are_not_said_to(dry):
     assert differing_trials(dry.found) == ""
     assert differing_trials(with_values(dry.found, replace(ZEROED, gap_own=9.9))) == ""
+
+
+def test_what_comes_about_as_near_is_told_by_the_names_of_effects(dry):
+    assert about_as_near(dry.found) == ""
+    sets = (("stiction", "tip_drag"), ("entry_friction",))
+    said = about_as_near(concluding(dry.found, as_near=sets))
+    assert "decimated log: stiction + tip_drag; entry_friction. What all of them lack" in said

@@ -68,6 +68,24 @@ def test_two_that_are_off_alike_are_one_torque_gain(coarse):
     assert not any(names > {"torque_scale"} for names in found)
 
 
+def test_stiffness_and_damping_that_every_fit_leaves_open_may_be_a_torque_gain_beside_friction(coarse):
+    """Their scatter beside friction alone does nearly the same, which hides the gain from small sets."""
+    gain, level = np.log(1.22), np.log(0.0015)
+    parts = {
+        "coulomb_friction": np.array([level]),
+        "stiffness_error": np.array([gain]),
+        "damping_error": np.array([gain]),
+    }
+    start = coarse.parameterization(("coulomb_friction",)).joined(parts)
+    best = candidate(fit_effects(coarse, ("coulomb_friction",), start, most_iterations=0))
+    assert set(best.scatter_named) == {"stiffness_error", "damping_error"}
+    found = equivalent_sets(coarse, best, (*SCALES, *OTHERS), Workers())
+    (alike,) = [one for one in found if set(one.names) == {"coulomb_friction", "torque_scale"}]
+    assert not alike.told_apart
+    assert alike.parts["torque_scale"][0] == pytest.approx(gain, abs=1e-3)
+    assert alike.parts["coulomb_friction"][0] == pytest.approx(level - gain, abs=1e-2)
+
+
 def test_a_torque_gain_beside_a_late_torque_and_a_rough_bearing_is_stiffness_and_damping(coarse):
     """Secants beside half of a delay do not add up where the bearing turns its torque round."""
     names = ("torque_sensor_delay", "drive_friction", "torque_scale")

@@ -190,3 +190,34 @@ def test_scatter_is_freed_only_where_its_prior_may_be_what_keeps_the_best_above_
     best = off(("tip_drag",), gap=np.sqrt(1.02**2 + 100.0 / 1000), gain=gain)
     module.scatter_of_the_best(found_by_then(best), Workers())
     assert asked == [("tip_drag", "stiffness_error")][:fitted]
+
+
+def left(gap, *names):
+    """A set of effects with what it leaves."""
+    return candidate.candidate(fit_of(names, by_trial=[np.full(1000, gap)]))
+
+
+@pytest.mark.parametrize(
+    ("gap", "known", "fitted"),
+    [
+        (30.0, (), [("coulomb_friction", "tip_drag"), ("coulomb_friction", "torque_bias")]),
+        (30.0, ("tip_drag", "coulomb_friction"), [("coulomb_friction", "torque_bias")]),
+        (1.5, (), []),
+    ],
+    ids=["far above the noise", "one is known", "near the noise"],
+)
+def test_plainer_sets_that_leave_hardly_more_go_to_the_log(gap, known, fitted, asked, still_start):
+    best = left(gap, "stiction", "tip_drag")
+    pairs = [
+        left(40.0, "stiction", "tip_drag"),
+        left(40.1, "coulomb_friction", "torque_bias"),
+        left(40.2, "coulomb_friction", "tip_drag"),
+        left(40.3, "entry_friction", "torque_bias"),
+        left(41.0, "sheath_friction", "tip_drag"),
+        left(40.1, "stiction", "torque_bias"),
+    ]
+    candidates = (best, *([left(31.0, *known)] if known else ()))
+    state = replace(still_start, candidates=candidates, pairs=tuple(pairs))
+    module.plainer_than_the_best(state, Workers())
+    assert asked[: len(fitted)] == fitted
+    assert len(asked) == (2 if fitted else 0)

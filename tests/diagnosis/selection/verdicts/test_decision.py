@@ -2,12 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from diagnosis_fixtures import fit_of, scored, verdict_of
+from diagnosis_fixtures import FITTED_SAMPLES, fit_of, scored, verdict_of
 
 from diagnosis.criteria import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.selection.verdicts.verdict import VerdictKind
 
@@ -129,3 +131,17 @@ def test_of_two_that_are_equally_near_always_the_same_one_is_named(ahead, neares
     names = ("speed_dependent_friction", "coulomb_friction")
     each = [scored([n], 90.0 + i * ahead, **above) for i, n in enumerate(names)]
     assert verdict_on(each).best.names == (nearest,)
+
+
+@pytest.mark.parametrize(
+    ("gap", "leaves", "named"),
+    [(30.0, 1.01, "coulomb_friction"), (30.0, 1.03, "stiction"), (1.2, 1.01, "stiction")],
+    ids=["hardly more", "more", "near the noise"],
+)
+def test_far_above_the_noise_the_plainer_of_what_leaves_hardly_more_is_nearest(gap, leaves, named):
+    def left(name, own):
+        return candidate(fit_of((name,), by_trial=[np.full(FITTED_SAMPLES, own)]))
+
+    each = sorted((left("stiction", gap), left("coulomb_friction", leaves * gap)), key=lambda c: c.score)
+    assert each[0].names == ("stiction",)
+    assert verdict_on(each).best.names == (named,)
