@@ -61,6 +61,8 @@ STAGES = {
     "screening exchanges": _coarse("screening other effects in place of one", 0.05, 0, 0),
     "exchanges": _coarse("fitting another effect in place of one", 0.5, 0, 0),
     "finalists, exchanges": _whole("fitting sets with one effect exchanged to the whole log", 1.0, 0, 0),
+    "screening imperfections beside three": _whole("screening imperfections beside three", 0.2, 0, 0),
+    "imperfections beside three": _whole("fitting imperfections beside three", 1.0, 0, 0),
     "best to its end": _whole("completing the fit of the best", 4.0, 0, 1),
     "imperfections in place": _whole("fitting imperfections in place of a delay", 1.0, 0, 2),
     "best without each effect": _whole("fitting the best without each of its effects", 1.0, 0, 3),

@@ -41,12 +41,15 @@ from diagnosis.selection.stages.sensors.coloured_noise import (
 )
 from diagnosis.selection.stages.sensors.drift_or_offset import drift_or_offset
 from diagnosis.selection.stages.sensors.growing_noise import noise_that_grows
-from diagnosis.selection.stages.sensors.imperfections import one_more_imperfection
+from diagnosis.selection.stages.sensors.imperfections import (
+    one_more_imperfection,
+    one_more_imperfection_of_three,
+)
 from diagnosis.selection.stages.sensors.outliers_left import (
     outliers_and_more,
     outliers_beside_the_best,
 )
-from diagnosis.selection.stages.sensors.reading_jumps import jumps_of_readings
+from diagnosis.selection.stages.sensors.reading_jumps import a_jump_and_more, jumps_of_readings
 from diagnosis.selection.stages.sensors.sensor_drift import (
     drift_of_the_tip_sensor,
     drift_of_the_torque_sensor,
@@ -73,6 +76,7 @@ STAGES: tuple[Stage, ...] = (
     three_effects,
     richer_effects_in_place_of_three,
     one_effect_exchanged,
+    one_more_imperfection_of_three,
     best_to_its_end,
     noise_of_the_best,
     best_with_imperfections_in_place,
@@ -97,6 +101,7 @@ STAGES: tuple[Stage, ...] = (
             drift_of_the_tip_sensor,
         )
     ),
+    a_jump_and_more((drift_of_the_torque_sensor,)),
     drift_or_offset,
     scatter_of_the_best,
     finer_mesh,

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from diagnosis.criteria import (
@@ -160,22 +161,25 @@ def fitted_again(
     start: SearchState,
     calls: Sequence[tuple[Any, ...]],
     workers: Workers,
-    pairs: Sequence[Screened] = (),
+    screened: Sequence[Screened] = (),
 ) -> SearchState:
-    """The state of a log of which more is allowed for, with the contenders of the one before.
+    """The state of a log of which more is allowed for, with the contenders of the one before, both on
+    the log itself and decimated.
 
     Args:
       calls: of `fit_in_turn`, on the decimated log.
-      pairs: screened there, of which the most promising are fitted as well.
+      screened: pairs there, of which the most promising are fitted as well.
     """
     coarse, record = fit_all(stage, calls, workers)
-    new, more = fit_screened(stage, start.coarse, pairs, FAULT_PAIRS, workers)
+    new, more = fit_screened(stage, start.coarse, screened, FAULT_PAIRS, workers)
     known = {frozenset(c.names) for c in coarse}
     coarse, record = [*coarse, *(c for c in new if frozenset(c.names) not in known)], (*record, *more)
     begun = start.adding(([candidate(start.nominal)], record))
     begun = begun.adding(fit_all(stage, [(start.problem, ())], workers))
     if not coarse:
         return begun
+    singles, pairs = (tuple(c for c in coarse if len(c.names) == size) for size in (1, 2))
+    begun = replace(begun, singles=singles, pairs=pairs)
     return begun.adding(fit_finalists(stage, start.problem, simplest_first(coarse), workers))
 
 

@@ -1,10 +1,14 @@
-"""Two imperfections of sensors beside one effect at most."""
+"""Two imperfections of sensors beside one effect, or two effects.
+
+Three that act at once are looked for on the decimated log. Where they nearly explain a log, of which two
+are effects, a second imperfection is looked for beside them on the log itself: it changes little.
+"""
 
 from itertools import product
 
-from diagnosis.criteria import IMPERFECT_BASES, MOST_PAIRS, WORTH_FITTING
-from diagnosis.effects import IMPERFECTIONS
-from diagnosis.selection.fitting import fit_finalists
+from diagnosis.criteria import EXCHANGE_GAP, FINALISTS, IMPERFECT_BASES, MOST_PAIRS, WORTH_FITTING
+from diagnosis.effects import FITTED, IMPERFECTIONS
+from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.screened_fits import fit_screened
 from diagnosis.selection.stages.stage import near_the_best, not_worth, screen_all, worth_the_log
 from diagnosis.selection.state import SearchState
@@ -28,3 +32,20 @@ def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
     fitted, behind = worth_the_log(stage, fitted, (*state.singles, *state.pairs))
     state = state.noting(*record, *not_worth(stage, screened, worth), *fits, *behind)
     return state.adding(fit_finalists(f"finalists, {stage}", state.problem, fitted, workers))
+
+
+def one_more_imperfection_of_three(state: SearchState, workers: Workers) -> SearchState:
+    """Where three effects and imperfections nearly explain the log: a further imperfection, or delay."""
+    stage = "imperfections beside three"
+    state, explained = state.rechecked()
+    best = state.best
+    if explained or len(best.names) < 3 or best.fit.gap > EXCHANGE_GAP:
+        return state
+    more = [n for n in state.effects if n in IMPERFECTIONS or FITTED[n].delays_a_sensor]
+    calls = [(state.problem, best.fit, name) for name in more if name not in best.names]
+    screened, record = screen_all(stage, calls, workers)
+    worth = sorted((s for s in screened if s.gain >= WORTH_FITTING), key=lambda s: s.cost)
+    first = {s.names: s for s in reversed(worth)}
+    leading = sorted(first.values(), key=lambda s: s.cost)[: FINALISTS // 2]
+    state = state.noting(*record, *not_worth(stage, screened, leading))
+    return state.adding(fit_all(stage, [(state.problem, s.names, s.start) for s in leading], workers))

@@ -8,11 +8,13 @@ explained so, and not as well by a chuck that slipped at that moment, or a base 
 move the needle against its reading. That shows for a moment in the torque, so that a trial has to have
 both, tip and torque.
 
+A recording may have more than jumps: a drift of the torque is asked for beside the largest one.
+
 It is told beside effects. A jump that explains a log alone is all that the model lacks: the log stays
 unknown, and the jump is told as the law that is missing.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +29,7 @@ from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.stages.stage import fitted_again, leading_on_the_log, leading_sets
+from diagnosis.selection.stages.stage import Stage, fitted_again, leading_on_the_log, leading_sets
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -62,6 +64,28 @@ def jumps_of_readings(state: SearchState, workers: Workers) -> SearchState:
     if jumping is state:
         return state
     return state.noting(noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with one"))
+
+
+def a_jump_and_more(others: Sequence[Stage]) -> Stage:
+    """A stage: what else a recording may lack is asked once more beside the largest jump of a reading.
+
+    Args:
+      others: stages that allow for it; the first that explains the log is kept.
+    """
+
+    def a_jump_and_another_imperfection(state: SearchState, workers: Workers) -> SearchState:
+        state, explained = state.rechecked()
+        jump = None if explained else _largest_jump(state, JUMP_SHARE)
+        if jump is None:
+            return state
+        jumping = _refitted(state, state, jump, workers)
+        for other in others:
+            again, explained = other(jumping, workers).rechecked()
+            if explained and not _objection(again, jump, workers):
+                return again.noting(noted(STAGE, Decision.KEPT, "beside it the log is explained"))
+        return state
+
+    return a_jump_and_another_imperfection
 
 
 def _objection(state: SearchState, jump: ReadingJump, workers: Workers) -> str:

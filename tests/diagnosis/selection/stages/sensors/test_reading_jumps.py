@@ -15,7 +15,8 @@ from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors import reading_jumps as module
-from diagnosis.selection.stages.sensors.reading_jumps import STAGE, jumps_of_readings
+from diagnosis.selection.stages.sensors.reading_jumps import STAGE, a_jump_and_more, jumps_of_readings
+from diagnosis.selection.stages.sensors.sensor_drift import drift_of_the_torque_sensor
 from diagnosis.workers import Workers
 
 TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
@@ -125,3 +126,36 @@ def test_where_a_slip_does_as_well_it_stays_open_which_it_is(monkeypatch):
     before, after = searched(off(two(DRY), TIP, (5.0, 8.0)))
     assert after.problem is before.problem
     assert "does as well" in [e for e in after.record if e.stage == STAGE][-1].reason
+
+
+def drifting(log: RigLog, sigmas: float) -> RigLog:
+    """The log with a torque that drifts by so many sigma in each trial."""
+    trials = []
+    for trial in log.trials:
+        drift = np.linspace(0.0, sigmas * NOISE[TORQUE], len(trial.table))
+        trials.append(
+            Trial(name=trial.name, table=trial.table.assign(**{TORQUE: trial[TORQUE] + drift}))
+        )
+    return replace(log, trials=tuple(trials))
+
+
+@pytest.mark.slow
+def test_a_drift_is_found_beside_a_jump_where_neither_alone_explains_the_log():
+    before, _ = searched(drifting(off(two(DRY), TIP, (5.0, 8.0)), 3.0))
+    for alone in (jumps_of_readings, drift_of_the_torque_sensor):
+        assert alone(before, Workers()).problem is before.problem
+    after = a_jump_and_more((drift_of_the_torque_sensor,))(before, Workers())
+    assert after.best.floor.reached
+    assert after.best.names == ("coulomb_friction",)
+    (jump,) = after.best.fit.parameterization.rig(after.best.fit.x).jumps
+    assert (jump.sensor, jump.time_s) == (TIP, pytest.approx(5.0, abs=0.011))
+    assert [*after.problem.noise.drifts] == [TORQUE]
+    assert decisions(after)[-1] is Decision.KEPT
+
+
+def test_where_no_reading_jumps_nothing_is_asked_beside_one():
+    def never(state, workers):
+        raise AssertionError("asked")
+
+    before, _ = searched(two(DRY), effects=())
+    assert a_jump_and_more((never,))(before, Workers()).problem is before.problem
