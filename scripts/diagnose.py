@@ -21,7 +21,12 @@ from diagnosis.report.answer import answer
 from diagnosis.report.json_report import as_json
 from diagnosis.report.sensors import imperfections
 from diagnosis.report.sentences.names import explanations, label_of
-from diagnosis.report.sentences.nearest import NOT_AN_EXPLANATION, about_as_near, differing_trials
+from diagnosis.report.sentences.nearest import (
+    NOT_AN_EXPLANATION,
+    about_as_near,
+    differing_motions,
+    differing_trials,
+)
 from diagnosis.report.sentences.residual import largest_parts, largest_residual
 from diagnosis.report.tables import limit_in_words
 from diagnosis.report.write import output_paths, write_report
@@ -139,7 +144,8 @@ def _summary(found: Diagnosis, console: Console) -> None:
         parameters = as_json(found)["nearest"]["parameters"]
         print_table(console, _parameter_table(parameters, "What comes nearest"), keys=2)
         console.print(NOT_AN_EXPLANATION, highlight=False)
-        for sentence in filter(None, (about_as_near(found), differing_trials(found))):
+        more = (about_as_near(found), differing_trials(found), differing_motions(found))
+        for sentence in filter(None, more):
             console.print(f"{sentence}.", highlight=False)
     if found.verdict.kind is not VerdictKind.UNKNOWN:  # then no explanation has a probability
         print_table(console, _ranking_table(found))

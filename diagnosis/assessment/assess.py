@@ -15,7 +15,8 @@ from diagnosis.assessment.moved_by_hidden import moved_by_hidden
 from diagnosis.assessment.nearest import ONE_MORE, Nearest, nearest_candidate, nearest_of
 from diagnosis.assessment.uncertainty.intervals import Interval, covariance, intervals
 from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty, joint_uncertainty
-from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial, values_by_trial
+from diagnosis.assessment.uncertainty.partitions import by_motion, trial_by_trial
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart, values_by_part
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
@@ -49,7 +50,7 @@ TO_ITS_END = "diagnose this log to its end first: what was not tried may explain
 """In place of a next experiment where the search was cut short."""
 FINER, REPLICATES = "numerical error", "noise of the base angle in the intervals"
 LIMITS, NEXT = "detection limits", "next experiment"
-TWIST, BY_TRIAL = "twist along the shaft", "values by trial"
+TWIST, BY_PART = "twist along the shaft", "values by trial and motion"
 """Parts that a stop leaves out."""
 
 
@@ -148,7 +149,7 @@ def assess(
     twist = stop.unless_due(TWIST, lambda: _twist(problem, near, named, moment))
     return Assessment(
         gap=gap,
-        nearest=nearest_of(near, named, own, gap, _by_trial(problem, near, verdict, stop)),
+        nearest=nearest_of(near, named, own, gap, *_by_parts(problem, near, verdict, stop)),
         breakdown=where[0],
         breakdown_after=where[1],
         shape=residual_shape(before),
@@ -213,13 +214,14 @@ def _alone(problem: FitProblem, near: Candidate, name: str, effects: Sequence[st
     return alone.rig(alone.joined({e.name: near.fit.parts[e.name] for e in alone.all}))
 
 
-def _by_trial(
+def _by_parts(
     problem: FitProblem, near: Candidate, verdict: Verdict, stop: StopSignal
-) -> tuple[ValuesByTrial, ...]:
-    """What each trial by itself says of the parameters, of an unknown log."""
+) -> tuple[tuple[ValuesByPart, ...], ...]:
+    """Parameters of an unknown log with values of their own in each trial, and in each motion."""
     if verdict.kind is not VerdictKind.UNKNOWN:
         return ()
-    return stop.unless_due(BY_TRIAL, lambda: values_by_trial(problem, near.fit)) or ()
+    parts = (own(problem, near.fit) for own in (trial_by_trial, by_motion))
+    return stop.unless_due(BY_PART, lambda: values_by_part(problem, near.fit, *parts)) or ()
 
 
 def _bound_warnings(at_bound: Sequence[str]) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
-from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
 from diagnosis.criteria import FAR_GAP
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.fit import nominal_fit
@@ -54,7 +54,8 @@ class Nearest:
       power_explained_percent: share of the power of the nominal residual beyond noise.
       at_bound: parameters that stopped at a bound, as effect.parameter.
       imperfections: what its fit allows for in the sensors.
-      by_trial: its parameters with a value of their own in each trial, of an unknown log.
+      by_trial: its parameters with a value of their own in each trial, of an unknown log; by_motion: in
+        each motion of the base.
     """
 
     effects: tuple[str, ...]
@@ -63,7 +64,8 @@ class Nearest:
     power_explained_percent: float
     at_bound: tuple[str, ...]
     imperfections: tuple[str, ...] = ()
-    by_trial: tuple[ValuesByTrial, ...] = ()
+    by_trial: tuple[ValuesByPart, ...] = ()
+    by_motion: tuple[ValuesByPart, ...] = ()
 
 
 def nearest_of(
@@ -71,13 +73,14 @@ def nearest_of(
     effects: tuple[str, ...],
     parameters: Mapping[str, Mapping[str, Interval]],
     gap: GapReduction,
-    by_trial: tuple[ValuesByTrial, ...] = (),
+    by_trial: tuple[ValuesByPart, ...] = (),
+    by_motion: tuple[ValuesByPart, ...] = (),
 ) -> Nearest:
     """The record of the best candidate; `effects`: strongest first.
 
     Args:
       parameters: intervals of all fitted parameters, by effect.
-      by_trial: parameters with a value of their own in each trial.
+      by_trial, by_motion: parameters with a value of their own in each part of the log.
     """
     held = (*best.fit.status.at_bound, *best.fit.constants_at_bound)
     return Nearest(
@@ -88,6 +91,7 @@ def nearest_of(
         at_bound=tuple(p for p in held if p.partition(".")[0] in effects),
         imperfections=tuple(name for name in best.names if name in IMPERFECTIONS),
         by_trial=by_trial,
+        by_motion=by_motion,
     )
 
 

@@ -109,6 +109,7 @@ def _nearest(nearest: Nearest, verdict: Verdict) -> dict[str, Any]:
         "imperfections": list(nearest.imperfections),
         "as_near": [list(names) for names in verdict.as_near],
         "by_trial": [{**asdict(own), "differs": own.differs} for own in nearest.by_trial],
+        "by_motion": [{**asdict(own), "differs": own.differs} for own in nearest.by_motion],
     }
 
 

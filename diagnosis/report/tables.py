@@ -5,7 +5,7 @@ from itertools import groupby
 from typing import Any
 
 from diagnosis.assessment.detection_limits import DetectionLimit
-from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.in_sigma import over_sigma
@@ -29,8 +29,8 @@ def parameter_table(parameters: Mapping[str, Any]) -> str:
     return table(head, rows, "Fitted parameters")
 
 
-def trial_table(by_trial: Sequence[ValuesByTrial], trials: Sequence[str]) -> str:
-    """Parameters with a value of their own in each trial."""
+def part_table(by_part: Sequence[ValuesByPart], caption: str) -> str:
+    """Parameters with a value of their own in each part of a log."""
     rows = [
         (
             own.effect,
@@ -39,10 +39,10 @@ def trial_table(by_trial: Sequence[ValuesByTrial], trials: Sequence[str]) -> str
             own.unit,
             over_sigma(own.gap_own),
         )
-        for own in by_trial
+        for own in by_part
     ]
-    head = ("effect", "parameter", *trials, "unit", "residual / σ")
-    return table(head, rows, "Values by trial")
+    head = ("effect", "parameter", *by_part[0].parts, "unit", "residual / σ")
+    return table(head, rows, caption)
 
 
 def explanation_table(found: Diagnosis) -> str:

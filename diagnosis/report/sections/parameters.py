@@ -1,8 +1,9 @@
 """Parameters of the best explanation: a table, and how they are uncertain together."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
@@ -10,10 +11,11 @@ from diagnosis.report.figures.joint import describe_joint, draw_joint, pairs_of
 from diagnosis.report.sentences.nearest import (
     NOT_AN_EXPLANATION,
     about_as_near,
+    differing_motions,
     differing_trials,
     nearest,
 )
-from diagnosis.report.tables import parameter_table, trial_table
+from diagnosis.report.tables import parameter_table, part_table
 from diagnosis.result import Diagnosis
 
 _INTERVALS = (
@@ -24,8 +26,8 @@ _INTERVALS = (
     "nominal values."
 )
 
-_TRIALS = (
-    "Each row gives one parameter a value of its own in each trial and keeps all others common. The "
+_PARTS = (
+    "Each row gives one parameter a value of its own in each {part} and keeps all others common. The "
     "last column is the residual of all trials together with these values; with common values it is "
     "{common}. Only the linear model of the fit is used: a value far from the common one shows a "
     "direction more than a size. Parameters that act alike each take over what one of them does."
@@ -40,23 +42,32 @@ def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]
         doubt = [html.paragraph(NOT_AN_EXPLANATION)] if own else []
         if others := about_as_near(found):
             doubt.append(html.paragraph(f"{others}."))
-        return [*parts, *_values(found, own), *doubt, *_by_trial(found)]
+        near, trials, motions = found.assessment.nearest, differing_trials, differing_motions
+        return [
+            *parts,
+            *_values(found, own),
+            *doubt,
+            *_by_part(near.by_trial, html.heading("Trial by trial", level=3), "trial", trials(found)),
+            *_by_part(
+                near.by_motion,
+                html.heading("By the motion of the base", level=3),
+                "motion",
+                motions(found),
+            ),
+        ]
     own = report["parameters"]
     return [html.heading("Parameters"), *_values(found, own)] if own else []
 
 
-def _by_trial(found: Diagnosis) -> list[str]:
-    """Values of its own in each trial, of an unknown log of several trials."""
-    own = found.assessment.nearest.by_trial
-    if not own:
+def _by_part(by_part: Sequence[ValuesByPart], heading: str, part: str, sentence: str) -> list[str]:
+    """Values of its own in each part of an unknown log, if it has several."""
+    if not by_part:
         return []
-    common = in_sigma(own[0].gap_common)
-    sentence = differing_trials(found)
     return [
-        html.heading("Trial by trial", level=3),
-        html.paragraph(_TRIALS.format(common=common)),
+        heading,
+        html.paragraph(_PARTS.format(part=part, common=in_sigma(by_part[0].gap_common))),
         *([html.paragraph(f"{sentence}.")] if sentence else []),
-        trial_table(own, [trial.name for trial in found.log.trials]),
+        part_table(by_part, f"Values by {part}"),
     ]
 
 

@@ -1,5 +1,8 @@
 """What comes nearest to an explanation of an unknown log."""
 
+from collections.abc import Sequence
+
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sentences.names import by_free_law, titles
 from diagnosis.result import Diagnosis
@@ -50,15 +53,53 @@ def about_as_near(found: Diagnosis) -> str:
 
 
 def differing_trials(found: Diagnosis) -> str:
-    """Which parameter of the nearest explanation differs most between trials; mostly empty."""
-    own = next((one for one in found.assessment.nearest.by_trial if one.differs), None)
+    """In which parameter of the nearest explanation trials differ most; mostly empty."""
+    own = _differing(found.assessment.nearest.by_trial)
     if own is None:
         return ""
-    values = ", ".join("–" if v is None else f"{v:.3g}" for v in own.values)
-    told = f"{values} {own.unit}".removesuffix(" -")
+    values = [_told(value) for value in own.values]
     return (
-        f"The trials seem to differ: if {own.effect}.{own.parameter} has a value of its own in each "
-        f"({told}), the nearest explanation leaves {in_sigma(own.gap_own)} of all trials together "
-        f"instead of {in_sigma(own.gap_common)} (linear estimate). Check what was set, zeroed or "
-        "changed between them"
+        f"Trials seem to differ: if {_named(own)} is {_joined(values)}{_unit(own)} from trial to trial, "
+        f"{_leaves(own)}. Check what was set, zeroed or changed between them"
+    )
+
+
+def differing_motions(found: Diagnosis) -> str:
+    """In which parameter of the nearest explanation motions of the base differ most; mostly empty."""
+    own = _differing(found.assessment.nearest.by_motion)
+    if own is None:
+        return ""
+    each = zip(own.values, own.parts, strict=True)
+    values = [f"{_told(value)}{_unit(own)} {part}" for value, part in each if value is not None]
+    return (
+        f"Motions of the base seem to differ: if {_named(own)} is {_joined(values)}, {_leaves(own)}. "
+        "What is missing may depend on the direction, or act at rest"
+    )
+
+
+def _differing(by_part: Sequence[ValuesByPart]) -> ValuesByPart | None:
+    return next((one for one in by_part if one.differs), None)
+
+
+def _named(own: ValuesByPart) -> str:
+    return f"{own.effect}.{own.parameter}"
+
+
+def _told(value: float | None) -> str:
+    return "open" if value is None else f"{value:.3g}"
+
+
+def _unit(own: ValuesByPart) -> str:
+    return "" if own.unit == "-" else f" {own.unit}"
+
+
+def _joined(each: Sequence[str]) -> str:
+    *others, last = each
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+def _leaves(own: ValuesByPart) -> str:
+    return (
+        f"the nearest explanation leaves {in_sigma(own.gap_own)} of all trials together instead of "
+        f"{in_sigma(own.gap_common)} (linear estimate)"
     )

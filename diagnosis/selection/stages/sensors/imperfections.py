@@ -14,6 +14,8 @@ from diagnosis.selection.stages.stage import near_the_best, not_worth, screen_al
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
+_AT_ONCE = 3  # effects and imperfections that the decimated log is searched for
+
 
 def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
     """Where nothing explains the log: one effect at most, with two imperfections of sensors."""
@@ -39,7 +41,7 @@ def one_more_imperfection_of_three(state: SearchState, workers: Workers) -> Sear
     stage = "imperfections beside three"
     state, explained = state.rechecked()
     best = state.best
-    if explained or len(best.names) < 3 or best.fit.gap > EXCHANGE_GAP:
+    if explained or len(best.names) < _AT_ONCE or best.fit.gap > EXCHANGE_GAP:
         return state
     more = [n for n in state.effects if n in IMPERFECTIONS or FITTED[n].delays_a_sensor]
     calls = [(state.problem, best.fit, name) for name in more if name not in best.names]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from matplotlib.figure import Figure
 
-from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
 from diagnosis.report.sections import parameters
 from diagnosis.report.sections.parameters import parameters_section
 from diagnosis.selection.verdicts.verdict import VerdictKind
@@ -52,16 +52,18 @@ def test_where_nothing_came_nearer_there_are_no_intervals_to_speak_of(dry):
     assert "intervals" not in said
 
 
-def test_values_by_trial_stand_below_what_comes_nearest(dry):
-    own = ValuesByTrial(
+def test_values_by_part_stand_below_what_comes_nearest(dry):
+    own = ValuesByPart(
         effect="torque_bias",
         parameter="bias",
         unit="N mm",
+        parts=("trial_01.csv", "trial_02.csv"),
         values=(0.25, -0.5),
         gap_common=3.0,
         gap_own=1.5,
     )
-    near = replace(dry.found.assessment.nearest, by_trial=(own,))
+    turning = replace(own, parts=("turning forwards", "at rest"), gap_own=2.9)
+    near = replace(dry.found.assessment.nearest, by_trial=(own,), by_motion=(turning,))
     unknown = replace(
         dry.found,
         verdict=replace(
@@ -73,7 +75,9 @@ def test_values_by_trial_stand_below_what_comes_nearest(dry):
     assert "on the decimated log: tip_drag." in said
     assert "Trial by trial" in said
     assert "with common values it is 3.00 σ" in said
-    assert "(0.25, -0.5 N mm)" in said
+    assert "is 0.25 and -0.5 N mm from trial to trial" in said
     assert "trial_02.csv" in said
+    assert "By the motion of the base" in said
+    assert "Motions of the base seem to differ" not in said
     alone = "".join(parameters_section(dry.found, dry.report))
     assert "Trial by trial" not in alone

@@ -4,8 +4,13 @@ from dataclasses import replace
 
 from diagnosis_fixtures import concluding
 
-from diagnosis.assessment.uncertainty.values_by_trial import ValuesByTrial
-from diagnosis.report.sentences.nearest import about_as_near, differing_trials, nearest
+from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
+from diagnosis.report.sentences.nearest import (
+    about_as_near,
+    differing_motions,
+    differing_trials,
+    nearest,
+)
 from diagnosis.selection.verdicts.verdict import VerdictKind
 from diagnosis.stopping import EarlyStop
 
@@ -27,30 +32,44 @@ def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
     assert "the remaining residual is largest in " in said
 
 
-ZEROED = ValuesByTrial(
+ZEROED = ValuesByPart(
     effect="tip_angle_bias",
     parameter="bias",
     unit="deg",
+    parts=("trial_01.csv", "trial_02.csv", "trial_03.csv"),
     values=(0.1, None, -2.4),
     gap_common=10.0,
     gap_own=5.0,
 )
+TURNING = replace(
+    ZEROED,
+    effect="damping_error",
+    parameter="scale",
+    unit="-",
+    parts=("forwards", "backwards", "at rest"),
+)
 
 
-def with_values(found, *by_trial):
-    near = replace(found.assessment.nearest, by_trial=by_trial)
+def with_values(found, **parts):
+    near = replace(found.assessment.nearest, **parts)
     return replace(found, assessment=replace(found.assessment, nearest=near))
 
 
 def test_what_differs_between_trials_is_told_with_its_values(dry):
-    said = differing_trials(with_values(dry.found, ZEROED))
-    assert "if tip_angle_bias.bias has a value of its own in each (0.1, –, -2.4 deg)" in said
+    said = differing_trials(with_values(dry.found, by_trial=(ZEROED,)))
+    assert "if tip_angle_bias.bias is 0.1, open and -2.4 deg from trial to trial" in said
     assert "leaves 5.00 σ of all trials together instead of 10.0 σ" in said
 
 
-def test_trials_that_hardly_differ_are_not_said_to(dry):
-    assert differing_trials(dry.found) == ""
-    assert differing_trials(with_values(dry.found, replace(ZEROED, gap_own=9.9))) == ""
+def test_what_differs_between_motions_is_told_with_their_names(dry):
+    said = differing_motions(with_values(dry.found, by_motion=(TURNING,)))
+    assert "if damping_error.scale is 0.1 forwards and -2.4 at rest, the nearest" in said
+
+
+def test_parts_that_hardly_differ_are_not_said_to(dry):
+    hardly = with_values(dry.found, by_trial=(replace(ZEROED, gap_own=9.9),))
+    for said in (differing_trials, differing_motions):
+        assert said(dry.found) == said(hardly) == ""
 
 
 def test_what_comes_about_as_near_is_told_by_the_names_of_effects(dry):
