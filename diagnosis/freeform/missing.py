@@ -10,7 +10,8 @@ more than another has a seventh of its weight by either, and near the noise, whe
 true, 2 % decide as much. A likelihood would decide more sharply; but no family is the true law, and
 the best of them may be so by chance. Places that no family favours keep a small probability. The
 library's nearest explanation, which has no place for what is missing, counts for all places alike:
-where it leaves less than every family, none of them is likely.
+where it leaves less than every family, none of them is likely. Of a single trial both gaps are one,
+and count as one.
 """
 
 import math
@@ -102,17 +103,18 @@ class Missing:
     beside: tuple[Law, ...] = ()
 
 
-def missing_of(fits: Sequence[FreeFit], nearest_gap: float) -> Missing:
+def missing_of(fits: Sequence[FreeFit], nearest_gap: float, *, one_trial: bool = False) -> Missing:
     """Summarise free-form fits.
 
     Args:
       nearest_gap: gap of the library's nearest explanation, on unseen trials.
+      one_trial: whether the log has one trial only, so that none is unseen.
     """
     ranked = likelier_first(fits)
     best = ranked[0]
     helps = best.final and _leaves_clearly_less(best.gap_after, nearest_gap)
     return Missing(
-        place=_places(fits, nearest_gap),
+        place=_places(fits, nearest_gap, 0.5 if one_trial else 1.0),
         depends_on=_dependences(ranked),
         law=law_of(best) if helps else None,
         beside=tuple(law_of(best, other) for other in best.told[1:]) if helps else (),
@@ -139,12 +141,16 @@ def least_gap(fits: Sequence[FreeFit]) -> float:
     return min((f.fit.gap for f in fits if f.final), default=1.0)
 
 
-def _places(fits: Sequence[FreeFit], nearest_gap: float) -> dict[Place, float]:
-    """Probabilities of places, each by the best family that may be there."""
+def _places(fits: Sequence[FreeFit], nearest_gap: float, share: float) -> dict[Place, float]:
+    """Probabilities of places, each by the best family that may be there.
+
+    Args:
+      share: by which logarithms of weights count.
+    """
     least = least_gap(fits)
-    logs = [_log_weight(f, least) for f in fits]
+    logs = [share * _log_weight(f, least) for f in fits]
     own = nearest_gap / min(least, 1.0) if least > 0.0 else 1.0
-    of_library = _log_gap_weight(nearest_gap) + _log_gap_weight(own)
+    of_library = share * (_log_gap_weight(nearest_gap) + _log_gap_weight(own))
     best = max(*logs, of_library)
     everywhere = LEAST_WEIGHT + math.exp(of_library - best)
     most = dict.fromkeys(Place, 0.0)

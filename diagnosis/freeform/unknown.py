@@ -49,7 +49,8 @@ def with_what_is_missing(
         return None, told
     nearest = told.nearest
     refused = verdict.other_form or (nearest.at_bound and nearest.gap_after <= CLOSED_GAP)
-    missing = missing_of(fits, np.inf if refused else nearest.gap_after)
+    one_trial = len(problem.log.trials) == 1
+    missing = missing_of(fits, np.inf if refused else nearest.gap_after, one_trial=one_trial)
     if missing.law is None:
         return missing, told
     explained = explained_by(missing, log, problem, nominal, told)

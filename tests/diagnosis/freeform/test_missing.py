@@ -70,6 +70,17 @@ def test_far_above_the_noise_ten_percent_are_a_seventh_and_near_it_two_are_more(
     assert ratio == pytest.approx(share, rel=0.1)
 
 
+def test_of_one_trial_what_a_law_leaves_counts_once():
+    here = free_fit(10.0, name="here", says="time", places={Place.TISSUE: 1.0})
+    there = free_fit(11.0, name="there", says="rate", places={Place.SENSOR: 1.0})
+    twice, once = (missing_of([here, there], 50.0, one_trial=own).place for own in (False, True))
+    odds = [
+        (place[Place.SENSOR] - place[Place.DRIVE]) / (place[Place.TISSUE] - place[Place.DRIVE])
+        for place in (twice, once)
+    ]
+    assert odds[1] == pytest.approx(np.sqrt(odds[0]), rel=0.01)
+
+
 def test_what_a_law_leaves_on_its_own_trials_counts_as_much():
     """Where both predict an unseen trial alike, by chance, one that leaves 2 % more is a thirtieth."""
     each = [
