@@ -157,8 +157,8 @@ def _places(fits: Sequence[FreeFit], nearest_gap: float, share: float) -> dict[P
     for one, log in zip(fits, logs, strict=True):
         for family in one.families:
             whole = 1.0 if family is one.family else SECOND
-            for place, share in family.places.items():
-                most[place] = max(most[place], whole * share * math.exp(log - best))
+            for place, own_share in family.places.items():
+                most[place] = max(most[place], whole * own_share * math.exp(log - best))
     weights = {place: everywhere + weight for place, weight in most.items()}
     return {place: weight / sum(weights.values()) for place, weight in weights.items()}
 

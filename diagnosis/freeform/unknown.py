@@ -49,7 +49,7 @@ def with_what_is_missing(
         return None, told
     nearest = told.nearest
     refused = verdict.other_form or (nearest.at_bound and nearest.gap_after <= CLOSED_GAP)
-    one_trial = len(problem.log.trials) == 1
+    one_trial = len(log.trials) == 1
     missing = missing_of(fits, np.inf if refused else nearest.gap_after, one_trial=one_trial)
     if missing.law is None:
         return missing, told

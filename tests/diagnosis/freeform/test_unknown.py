@@ -27,7 +27,8 @@ def missing_from(fits, monkeypatch, kind=VerdictKind.UNKNOWN, stop=None, near=TO
     stop = StopSignal() if stop is None else stop
     monkeypatch.setattr(unknown, "free_form_fits", fits)
     verdict, workers = SimpleNamespace(kind=kind, other_form=""), Workers(stop=stop)
-    found = with_what_is_missing(None, None, None, (), verdict, near, (), workers)
+    log = SimpleNamespace(trials=(None, None))
+    found = with_what_is_missing(log, None, None, (), verdict, near, (), workers)
     return *found, stop
 
 
