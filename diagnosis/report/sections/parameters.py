@@ -1,6 +1,6 @@
 """Parameters of the best explanation: a table, and how they are uncertain together."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
@@ -26,48 +26,65 @@ _INTERVALS = (
     "nominal values."
 )
 
-_PARTS = (
-    "Each row gives one parameter a value of its own in each {part} and keeps all others common. The "
+_BY_TRIAL = (
+    "Each row gives one parameter a value of its own in each trial and keeps all others common. The "
     "last column is the residual of all trials together with these values; with common values it is "
     "{common}. Only the linear model of the fit is used: a value far from the common one shows a "
     "direction more than a size. Parameters that act alike each take over what one of them does."
+)
+_BY_MOTION = (
+    "The same, with a value of its own for what the base does when a reading is taken; with common "
+    "values the residual is {common}. Where the shaft is soft, what happened before matters as well."
 )
 
 
 def parameters_section(found: Diagnosis, report: Mapping[str, Any]) -> list[str]:
     """Everything under this heading; `report` is report.json. Nothing where nothing was fitted."""
-    if sentence := nearest(found):
-        own = report["nearest"]["parameters"]
-        parts = [html.heading("What comes nearest"), html.paragraph(f"{sentence}.")]
-        doubt = [html.paragraph(NOT_AN_EXPLANATION)] if own else []
-        if others := about_as_near(found):
-            doubt.append(html.paragraph(f"{others}."))
-        near, trials, motions = found.assessment.nearest, differing_trials, differing_motions
-        return [
-            *parts,
-            *_values(found, own),
-            *doubt,
-            *_by_part(near.by_trial, html.heading("Trial by trial", level=3), "trial", trials(found)),
-            *_by_part(
-                near.by_motion,
-                html.heading("By the motion of the base", level=3),
-                "motion",
-                motions(found),
-            ),
-        ]
+    if nearest(found):
+        return _what_comes_nearest(found, report["nearest"]["parameters"])
     own = report["parameters"]
     return [html.heading("Parameters"), *_values(found, own)] if own else []
 
 
-def _by_part(by_part: Sequence[ValuesByPart], heading: str, part: str, sentence: str) -> list[str]:
-    """Values of its own in each part of an unknown log, if it has several."""
-    if not by_part:
+def _what_comes_nearest(found: Diagnosis, own: Mapping[str, Any]) -> list[str]:
+    near, others = found.assessment.nearest, about_as_near(found)
+    return [
+        html.heading("What comes nearest"),
+        html.paragraph(f"{nearest(found)}."),
+        *_values(found, own),
+        *([html.paragraph(NOT_AN_EXPLANATION)] if own else []),
+        *([html.paragraph(f"{others}.")] if others else []),
+        *_by_part(
+            found, html.heading("Trial by trial", level=3), near.by_trial, _BY_TRIAL, differing_trials
+        ),
+        *_by_part(
+            found,
+            html.heading("By the motion of the base", level=3),
+            near.by_motion,
+            _BY_MOTION,
+            differing_motions,
+        ),
+    ]
+
+
+def _by_part(
+    found: Diagnosis,
+    heading: str,
+    by_part: Sequence[ValuesByPart],
+    how: str,
+    differing: Callable[[Diagnosis], str],
+) -> list[str]:
+    """Values of their own in each part of a log, of what is named and of what differs."""
+    named = found.assessment.nearest.effects
+    shown = [own for own in by_part if own.effect in named or own.differs]
+    if not shown:
         return []
+    sentence = differing(found)
     return [
         heading,
-        html.paragraph(_PARTS.format(part=part, common=in_sigma(by_part[0].gap_common))),
+        html.paragraph(how.format(common=in_sigma(shown[0].gap_common))),
         *([html.paragraph(f"{sentence}.")] if sentence else []),
-        part_table(by_part, f"Values by {part}"),
+        part_table(shown, "Values by part"),
     ]
 
 
