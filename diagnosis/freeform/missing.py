@@ -16,7 +16,7 @@ and count as one.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,11 +113,12 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float, *, one_trial: bool =
     ranked = likelier_first(fits)
     best = ranked[0]
     helps = best.final and _leaves_clearly_less(best.gap_after, nearest_gap)
+    laws = _with_factors_about_one([law_of(best, own) for own in best.told]) if helps else []
     return Missing(
         place=_places(fits, nearest_gap, 0.5 if one_trial else 1.0),
         depends_on=_dependences(ranked),
-        law=law_of(best) if helps else None,
-        beside=tuple(law_of(best, other) for other in best.told[1:]) if helps else (),
+        law=laws[0] if laws else None,
+        beside=tuple(laws[1:]),
         best=best,
         closed=helps and best.gap_after <= CLOSED_GAP,
     )
@@ -218,6 +219,22 @@ def law_of(one: FreeFit, family: Family | None = None) -> Law:
         shape=family.shape,
         multiplies=family.multiplies,
     )
+
+
+def _with_factors_about_one(laws: Sequence[Law]) -> list[Law]:
+    """Laws and their factors, as they follow each other, with the size of both in the law."""
+    found = list[Law]()
+    for law in laws:
+        size = float(np.median(law.y)) if law.multiplies and found else 0.0
+        if size:
+            found[-1] = _times(found[-1], size)
+        found.append(_times(law, 1.0 / size) if size else law)
+    return found
+
+
+def _times(law: Law, size: float) -> Law:
+    y, low, high = (tuple(size * v for v in values) for values in (law.y, law.low, law.high))
+    return replace(law, y=y, low=low if size > 0 else high, high=high if size > 0 else low)
 
 
 def _told(y: Array, ends: Array) -> NDArray[np.bool_]:

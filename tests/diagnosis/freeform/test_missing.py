@@ -300,19 +300,26 @@ def test_the_curve_is_of_its_own_parameters_and_names_what_is_beside_it():
     assert (law.y, law.beside) == ((2.0,), ("tip_drag",))
 
 
-def test_of_a_law_that_grows_both_variables_are_told_the_factor_behind_it():
-    """The factor is a curve of the same effect, which the law before it is multiplied by."""
+@pytest.mark.parametrize("size", [0.5, -0.5])
+def test_of_a_law_that_grows_both_variables_are_told_the_factor_behind_it(size):
+    """The factor is a curve of the same effect, which the law before it is multiplied by; its median is
+    1, and the law is as large as both together."""
     family = family_of(parameters=[LEVEL, LEVEL], curve=lambda level, _: ((0.0,), (level,)))
     factor = replace(
-        family, says="depth", curve=lambda _, slope: ((0.0,), (1.0 + slope,)), multiplies=True
+        family,
+        says="depth",
+        curve=lambda _, slope: ((0.0, 1.0, 2.0), tuple(slope * n for n in (3.0, 4.0, 5.0))),
+        multiplies=True,
     )
     family = replace(family, factor=factor)
-    fit = linear_fit(family, [np.eye(2)], [np.zeros(2)], x=[2.0, 0.5])
+    fit = linear_fit(family, [np.eye(2)], [np.zeros(2)], x=[2.0, size])
     found = missing_of([FreeFit(family=family, fit=fit, gap_after=1.0, final=True)], 5.0)
     assert [one.variable for one in found.depends_on] == ["time", "depth"]
-    assert (found.law.y, found.law.multiplies) == ((2.0,), False)
+    assert (found.law.y, found.law.multiplies) == ((8.0 * size,), False)
     (told,) = found.beside
-    assert (told.variable, told.y, told.multiplies) == ("depth", (1.5,), True)
+    assert (told.variable, told.y, told.multiplies) == ("depth", (0.75, 1.0, 1.25), True)
+    for law in (found.law, told):
+        assert all(low <= y <= high for low, y, high in zip(law.low, law.y, law.high, strict=True))
 
 
 def test_where_a_factor_is_held_at_its_limit_a_curve_tells_nothing():
