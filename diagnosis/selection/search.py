@@ -49,7 +49,7 @@ from diagnosis.selection.stages.sensors.outliers_left import (
     outliers_and_more,
     outliers_beside_the_best,
 )
-from diagnosis.selection.stages.sensors.reading_jumps import a_jump_and_more, jumps_of_readings
+from diagnosis.selection.stages.sensors.reading_jumps import jumps_and_more, jumps_of_readings
 from diagnosis.selection.stages.sensors.sensor_drift import (
     drift_of_the_tip_sensor,
     drift_of_the_torque_sensor,
@@ -91,7 +91,7 @@ STAGES: tuple[Stage, ...] = (
     weakly_coloured_noise,
     flicker_noise,
     drift_of_the_torque_sensor,
-    jumps_of_readings,
+    jumps_and_more((drift_of_the_torque_sensor,)),
     drift_of_the_tip_sensor,
     outliers_and_more(
         (
@@ -101,7 +101,6 @@ STAGES: tuple[Stage, ...] = (
             drift_of_the_tip_sensor,
         )
     ),
-    a_jump_and_more((drift_of_the_torque_sensor,)),
     drift_or_offset,
     scatter_of_the_best,
     finer_mesh,

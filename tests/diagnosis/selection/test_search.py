@@ -57,7 +57,6 @@ def test_the_stages_are_these_in_this_order():
         "jumps_of_readings",
         "drift_of_the_tip_sensor",
         "outliers_and_another_imperfection",
-        "a_jump_and_another_imperfection",
         "drift_or_offset",
         "scatter_of_the_best",
         "finer_mesh",

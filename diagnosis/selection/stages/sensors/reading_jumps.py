@@ -45,47 +45,50 @@ class _Place:
     rows: slice
 
 
-def jumps_of_readings(state: SearchState, workers: Workers) -> SearchState:
-    """The state with jumps allowed for, where that explains the log; else the state itself."""
-    state, explained = state.rechecked()
-    if explained:
-        return state
-    jumping = state
-    for made in range(MOST_JUMPS):
-        share = max(JUMP_SHARE, JUMPS_SHARE / (MOST_JUMPS - made))
-        jump = _largest_jump(jumping, share)
-        if jump is None:
-            break
-        jumping, explained = _refitted(state, jumping, jump, workers).rechecked()
-        if explained and (why_not := _objection(jumping, jump, workers)):
-            return state.noting(noted(STAGE, Decision.DROPPED, why_not))
-        if explained:
-            return jumping.noting(noted(STAGE, Decision.KEPT, "with it the log is explained"))
-    if jumping is state:
-        return state
-    return state.noting(noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with one"))
-
-
-def a_jump_and_more(others: Sequence[Stage]) -> Stage:
-    """A stage: what else a recording may lack is asked once more beside the largest jump of a reading.
+def jumps_and_more(others: Sequence[Stage]) -> Stage:
+    """A stage: the state with jumps allowed for, where that explains the log; else the state itself.
 
     Args:
-      others: stages that allow for it; the first that explains the log is kept.
+      others: stages that allow for what else a recording may lack, beside the largest jump.
     """
 
-    def a_jump_and_another_imperfection(state: SearchState, workers: Workers) -> SearchState:
+    def jumps_of_readings(state: SearchState, workers: Workers) -> SearchState:
         state, explained = state.rechecked()
-        jump = None if explained else _largest_jump(state, JUMP_SHARE)
-        if jump is None:
+        if explained:
             return state
-        jumping = _refitted(state, state, jump, workers)
-        for other in others:
-            again, explained = other(jumping, workers).rechecked()
-            if explained and not _objection(again, jump, workers):
-                return again.noting(noted(STAGE, Decision.KEPT, "beside it the log is explained"))
-        return state
+        jumping = state
+        for made in range(MOST_JUMPS):
+            share = max(JUMP_SHARE, JUMPS_SHARE / (MOST_JUMPS - made))
+            jump = _largest_jump(jumping, share)
+            if jump is None:
+                break
+            jumping = _refitted(state, jumping, jump, workers)
+            found = _explained(jumping, () if made else others, workers)
+            if found and (why_not := _objection(found, jump, workers)):
+                return state.noting(noted(STAGE, Decision.DROPPED, why_not))
+            if found:
+                return found.noting(noted(STAGE, Decision.KEPT, "with it the log is explained"))
+        if jumping is state:
+            return state
+        return state.noting(noted(STAGE, Decision.DROPPED, "no explanation reaches the noise with one"))
 
-    return a_jump_and_another_imperfection
+    return jumps_of_readings
+
+
+jumps_of_readings = jumps_and_more(())
+"""Jumps alone."""
+
+
+def _explained(jumping: SearchState, others: Sequence[Stage], workers: Workers) -> SearchState | None:
+    """The state with a jump, or with one of the others beside it, if that explains the log."""
+    again, explained = jumping.rechecked()
+    if explained:
+        return again
+    for other in others:
+        again, explained = other(jumping, workers).rechecked()
+        if explained:
+            return again
+    return None
 
 
 def _objection(state: SearchState, jump: ReadingJump, workers: Workers) -> str:

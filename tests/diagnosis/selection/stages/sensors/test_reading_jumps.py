@@ -15,7 +15,7 @@ from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors import reading_jumps as module
-from diagnosis.selection.stages.sensors.reading_jumps import STAGE, a_jump_and_more, jumps_of_readings
+from diagnosis.selection.stages.sensors.reading_jumps import STAGE, jumps_and_more, jumps_of_readings
 from diagnosis.selection.stages.sensors.sensor_drift import drift_of_the_torque_sensor
 from diagnosis.workers import Workers
 
@@ -144,7 +144,7 @@ def test_a_drift_is_found_beside_a_jump_where_neither_alone_explains_the_log():
     before, _ = searched(drifting(off(two(DRY), TIP, (5.0, 8.0)), 3.0))
     for alone in (jumps_of_readings, drift_of_the_torque_sensor):
         assert alone(before, Workers()).problem is before.problem
-    after = a_jump_and_more((drift_of_the_torque_sensor,))(before, Workers())
+    after = jumps_and_more((drift_of_the_torque_sensor,))(before, Workers())
     assert after.best.floor.reached
     assert after.best.names == ("coulomb_friction",)
     (jump,) = after.best.fit.parameterization.rig(after.best.fit.x).jumps
@@ -158,4 +158,4 @@ def test_where_no_reading_jumps_nothing_is_asked_beside_one():
         raise AssertionError("asked")
 
     before, _ = searched(two(DRY), effects=())
-    assert a_jump_and_more((never,))(before, Workers()).problem is before.problem
+    assert jumps_and_more((never,))(before, Workers()).problem is before.problem
