@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.optimize import OptimizeWarning, curve_fit
 
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.likeness.shapes import OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
+from diagnosis.freeform.likeness.shapes import LINE, OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
 from diagnosis.freeform.missing import Law
 
 Array = NDArray[np.float64]
@@ -77,13 +77,9 @@ def likeness_of(law: Law) -> Likeness | None:
 
 def recognised(law: Law) -> list[Recognised]:
     """Shapes within the band of a curve, likeliest first; none if the law is level, or no curve."""
-    if law.variable in ("direction", "event") or len(law.x) < _FEWEST:
+    if not _bends(law):
         return []
-    x, y = np.array(law.x), np.array(law.y)
-    if np.ptp(y) <= _LEVEL * np.abs(y).max():
-        return []
-    half = 0.5 * (np.array(law.high) - np.array(law.low))
-    half = np.maximum(half, _LEAST_BAND * max(float(np.ptp(y)), 1e-12))
+    x, y, half = _points_of(law)
     tried = []
     for shape in _shapes_of(law):
         fitted = _fitted(shape, x, y, half)
@@ -94,6 +90,34 @@ def recognised(law: Law) -> list[Recognised]:
     if not tried or tried[0][0] > _WITHIN**2 * x.size:
         return []
     return [found for chi_square, found in tried if chi_square <= _WITHIN**2 * x.size]
+
+
+def plain_laws_of(law: Law, most: int) -> list[Recognised]:
+    """Shapes that may be the law of a curve: the likeliest of those within its band, and the straight
+    line nearest to it in its band, wherever that is.
+
+    What a variable of the past is made of is fitted, too: beside other numbers of it the law may be
+    straight where the curve is not.
+    """
+    first = recognised(law)[:most]
+    line = next((shape for shape in _shapes_of(law) if shape.name == LINE), None)
+    if line is None or not _bends(law) or any(one.shape is line for one in first):
+        return first
+    nearest = _fitted(line, *_points_of(law))
+    return [*first, Recognised(shape=line, values=nearest[0])] if nearest else first
+
+
+def _points_of(law: Law) -> tuple[Array, Array, Array]:
+    """Places, values and half the width of the band of a curve, (K,) each."""
+    y, half = np.array(law.y), 0.5 * (np.array(law.high) - np.array(law.low))
+    return np.array(law.x), y, np.maximum(half, _LEAST_BAND * max(float(np.ptp(y)), 1e-12))
+
+
+def _bends(law: Law) -> bool:
+    """Whether it is a curve, and not level."""
+    if law.variable in ("direction", "event") or len(law.x) < _FEWEST:
+        return False
+    return float(np.ptp(law.y)) > _LEVEL * float(np.abs(law.y).max())
 
 
 def _shapes_of(law: Law) -> tuple[Shape, ...]:

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from diagnosis.criteria import FAR_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.family import Family
+from diagnosis.freeform.family import Family, kind_of
 from diagnosis.freeform.fits.checked import fitted_and_checked, left_open
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
-from diagnosis.freeform.likeness.likeness import recognised
+from diagnosis.freeform.likeness.likeness import plain_laws_of, recognised
 from diagnosis.freeform.likeness.plain_family import plain_family
 from diagnosis.freeform.likeness.shapes import LEVEL
 from diagnosis.freeform.missing import law_of, likelier_first
@@ -59,7 +59,9 @@ def _as_plain(problem: FitProblem, coarse: FitProblem, curve: FreeFit) -> FreeFi
     parameterization = curve.fit.parameterization
     own = np.array([owner == curve.family.name for owner in parameterization.owners])
     values = np.array(parameterization.values(curve.fit.x))[own]
-    families = [plain_family(curve.family, values, law, shape) for shape in recognised(law)[:SHAPES]]
+    more = any(not kind_of(p) for p in curve.family.effect.parameters)  # numbers beside those of a curve
+    shapes = plain_laws_of(law, SHAPES) if more else recognised(law)[:SHAPES]
+    families = [plain_family(curve.family, values, law, shape) for shape in shapes]
     near = [fitted_near(coarse, curve, family) for family in families if family]
     nearest = min(near, key=lambda f: f.score, default=None)
     if nearest is None or nearest.family.shape == LEVEL:

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 _STEP_WIDTH = 0.03
 """Of the range: less than from one point to the next, not so steep that no fit finds it."""
-LEVEL = "constant"
+LEVEL, LINE = "constant", "straight line"
 """Name of the law that does not depend on its variable."""
 _MOST_CYCLES = 4  # of a wave in one turn, from which a fit starts
 _WHOLE = 1e-6  # off a whole number of cycles: none
@@ -132,7 +132,7 @@ OF_ANY = (
         start=lambda x, y: (float(y.mean()),),
     ),
     Shape(
-        name="straight line",
+        name=LINE,
         says="{0:.3g} at 0, changing by {1:+.3g} per unit",
         law=_line,
         start=lambda x, y: (float(y[0]), _slope(x, y)),

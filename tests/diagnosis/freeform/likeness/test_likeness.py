@@ -7,7 +7,8 @@ import pytest
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.likeness.likeness import LIBRARY_LAWS, likeness_of, recognised
+from diagnosis.freeform.likeness.likeness import LIBRARY_LAWS, likeness_of, plain_laws_of, recognised
+from diagnosis.freeform.likeness.shapes import LINE
 from diagnosis.freeform.missing import Law
 
 RATES = np.geomspace(0.006, 3.0, 7)
@@ -164,3 +165,26 @@ def test_every_effect_that_is_named_is_in_the_library():
 @pytest.mark.parametrize("value", [0.0, 1e-6, 40.0])
 def test_a_level_curve_resembles_no_law(value):
     assert recognised(curve(TIMES, np.full(TIMES.size, value), 0.03, variable="time")) == []
+
+
+def test_where_more_than_a_curve_is_fitted_its_straight_line_is_one_that_may_be_the_law():
+    x = np.linspace(0.0, 1.0, 12)
+    bent = curve(x, 3.0 * np.sin(9.0 * x**2), 1e-3, variable="history")
+    assert recognised(bent) == []
+    (line,) = plain_laws_of(bent, 4)
+    assert line.shape.name == LINE
+    assert line.values == pytest.approx(np.polynomial.polynomial.polyfit(x, bent.y, 1), abs=1e-6)
+
+
+def test_a_line_that_is_recognised_already_comes_once():
+    x = np.linspace(0.0, 1.0, 12)
+    names = [
+        one.shape.name for one in plain_laws_of(curve(x, 1.0 + 2.0 * x, 0.05, variable="history"), 4)
+    ]
+    assert names.count(LINE) == 1
+
+
+@pytest.mark.parametrize(("variable", "y"), [("direction", (1.0, 2.0)), ("time", (2.0,) * 12)])
+def test_two_values_and_a_level_have_no_line(variable, y):
+    x = np.linspace(-1.0, 1.0, len(y))
+    assert plain_laws_of(curve(x, np.array(y), 0.05, variable=variable), 4) == []
