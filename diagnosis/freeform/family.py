@@ -12,6 +12,8 @@ from diagnosis.freeform.smooth_curve import SmoothCurve
 Points = tuple[ArrayLike, ArrayLike]
 """A curve by points: x, and y at each."""
 _STRAIGHT, _REST = "straight", "rest"
+VISCOUS = "N mm s / rad / mm"
+"""Unit of damping along the shaft: laws in it multiply the damping of the tissue."""
 FARTHEST = 12.0  # of a coordinate, in its prior's first guess
 FINE = 0.3  # of the largest change of a curve by a coordinate of its rest
 

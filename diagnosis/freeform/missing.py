@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAVES, GAP_LIMIT
 from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
-from diagnosis.freeform.family import Family
+from diagnosis.freeform.family import VISCOUS, Family
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.prior import free_covariance, well_determined
 
@@ -113,7 +113,8 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float, *, one_trial: bool =
     ranked = likelier_first(fits)
     best = ranked[0]
     helps = best.final and _leaves_clearly_less(best.gap_after, nearest_gap)
-    laws = _with_factors_about_one([law_of(best, own) for own in best.told]) if helps else []
+    told = [_times(law_of(best, own), _damping_of(own, best.fit)) for own in best.told] if helps else []
+    laws = _with_factors_about_one(told)
     return Missing(
         place=_places(fits, nearest_gap, 0.5 if one_trial else 1.0),
         depends_on=_dependences(ranked),
@@ -219,6 +220,12 @@ def law_of(one: FreeFit, family: Family | None = None) -> Law:
         shape=family.shape,
         multiplies=family.multiplies,
     )
+
+
+def _damping_of(family: Family, fit: Fit) -> float:
+    """What a law of damping is multiplied by: the damping of the tissue over the nominal one."""
+    found = fit.parts.get("damping_error", np.zeros(1))
+    return math.exp(float(found[0])) if family.unit == VISCOUS and not family.multiplies else 1.0
 
 
 def _with_factors_about_one(laws: Sequence[Law]) -> list[Law]:

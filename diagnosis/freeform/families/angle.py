@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
 from diagnosis.freeform.families.interface import level_of
-from diagnosis.freeform.family import Family, Points, coordinates, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve
 from diagnosis.replay.curve import ActsOn
@@ -149,7 +149,7 @@ def _uneven_damping(ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_damping_over_angles, shown_deg(ranges), beta),
         x_unit="deg",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

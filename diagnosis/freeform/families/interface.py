@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
@@ -87,7 +87,7 @@ def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> 
         title="damping along the shaft" + _WHEN.get(variable, ""),
         curve=partial(_damping, curve, beta),
         x_unit=UNITS[variable],
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 
@@ -194,7 +194,7 @@ def _position(ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_along_depth, curve, beta),
         x_unit="of the inserted length",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

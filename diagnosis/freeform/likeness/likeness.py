@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.optimize import OptimizeWarning, curve_fit
 
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.family import VISCOUS
 from diagnosis.freeform.likeness.shapes import LINE, OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
 from diagnosis.freeform.missing import Law
 
@@ -28,12 +29,12 @@ _MOST_EVALUATIONS = 4000
 _FEWEST = 3  # points of a curve
 _LEVEL = 1e-9  # range of a curve that is level, of its largest value
 _ANGLES = ("base_angle", "tip_angle")
-_DRY, _VISCOUS = "N mm / mm", "N mm s / rad / mm"  # per mm of shaft
+_DRY = "N mm / mm"  # per mm of shaft
 LIBRARY_LAWS = {
     (Place.INTERFACE, "rate", _DRY, "dry and viscous friction"): ("coulomb_friction",),
     (Place.INTERFACE, "rate", _DRY, "power law"): ("shear_thinning",),
     (Place.INTERFACE, "rate", _DRY, "Stribeck friction"): ("stiction",),
-    (Place.INTERFACE, "position", _VISCOUS, "step"): ("layered_tissue",),
+    (Place.INTERFACE, "position", VISCOUS, "step"): ("layered_tissue",),
     (Place.INTERFACE, "axial_speed", _DRY, "power law"): ("speed_dependent_friction",),
     (Place.NEEDLE, "rate", "N mm", "dry and viscous friction"): ("tip_drag",),
     (Place.NEEDLE, "tip_angle", _DRY, "sine wave"): ("needle_curvature",),

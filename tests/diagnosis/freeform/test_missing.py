@@ -8,7 +8,9 @@ import pytest
 from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
 
 from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
+from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.family import VISCOUS
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.missing import (
     CHOICE,
@@ -333,3 +335,14 @@ def test_where_a_factor_is_held_at_its_limit_a_curve_tells_nothing():
     known = np.array([[1.0, 1.0, 0.4, 0.5], [1.0, 1.0, 0.6, 0.7]])
     assert _told(np.array([1.0, 1.0, 0.5, 0.6]), known).all()
     assert _told(y, np.stack([y, y])).all()
+
+
+@pytest.mark.parametrize(("unit", "told"), [(VISCOUS, 1.6), ("N mm / mm", 2.0)])
+def test_a_law_of_damping_is_told_with_the_damping_that_the_fit_has_beside_it(unit, told):
+    """Laws of damping multiply that of the tissue, of which the fit knows how far it is off."""
+    family = family_of(parameters=[LEVEL], curve=lambda level: ((0.0,), (level,)), unit=unit)
+    fit = linear_fit(
+        family, [np.eye(2)], [np.zeros(2)], x=[2.0, math.log(0.8)], beside=(LIBRARY["damping_error"],)
+    )
+    found = missing_of([FreeFit(family=family, fit=fit, gap_after=1.0, final=True)], 5.0)
+    assert found.law.y == pytest.approx((told,))

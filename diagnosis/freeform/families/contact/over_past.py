@@ -16,7 +16,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import FILM
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -134,7 +134,7 @@ def _damping_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_damping, curve, neutral, ranges.damping_n_mm_s_per_mm),
         x_unit=_UNITS[neutral.over],
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

@@ -9,7 +9,7 @@ from functools import partial
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import level_of
-from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.family import VISCOUS, Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
@@ -50,7 +50,7 @@ def _beyond_start(ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_damping, ranges.damping_n_mm_s_per_mm),
         x_unit="mm beyond the depth at which the trial began",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

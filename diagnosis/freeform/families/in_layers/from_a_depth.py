@@ -12,7 +12,7 @@ from functools import partial
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.in_layers.layers import factor_of_damping, place_of
 from diagnosis.freeform.families.interface import level_of
-from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.family import VISCOUS, Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.free_law import FreeLaw
@@ -49,7 +49,7 @@ def _damping(deepest_mm: float, ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_dampings, deepest_mm, ranges.damping_n_mm_s_per_mm),
         x_unit="mm below the surface",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

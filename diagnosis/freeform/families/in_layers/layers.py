@@ -14,7 +14,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import PARTS
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
@@ -102,7 +102,7 @@ def _damping(layers: _Layers, ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_dampings, layers, ranges.damping_n_mm_s_per_mm),
         x_unit="mm below the surface",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 
@@ -216,7 +216,7 @@ def _one_layer(deepest_mm: float, ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_one_layers, ranges.damping_n_mm_s_per_mm),
         x_unit="mm below the surface",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import DAMPING
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.prepare.prepared_log import PreparedTrial
@@ -150,7 +150,7 @@ def _damping(session: Session, ranges: LogRanges) -> Family:
         title="damping along the shaft",
         curve=partial(_points, session, ranges.damping_n_mm_s_per_mm),
         x_unit=f"{UNITS[session.variable]} of the session",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
-from diagnosis.freeform.family import Family, Points, of_trials
+from diagnosis.freeform.family import VISCOUS, Family, Points, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -62,7 +62,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _quantities(ranges: LogRanges) -> list[_Quantity]:
-    beta, unit = ranges.damping_n_mm_s_per_mm, "N mm s / rad / mm"
+    beta, unit = ranges.damping_n_mm_s_per_mm, VISCOUS
     needle = [
         _Quantity(
             acts_on=ActsOn.TISSUE,

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.changes import in_time
 from diagnosis.freeform.families.readings import TIP
-from diagnosis.freeform.family import Family, Points, coordinates, of_trials
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -86,7 +86,7 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
         title=f"damping along the shaft in {trials[0]}",
         curve=partial(_breath, ranges.damping_n_mm_s_per_mm),
         x_unit="s",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import INTERFACE, from_neutral, level_of
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -74,7 +74,7 @@ def damping_over_rate(
         title="damping along the shaft",
         curve=curve,
         x_unit="rad/s",
-        unit="N mm s / rad / mm",
+        unit=VISCOUS,
     )
 
 
