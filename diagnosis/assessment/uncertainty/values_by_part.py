@@ -55,10 +55,15 @@ class ValuesByPart:
     gap_own: float
 
     @property
-    def differs(self) -> bool:
-        """Whether the values account for a good part of what the common one leaves beyond noise."""
+    def share(self) -> float:
+        """Share of the power beyond noise that these values take off what the common one leaves."""
         beyond = self.gap_common**2 - 1.0
-        return beyond > 0.0 and self.gap_common**2 - self.gap_own**2 >= DIFFERING_SHARE * beyond
+        return (self.gap_common**2 - self.gap_own**2) / beyond if beyond > 0.0 else 0.0
+
+    @property
+    def differs(self) -> bool:
+        """Whether that is more than what a law that is missing mostly does, as motions differ."""
+        return self.share >= DIFFERING_SHARE
 
 
 def values_by_part(

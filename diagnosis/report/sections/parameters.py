@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
+from diagnosis.criteria import DIFFERING_SHOWN
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
@@ -74,10 +75,13 @@ def _by_part(
     how: str,
     differing: Callable[[Diagnosis], str],
 ) -> list[str]:
-    """Values of their own in each part of a log, of what is named and of what differs."""
+    """Values of their own in each part of a log, of what is named and of what takes off something.
+
+    None where a free-form law closes the gap: then nothing has to differ.
+    """
     named = found.assessment.nearest.effects
-    shown = [own for own in by_part if own.effect in named or own.differs]
-    if not shown:
+    shown = [own for own in by_part if own.effect in named or own.share >= DIFFERING_SHOWN]
+    if not shown or (found.missing is not None and found.missing.closed):
         return []
     sentence = differing(found)
     return [

@@ -54,7 +54,7 @@ def about_as_near(found: Diagnosis) -> str:
 
 def differing_trials(found: Diagnosis) -> str:
     """In which parameter of the nearest explanation trials differ most; mostly empty."""
-    own = _differing(found.assessment.nearest.by_trial)
+    own = _differing(found, found.assessment.nearest.by_trial)
     if own is None:
         return ""
     values = [_told(value) for value in own.values]
@@ -66,7 +66,7 @@ def differing_trials(found: Diagnosis) -> str:
 
 def differing_motions(found: Diagnosis) -> str:
     """In which parameter of the nearest explanation motions of the base differ most; mostly empty."""
-    own = _differing(found.assessment.nearest.by_motion)
+    own = _differing(found, found.assessment.nearest.by_motion)
     if own is None:
         return ""
     each = zip(own.values, own.parts, strict=True)
@@ -77,8 +77,10 @@ def differing_motions(found: Diagnosis) -> str:
     )
 
 
-def _differing(by_part: Sequence[ValuesByPart]) -> ValuesByPart | None:
-    return next((one for one in by_part if one.differs), None)
+def _differing(found: Diagnosis, by_part: Sequence[ValuesByPart]) -> ValuesByPart | None:
+    """None as well where a free-form law closes the gap: then nothing has to differ."""
+    closed = found.missing is not None and found.missing.closed
+    return None if closed else next((one for one in by_part if one.differs), None)
 
 
 def _named(own: ValuesByPart) -> str:

@@ -2,9 +2,12 @@
 
 from dataclasses import replace
 
+import pytest
 from diagnosis_fixtures import concluding
+from free_forms import missing_with
 
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
+from diagnosis.criteria import DIFFERING_SHARE
 from diagnosis.report.sentences.nearest import (
     about_as_near,
     differing_motions,
@@ -66,10 +69,20 @@ def test_what_differs_between_motions_is_told_with_their_names(dry):
     assert "if damping_error.scale is 0.1 forwards and -2.4 at rest, the nearest" in said
 
 
-def test_parts_that_hardly_differ_are_not_said_to(dry):
-    hardly = with_values(dry.found, by_trial=(replace(ZEROED, gap_own=9.9),))
+def test_parts_that_differ_no_more_than_what_is_missing_makes_them_are_not_said_to(dry):
+    hardly = replace(ZEROED, gap_own=8.0)
+    assert 0.3 < hardly.share < DIFFERING_SHARE
+    found = with_values(dry.found, by_trial=(hardly,), by_motion=(hardly,))
     for said in (differing_trials, differing_motions):
-        assert said(dry.found) == said(hardly) == ""
+        assert said(dry.found) == said(found) == ""
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_where_a_law_closes_the_gap_nothing_has_to_differ(dry, closed):
+    found = with_values(dry.found, by_trial=(ZEROED,), by_motion=(TURNING,))
+    found = replace(found, missing=replace(missing_with(), closed=closed))
+    for said in (differing_trials, differing_motions):
+        assert bool(said(found)) is not closed
 
 
 def test_what_comes_about_as_near_is_told_by_the_names_of_effects(dry):
