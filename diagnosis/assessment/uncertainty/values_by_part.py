@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.uncertainty.partitions import Partition
-from diagnosis.criteria import DIFFERING_SHARE
+from diagnosis.criteria import DIFFERING_SHARE, GAP_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.bounded_least_squares import bounded_least_squares
@@ -56,9 +56,12 @@ class ValuesByPart:
 
     @property
     def share(self) -> float:
-        """Share of the power beyond noise that these values take off what the common one leaves."""
-        beyond = self.gap_common**2 - 1.0
-        return (self.gap_common**2 - self.gap_own**2) / beyond if beyond > 0.0 else 0.0
+        """Share of the power beyond noise that these values take off what the common one leaves.
+
+        Of what is within the limits of noise, it is the share of that limit.
+        """
+        beyond = max(self.gap_common, GAP_LIMIT) ** 2 - 1.0
+        return (self.gap_common**2 - self.gap_own**2) / beyond
 
     @property
     def differs(self) -> bool:

@@ -56,6 +56,16 @@ def test_where_all_trials_agree_nothing_differs(alone):
     assert not own.differs
 
 
+def test_what_noise_alone_leaves_differs_by_chance_and_is_not_said_to(alone):
+    rng = np.random.default_rng(5)
+    left = [rng.normal(size=ROWS) for _ in range(3)]
+    noise = fit_of(("torque_bias",), by_trial=left, jacobian=[np.ones((ROWS, 1)) for _ in left], x=[0.0])
+    (own,) = by_trial(alone, noise)
+    # Two more numbers take off a chi-square of two: of 600 rows 0.003 of the variance on average.
+    assert 0.0 < own.share < 0.2
+    assert not own.differs
+
+
 def test_a_trial_in_which_nothing_is_seen_tells_nothing(alone):
     (own,) = by_trial(alone, biased((LEVEL, -LEVEL, LEVEL), seen=(1.0, 1.0, 0.0)))
     assert own.values[2] is None
