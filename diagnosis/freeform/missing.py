@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 
 PATIENCE, FREEDOM = 0.1, 4.0
 FLOOR = 0.1  # variance beyond the noise, of that of the noise, that hardly counts
+DAMPING = "damping_error"
 COMPANION = 4.0  # parameters that an effect, or a law, beside a law counts for: two things missing
 SECOND = 0.5  # of the probability of the place of a law, for that of one beside it
 CHOICE = 2.0  # parameters that the choice of a plain law, among some, counts for
@@ -224,8 +225,11 @@ def law_of(one: FreeFit, family: Family | None = None) -> Law:
 
 def _damping_of(family: Family, fit: Fit) -> float:
     """What a law of damping is multiplied by: the damping of the tissue over the nominal one."""
-    found = fit.parts.get("damping_error", np.zeros(1))
-    return math.exp(float(found[0])) if family.unit == VISCOUS and not family.multiplies else 1.0
+    if family.unit != VISCOUS or family.multiplies:
+        return 1.0
+    own = fit.parameterization
+    values = zip(own.owners, own.values(fit.x), strict=True)
+    return next((value for owner, value in values if owner == DAMPING), 1.0)
 
 
 def _with_factors_about_one(laws: Sequence[Law]) -> list[Law]:

@@ -1,5 +1,6 @@
 """Parts of a log: its trials, or what the base does when a reading is taken."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,12 +8,10 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria import TURNING_DEG_S
 from diagnosis.fitting.fit import Fit
-from diagnosis.fitting.noise_reestimation import by_trial_and_sensor
+from diagnosis.fitting.noise_reestimation import Read, by_trial_and_sensor
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.residuals.motion import base_rate
-
-Array = NDArray[np.float64]
 
 MOTIONS = ("turning forwards", "turning backwards", "at rest")
 
@@ -47,15 +46,18 @@ def trial_by_trial(problem: FitProblem, fit: Fit) -> Partition:
 def by_motion(problem: FitProblem, fit: Fit) -> Partition:
     """What the base does when a reading is taken is a part."""
     each = zip(problem.log.trials, by_trial_and_sensor(problem, fit.by_trial), strict=True)
-    rows = (
-        [np.interp(time_s, trial.time_s, _motion(trial)).round() for _, time_s, _ in read]
-        for trial, read in each
-    )
-    joined = (np.concatenate(own).astype(int) if own else np.zeros(0, int) for own in rows)
-    return Partition(names=MOTIONS, of_rows=tuple(joined)).known
+    rows = tuple(_motions_when_read(trial, read) for trial, read in each)
+    return Partition(names=MOTIONS, of_rows=rows).known
 
 
-def _motion(trial: PreparedTrial) -> Array:
+def _motions_when_read(trial: PreparedTrial, read: Sequence[Read]) -> NDArray[np.int_]:
+    """Number of the motion of the base at each row of the residuals of a trial, (N,)."""
+    motion = _motion(trial)
+    own = [motion[np.searchsorted(trial.time_s, time_s)] for _, time_s, _ in read]
+    return np.concatenate(own) if own else np.zeros(0, int)
+
+
+def _motion(trial: PreparedTrial) -> NDArray[np.int_]:
     """Number of the motion of the base at each sample, (N,)."""
     rate = base_rate(trial.time_s, trial.base_motion_deg)
-    return np.where(rate > TURNING_DEG_S, 0.0, np.where(rate < -TURNING_DEG_S, 1.0, 2.0))
+    return np.select([rate > TURNING_DEG_S, rate < -TURNING_DEG_S], [0, 1], 2)
