@@ -21,7 +21,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import LOST_COUNTS_FURTHEST, LOST_COUNTS_LEAVES, LOST_COUNTS_MOST
+from diagnosis.criteria.faults import LOST_COUNTS_FURTHEST, LOST_COUNTS_LEAVES, LOST_COUNTS_MOST
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.motion.base_jumps import BASE, Jump, large_jumps

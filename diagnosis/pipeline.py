@@ -16,7 +16,7 @@ from diagnosis.assessment.assess import Assessment, assess
 from diagnosis.assessment.identifiability import testable_effects
 from diagnosis.assessment.uncertainty.absent_effects import without_absent
 from diagnosis.assessment.uncertainty.hidden_effects import with_hidden_effects
-from diagnosis.criteria import REPLAYS_AFTER_STOP
+from diagnosis.criteria.selection import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem

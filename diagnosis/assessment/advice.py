@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from diagnosis.assessment.experiments import experiments, has_axis, sliding_experiments
 from diagnosis.assessment.next_experiment import best_experiment, narrowest
 from diagnosis.assessment.remedies import Parameters, check_that_tells, remedies
-from diagnosis.criteria import DECISIVE_SIGMA, MOST_RUNS, WORTH_A_RUN
+from diagnosis.criteria.assessment import DECISIVE_SIGMA, MOST_RUNS, WORTH_A_RUN
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem

@@ -18,7 +18,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import DETECTION_SIGMA, SCATTER, SECOND_LEAVES, SIMPLE_LEAD
+from diagnosis.criteria.assessment import DETECTION_SIGMA
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.selection import SECOND_LEAVES, SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import SAME_DEPTH_MM, SLIDING_MM_S
+from diagnosis.criteria.assessment import SAME_DEPTH_MM
+from diagnosis.criteria.fitting import SLIDING_MM_S
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 from diagnosis.residuals.motion import base_rate
 

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.criteria import MOST_OF_NEAREST, STEP_LEAVES
+from diagnosis.criteria.assessment import MOST_OF_NEAREST, STEP_LEAVES
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.fitting.problem import FitProblem

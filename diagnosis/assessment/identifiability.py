@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from diagnosis.criteria import SAME_DEPTH_MM, SLIDING_MM_S
+from diagnosis.criteria.assessment import SAME_DEPTH_MM
+from diagnosis.criteria.fitting import SLIDING_MM_S
 from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.log.rig_log import RigLog
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 from diagnosis.assessment.detection_limits import DetectionLimit
 from diagnosis.assessment.uncertainty.intervals import Interval
-from diagnosis.criteria import HIDDEN_MOVES, HIDDEN_SHARE
+from diagnosis.criteria.assessment import HIDDEN_MOVES, HIDDEN_SHARE
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.selection.richer_forms import overlap

@@ -19,7 +19,7 @@ from diagnosis.assessment.forward_step import Further, forward_selection
 from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
-from diagnosis.criteria import FAR_GAP
+from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.held_out.refits import held_out_or_refitted

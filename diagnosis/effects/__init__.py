@@ -12,7 +12,7 @@ from dataclasses import replace
 from importlib import import_module
 from types import ModuleType
 
-from diagnosis.criteria import INSERTED_AT_LEAST
+from diagnosis.criteria.prepare import INSERTED_AT_LEAST
 from diagnosis.effects import imperfections
 from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.effects.saved.folder import saved_effects

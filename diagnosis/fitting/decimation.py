@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
-from diagnosis.criteria import DECIMATION_SIGMA, LONG_LOG_S, WIDE_SIGMA
+from diagnosis.criteria.replay import DECIMATION_SIGMA, LONG_LOG_S, WIDE_SIGMA
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.colour import Colour

@@ -16,7 +16,7 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import FITTED
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, far_for

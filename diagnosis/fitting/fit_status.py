@@ -28,7 +28,8 @@ import numpy as np
 from mujoco import minimize
 from numpy.typing import NDArray
 
-from diagnosis.criteria import GAP_LIMIT, NEAR_FLOOR
+from diagnosis.criteria.fitting import GAP_LIMIT
+from diagnosis.criteria.selection import NEAR_FLOOR
 from diagnosis.fitting.bounded_least_squares import promised_reduction
 from diagnosis.fitting.objective import Objective
 

@@ -7,7 +7,7 @@ if something slow is left.
 
 Both scatter by chance. For n white samples whose sigma is from their own first differences, the
 root mean square / sigma scatters by 1 / (2 sqrt(n)) (von Neumann's ratio), that of
-m means by 1 / sqrt(2 m). The limits allow 3.5 of these (criteria.FLOOR_SIGMA).
+m means by 1 / sqrt(2 m). The limits allow 3.5 of these (FLOOR_SIGMA).
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import FLOOR_SIGMA, GAP_LIMIT, SLOW_BLOCK, SLOW_LIMIT
+from diagnosis.criteria.fitting import FLOOR_SIGMA, GAP_LIMIT, SLOW_BLOCK, SLOW_LIMIT
 
 Array = NDArray[np.float64]
 

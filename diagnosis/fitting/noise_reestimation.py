@@ -22,10 +22,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
-    COLOUR_MOST_PARTS,
-    COLOUR_PARTS_GAP,
-    COLOURED_BLOCK_S,
+from diagnosis.criteria.fitting import (
     NOISE_HEAVIEST,
     NOISE_HEAVY,
     NOISE_LEAST_ROWS,
@@ -33,6 +30,7 @@ from diagnosis.criteria import (
     NOISE_TRUST,
     SLOW_BLOCK,
 )
+from diagnosis.criteria.noise import COLOUR_MOST_PARTS, COLOUR_PARTS_GAP, COLOURED_BLOCK_S
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_floor import NoiseFloor, floor_of
 from diagnosis.fitting.problem import FitProblem

@@ -13,7 +13,8 @@ recording, what the filter did to slow ones is fitted.
 from dataclasses import replace
 from functools import partial
 
-from diagnosis.criteria import SCATTER, START_SPREAD_DEG
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.prepare import START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import gamma
 
-from diagnosis.criteria import (
+from diagnosis.criteria.noise import (
     COLOUR_OSCILLATES_ABOVE_HZ,
     SWINGS_CHANCE,
     SWINGS_LEAST_PERIODS,

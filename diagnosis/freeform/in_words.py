@@ -2,7 +2,7 @@
 
 import statistics
 
-from diagnosis.criteria import FAR_GAP
+from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.fit import Fit

@@ -21,7 +21,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAVES, GAP_LIMIT
+from diagnosis.criteria.fitting import GAP_LIMIT
+from diagnosis.criteria.freeform import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAVES
 from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.family import VISCOUS, Family

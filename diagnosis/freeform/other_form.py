@@ -21,7 +21,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import SCATTER, SECOND_LEAVES
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.selection import SECOND_LEAVES
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.decimation import decimated

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS
+from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS
 from diagnosis.fitting.decimation import gap_on_the_log
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.assessment.assess import Assessment
-from diagnosis.criteria import CLOSED_GAP
+from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.fits.free_fit import FreeFit

@@ -11,7 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import find_peaks, savgol_filter
 
-from diagnosis.criteria import REST_LEAST_S, REST_RATE_SHARE, REST_RATE_SIGMA, REVERSAL_SHARE
+from diagnosis.criteria.lab_files import (
+    REST_LEAST_S,
+    REST_RATE_SHARE,
+    REST_RATE_SIGMA,
+    REVERSAL_SHARE,
+)
 from diagnosis.lab_files.readers.lab_table import Array
 from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.white_noise import white_noise

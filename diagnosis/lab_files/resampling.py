@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import resample_poly
 
-from diagnosis.criteria import GAP_STEPS
+from diagnosis.criteria.prepare import GAP_STEPS
 from diagnosis.lab_files.readers.lab_table import Array
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from scipy.integrate import cumulative_trapezoid
 
-from diagnosis.criteria import DERIVATIVE_WINDOW_S
+from diagnosis.criteria.lab_files import DERIVATIVE_WINDOW_S
 from diagnosis.lab_files.mapping import FIRST_REST, ColumnSource, ImportMapping, TrialSource
 from diagnosis.lab_files.motion import motion_of
 from diagnosis.lab_files.readers.lab_table import Array, LabFile

@@ -3,7 +3,7 @@
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
-from diagnosis.criteria import NOMINAL_RANGE
+from diagnosis.criteria.log import NOMINAL_RANGE
 from diagnosis.log.nominal_rig import (
     NominalInertia,
     NominalNeedle,

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.log import (
     FEWEST_ROWS,
     LONGEST_SAMPLE_S,
     MOST_BYTES_PER_ROW,

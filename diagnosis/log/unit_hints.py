@@ -9,7 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 
-from diagnosis.criteria import NAME_LIKENESS, NOISE_RATIO
+from diagnosis.criteria.checks import NOISE_RATIO
+from diagnosis.criteria.log import NAME_LIKENESS
 
 # How many of the format's unit one of these is. `mN m`, `mNm` and `mn_m` are all "mnm" here.
 ANGLES = {"deg": 1, "degree": 1, "degrees": 1, "rad": 57.29578, "radian": 57.29578}

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from diagnosis.criteria import LEAST_DIFFERENCES
+from diagnosis.criteria.prepare import LEAST_DIFFERENCES
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import convolve1d
 from scipy.signal import firwin2
 
-from diagnosis.criteria import BAND_LOBES, BAND_ROLL_OFF, BAND_SHARE
+from diagnosis.criteria.faults import BAND_LOBES, BAND_ROLL_OFF, BAND_SHARE
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import Trial
 

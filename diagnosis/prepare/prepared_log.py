@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
-from diagnosis.criteria import SLIDING_MM_S, STEADY_DEPTH_MM
+from diagnosis.criteria.fitting import SLIDING_MM_S
+from diagnosis.criteria.prepare import STEADY_DEPTH_MM
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.prepare.motion.between_samples import between_samples
 from diagnosis.prepare.motion.inertia import InertiaTorque, inertia_warning, smooth_motion

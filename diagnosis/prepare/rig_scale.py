@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import FASTEST_NEEDLE_RAD_S, TORQUES_OF_UNIT_SCALE_N_MM
+from diagnosis.criteria.prepare import FASTEST_NEEDLE_RAD_S, TORQUES_OF_UNIT_SCALE_N_MM
 from diagnosis.prepare.prepared_log import PreparedLog
 from models.needle import NITINOL
 

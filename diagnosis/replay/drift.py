@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import DRIFT_ALIKE
+from diagnosis.criteria.selection import DRIFT_ALIKE
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial

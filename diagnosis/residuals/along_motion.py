@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.residuals import (
     ANGLE_PARTS,
     LEAST_IN_PART,
     RATE_PARTS_DEG_S,

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import correlate
 
-from diagnosis.criteria import INTERVAL_Z, LONGEST_LAG_S
+from diagnosis.criteria.assessment import INTERVAL_Z
+from diagnosis.criteria.residuals import LONGEST_LAG_S
 
 Array = NDArray[np.float64]
 

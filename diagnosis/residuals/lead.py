@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import correlate
 
-from diagnosis.criteria import LEAD_SIGMA, LONGEST_LEAD_S
+from diagnosis.criteria.residuals import LEAD_SIGMA, LONGEST_LEAD_S
 
 Array = NDArray[np.float64]
 

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import AFTER_REVERSAL_S, SLIDING_MM_S, TURNING_DEG_S
+from diagnosis.criteria.fitting import SLIDING_MM_S
+from diagnosis.criteria.residuals import AFTER_REVERSAL_S, TURNING_DEG_S
 from diagnosis.log.trial import Trial
 
 Array = NDArray[np.float64]

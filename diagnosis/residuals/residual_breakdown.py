@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import BANDS_HZ, STRETCH_S
+from diagnosis.criteria.residuals import BANDS_HZ, STRETCH_S
 from diagnosis.in_sigma import in_sigma
 from diagnosis.residuals.motion import phases
 from diagnosis.residuals.trial_residual import TrialResidual

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import LONGEST_LAG_S
+from diagnosis.criteria.residuals import LONGEST_LAG_S
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import Noise

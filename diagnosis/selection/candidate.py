@@ -7,15 +7,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.fitting import (
     BASE_NOISE_GAP,
     BASE_NOISE_MORE,
     BASE_NOISE_READINGS,
-    HELD_OUT_GAP,
     SCATTER,
+    SCATTER_NAMED,
+)
+from diagnosis.criteria.selection import (
+    HELD_OUT_GAP,
     SCATTER_CERTAIN_SIGMA,
     SCATTER_LEAST,
-    SCATTER_NAMED,
     SHIFT_LIMIT,
 )
 from diagnosis.effects import LIBRARY

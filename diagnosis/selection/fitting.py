@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.selection import (
     EQUAL_SCORE,
     FINALISTS,
     MOST_FINALISTS,

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import LOST_COUNTS_GAIN
+from diagnosis.criteria.faults import LOST_COUNTS_GAIN
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.motion.base_jumps import Jump

@@ -5,7 +5,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from diagnosis.criteria import FITS_AT_ONCE, GAP_LIMIT, NEAR_FLOOR, PROMISE_BROKEN
+from diagnosis.criteria.fitting import GAP_LIMIT
+from diagnosis.criteria.selection import FITS_AT_ONCE, NEAR_FLOOR, PROMISE_BROKEN
 from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem

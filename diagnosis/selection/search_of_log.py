@@ -6,7 +6,7 @@ search has found it shows. What is restored so counts only where it brings an ex
 
 from dataclasses import replace
 
-from diagnosis.criteria import LOST_COUNTS_SHARE
+from diagnosis.criteria.faults import LOST_COUNTS_SHARE
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.log.rig_log import RigLog

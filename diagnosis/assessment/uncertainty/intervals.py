@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.uncertainty.incomplete_model import covariance_of_incomplete
-from diagnosis.criteria import INTERVAL_Z
+from diagnosis.criteria.assessment import INTERVAL_Z
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.held_out.cross_validation import information

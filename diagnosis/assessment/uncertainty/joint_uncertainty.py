@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CONFIDENCE
+from diagnosis.criteria.assessment import CONFIDENCE
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter, slopes_at
 from diagnosis.fitting.fit import Fit

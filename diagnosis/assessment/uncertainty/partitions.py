@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import TURNING_DEG_S
+from diagnosis.criteria.residuals import TURNING_DEG_S
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import Read, by_trial_and_sensor
 from diagnosis.fitting.problem import FitProblem

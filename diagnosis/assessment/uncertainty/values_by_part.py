@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.assessment.uncertainty.partitions import Partition
-from diagnosis.criteria import DIFFERING_SHARE, GAP_LIMIT
+from diagnosis.criteria.assessment import DIFFERING_SHARE
+from diagnosis.criteria.fitting import GAP_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.bounded_least_squares import bounded_least_squares

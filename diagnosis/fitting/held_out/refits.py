@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import FAR_STEP
+from diagnosis.criteria.freeform import FAR_STEP
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.held_out.cross_validation import held_out_residuals, with_own_answers
 from diagnosis.fitting.noise_floor import floor_of

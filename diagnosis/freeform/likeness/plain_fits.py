@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import FAR_GAP
+from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family, kind_of

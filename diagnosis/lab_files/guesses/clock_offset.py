@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.signal import lfilter
 
-from diagnosis.criteria import (
+from diagnosis.criteria.lab_files import (
     ALIKE_PEAKS,
     CLOCK_BLOCKS,
     CLOCK_LEAST_CORRELATION,

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.criteria import CLOCK_LEAST_S, CLOCK_SIGMA, TIP_LAG_AT_MOST_S
+from diagnosis.criteria.lab_files import CLOCK_LEAST_S, CLOCK_SIGMA, TIP_LAG_AT_MOST_S
 from diagnosis.lab_files.guesses.clock_offset import clock_offset
 from diagnosis.lab_files.guesses.guessed import GuessedColumn
 from diagnosis.lab_files.guesses.hysteresis import LoopShape, branches_of, kept_torques, loop_shape

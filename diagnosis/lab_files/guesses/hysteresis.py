@@ -23,7 +23,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from diagnosis.criteria import BRANCH_LEAST_NOISE, FIRST_QUARTERS, LAST_QUARTERS, PLATEAU
+from diagnosis.criteria.lab_files import BRANCH_LEAST_NOISE, FIRST_QUARTERS, LAST_QUARTERS, PLATEAU
 from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.readers.lab_table import Array
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from diagnosis.criteria import NAME_LEAST_SCORE
+from diagnosis.criteria.lab_files import NAME_LEAST_SCORE
 from diagnosis.lab_files.readers.lab_table import Array, LabTable
 from diagnosis.lab_files.units import QUANTITIES, MeasuredQuantity, factor_of, unit_in, without_unit
 from diagnosis.log.unit_hints import words_of

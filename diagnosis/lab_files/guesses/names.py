@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.criteria import NAME_LEAST_SCORE, SAME_MOTION
+from diagnosis.criteria.lab_files import NAME_LEAST_SCORE, SAME_MOTION
 from diagnosis.lab_files.guesses.name_scores import (
     BASE,
     COMMANDED,

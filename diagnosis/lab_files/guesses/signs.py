@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from diagnosis.criteria import SIGN_LEAST_CORRELATION, SIGN_LEAST_WORK, ZERO_SIGMA
+from diagnosis.criteria.lab_files import SIGN_LEAST_CORRELATION, SIGN_LEAST_WORK, ZERO_SIGMA
 from diagnosis.lab_files.motion import Motion
 from diagnosis.lab_files.readers.lab_table import Array
 from diagnosis.log.checks.binned_trial import misfit

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from diagnosis.criteria import EVEN_STEPS, MOST_BACKWARDS
+from diagnosis.criteria.lab_files import EVEN_STEPS, MOST_BACKWARDS
 from diagnosis.lab_files.guesses.guessed import GuessedTimes
 from diagnosis.lab_files.guesses.name_scores import has_word, weight_of
 from diagnosis.lab_files.guesses.names import guessed_columns

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from diagnosis.criteria import TIP_LEAST_CORRELATION
+from diagnosis.criteria.lab_files import TIP_LEAST_CORRELATION
 from diagnosis.lab_files.guesses.guessed import GuessedColumn
 from diagnosis.lab_files.guesses.name_scores import is_called_an_angle
 from diagnosis.lab_files.readers.lab_table import Array, LabTable

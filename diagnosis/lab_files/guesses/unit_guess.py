@@ -4,15 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.criteria import (
-    LONGEST_SAMPLE_S,
+from diagnosis.criteria.lab_files import (
     METRES_AT_MOST,
     MICROSECONDS_AT_LEAST,
     MILLISECONDS_AT_LEAST,
     NANOSECONDS_AT_LEAST,
     RADIANS_AT_MOST,
-    SHORTEST_SAMPLE_S,
 )
+from diagnosis.criteria.log import LONGEST_SAMPLE_S, SHORTEST_SAMPLE_S
 from diagnosis.lab_files.readers.lab_table import Array
 from diagnosis.lab_files.units import MeasuredQuantity, factor_of, unit_in
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from diagnosis.criteria import MOST_BYTES_PER_ROW, MOST_ROWS
+from diagnosis.criteria.log import MOST_BYTES_PER_ROW, MOST_ROWS
 from diagnosis.lab_files.readers.lab_table import Array, LabFile, LabTable
 from diagnosis.lab_files.readers.text_cells import is_date, is_empty
 from diagnosis.lab_files.readers.text_header import settings

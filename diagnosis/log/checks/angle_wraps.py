@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
-    GAP_STEPS,
-    OUTLIER_MOST_RUN,
+from diagnosis.criteria.faults import OUTLIER_MOST_RUN
+from diagnosis.criteria.log import (
     WRAP_FLICKERS,
     WRAP_HELD,
     WRAP_MOTION_SIGMA,
     WRAP_PERIODS_DEG,
     WRAP_REMAINDER,
 )
+from diagnosis.criteria.prepare import GAP_STEPS
 from diagnosis.log.checks.wording import lines
 from diagnosis.log.trial import Trial, UnusableLog
 from diagnosis.log.white_noise import white_noise

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import (
     BACKWARD_SHARE,
     BACKWARD_TRAVEL_MM,
     DISTINCT_NOISES,

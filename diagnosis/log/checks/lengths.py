@@ -9,13 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import LENGTH_SLACK, LENGTH_SLACK_MM, PAUSE_STEPS
+from diagnosis.criteria.log import (
     LEAST_DEPTH_MM,
     LENGTH_HOLD_S,
     LENGTH_JUMP_MM,
-    LENGTH_SLACK,
-    LENGTH_SLACK_MM,
-    PAUSE_STEPS,
     SHORTEST_SHAFT_DIAMETERS,
     SHORTEST_SHAFT_MM,
 )

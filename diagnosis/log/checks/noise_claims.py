@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import BELIEVED_SCATTER
+from diagnosis.criteria.faults import BELIEVED_SCATTER
 from diagnosis.log.checks.wording import listed
 from diagnosis.log.trial import Trial
 from diagnosis.log.unit_hints import unit_off_by

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import (
     COMMON_PAUSES,
     LARGE_TURN_DEG,
     PAUSE_STEPS,

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import (
     LAG_DISTINCT,
     LAG_OVER_NOMINAL,
     LAG_UNDER_NOMINAL,

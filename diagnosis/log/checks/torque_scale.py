@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import (
     LEAST_FREE_SHAFT_MM,
     SCALE_SIGMA,
     TORQUE_OVER_TWIST,

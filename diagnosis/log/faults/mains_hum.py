@@ -23,14 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import gamma
 
-from diagnosis.criteria import (
-    FEWEST_ROWS,
+from diagnosis.criteria.faults import (
     HUM_FALSE_ALARMS,
     HUM_GRID_HZ,
     HUM_HARMONICS,
     HUM_LOWEST_HZ,
     HUM_MAINS_HZ,
 )
+from diagnosis.criteria.log import FEWEST_ROWS
 from diagnosis.log.faults.spectral_line import line_in, power_over_neighbours
 from diagnosis.log.trial import SENSORS, Trial
 

@@ -25,7 +25,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import (
     OUTLIER_CLEARANCE,
     OUTLIER_FALSE_ALARMS,
     OUTLIER_MISFIT,

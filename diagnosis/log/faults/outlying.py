@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import (
     OUTLIER_LEFT_MOST_RUN,
     OUTLIER_LEFT_NEIGHBOURS,
     OUTLIER_LEFT_QUIET_SIGMA,

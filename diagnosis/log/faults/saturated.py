@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import (
     SATURATED_BESIDE,
     SATURATED_LEAST_RUN,
     SATURATED_NEAR_SIGMA,

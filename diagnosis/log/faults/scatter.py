@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import BELIEVED_SCATTER, FROZEN_LEAST_RUN
+from diagnosis.criteria.faults import BELIEVED_SCATTER, FROZEN_LEAST_RUN
 from diagnosis.log.white_noise import white_noise
 
 Array = NDArray[np.float64]

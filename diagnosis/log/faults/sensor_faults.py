@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import NOISE_RATIO
+from diagnosis.criteria.faults import (
     FALSE_ALARM_CHANCE,
     FROZEN_LEAST_AGAIN,
     FROZEN_LEAST_RUN,
     FROZEN_LEAST_S,
     FROZEN_TIMES_USUAL_RUN,
-    NOISE_RATIO,
     PULSES_SHARE,
 )
 from diagnosis.log.checks.wording import lines

@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.signal import welch
 
-from diagnosis.criteria import (
-    FEWEST_ROWS,
+from diagnosis.criteria.faults import (
     SMOOTHED_LEAST_ORDER,
     SMOOTHED_LEVEL,
     SMOOTHED_MISFIT,
@@ -32,6 +31,7 @@ from diagnosis.criteria import (
     SMOOTHED_ZERO,
     SMOOTHED_ZERO_LEVEL,
 )
+from diagnosis.criteria.log import FEWEST_ROWS
 from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.trial import SENSORS, Trial
 

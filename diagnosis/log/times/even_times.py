@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import isotonic_regression
 
-from diagnosis.criteria import EVEN_MOST_STEPS, EVEN_SIGMA, EVEN_TELLING_SIGMA, FEWEST_ROWS
+from diagnosis.criteria.log import EVEN_MOST_STEPS, EVEN_SIGMA, EVEN_TELLING_SIGMA, FEWEST_ROWS
 from diagnosis.log.local_curves import interpolated
 from diagnosis.log.trial import SENSORS, FileRows, Trial
 

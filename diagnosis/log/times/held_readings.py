@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
-from diagnosis.criteria import HELD_EVIDENCE, HELD_MOST_ROWS, HELD_SHARE
+from diagnosis.criteria.faults import HELD_EVIDENCE, HELD_MOST_ROWS, HELD_SHARE
 from diagnosis.log.trial import Trial
 
 Array = NDArray[np.float64]

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import nnls
 
-from diagnosis.criteria import (
+from diagnosis.criteria.log import (
     JITTER_CERTAIN_SIGMA,
     JITTER_LEAST_STEPS,
     JITTER_MOST_ALIKE,

@@ -23,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import (
     BELIEVED_SCATTER,
-    FEWEST_ROWS,
     SLOW_LEAST_SHARE,
     SLOW_REGULAR_SHARE,
     SLOW_TIMES_CHANCE,
 )
+from diagnosis.criteria.log import FEWEST_ROWS
 from diagnosis.log.checks.wording import listed
 from diagnosis.log.faults.scatter import quantum
 from diagnosis.log.times.held_readings import held_rows

@@ -20,7 +20,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.prepare import (
     ALIKE_RATES,
     AVERAGED_ABOVE_HZ,
     AVERAGED_LEAST_SHARE,

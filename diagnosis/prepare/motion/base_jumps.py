@@ -15,7 +15,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.ndimage import percentile_filter
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import (
     LOST_COUNTS_BESIDE,
     LOST_COUNTS_LEAST_DEG,
     LOST_COUNTS_MOST_SMALL,

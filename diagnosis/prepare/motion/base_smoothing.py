@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
 from scipy.signal import savgol_coeffs
 
-from diagnosis.criteria import SMOOTHING_SIGMA
+from diagnosis.criteria.prepare import SMOOTHING_SIGMA
 from diagnosis.prepare.motion.false_reversals import without_false_reversals
 
 Array = NDArray[np.float64]

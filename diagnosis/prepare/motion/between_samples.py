@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
 
-from diagnosis.criteria import STRAIGHT_DEG
+from diagnosis.criteria.prepare import STRAIGHT_DEG
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.optimize import isotonic_regression
 from scipy.signal import find_peaks
 
-from diagnosis.criteria import REVERSAL_SIGMA, STANDSTILL_SAMPLES, STANDSTILL_SIGMA
+from diagnosis.criteria.prepare import REVERSAL_SIGMA, STANDSTILL_SAMPLES, STANDSTILL_SIGMA
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

@@ -19,7 +19,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.prepare import (
     GAP_CERTAIN_DEG,
     GAP_ERASED_TWISTS,
     GAP_FORGOTTEN_LENGTHS,

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from diagnosis.criteria import FEWEST_ROWS, INERTIA_COUNTS_SIGMA, INERTIA_LOST_SIGMA
+from diagnosis.criteria.log import FEWEST_ROWS
+from diagnosis.criteria.prepare import INERTIA_COUNTS_SIGMA, INERTIA_LOST_SIGMA
 from diagnosis.log.nominal_rig import NominalRig
 from models.needle import Needle
 

@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES, DRIFT_SIZE_OF_FASTEST
+from diagnosis.criteria.noise import DRIFT_FASTEST_S, DRIFT_MOST_SHAPES, DRIFT_SIZE_OF_FASTEST
 from diagnosis.prepare.noise.colour import Colour
 
 Array = NDArray[np.float64]

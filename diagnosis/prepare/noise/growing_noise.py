@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import binom
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import (
     GROWING_LEAST,
     GROWING_LOG_LIKELIHOOD,
     GROWING_MOST,
     GROWING_WHITE,
-    LEAST_DIFFERENCES,
 )
+from diagnosis.criteria.prepare import LEAST_DIFFERENCES
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 

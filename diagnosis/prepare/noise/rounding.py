@@ -14,11 +14,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.faults import FROZEN_LEAST_RUN
+from diagnosis.criteria.prepare import (
     COARSE_LEAST_KINDS,
     COARSE_LEAST_RUNS,
     COARSE_STEP_SIGMA,
-    FROZEN_LEAST_RUN,
     HELD_COUNTED_S,
     HELD_S,
     HELD_STEPS,

@@ -11,16 +11,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.checks import NOISE_RATIO
+from diagnosis.criteria.noise import (
     COLOUR_AT_ONCE_SHARE,
     COLOUR_CHI_SQUARE,
     COLOUR_FAR_ABOVE_CLAIM,
     COLOUR_LEAST_SHARE,
     COLOUR_MOST,
-    LEAST_DIFFERENCES,
     LEAST_GAP,
-    NOISE_RATIO,
 )
+from diagnosis.criteria.prepare import LEAST_DIFFERENCES
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise

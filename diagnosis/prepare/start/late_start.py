@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from diagnosis.criteria import TURNING_DEG_S
+from diagnosis.criteria.residuals import TURNING_DEG_S
 
 _TOLD_S = 0.01  # of readings that are not used
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.prepare import (
     START_DECAYS,
     START_FROM_REST,
     START_LEAST_SIGMA,
@@ -30,8 +30,8 @@ from diagnosis.criteria import (
     START_OUTLIER_SIGMA,
     START_SIGMA,
     START_TORQUE_FACTOR,
-    TURNING_DEG_S,
 )
+from diagnosis.criteria.residuals import TURNING_DEG_S
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import SENSORS, Trial

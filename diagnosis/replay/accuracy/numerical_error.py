@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.cores import side_by_side
-from diagnosis.criteria import NUMERICAL_ERROR_WARNED
+from diagnosis.criteria.replay import NUMERICAL_ERROR_WARNED
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import correlate1d, uniform_filter1d
 
-from diagnosis.criteria import UNSAMPLED_SIGMA
+from diagnosis.criteria.faults import UNSAMPLED_SIGMA
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import maximum_filter1d
 
-from diagnosis.criteria import UNSAMPLED_SIGMA
+from diagnosis.criteria.faults import UNSAMPLED_SIGMA
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.motion.between_samples import between_samples

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import START_FILTER_DECAYS, START_MOST_UNUSED
+from diagnosis.criteria.prepare import START_FILTER_DECAYS, START_MOST_UNUSED
 from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.rig_parameters import BASE, RigParameters
 from diagnosis.replay.sensing.bearing import bearing_torque_n_mm

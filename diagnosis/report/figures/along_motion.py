@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from diagnosis.criteria import TURNING_DEG_S
+from diagnosis.criteria.residuals import TURNING_DEG_S
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import LABELS, LINES, PREDICTIONS, WIDE

@@ -3,7 +3,7 @@
 import math
 
 from diagnosis.assessment.identifiability import unidentifiable
-from diagnosis.criteria import NESTED_LEAD, SIMPLE_LEAD
+from diagnosis.criteria.selection import NESTED_LEAD, SIMPLE_LEAD
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn
 from diagnosis.report.figures.ranking import describe_ranking, draw_ranking

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
-from diagnosis.criteria import DIFFERING_SHOWN
+from diagnosis.criteria.assessment import DIFFERING_SHOWN
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn

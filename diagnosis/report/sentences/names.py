@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from diagnosis.criteria import SHOWN_PROBABILITY
+from diagnosis.criteria.assessment import SHOWN_PROBABILITY
 from diagnosis.effects import LIBRARY
 from diagnosis.result import Diagnosis
 from diagnosis.selection.verdicts.verdict import VerdictKind

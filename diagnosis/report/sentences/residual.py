@@ -1,6 +1,6 @@
 """What is left of a log, and where."""
 
-from diagnosis.criteria import ALMOST_NOTHING_SIGMA
+from diagnosis.criteria.assessment import ALMOST_NOTHING_SIGMA
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import SENSORS
 from diagnosis.report.sentences.names import best_in_words

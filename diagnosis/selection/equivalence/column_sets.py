@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import EQUIVALENT_PART
+from diagnosis.criteria.selection import EQUIVALENT_PART
 
 Array = NDArray[np.float64]
 

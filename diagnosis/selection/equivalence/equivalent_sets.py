@@ -18,11 +18,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.selection import (
     EQUIVALENT_FITS,
     EQUIVALENT_LEAVES,
     EQUIVALENT_SIZE,
-    SCATTER,
     SIMPLE_LEAD,
 )
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY

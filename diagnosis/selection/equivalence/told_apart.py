@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CONTENDING, SCATTER, SIMPLE_LEAD
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.selection import CONTENDING, SIMPLE_LEAD
 from diagnosis.effects import IMPERFECTIONS, LIBRARY
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.fit import Fit, fit_effects

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
-from diagnosis.criteria import SIMPLE_LEAD
+from diagnosis.criteria.selection import SIMPLE_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.fitting.projection import Projection

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from diagnosis.criteria import DRIFT_ALLOWED_SIGMA, DRIFT_SIZES_SIGMA, MOST_QUIETENED
+from diagnosis.criteria.noise import DRIFT_ALLOWED_SIGMA, DRIFT_SIZES_SIGMA
+from diagnosis.criteria.selection import MOST_QUIETENED
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.drift import AllowedDrift

@@ -18,7 +18,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import BASE_NOISE_READINGS, CONTENDING, SIMPLE_LEAD
+from diagnosis.criteria.fitting import BASE_NOISE_READINGS
+from diagnosis.criteria.selection import CONTENDING, SIMPLE_LEAD
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate
 from sim.needles.run import SimulationFailed

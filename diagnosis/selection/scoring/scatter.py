@@ -15,7 +15,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import EXACT, SCATTER
+from diagnosis.criteria.fitting import EXACT, SCATTER
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.held_out.cross_validation import information
 

@@ -12,7 +12,7 @@ less than the odds that are asked for anyway.
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CONTENDING, UNRESOLVED_SHARE
+from diagnosis.criteria.selection import CONTENDING, UNRESOLVED_SHARE
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import TIP

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.criteria import CONTENDING, FAR_GAP, FINALISTS, PLAINER_LEAVES, PLAINER_SETS, SIMPLE_LEAD
+from diagnosis.criteria.freeform import FAR_GAP, PLAINER_LEAVES, PLAINER_SETS
+from diagnosis.criteria.selection import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.bounded_least_squares import promised_reduction

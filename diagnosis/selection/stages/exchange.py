@@ -8,7 +8,7 @@ other one is screened in its place.
 from collections.abc import Sequence
 from typing import Any
 
-from diagnosis.criteria import EXCHANGE_GAP, MOST_EXCHANGED
+from diagnosis.criteria.selection import EXCHANGE_GAP, MOST_EXCHANGED
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists

@@ -13,13 +13,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
-    FINEST_ELEMENTS,
-    FINEST_STEP_S,
-    NEAR_FLOOR,
-    REFINE_SHARE,
-    REFINE_SIGMA,
-)
+from diagnosis.criteria.replay import FINEST_ELEMENTS, FINEST_STEP_S, REFINE_SHARE, REFINE_SIGMA
+from diagnosis.criteria.selection import NEAR_FLOOR
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.replay.resolution import Resolution

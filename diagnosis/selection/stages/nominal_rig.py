@@ -1,6 +1,6 @@
 """The nominal rig: exactly as rig.yaml says, and within the scatter of its constants."""
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.fitting import fit_all, fit_beside
 from diagnosis.selection.record import kept

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from itertools import product
 
-from diagnosis.criteria import MOST_PAIRS, PAIR_BASES, SECOND_LEAVES, WORTH_FITTING
+from diagnosis.criteria.selection import MOST_PAIRS, PAIR_BASES, SECOND_LEAVES, WORTH_FITTING
 from diagnosis.selection.fitting import fit_finalists
 from diagnosis.selection.richer_forms import overlap
 from diagnosis.selection.screened_fits import fit_screened

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import CONTENDING, FINALISTS, SIMPLE_LEAD
+from diagnosis.criteria.selection import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import FITTED
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all, fit_finalists

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.criteria import PAIR_BASES, WORTH_FITTING
+from diagnosis.criteria.selection import PAIR_BASES, WORTH_FITTING
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.selection.candidate import Candidate, candidate
 from diagnosis.selection.fitting import fit_finalists

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from diagnosis.criteria import (
+from diagnosis.criteria.selection import (
     FAULT_CONTENDERS,
     FAULT_PAIRS,
     FINALISTS,

@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import NEARLY, START_LEFT_SHARE, START_LEFT_TIMES
+from diagnosis.criteria.prepare import START_LEFT_SHARE, START_LEFT_TIMES
+from diagnosis.criteria.selection import NEARLY
 from diagnosis.fitting.decimation import decimated, gap_on_the_log
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.nuisance import late_starts_of

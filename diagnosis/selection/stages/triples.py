@@ -8,7 +8,7 @@ pair leaves beyond noise, where that does not explain the log; and where it does
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from diagnosis.criteria import (
+from diagnosis.criteria.selection import (
     MOST_TRIPLES,
     SECOND_LEAVES,
     TRIPLE_BASES,

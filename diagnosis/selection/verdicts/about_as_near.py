@@ -7,7 +7,7 @@ were fitted.
 
 from dataclasses import replace
 
-from diagnosis.criteria import AS_NEAR_LEAVES, AS_NEAR_SETS
+from diagnosis.criteria.freeform import AS_NEAR_LEAVES, AS_NEAR_SETS
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.state import SearchState

@@ -4,13 +4,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.criteria import (
+from diagnosis.criteria.freeform import FAR_GAP, PLAINER_LEAVES
+from diagnosis.criteria.selection import (
     CLEAR_SHIFT,
     EQUAL_SCORE,
-    FAR_GAP,
     NESTED_LEAD,
     NOMINAL_LEAD,
-    PLAINER_LEAVES,
     SIMPLE_LEAD,
 )
 from diagnosis.effects import IMPERFECTIONS

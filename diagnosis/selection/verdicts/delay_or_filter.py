@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-from diagnosis.criteria import LAG_LITTLE, SCATTER
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.selection import LAG_LITTLE
 from diagnosis.effects import FITTED, IMPERFECTIONS, LIBRARY
 from diagnosis.selection.candidate import Candidate
 

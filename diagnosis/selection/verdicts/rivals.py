@@ -5,7 +5,14 @@ Scores of candidates are compared; `reached` is that of the best.
 
 import math
 
-from diagnosis.criteria import LAG_ALONE_SIGMA, LATE_LEAD, NEARLY, NESTED_LEAD, PART_LEAD, SHIFT_LIMIT
+from diagnosis.criteria.selection import (
+    LAG_ALONE_SIGMA,
+    LATE_LEAD,
+    NEARLY,
+    NESTED_LEAD,
+    PART_LEAD,
+    SHIFT_LIMIT,
+)
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.verdicts.delay_or_filter import lags_little

@@ -9,7 +9,7 @@ from diagnosis_fixtures import coarse_of, concluded, log_of, start_of_search
 from reference_log import TIP, make_log
 
 from diagnosis.assessment.detection_limits import detection_limit, detection_limits
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.rig_log import read_rig_log

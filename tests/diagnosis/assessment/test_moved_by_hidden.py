@@ -7,7 +7,7 @@ from diagnosis_fixtures import coarse_of, log_of, turns
 from diagnosis.assessment.detection_limits import DetectionLimit, detection_limits
 from diagnosis.assessment.moved_by_hidden import moved_by_hidden
 from diagnosis.assessment.uncertainty.intervals import Interval
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Workers

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, TIP, TORQUE, fit_of, log_of, problem_of
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting import fit as module

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from mujoco import minimize
 
-from diagnosis.criteria import GAP_LIMIT, NEAR_FLOOR
+from diagnosis.criteria.fitting import GAP_LIMIT
+from diagnosis.criteria.selection import NEAR_FLOOR
 from diagnosis.fitting.fit import _minimised
 from diagnosis.fitting.fit_status import (
     _FUTILE_LATER,

@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, fit_of, joined, log_of, problem_of
 from scipy.signal import lfilter
 
-from diagnosis.criteria import NOISE_TRUST, SCATTER
+from diagnosis.criteria.fitting import NOISE_TRUST, SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_reestimation import (
     in_units_of,

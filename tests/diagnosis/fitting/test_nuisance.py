@@ -6,7 +6,8 @@ from dataclasses import replace
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.criteria import SCATTER, START_SPREAD_DEG
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.prepare import START_SPREAD_DEG
 from diagnosis.fitting.nuisance import (
     CONVENTIONS,
     PRIOR_SIGMA,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, problem_of
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.objective import NearStart, Objective
 from diagnosis.fitting.parameterization import parameterization_of

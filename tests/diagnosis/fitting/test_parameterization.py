@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of, starts

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, problem_of
 
-from diagnosis.criteria import SWINGS_SHARE
+from diagnosis.criteria.noise import SWINGS_SHARE
 from diagnosis.fitting.swinging import swinging_hz, swinging_where_coloured
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL

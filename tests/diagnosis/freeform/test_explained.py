@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import TORQUE, log_of, problem_of
 from free_forms import linear_fit, missing_with, nothing_told
 
-from diagnosis.criteria import CLOSED_GAP
+from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.families.readings import families
 from diagnosis.freeform.fits.free_fit import FreeFit

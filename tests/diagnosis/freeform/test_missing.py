@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from free_forms import CURVE, LEVEL, family_of, free_fit, linear_fit
 
-from diagnosis.criteria import CLOSED_GAP, FREE_LAW_GAIN
+from diagnosis.criteria.freeform import CLOSED_GAP, FREE_LAW_GAIN
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.family import VISCOUS

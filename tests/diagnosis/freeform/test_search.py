@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from free_forms import LEVEL, family_of, linear_fit, one_trial
 
-from diagnosis.criteria import CLOSED_GAP, FAR_GAP
+from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
 from diagnosis.freeform.fits import together

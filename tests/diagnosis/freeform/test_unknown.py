@@ -7,7 +7,7 @@ from diagnosis_fixtures import RIG
 from free_forms import free_fit, nothing_told
 from rig_outside import log_outside
 
-from diagnosis.criteria import CLOSED_GAP
+from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.decimation import decimated
 from diagnosis.freeform import unknown

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from analytic_log import TURNS, at, change_rig, change_text, change_trial, refusal
 
-from diagnosis.criteria import MOST_ROWS
+from diagnosis.criteria.log import MOST_ROWS
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import UnusableLog
 from diagnosis.log.trial_file import read_trial

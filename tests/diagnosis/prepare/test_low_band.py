@@ -10,7 +10,7 @@ import pytest
 from diagnosis_fixtures import TIP, log_with, trial, turns
 from scipy.signal import butter, sosfiltfilt
 
-from diagnosis.criteria import BAND_SHARE
+from diagnosis.criteria.faults import BAND_SHARE
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.rig_log import read_rig_log
 from diagnosis.log.trial import SENSORS, Trial

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import trial, turns
 
-from diagnosis.criteria import ANGLE_PARTS
+from diagnosis.criteria.residuals import ANGLE_PARTS
 from diagnosis.residuals.along_motion import BASE_ANGLE, RATE, SINCE_REVERSAL, part_means
 
 TRIAL = trial(turns(step=0.002), step=0.002)

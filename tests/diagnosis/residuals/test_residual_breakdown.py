@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import NOISE, TIP, TORQUE, log_with, trial, turns
 
-from diagnosis.criteria import BANDS_HZ
+from diagnosis.criteria.residuals import BANDS_HZ
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import Trial
 from diagnosis.replay.prediction import Prediction

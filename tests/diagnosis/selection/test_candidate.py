@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, joined, log_of, problem_of, scored
 
-from diagnosis.criteria import BASE_NOISE_READINGS, HELD_OUT_GAP, SCATTER, SCATTER_NAMED, SHIFT_LIMIT
+from diagnosis.criteria.fitting import BASE_NOISE_READINGS, SCATTER, SCATTER_NAMED
+from diagnosis.criteria.selection import HELD_OUT_GAP, SHIFT_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import FitStatus, Termination

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
 
-from diagnosis.criteria import NOISE_TRUST
+from diagnosis.criteria.fitting import NOISE_TRUST
 from diagnosis.fitting.fit import nominal_fit
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters

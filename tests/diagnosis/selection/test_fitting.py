@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import FITTED_SAMPLES, NO_LOG, fit_of, scored
 
-from diagnosis.criteria import (
+from diagnosis.criteria.selection import (
     CONTENDING,
     EQUAL_SCORE,
     FINALISTS,

@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import FITTED_SAMPLES, NO_LOG
 
-from diagnosis.criteria import (
-    CONTENDING,
-    NEAR_FLOOR,
-    PROMISE_BROKEN,
-)
+from diagnosis.criteria.selection import CONTENDING, NEAR_FLOOR, PROMISE_BROKEN
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection import fitting, screened_fits

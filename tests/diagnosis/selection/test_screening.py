@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import coarse_of, log_of, problem_of
 
-from diagnosis.criteria import PROMISE_BROKEN
+from diagnosis.criteria.selection import PROMISE_BROKEN
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import STEPS_GAIN, STEPS_MOST, STEPS_SHARE
+from diagnosis.criteria.freeform import STEPS_GAIN, STEPS_MOST, STEPS_SHARE
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.events import DIFFERENCES
 from diagnosis.freeform.families.readings import TIP, TORQUE

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 
-from diagnosis.criteria import (
+from diagnosis.criteria.noise import (
     COLOUR_ABOVE_HZ,
     COLOUR_MOST_ORDER,
     COLOUR_OSCILLATES_ABOVE_HZ,

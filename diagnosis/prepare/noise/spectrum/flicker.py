@@ -17,7 +17,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COLOUR_ABOVE_HZ, COLOUR_LONGEST_S, COLOUR_OPEN, COLOUR_WINDOW_S
+from diagnosis.criteria.noise import (
+    COLOUR_ABOVE_HZ,
+    COLOUR_LONGEST_S,
+    COLOUR_OPEN,
+    COLOUR_WINDOW_S,
+)
 from diagnosis.prepare.noise.noise_colour import ColouredPart, NoiseColour
 from diagnosis.prepare.noise.spectrum.levels import (
     NoiseLevels,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from diagnosis.criteria import (
+from diagnosis.criteria.noise import (
     COLOUR_ABOVE_HZ,
     COLOUR_LONGEST_S,
     COLOUR_WINDOW_S,

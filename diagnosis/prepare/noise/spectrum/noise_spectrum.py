@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import (
+from diagnosis.criteria.noise import (
     COLOUR_CHI_SQUARE,
     COLOUR_LEAST_PART,
     COLOUR_LEAST_SHARE,

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COLOUR_WINDOW_S
+from diagnosis.criteria.noise import COLOUR_WINDOW_S
 from diagnosis.prepare.noise.autoregression import steps_of
 
 Array = NDArray[np.float64]

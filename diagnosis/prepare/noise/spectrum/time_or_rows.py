@@ -5,7 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import COLOUR_CHI_SQUARE, COLOUR_LEAST_SHARE, COLOUR_MOST_PARTS, UNEVEN_ROWS
+from diagnosis.criteria.noise import (
+    COLOUR_CHI_SQUARE,
+    COLOUR_LEAST_SHARE,
+    COLOUR_MOST_PARTS,
+    UNEVEN_ROWS,
+)
 from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.colour_of_rows import ColourOfRows, even_rows
 from diagnosis.prepare.noise.spectrum.noise_spectrum import noise_colour, unlikeliness

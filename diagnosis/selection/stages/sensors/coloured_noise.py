@@ -9,7 +9,7 @@ show it, what is left of them must have nothing in common, and little may be lef
 
 from dataclasses import replace
 
-from diagnosis.criteria import (
+from diagnosis.criteria.noise import (
     COLOUR_ABOVE_HZ,
     COLOUR_CHI_SQUARE,
     COLOUR_OPEN,

@@ -6,7 +6,13 @@ are effects, a second imperfection is looked for beside them on the log itself: 
 
 from itertools import product
 
-from diagnosis.criteria import EXCHANGE_GAP, FINALISTS, IMPERFECT_BASES, MOST_PAIRS, WORTH_FITTING
+from diagnosis.criteria.selection import (
+    EXCHANGE_GAP,
+    FINALISTS,
+    IMPERFECT_BASES,
+    MOST_PAIRS,
+    WORTH_FITTING,
+)
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.selection.fitting import fit_all, fit_finalists
 from diagnosis.selection.screened_fits import fit_screened

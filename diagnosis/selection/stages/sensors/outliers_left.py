@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.criteria import OUTLIER_LEFT_SHARE
+from diagnosis.criteria.faults import OUTLIER_LEFT_SHARE
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.problem import FitProblem

@@ -19,7 +19,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.criteria import JUMP_LEAST_SAMPLES, JUMP_SHARE, JUMPS_SHARE, MOST_JUMPS, SIMPLE_LEAD
+from diagnosis.criteria.selection import (
+    JUMP_LEAST_SAMPLES,
+    JUMP_SHARE,
+    JUMPS_SHARE,
+    MOST_JUMPS,
+    SIMPLE_LEAD,
+)
 from diagnosis.fitting.nuisance import reading_jump
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS

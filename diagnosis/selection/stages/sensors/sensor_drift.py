@@ -12,7 +12,7 @@ log whose depth was zeroed anew in each trial, beside effects that were not ther
 import math
 from dataclasses import replace
 
-from diagnosis.criteria import (
+from diagnosis.criteria.selection import (
     CONTENDING,
     DRIFT_PROMISED_GAP,
     DRIFT_SHARE,

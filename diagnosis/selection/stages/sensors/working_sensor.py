@@ -19,14 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm, ttest_1samp
 
-from diagnosis.criteria import (
+from diagnosis.criteria.noise import DRIFT_START_SIGMA
+from diagnosis.criteria.selection import (
     DRIFT_ALIKE_SIGMA,
     DRIFT_FOLLOWS_SIGMA,
     DRIFT_MOST_EFFECTS,
     DRIFT_OF_TIP_ALONE_SIGMA,
     DRIFT_ONE_COURSE_SIGMA,
     DRIFT_RANGE_SIGMA,
-    DRIFT_START_SIGMA,
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place

@@ -11,7 +11,7 @@ from diagnosis.assessment.uncertainty.incomplete_model import (
     PARTS_OF_A_TRIAL,
     covariance_of_incomplete,
 )
-from diagnosis.criteria import INTERVAL_Z
+from diagnosis.criteria.assessment import INTERVAL_Z
 from diagnosis.replay.rig_parameters import NOMINAL
 
 PARTS, DRAWS = 2 * PARTS_OF_A_TRIAL, 400

@@ -8,7 +8,7 @@ import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, fit_of, log_of, problem_of
 
 from diagnosis.assessment.uncertainty.intervals import covariance, intervals
-from diagnosis.criteria import INTERVAL_Z
+from diagnosis.criteria.assessment import INTERVAL_Z
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, held_by_a_bound, joined, log_of, problem_of
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.fit import fit_effects

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import TORQUE, joined, log_of, problem_of
 
-from diagnosis.criteria import FAR_STEP
+from diagnosis.criteria.freeform import FAR_STEP
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.held_out.cross_validation import held_out_residuals

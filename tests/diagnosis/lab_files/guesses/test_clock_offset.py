@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from analytic_log import TURNS
 
-from diagnosis.criteria import CLOCK_LEAST_S
+from diagnosis.criteria.lab_files import CLOCK_LEAST_S
 from diagnosis.lab_files.guesses.clock_offset import clock_offset
 
 TIME, BASE_DEG = TURNS["time_s"].to_numpy(), TURNS["base_angle_deg"].to_numpy()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagnosis.criteria import NAME_LEAST_SCORE
+from diagnosis.criteria.lab_files import NAME_LEAST_SCORE
 from diagnosis.lab_files.guesses.name_scores import (
     all_words,
     has_word,

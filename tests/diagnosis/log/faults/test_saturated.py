@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from analytic_log import TURNS
 
-from diagnosis.criteria import SATURATED_LEAST_RUN
+from diagnosis.criteria.faults import SATURATED_LEAST_RUN
 from diagnosis.log.faults.saturated import ends_of_ranges
 from diagnosis.log.faults.sensor_faults import without_faults
 from diagnosis.log.trial import Trial

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from diagnosis.criteria import JITTER_MOST_STEPS
+from diagnosis.criteria.log import JITTER_MOST_STEPS
 from diagnosis.log.times.sampling_jitter import with_sampling_times
 from diagnosis.log.trial import Trial
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import joined, log_of
 
-from diagnosis.criteria import LOST_COUNTS_MOST_SMALL
+from diagnosis.criteria.faults import LOST_COUNTS_MOST_SMALL
 from diagnosis.prepare.motion.base_jumps import BASE, large_jumps, small_jumps
 from diagnosis.replay.rig_parameters import NOMINAL
 

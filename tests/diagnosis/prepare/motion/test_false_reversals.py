@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, turns
 
-from diagnosis.criteria import STANDSTILL_SAMPLES
+from diagnosis.criteria.prepare import STANDSTILL_SAMPLES
 from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.prepare.motion.false_reversals import turning_points, without_false_reversals
 from diagnosis.replay.sensing.bearing import PRESLIDING_DEG, stopped_at

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import log_of, problem_of
 
-from diagnosis.criteria import NUMERICAL_ERROR_WARNED
+from diagnosis.criteria.replay import NUMERICAL_ERROR_WARNED
 from diagnosis.replay.accuracy.numerical_error import (
     numerical_error,
     numerical_warnings,

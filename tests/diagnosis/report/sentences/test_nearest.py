@@ -7,7 +7,7 @@ from diagnosis_fixtures import concluding
 from free_forms import missing_with
 
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart
-from diagnosis.criteria import DIFFERING_SHARE
+from diagnosis.criteria.assessment import DIFFERING_SHARE
 from diagnosis.report.sentences.nearest import (
     about_as_near,
     differing_motions,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.selection.scoring.complexity import choice_penalty, complexity_penalty, most_penalty
 

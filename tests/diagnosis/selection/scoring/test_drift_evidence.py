@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of
 
-from diagnosis.criteria import DRIFT_SIZES_SIGMA, MOST_QUIETENED
+from diagnosis.criteria.noise import DRIFT_SIZES_SIGMA
+from diagnosis.criteria.selection import MOST_QUIETENED
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.drift import AllowedDrift
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise

@@ -5,7 +5,7 @@ import pytest
 from diagnosis_fixtures import fit_of
 from scipy.stats import norm
 
-from diagnosis.criteria import EXACT, SCATTER
+from diagnosis.criteria.fitting import EXACT, SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.scoring.complexity import complexity_penalty

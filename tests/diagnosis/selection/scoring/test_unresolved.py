@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import BASE, TIP, TORQUE, log_of, problem_of
 
-from diagnosis.criteria import CONTENDING, UNRESOLVED_SHARE
+from diagnosis.criteria.selection import CONTENDING, UNRESOLVED_SHARE
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.scoring.unresolved import contending, unresolved_cost
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, fit_of, log_of, scored, start_of_search
 
-from diagnosis.criteria import CONTENDING
+from diagnosis.criteria.selection import CONTENDING
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, joined, log_of, scored, sets_screened, start_of_search
 
-from diagnosis.criteria import EXCHANGE_GAP
+from diagnosis.criteria.selection import EXCHANGE_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate

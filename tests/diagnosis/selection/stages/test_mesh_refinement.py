@@ -11,7 +11,8 @@ from reference_log import BETA, TIP, TORQUE
 from reference_rig import Rig as ReferenceRig
 from reference_rig import simulate as simulate_reference
 
-from diagnosis.criteria import CONTENDING, FINEST_ELEMENTS, FINEST_STEP_S, NEAR_FLOOR
+from diagnosis.criteria.replay import FINEST_ELEMENTS, FINEST_STEP_S
+from diagnosis.criteria.selection import CONTENDING, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.log.trial import Trial

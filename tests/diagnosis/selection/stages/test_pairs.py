@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, scored
 
-from diagnosis.criteria import SECOND_LEAVES, WORTH_FITTING
+from diagnosis.criteria.selection import SECOND_LEAVES, WORTH_FITTING
 from diagnosis.selection.record import Decision
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages import pairs as module

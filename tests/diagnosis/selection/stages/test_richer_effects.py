@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, log_of, scored, start_of_search
 
-from diagnosis.criteria import SIMPLE_LEAD
+from diagnosis.criteria.selection import SIMPLE_LEAD
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.held_out.cross_validation import information

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from diagnosis_fixtures import fit_of, scored
 
-from diagnosis.criteria import NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
+from diagnosis.criteria.selection import NEAR_FLOOR, SECOND_LEAVES, WORTH_THE_LOG
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.selection.record import Decision, RecordEntry

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import joined, log_of, start_of_search, turns
 
-from diagnosis.criteria import START_LEFT_SHARE
+from diagnosis.criteria.prepare import START_LEFT_SHARE
 from diagnosis.log.trial import Trial
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.noise.drift import AllowedDrift

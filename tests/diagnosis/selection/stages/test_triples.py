@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import concluded, fit_of, log_of, scored, sets_screened, start_of_search
 
-from diagnosis.criteria import (
+from diagnosis.criteria.selection import (
     NEAR_FLOOR,
     SECOND_LEAVES,
     SIMPLE_LEAD,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import FITTED_SAMPLES, fit_of, scored, verdict_of
 
-from diagnosis.criteria import SCATTER
+from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.candidate import candidate

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import scored
 
-from diagnosis.criteria import PART_LEAD
+from diagnosis.criteria.selection import PART_LEAD
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.selection.verdicts.delay_or_filter import lags_little, takes_for_a_filter

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, held, scored, verdict_of
 
-from diagnosis.criteria import PART_LEAD, SCATTER
+from diagnosis.criteria.fitting import SCATTER
+from diagnosis.criteria.selection import PART_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.selection.verdicts.decision import verdict_on

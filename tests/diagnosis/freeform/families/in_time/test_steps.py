@@ -5,7 +5,7 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered, covered_by
 
-from diagnosis.criteria import STEPS_MOST
+from diagnosis.criteria.freeform import STEPS_MOST
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.in_time.steps import families
 from diagnosis.replay.rig_parameters import NOMINAL

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from diagnosis.criteria import COLOUR_CHI_SQUARE, FLICKER_ABOVE_HZ
+from diagnosis.criteria.noise import COLOUR_CHI_SQUARE, FLICKER_ABOVE_HZ
 from diagnosis.prepare.noise.spectrum.flicker import flicker_noise
 
 RATE_HZ, SECONDS = 100, 40.0

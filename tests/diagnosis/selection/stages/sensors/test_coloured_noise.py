@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import TIP, TORQUE, log_of, start_of_search
 from scipy.signal import lfilter
 
-from diagnosis.criteria import COLOUR_CHI_SQUARE
+from diagnosis.criteria.noise import COLOUR_CHI_SQUARE
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.noise_colour import NoiseColour

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import FITTED_SAMPLES, fit_of, scored, sets_screened
 
-from diagnosis.criteria import NEAR_FLOOR
+from diagnosis.criteria.selection import NEAR_FLOOR
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.screening import Screened
 from diagnosis.selection.stages.sensors import imperfections as module

@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import log_of, scored, start_of_search
 from drifting_logs import SIZES, STAGES, drifted, jumped, moved, off, searched
 
-from diagnosis.criteria import CONTENDING, DRIFT_RANGE_SIGMA, NEAR_FLOOR
+from diagnosis.criteria.selection import CONTENDING, DRIFT_RANGE_SIGMA, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE

@@ -7,7 +7,11 @@ import pytest
 from diagnosis_fixtures import scored
 from drifting_logs import drifted, moved, off, searched, sliding
 
-from diagnosis.criteria import DRIFT_ALIKE_SIGMA, DRIFT_OF_TIP_ALONE_SIGMA, DRIFT_RANGE_SIGMA
+from diagnosis.criteria.selection import (
+    DRIFT_ALIKE_SIGMA,
+    DRIFT_OF_TIP_ALONE_SIGMA,
+    DRIFT_RANGE_SIGMA,
+)
 from diagnosis.log.trial import SENSORS
 from diagnosis.selection.stages.sensors import working_sensor as module
 from diagnosis.selection.stages.sensors.working_sensor import (

@@ -1,0 +1,75 @@
+"""Reading a log: what is refused, time stamps that jitter, samples taken unevenly (log/)."""
+
+# Reading a log: what is refused (log/)
+
+NOMINAL_RANGE = {
+    ("needle", "diameter_mm"): (0.05, 100.0),
+    ("needle", "shear_modulus_gpa"): (1e-7, 1000.0),
+    ("needle", "density_g_cm3"): (0.1, 30.0),
+    ("tissue", "damping_n_mm_s_per_mm"): (1e-8, 10.0),
+    ("sensors", "tip_angle_noise_deg"): (0.0, 90.0),
+    ("sensors", "base_angle_noise_deg"): (0.0, 90.0),
+    ("sensors", "base_torque_noise_n_mm"): (0.0, 100.0),
+}
+"""Physical: beyond these a constant of rig.yaml is in another unit. Other machines than needles are in
+it as an equivalent shaft, which may be thick and soft."""
+READING_RANGE = {
+    "time_s": (-1e11, 1e11),
+    "base_angle_deg": (-1e5, 1e5),
+    "tip_angle_deg": (-1e5, 1e5),
+    "base_torque_n_mm": (-1e4, 1e4),
+    "tip_torque_n_mm": (-1e4, 1e4),
+    "inserted_mm": (-1e-6, 1000.0),
+    "free_mm": (-1e-6, 1000.0),
+    "speed_mm_s": (-1000.0, 1000.0),
+}
+"""Physical: beyond these a reading is in another unit, or a sentinel for a missing value."""
+FEWEST_ROWS = 20
+MOST_ROWS = 2_000_000
+MOST_BYTES_PER_ROW = 250
+"""Rows of one trial at least, of all trials together at most (hours at 100 Hz), bytes per row."""
+MOST_LOST_ROWS = 100_000
+"""Physical: rows that one pause may be long (1000 s at 100 Hz), since they are replayed as if they were
+there; a needle has forgotten by then all but what dry friction holds. A longer one ends a trial."""
+LONGEST_SAMPLE_S = 5.0
+"""Physical: a needle relaxes within seconds; rarer samples tell nothing, and may be in milliseconds."""
+SHORTEST_SAMPLE_S = 1e-5
+"""Physical: nobody reads an encoder of a needle more than 100 000 times a second: another unit."""
+LEAST_DEPTH_MM = 1.0
+"""Derived: READING_RANGE ends at 1000 mm, so that all lengths in metres are below this."""
+SHORTEST_SHAFT_DIAMETERS, SHORTEST_SHAFT_MM = 3.0, 30.0
+"""Physical: a shaft is longer than one or the other, unless in metres; needles have 50 to 500
+diameters."""
+LENGTH_JUMP_MM, LENGTH_HOLD_S = 5.0, 1.0
+"""Physical: what a length may change by between two samples, beside its travel in so long a hold."""
+WRAP_PERIODS_DEG = (360.0, 180.0)
+WRAP_REMAINDER = 1 / 6
+WRAP_MOTION_SIGMA = 6.0
+WRAP_FLICKERS, WRAP_HELD = 3, 1 / 36
+"""A wrap of an angle: its periods; share of one by which motion may change the jump; standard deviations
+by which the motion on both sides is certain; returns in a row that are no lone spike, and the share of a
+period by which noise may change these while the angle holds (10 deg of a turn: seven sigma of 1 deg)."""
+NAME_LIKENESS = 0.75
+"""Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
+tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
+
+# Time stamps that jitter (log/times/even_times.py)
+
+EVEN_MOST_STEPS = 1.0
+"""Steps by which stamps may be off an even grid, root mean square: beyond, the grid has lost count."""
+EVEN_TELLING_SIGMA = 3.0
+EVEN_SIGMA = 6.0
+"""Derived: a sample tells which axis is the true one where both disagree by three of their standard
+deviations; samples have to tell for even times by six of those of a fair coin, once in 10^9 logs."""
+
+# Samples taken unevenly under even stamps (log/times/sampling_jitter.py)
+
+JITTER_CERTAIN_SIGMA = 10.0
+JITTER_MOST_ALIKE = 0.2
+JITTER_MOST_BEYOND = 0.03
+JITTER_LEAST_STEPS, JITTER_MOST_STEPS = 0.02, 0.45
+"""Certainty with which the scatter of the base grows with its rate (root of twice the log-likelihood),
+correlation from sample to sample that is none of jitter, share of samples beyond four sigma, and steps
+that it may be. Six logs of the third rig with such a jitter: 17 to 90, -0.15 to 0.03, at most 0.008, and
+0.08 to 0.27; 58 without: at most 9, with a correlation of 0.9, and 0.005. Pulses of an exact base: 0.08
+beyond. Under half a step samples keep their order."""

@@ -1,0 +1,97 @@
+"""Preparing a log for replay (prepare/)."""
+
+AVERAGED_ABOVE_HZ = 220.0
+AVERAGING_S = 0.01
+AVERAGED_LEAST_SHARE, ALIKE_RATES = 0.5, 1.5
+"""Samples a second from which means over a hundredth of a second, a step of the replay, are diagnosed in
+their place; the share of its samples that a window has to have; and the longest median step of a trial /
+the shortest, above which there are no means: less leaves their windows two thirds of their samples."""
+STEADY_DEPTH_MM = 0.2
+"""A depth that changes by less is constant: what is left is the reading of the stage."""
+GAP_STEPS = 1.7
+"""Median steps that are a gap, between one sample and two."""
+GAP_SHORT_S = 0.15
+GAP_MISFIT = 3.0
+GAP_LONG_S = 0.4
+"""Gaps in which a motion has no time for more than a curve through both sides shows; its noise, beyond
+which no curve fits; and gaps in which it may have turned there and back."""
+GAP_CERTAIN_DEG = 0.2
+GAP_FORGOTTEN_S = 1.0
+GAP_FORGOTTEN_LENGTHS = 5.0
+GAP_SIDE_SAMPLES = 12
+"""Where a curve through the readings on both sides (12 each at most) is uncertain by more, the readings
+after the gap are not used for a second, or five lengths of a short gap: by then the needle has mostly
+relaxed; and longer after a long one, until the slowest mode of the needle has taken what is uncertain
+below that. Set on blind logs of seeds 1 and 2."""
+GAP_LOST_DEG = 1.0
+GAP_ERASED_TWISTS = 2.0
+"""Beyond a degree of uncertainty dry friction keeps a gap in mind, until the base has turned one way by
+twice the usual twist of the shaft: then all of the shaft slides the same way (return-point memory)."""
+GAP_USUAL_TWIST = 0.9
+GAP_HELD_DEG_S, GAP_UNKNOWN_TWIST_DEG = 5.0, 15.0
+"""Quantile of the twist of a held shaft that is the usual one: beyond are outliers and what a fast turn
+left. Physical: rate below which the base holds beside a needle's turns of tens of degrees a second, and
+the usual twist where the tip is not measured; a larger one discards more readings after a gap."""
+STRAIGHT_DEG = 0.1
+"""What the step of the base may change by from sample to sample where it is straight."""
+COARSE_STEP_SIGMA = 2.0
+COARSE_LEAST_RUNS, COARSE_LEAST_KINDS = 20, 2
+"""Derived: steps of twice the noise add a sixth to it, 1 / sqrt(12) of each; below, noise hides them.
+And short runs of equal readings, or different multiples of a step that a reading moves by, either of
+which a coarse sensor shows: an exact ramp without noise has no short runs, and moves by one step."""
+SHAKEN_STEP_SIGMA = 3.0
+"""Derived: noise shakes a reading across steps, and its mean stays off by
+q / pi exp(-2 (pi sigma / q)^2): a tenth of sigma at three, seven tenths at five."""
+HELD_S, HELD_STEPS = 0.12, 1.0
+HELD_COUNTED_S = 0.5
+"""A coarse reading whose means change by less than a step in so long stands still, and counts so often.
+Set on two logs that were rounded: it leaves 1.16 and 1.18 as slow part; all readings left 2.34."""
+SMOOTHING_SIGMA = 3.0
+"""Confidence of a window's value, standard deviations. Set on a practice log with a rubbing sheath."""
+REVERSAL_SIGMA, STANDSTILL_SIGMA, STANDSTILL_SAMPLES = 1.0, 2.0, 17
+"""Swing of the smoothed base below which it does not turn, in noise of its encoder: means of five and
+more samples are within one standard deviation. Where it turns, it rests as long as n values are within
+so many times noise / sqrt(n) of their middle, and not for fewer samples: a sine has such a top too.
+Set on ramps, smooth turns and sines of which the true motion is known: a bearing's friction comes out
+0.3 % too high where it was 2 to 14 %, and sines are left as they were."""
+TORQUES_OF_UNIT_SCALE_N_MM = (0.01, 30.0)
+"""Physical: half the range of the torque on rigs for which the library's bounds are written. Beyond,
+bounds follow the measured torque instead of the nominal stiffness."""
+FASTEST_NEEDLE_RAD_S = 20.0
+"""Physical: needles are turned by at most 10 rad/s; bounds on rates grow for rigs that turn faster."""
+INERTIA_COUNTS_SIGMA = 0.05
+"""Torque of inertia over the noise of the torque from which the motion of the base is interpolated by a
+spline. Derived: a twentieth of sigma adds 0.1 % to a gap; the paper's needle is at 0.001 and below."""
+INERTIA_LOST_SIGMA = 0.5
+"""Part of that torque that samples half as frequent would lose, from which a warning is given."""
+INSERTED_AT_LEAST = 0.1
+"""Physical: share of its logged depth that the shallowest trial really had; nobody is off by more."""
+START_LOOK_S = 0.25
+START_SIGMA, START_LEAST_SIGMA = 5.0, 3.0
+START_OUTLIER_SIGMA = 5.0
+START_TORQUE_FACTOR = 2.0
+"""A late start: a parabola through the first readings of the tip begins off the base by so many standard
+deviations of its intercept, and of one reading, since noise may not be white. Torque and twist agree
+within the last factor. 94 clean logs came to 3.5 at most, 60 trials that were cut to 17 and more."""
+START_MOVING_DEG_S, START_OFF_ZERO_DEG, START_FROM_REST = 5.0, 1.0, 0.5
+"""Rate and angle of the base at the first sample from which a trial began under way, and the share of
+its mean rate that a base has first if it starts from rest. Choices: an encoder is zeroed to some tenths
+of a degree, a base at rest scatters by less than 1 deg/s; a steady turn has 1, one from rest 0."""
+START_DECAYS = 10.0
+START_MOST_UNUSED = 0.25
+"""Time constants of the nominal needle's second mode after which a shape of twist that two numbers do
+not tell has faded (derived: 90 deg to 0.004 deg), and the largest share of a trial that is left out."""
+START_FILTER_DECAYS = 8.0
+"""Time constants of a filter of the torque for which it shows what was before a trial that began late
+(derived: 300 sigma to 0.1)."""
+START_SPREAD_DEG = 90.0
+"""One standard deviation of what the base turned by before a late start, about the twist that is read. A
+choice, so broad that a second of any trial outweighs it."""
+START_LEFT_TIMES, START_LEFT_SHARE = 3.0, 0.5
+"""Slowest time constants of the nominal needle from the first sample on, and the share of what the best
+explanation leaves beyond noise that lies within them, from which trials may begin wound up. Derived: of
+an initial twist 5 % are left by then; what a law leaves is spread over a trial. Measured: 1.07 on a bent
+needle that had come to rest before each trial (6 % of the samples), 0.01 and 0.08 on two laws outside
+the library."""
+LEAST_DIFFERENCES = 20
+"""Derived: fewer differences tell a scatter to no better than 16 %, 1 / sqrt(2 N)."""
