@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _BOOTSTRAPS = 400
-_BLOCK = 100  # samples that are resampled together: residuals of a gap are not independent
+_BLOCK, _LEAST_BLOCKS = 100, 20  # samples resampled together, as residuals of a gap are not independent
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,31 +28,27 @@ class GapReduction:
 
 def gap_reduction(before: tuple[Array, ...], after: tuple[Array, ...]) -> GapReduction:
     """Gap before and after on held-out trials, and its reduction with an interval by resampling."""
-    squares = [
-        np.stack([_blocks(b**2), _blocks(a**2)])
-        for b, a in zip(before, after, strict=True)
-        if b.size >= _BLOCK
-    ]
-    pooled = np.concatenate(squares, axis=1) if squares else np.ones((2, 1))
-    ratio = _shrink(pooled)
-    rng = np.random.default_rng(0)
-    picks = rng.integers(0, pooled.shape[1], size=(_BOOTSTRAPS, pooled.shape[1]))
-    low, high = np.quantile([_shrink(pooled[:, pick]) for pick in picks], [0.025, 0.975])
+    length = max(1, min(_BLOCK, sum(trial.size for trial in before) // _LEAST_BLOCKS))
+    squares = np.stack([_sums_of_squares(before, length), _sums_of_squares(after, length)])
+    picks = np.random.default_rng(0).integers(0, squares.shape[1], size=(_BOOTSTRAPS, squares.shape[1]))
+    low, high = np.quantile([_shrink(squares[:, pick]) for pick in picks], [0.025, 0.975])
     return GapReduction(
         before=_rms(before),
         after=_rms(after),
-        shrink=ratio,
+        shrink=_shrink(squares),
         shrink_low=float(low),
         shrink_high=float(high),
     )
 
 
-def _blocks(values: Array) -> Array:
-    return np.asarray(values[: values.size // _BLOCK * _BLOCK].reshape(-1, _BLOCK).mean(axis=1))
+def _sums_of_squares(by_trial: tuple[Array, ...], length: int) -> Array:
+    """Of blocks of about so many samples, none of which reaches into another trial."""
+    blocks = (np.array_split(trial, max(1, trial.size // length)) for trial in by_trial)
+    return np.array([block @ block for of_trial in blocks for block in of_trial])
 
 
 def _shrink(squares: Array) -> float:
-    before, after = squares.mean(axis=1)
+    before, after = squares.sum(axis=1)
     return float(1 - np.sqrt(after / before)) if before > 0 else 0.0
 
 

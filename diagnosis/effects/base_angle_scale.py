@@ -7,7 +7,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 
 
 def _apply(rig: RigParameters, scale: float) -> RigParameters:
-    return replace(rig, base_scale=scale)
+    return replace(rig, base_scale=rig.base_scale * scale)
 
 
 EFFECT = Effect(

@@ -7,7 +7,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 
 
 def _apply(rig: RigParameters, scale: float) -> RigParameters:
-    return replace(rig, tip_scale=scale)
+    return replace(rig, tip_scale=rig.tip_scale * scale)
 
 
 EFFECT = Effect(

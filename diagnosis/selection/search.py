@@ -17,13 +17,13 @@ dropped.
 
 from diagnosis.selection.stages.best import (
     best_to_its_end,
-    best_with_imperfections_in_place,
     best_without_each_effect,
-    plainer_than_the_best,
+    imperfections_in_place,
+    plainer_sets,
     scatter_of_the_best,
 )
 from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
-from diagnosis.selection.stages.exchange import one_effect_exchanged
+from diagnosis.selection.stages.exchange import exchanges
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs
@@ -31,7 +31,7 @@ from diagnosis.selection.stages.richer_effects import (
     richer_effects,
     richer_effects_in_place_of_three,
     richer_effects_in_the_best,
-    simpler_effects_in_the_best,
+    simpler_effects,
 )
 from diagnosis.selection.stages.sensors.coloured_noise import (
     coloured_noise,
@@ -42,8 +42,8 @@ from diagnosis.selection.stages.sensors.coloured_noise import (
 from diagnosis.selection.stages.sensors.drift_or_offset import drift_or_offset
 from diagnosis.selection.stages.sensors.growing_noise import noise_that_grows
 from diagnosis.selection.stages.sensors.imperfections import (
-    one_more_imperfection,
-    one_more_imperfection_of_three,
+    imperfections_beside_three,
+    imperfections_of_sensors,
 )
 from diagnosis.selection.stages.sensors.outliers_left import (
     outliers_and_more,
@@ -56,7 +56,7 @@ from diagnosis.selection.stages.sensors.sensor_drift import (
 )
 from diagnosis.selection.stages.single_effects import single_effects
 from diagnosis.selection.stages.stage import Stage, run_stages
-from diagnosis.selection.stages.starts_left import starts_beside_the_best
+from diagnosis.selection.stages.starts_left import starts_of_trials
 from diagnosis.selection.stages.triples import three_effects
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -71,21 +71,21 @@ STAGES: tuple[Stage, ...] = (
     richer_effects,
     pairs,
     richer_effects,
-    one_more_imperfection,
+    imperfections_of_sensors,
     stiffness_or_damping_alone,
     three_effects,
     richer_effects_in_place_of_three,
-    one_effect_exchanged,
-    one_more_imperfection_of_three,
+    exchanges,
+    imperfections_beside_three,
     best_to_its_end,
     noise_of_the_best,
-    best_with_imperfections_in_place,
+    imperfections_in_place,
     best_without_each_effect,
     richer_effects_in_the_best,
     scatter_of_the_best,
     finer_mesh,
     tissue_that_goes_along,
-    starts_beside_the_best,
+    starts_of_trials,
     noise_that_grows,
     outliers_beside_the_best,
     weakly_coloured_noise,
@@ -104,9 +104,9 @@ STAGES: tuple[Stage, ...] = (
     drift_or_offset,
     scatter_of_the_best,
     finer_mesh,
-    simpler_effects_in_the_best,
-    best_with_imperfections_in_place,
-    plainer_than_the_best,
+    simpler_effects,
+    imperfections_in_place,
+    plainer_sets,
 )
 
 

@@ -1,5 +1,6 @@
-"""docs/diagnosis.md tells the families of free-form laws that there are, and no other."""
+"""docs/diagnosis.md tells the stages of the search and the families of free-form laws that there are."""
 
+import math
 import re
 from dataclasses import replace
 from importlib import import_module
@@ -10,11 +11,13 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered
 
+from diagnosis.effects import FITTED
 from diagnosis.freeform import families as folder
 from diagnosis.freeform.missing import FLOOR, FREEDOM, PATIENCE
 from diagnosis.freeform.search import CONTENDERS, FINALISTS
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.variables import Variable
+from diagnosis.selection.search import STAGES
 
 PAGE = (Path(__file__).parents[2] / "docs" / "diagnosis.md").read_text()
 SECTION = PAGE.split("## When nothing explains the log")[1].split("\n## ")[0]
@@ -64,3 +67,18 @@ def test_the_numbers_of_search_and_ranking_are_those_of_the_code():
         f"the best {words[FINALISTS]} are fitted to the full log",
     ):
         assert said in " ".join(SECTION.split())
+
+
+def test_every_stage_of_the_search_has_a_row_of_the_table():
+    search = PAGE.split("\n## Search\n")[1].split("\n## ")[0]
+    first = ", ".join(re.findall(r"^\| ([^|]*) \|", search, flags=re.MULTILINE))
+    rows = {name.removeprefix("then ").removeprefix("again ") for name in re.split(r"[,;] ", first)}
+    assert {stage.__name__.replace("_", " ") for stage in STAGES} <= rows
+
+
+def test_the_choice_among_candidates_costs_what_the_page_says():
+    single, pair, triple = (math.comb(len(FITTED), size) for size in (1, 2, 3))
+    said = (
+        f"2 log {single} for a single effect, 2 log {pair} for a pair, 2 log {triple} for three effects"
+    )
+    assert said in " ".join(PAGE.split())

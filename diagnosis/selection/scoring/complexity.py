@@ -14,8 +14,8 @@ the data never determine its shape. Whether a typical form of it may be there is
 (equivalence/weak_forms.py).
 
 And what the choice among many costs: nothing, one of all effects, one of all pairs and one of all sets
-of three are equally likely before the data; one of 351 pairs fits by chance more often than one of 27
-effects.
+of three are equally likely before the data; one of hundreds of pairs fits by chance more often than one
+of thirty effects.
 """
 
 import math

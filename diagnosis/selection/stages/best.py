@@ -27,7 +27,7 @@ def best_to_its_end(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_all("best to its end", [(state.problem, best.names, best.fit.x)], workers))
 
 
-def plainer_than_the_best(state: SearchState, workers: Workers) -> SearchState:
+def plainer_sets(state: SearchState, workers: Workers) -> SearchState:
     """Sets of fewer parameters that leave hardly more, where all of them are far above the noise."""
     best = state.best
     if best.fit.gap <= FAR_GAP:
@@ -87,7 +87,7 @@ def _absent_at(parameter: Parameter) -> float:
     return parameter.to_fit(parameter.neutral)
 
 
-def best_with_imperfections_in_place(state: SearchState, workers: Workers) -> SearchState:
+def imperfections_in_place(state: SearchState, workers: Workers) -> SearchState:
     """The best with another reason for which a sensor is late in place of the one that it has.
 
     That is a delay, or an imperfection. The decimated log is too coarse to tell a delay from a low pass,

@@ -25,7 +25,7 @@ _BUILDING_UP = (pairs.STAGE, triples.STAGE)
 """Stages that screen every effect beside a set."""
 
 
-def one_effect_exchanged(state: SearchState, workers: Workers) -> SearchState:
+def exchanges(state: SearchState, workers: Workers) -> SearchState:
     """The state with leading sets of which one effect is exchanged for another."""
     state, explained = state.rechecked()
     leading = state.best

@@ -65,7 +65,7 @@ def richer_effects_in_the_best(state: SearchState, workers: Workers) -> SearchSt
     return state.adding(fit_all(f"{STAGE} in the best", calls, workers))
 
 
-def simpler_effects_in_the_best(state: SearchState, workers: Workers) -> SearchState:
+def simpler_effects(state: SearchState, workers: Workers) -> SearchState:
     """What an effect of the best contains, in its place, where that never came to the log itself.
 
     On the decimated log a richer law may imitate what this is too coarse for, and leave the simpler one

@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 STAGE = "starts of trials"
 
 
-def starts_beside_the_best(state: SearchState, workers: Workers) -> SearchState:
+def starts_of_trials(state: SearchState, workers: Workers) -> SearchState:
     """The state with trials that may begin wound up, where only that explains the log."""
     state, explained = state.rechecked()
     if explained or share_at_the_start(state) < START_LEFT_SHARE:

@@ -35,6 +35,23 @@ def test_what_changes_nothing_reduces_nothing():
     assert (found.shrink, found.shrink_low, found.shrink_high) == (0.0, 0.0, 0.0)
 
 
-def test_trials_that_are_shorter_than_a_block_have_no_interval():
-    short = (np.ones(50),)
-    assert gap_reduction(short, short).shrink == 0.0
+def test_trials_that_are_shorter_than_a_block_count():
+    """A slow sensor leaves a trial of half a minute some dozens of readings."""
+    found = gap_reduction((np.full(60, 4.0), np.full(90, 4.0)), (np.full(60, 1.0), np.full(90, 1.0)))
+    assert (found.shrink, found.shrink_low, found.shrink_high) == pytest.approx((0.75, 0.75, 0.75))
+
+
+def test_few_readings_have_an_interval_too():
+    few = tuple(trial[:75] for trial in noise(4.0, 1)), tuple(trial[:75] for trial in noise(1.0, 2))
+    found = gap_reduction(*few)
+    half = 1.96 * 0.25 / np.sqrt(150)
+    # Quantiles of 400 resamples of 21 blocks: good to about 20 %.
+    assert found.shrink - found.shrink_low == pytest.approx(half, rel=0.5)
+    assert found.shrink_high - found.shrink == pytest.approx(half, rel=0.5)
+
+
+def test_every_reading_counts():
+    """The last samples of a trial too, which do not fill a block."""
+    before, after = np.ones(199), np.r_[np.ones(150), np.zeros(49)]
+    found = gap_reduction((before,), (after,))
+    assert found.shrink == pytest.approx(1 - found.after / found.before)

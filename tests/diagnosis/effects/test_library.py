@@ -118,3 +118,12 @@ def test_stiction_whose_static_level_is_the_kinetic_is_nearly_coulomb_friction(s
     coulomb = LIBRARY["coulomb_friction"].apply(NOMINAL, level)
     found = [predict(RIG, sliding, [one])[0]["base_torque_n_mm"] for one in (stiction, coulomb)]
     assert np.abs(found[0] - found[1]).max() < 0.04 * np.abs(found[1]).max()
+
+
+SCALES = [name for name, effect in LIBRARY.items() if [p.name for p in effect.parameters] == ["scale"]]
+
+
+@pytest.mark.parametrize("name", SCALES)
+def test_a_scale_multiplies_what_is_there(name):
+    twice = LIBRARY[name].apply(LIBRARY[name].apply(NOMINAL, 1.25), 1.5)
+    assert twice == LIBRARY[name].apply(NOMINAL, 1.875)

@@ -26,7 +26,7 @@ from diagnosis.workers import Workers
 Array = NDArray[np.float64]
 Growth = Mapping[str, GrowingNoise]
 
-STAGE = "growing noise"
+STAGE = "noise that grows"
 
 
 def noise_that_grows(state: SearchState, workers: Workers) -> SearchState:

@@ -23,7 +23,7 @@ from diagnosis.workers import Workers
 _AT_ONCE = 3  # effects and imperfections that the decimated log is searched for
 
 
-def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
+def imperfections_of_sensors(state: SearchState, workers: Workers) -> SearchState:
     """Where nothing explains the log: one effect at most, with two imperfections of sensors."""
     stage = "imperfections of sensors"
     state, explained = state.rechecked()
@@ -42,7 +42,7 @@ def one_more_imperfection(state: SearchState, workers: Workers) -> SearchState:
     return state.adding(fit_finalists(f"finalists, {stage}", state.problem, fitted, workers))
 
 
-def one_more_imperfection_of_three(state: SearchState, workers: Workers) -> SearchState:
+def imperfections_beside_three(state: SearchState, workers: Workers) -> SearchState:
     """Where three effects and imperfections nearly explain the log: a further imperfection, or delay."""
     stage = "imperfections beside three"
     state, explained = state.rechecked()

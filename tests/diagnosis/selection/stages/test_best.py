@@ -56,24 +56,24 @@ def test_a_delay_may_be_an_imperfection_of_its_sensor(asked, still_start):
     """Of the same sensor, and no set twice."""
     late = scored(["tip_drag", "torque_sensor_delay"], 1.0)
     known = scored(["torque_clock", "tip_drag"], 2.0)
-    module.best_with_imperfections_in_place(replace(still_start, candidates=(late, known)), Workers())
+    module.imperfections_in_place(replace(still_start, candidates=(late, known)), Workers())
     assert asked == [
         ("tip_drag", name) for name in ("torque_average", "torque_butterworth", "torque_low_pass")
     ]
     asked.clear()
     tip = scored(["tip_sensor_delay"], 1.0)
-    module.best_with_imperfections_in_place(replace(still_start, candidates=(tip,)), Workers())
+    module.imperfections_in_place(replace(still_start, candidates=(tip,)), Workers())
     assert asked == [("tip_clock",)]
     asked.clear()
     other = scored(["tissue_viscoelasticity"], 1.0)  # its time constant is no delay of a sensor
-    module.best_with_imperfections_in_place(replace(still_start, candidates=(other,)), Workers())
+    module.imperfections_in_place(replace(still_start, candidates=(other,)), Workers())
     assert asked == []
 
 
 @pytest.mark.parametrize("lag", ["torque_sensor_delay", "torque_butterworth"])
 def test_a_lag_beside_one_low_pass_may_be_another_one(lag, asked, still_start):
     both = scored(["torque_low_pass", lag], 1.0)
-    module.best_with_imperfections_in_place(replace(still_start, candidates=(both,)), Workers())
+    module.imperfections_in_place(replace(still_start, candidates=(both,)), Workers())
     assert {("torque_average",), ("torque_low_pass",), ("torque_sensor_delay",)} <= {*asked} | {(lag,)}
     assert all({*names} <= {*TORQUE_LAGS} for names in asked)
 
@@ -218,6 +218,6 @@ def test_plainer_sets_that_leave_hardly_more_go_to_the_log(gap, known, fitted, a
     ]
     candidates = (best, *([left(31.0, *known)] if known else ()))
     state = replace(still_start, candidates=candidates, pairs=tuple(pairs))
-    module.plainer_than_the_best(state, Workers())
+    module.plainer_sets(state, Workers())
     assert asked[: len(fitted)] == fitted
     assert len(asked) == (2 if fitted else 0)

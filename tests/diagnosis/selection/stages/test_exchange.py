@@ -11,7 +11,7 @@ from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import dropped
-from diagnosis.selection.stages.exchange import STAGE, one_effect_exchanged
+from diagnosis.selection.stages.exchange import STAGE, exchanges
 from diagnosis.workers import Workers
 
 EFFECTS = ("coulomb_friction", "entry_friction", "base_compliance", "tip_drag", "stiction")
@@ -35,12 +35,12 @@ def leaving(names, gap):
 
 def asked_for(state, monkeypatch, *candidates, explained=False):
     """The sets that are screened, each after the fit of a smaller one."""
-    module = one_effect_exchanged.__globals__
+    module = exchanges.__globals__
     monkeypatch.setitem(
         module, "fit_all", lambda _, calls, __: ([leaving(names, 1.2) for _, names, _ in calls], ())
     )
     state = replace(state, effects=EFFECTS, candidates=candidates)
-    return sets_screened(one_effect_exchanged, state, monkeypatch, explained=explained)
+    return sets_screened(exchanges, state, monkeypatch, explained=explained)
 
 
 def test_each_effect_of_the_leading_set_is_exchanged_for_every_other(still_start, monkeypatch):
@@ -87,7 +87,7 @@ def test_friction_at_the_entry_is_found_where_friction_along_the_shaft_led():
     state = start_of_search(log, effects=EFFECTS)
     state = replace(state, candidates=(candidate(fit_near(state.problem, PAIR, 3e-4, 20.0)),))
     assert 1.05 < state.best.fit.gap < EXCHANGE_GAP
-    found = one_effect_exchanged(state, Workers())
+    found = exchanges(state, Workers())
     assert {*found.best.names} == TRUE
     assert found.rechecked()[1]
     assert {entry.stage for entry in found.record} == {STAGE, f"finalists, {STAGE}"}
@@ -101,4 +101,4 @@ def test_a_set_that_is_right_is_left_as_it_is():
     state = start_of_search(log, effects=EFFECTS)
     early = fit_near(state.problem, PAIR, 2.5e-3, 18.0, most_iterations=1)
     state = replace(state, candidates=(candidate(early),))
-    assert {*one_effect_exchanged(state, Workers()).best.names} == {*PAIR}
+    assert {*exchanges(state, Workers()).best.names} == {*PAIR}

@@ -93,10 +93,10 @@ def taken_for_falling():
 def test_what_the_best_contains_is_fitted_in_its_place(taken_for_falling, monkeypatch):
     monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, True))
     monkeypatch.setattr(SearchState, "at_the_floor", lambda *_: True)
-    found = module.simpler_effects_in_the_best(taken_for_falling, Workers())
+    found = module.simpler_effects(taken_for_falling, Workers())
     assert found.best.names == ("coulomb_friction",)
     assert np.exp(found.best.fit.x[0]) == pytest.approx(0.002, rel=0.05)
-    assert module.simpler_effects_in_the_best(found, Workers()) is found  # it is known by now
+    assert module.simpler_effects(found, Workers()) is found  # it is known by now
 
 
 def test_it_begins_as_the_decimated_log_has_it_rather_in_the_same_set(taken_for_falling):
@@ -112,7 +112,7 @@ def test_it_begins_as_the_decimated_log_has_it_rather_in_the_same_set(taken_for_
 def test_nothing_simpler_is_fitted_above_the_noise(taken_for_falling, monkeypatch):
     monkeypatch.setattr(SearchState, "rechecked", lambda state: (state, False))
     monkeypatch.setattr(SearchState, "at_the_floor", lambda *_: False)
-    assert module.simpler_effects_in_the_best(taken_for_falling, Workers()) is taken_for_falling
+    assert module.simpler_effects(taken_for_falling, Workers()) is taken_for_falling
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ from diagnosis.prepare.noise.drift import AllowedDrift
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.single_effects import single_effects
-from diagnosis.selection.stages.starts_left import STAGE, share_at_the_start, starts_beside_the_best
+from diagnosis.selection.stages.starts_left import STAGE, share_at_the_start, starts_of_trials
 from diagnosis.workers import Workers
 
 BENT = RigParameters(curvature_n_mm_per_mm=0.0004, curvature_phase_deg=100.0)
@@ -32,7 +32,7 @@ def rested(rig, seed):
 
 def searched(log, effects=("needle_curvature",)):
     state = single_effects(start_of_search(log, effects=effects), Workers())
-    return state, starts_beside_the_best(state, Workers())
+    return state, starts_of_trials(state, Workers())
 
 
 def decisions(state):

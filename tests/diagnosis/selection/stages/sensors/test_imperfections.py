@@ -20,7 +20,7 @@ EFFECTIVE = ("tip_drag", "tip_clock", "torque_clock", "torque_low_pass", "torque
 def asked_for(state, monkeypatch, *, explained):
     """The sets that are screened."""
     state = replace(state, effects=EFFECTIVE, pairs=(ROUGH, scored(["tip_drag", "torque_bias"], 1.0)))
-    return sets_screened(module.one_more_imperfection, state, monkeypatch, explained=explained)
+    return sets_screened(module.imperfections_of_sensors, state, monkeypatch, explained=explained)
 
 
 def test_a_second_imperfection_is_tried_beside_what_has_one(still_start, monkeypatch):
@@ -35,7 +35,7 @@ def test_none_is_tried_beside_what_leaves_far_more_than_the_best(still_start, mo
     best = scored(["tip_drag"], 1.0)
     best = replace(best, fit=replace(best.fit, cost=50.0))
     state = replace(still_start, effects=EFFECTIVE, singles=(best,), pairs=(far,))
-    run = module.one_more_imperfection
+    run = module.imperfections_of_sensors
     assert sets_screened(run, state, monkeypatch, explained=False) == []
     near = replace(state, pairs=(replace(ROUGH, fit=replace(ROUGH.fit, cost=0.99 * NEAR_FLOOR * 50.0)),))
     assert sets_screened(run, near, monkeypatch, explained=False)
@@ -63,7 +63,7 @@ def test_beside_three_that_nearly_explain_a_log_imperfections_and_delays_are_tri
     best, explained, asked, still_start, monkeypatch
 ):
     state = replace(still_start, effects=EFFECTIVE, candidates=(best,))
-    run = module.one_more_imperfection_of_three
+    run = module.imperfections_beside_three
     found = sets_screened(run, state, monkeypatch, explained=explained)
     assert [names[-1] for names in found] == asked
     assert all(names[:-1] == best.names for names in found)
@@ -82,5 +82,5 @@ def test_of_those_beside_three_that_promise_enough_the_two_best_are_fitted(still
     monkeypatch.setattr(SearchState, "rechecked", lambda own: (own, False))
     fitted = []
     monkeypatch.setattr(module, "fit_all", lambda _, calls, __: (fitted.extend(calls), ([], ()))[1])
-    module.one_more_imperfection_of_three(state, Workers())
+    module.imperfections_beside_three(state, Workers())
     assert [call[1][-1] for call in fitted] == ["torque_average", "torque_low_pass"]
