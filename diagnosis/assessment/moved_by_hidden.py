@@ -66,8 +66,9 @@ def _told(
     units = {p.name: p.unit for p in LIBRARY[hidden].reported}
     strength = ", ".join(f"{name} {_with_unit(v, units[name])}" for name, v in limit.parameters.items())
     return (
-        f"{effect} {own.name} would be {_with_unit(value, own.unit)} instead of {interval.value:.3g} "
-        f"beside {hidden} ({strength}), which this log would not show: its interval holds without it"
+        f"if the rig also had {hidden} ({strength}), which this log would not show, {effect} {own.name} "
+        f"would be {_with_unit(value, own.unit)} instead of {interval.value:.3g}: "
+        f"its interval assumes that the rig has none"
     )
 
 

@@ -139,7 +139,7 @@ def _more_of(law: Law, course: str) -> str:
     of = VARIABLES[law.variable]
     if law.multiplies:
         return f"It is multiplied by a factor that depends on {of}: {course}."
-    return f"It takes another law {PLACES[law.place]}, which depends on {of}: {course}."
+    return f"Another law is needed as well, {PLACES[law.place]}; it depends on {of}: {course}."
 
 
 def _likeness(law: Law) -> str:

@@ -35,7 +35,7 @@ def part_table(by_part: Sequence[ValuesByPart], caption: str) -> str:
         (
             own.effect,
             own.parameter,
-            *("does not tell" if v is None else f"{v:.3g}" for v in own.values),
+            *("not determined" if v is None else f"{v:.3g}" for v in own.values),
             own.unit,
             over_sigma(own.gap_own),
         )

@@ -36,8 +36,8 @@ def nearest(found: Diagnosis) -> str:
     )
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
-        f"{near.power_explained_percent:.0f} % of the power of the gap, {in_sigma(gap.before)} → "
-        f"{in_sigma(near.gap_after)}. No explanation {tried}reaches the noise floor{left}{bound}"
+        f"{near.power_explained_percent:.0f} % of the power of the residual beyond noise, "
+        f"{in_sigma(gap.before)} → {in_sigma(near.gap_after)}. No explanation {tried}reaches the noise floor{left}{bound}"
     )
 
 
@@ -59,8 +59,9 @@ def differing_trials(found: Diagnosis) -> str:
         return ""
     values = [_told(value) for value in own.values]
     return (
-        f"Trials seem to differ: if {_named(own)} is {_joined(values)}{_unit(own)} from trial to trial, "
-        f"{_leaves(own)}. Check what was set, zeroed or changed between them"
+        f"The trials seem to differ in {_named(own)}. With one value for each "
+        f"({_joined(values)}{_unit(own)}), {_leaves(own)}. "
+        "Check what was set, zeroed or changed between them"
     )
 
 
@@ -72,7 +73,8 @@ def differing_motions(found: Diagnosis) -> str:
     each = zip(own.values, own.parts, strict=True)
     values = [f"{_told(value)}{_unit(own)} {part}" for value, part in each if value is not None]
     return (
-        f"Motions of the base seem to differ: if {_named(own)} is {_joined(values)}, {_leaves(own)}. "
+        f"The motions of the base seem to differ in {_named(own)}. With one value for each "
+        f"({_joined(values)}), {_leaves(own)}. "
         "What is missing may depend on the direction, or act at rest"
     )
 
@@ -88,7 +90,7 @@ def _named(own: ValuesByPart) -> str:
 
 
 def _told(value: float | None) -> str:
-    return "open" if value is None else f"{value:.3g}"
+    return "not determined" if value is None else f"{value:.3g}"
 
 
 def _unit(own: ValuesByPart) -> str:
@@ -102,6 +104,6 @@ def _joined(each: Sequence[str]) -> str:
 
 def _leaves(own: ValuesByPart) -> str:
     return (
-        f"the nearest explanation leaves {in_sigma(own.gap_own)} of all trials together instead of "
-        f"{in_sigma(own.gap_common)} (linear estimate)"
+        f"the residual of all trials together falls from {in_sigma(own.gap_common)} to "
+        f"{in_sigma(own.gap_own)} (linear estimate)"
     )

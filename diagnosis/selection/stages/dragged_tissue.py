@@ -36,7 +36,13 @@ def tissue_that_goes_along(state: SearchState, workers: Workers) -> SearchState:
         return state
     again, explained = _fitted(state, _leading_with_elastic_tissue(state), workers).rechecked()
     if not explained:
-        return state.noting(noted(STAGE, Decision.DROPPED, "dragged along or not, none holds"))
+        return state.noting(
+            noted(
+                STAGE,
+                Decision.DROPPED,
+                "with tissue dragged along, no explanation reaches the noise either",
+            )
+        )
     return again.noting(noted(STAGE, Decision.KEPT, "elastic tissue that goes along explains the log"))
 
 

@@ -43,7 +43,13 @@ def starts_of_trials(state: SearchState, workers: Workers) -> SearchState:
     begun = _with_pasts(state)
     again, explained = _fitted_with_pasts(state, begun, workers).rechecked()
     if not explained:
-        return state.noting(noted(STAGE, Decision.DROPPED, "wound up or not, no explanation holds"))
+        return state.noting(
+            noted(
+                STAGE,
+                Decision.DROPPED,
+                "with trials that begin wound up, no explanation reaches the noise either",
+            )
+        )
     return again.noting(noted(STAGE, Decision.KEPT, "trials that begin wound up explain the log"))
 
 

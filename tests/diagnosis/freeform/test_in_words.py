@@ -172,10 +172,11 @@ def test_laws_that_were_fitted_together_are_told_one_by_one():
     other = replace(LAW, place=Place.TISSUE, variable="time", title="stiffness of the tissue")
     best = replace(seen_fit(), others=(free_fit(1.0, name="other").family,))
     said = what_is_missing(missing_with(beside=(other,), best=best), 8.9)
+    assert f"depends on the rate of turning: {course_of(LAW)}. Another law is needed as well, " in said
     assert (
-        f"depends on the rate of turning: {course_of(LAW)}. It takes another law in the tissue, " in said
+        f"in the tissue; it depends on the time: {course_of(other)}. Together they reduce the residual"
+        in said
     )
-    assert f"which depends on the time: {course_of(other)}. Together they reduce the residual" in said
     assert "with the time" not in said  # as if that were enough
 
 

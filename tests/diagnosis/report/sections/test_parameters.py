@@ -76,10 +76,10 @@ def test_values_by_part_stand_below_what_comes_nearest(dry):
     assert "on the decimated log: tip_drag." in said
     assert "Trial by trial" in said
     assert "with common values it is 3.00 σ" in said
-    assert "is 0.25 and -0.5 N mm from trial to trial" in said
+    assert "With one value for each (0.25 and -0.5 N mm)" in said
     assert "trial_02.csv" in said
     assert "By the motion of the base" in said
-    assert "Motions of the base seem to differ" in said
+    assert "The motions of the base seem to differ in " in said
     assert "damping_error" not in said.split("Trial by trial")[1]  # neither named, nor does it differ
     alone = "".join(parameters_section(dry.found, dry.report))
     assert "Trial by trial" not in alone

@@ -31,7 +31,7 @@ def test_what_comes_nearest_is_told_of_an_unknown_log_alone(dry):
     assert said.startswith(
         "Nearest: dry (Coulomb) friction along the shaft (coulomb_friction level 0.00"
     )
-    assert "% of the power of the gap" in said
+    assert "% of the power of the residual beyond noise" in said
     assert "the remaining residual is largest in " in said
 
 
@@ -60,13 +60,13 @@ def with_values(found, **parts):
 
 def test_what_differs_between_trials_is_told_with_its_values(dry):
     said = differing_trials(with_values(dry.found, by_trial=(ZEROED,)))
-    assert "if tip_angle_bias.bias is 0.1, open and -2.4 deg from trial to trial" in said
-    assert "leaves 5.00 σ of all trials together instead of 10.0 σ" in said
+    assert "in tip_angle_bias.bias. With one value for each (0.1, not determined and -2.4 deg), " in said
+    assert "the residual of all trials together falls from 10.0 σ to 5.00 σ" in said
 
 
 def test_what_differs_between_motions_is_told_with_their_names(dry):
     said = differing_motions(with_values(dry.found, by_motion=(TURNING,)))
-    assert "if damping_error.scale is 0.1 forwards and -2.4 at rest, the nearest" in said
+    assert "in damping_error.scale. With one value for each (0.1 forwards and -2.4 at rest), " in said
 
 
 def test_parts_that_differ_no_more_than_what_is_missing_makes_them_are_not_said_to(dry):
