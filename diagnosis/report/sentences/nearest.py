@@ -37,7 +37,8 @@ def nearest(found: Diagnosis) -> str:
     return (
         f"Nearest: {titles(near.effects)} ({', '.join(values)}) {verb} "
         f"{near.power_explained_percent:.0f} % of the power of the residual beyond noise, "
-        f"{in_sigma(gap.before)} → {in_sigma(near.gap_after)}. No explanation {tried}reaches the noise floor{left}{bound}"
+        f"{in_sigma(gap.before)} → {in_sigma(near.gap_after)}. "
+        f"No explanation {tried}reaches the noise floor{left}{bound}"
     )
 
 
