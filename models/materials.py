@@ -1,4 +1,4 @@
-"""The paper's five materials (Table I), as far as it states them.
+"""The paper's five materials (Table I), as far as it states them, and plastisol that only damps.
 
 Constants that follow from printed figures are computed here, once. Constants that the paper does
 not state are listed, together with the values that are used instead.

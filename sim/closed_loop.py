@@ -7,8 +7,8 @@ it is ideal by default.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any, Protocol
+from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import mujoco
 import numpy as np
@@ -216,10 +216,6 @@ class _Loop:
         """
         refuse_untrustworthy(self._outputs, self.scheduled.time_s, self.setup)
         lengths = {"free_mm": self._free_mm, "inserted_mm": self._inserted_mm}
-        inputs = Schedule(**{**_columns(self.scheduled), **lengths, "drive": self._acting})
+        inputs = replace(self.scheduled, **lengths, drive=self._acting)
         angles = self._angles if keep_shape else None
         return Run(setup=self.setup, inputs=inputs, outputs=self._outputs, angles_rad=angles)
-
-
-def _columns(schedule: Schedule) -> dict[str, Any]:
-    return {name: getattr(schedule, name) for name in schedule.__dataclass_fields__}

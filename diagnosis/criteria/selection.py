@@ -35,7 +35,7 @@ the gap. By chance a second takes up to 0.33 % of the gap off in 420 logs, 0.65 
 NEAR_FLOOR = 3.0
 """Times the cost at the floor: what promises to leave more is not fitted any more beside what is at the
 floor, and no finer mesh is spent on it."""
-PROMISE_BROKEN = 1.3
+PREDICTION_MISSED = 1.3
 """Times the cost that screening promises: a fit that leaves more begins once more, with nothing taken
 over by stiffness and damping, since the linear model that it began from is far from true."""
 SLOPES_OF_ITS_OWN = 1.15
@@ -58,9 +58,10 @@ MOST_QUIETENED = 4.0
 """Physical: what a filter in a sensor may divide its claimed noise by; more is a claim that is wrong."""
 DRIFT_SHARE = 0.3
 """Of what an explanation leaves beyond noise: what a drift has to take off before it is allowed for."""
-DRIFT_PROMISED_GAP = 1.15
-"""Residual that slopes have to promise beside a drift, in sigma, before all is fitted again. Measured:
-at most 1.04 in 12 logs that a drift explains, 1.17 to 1.78 in 9 searches of logs that it does not."""
+DRIFT_PREDICTED_GAP = 1.15
+"""Residual that slopes have to predict beside a drift, in sigma, at most, before all is fitted again.
+Measured: at most 1.04 in 12 logs that a drift explains, 1.17 to 1.78 in 9 searches of logs that it does
+not."""
 FAULT_CONTENDERS, FAULT_PAIRS = 12, 4
 """Leading explanations of the decimated log that are fitted with a drift, or with jumps of a reading;
 half of them single effects: without it these leave more than any pair of which one effect does what it

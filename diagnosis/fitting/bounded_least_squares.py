@@ -20,7 +20,7 @@ def bounded_least_squares(matrix: Array, wanted: Array, low: Array, high: Array)
     return np.asarray(np.clip(solved.x, low, high))
 
 
-def promised_reduction(slopes: Array, residual: Array, low: Array, high: Array) -> float:
+def predicted_reduction(slopes: Array, residual: Array, low: Array, high: Array) -> float:
     """What a step between `low` and `high` takes off the sum of squares, by the linear model."""
     size = slopes.shape[1]
     whole = np.asarray(np.linalg.qr(np.column_stack([slopes, residual]), mode="r"))

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import SCATTER
 from diagnosis.effects import FITTED
-from diagnosis.fitting.bounded_least_squares import promised_reduction
+from diagnosis.fitting.bounded_least_squares import predicted_reduction
 from diagnosis.fitting.fit_status import Ended, FitStatus, Stopping, Termination, far_for
 from diagnosis.fitting.objective import NearStart, Objective
 from diagnosis.fitting.parameterization import Parameterization, parameterization_of
@@ -73,14 +73,14 @@ class Fit:
         return float(np.sum((self.parameterization.weights * self.x) ** 2))
 
     @cached_property
-    def promised_cost(self) -> float:
+    def predicted_cost(self) -> float:
         """Cost that one more step would leave, by the linear model."""
         low, high = self.parameterization.bounds()
-        return self.cost - promised_reduction(self.slopes, self.residual, low - self.x, high - self.x)
+        return self.cost - predicted_reduction(self.slopes, self.residual, low - self.x, high - self.x)
 
-    def with_its_promise(self) -> "Fit":
-        """The fit, whose promised cost is computed now: by the process that made it."""
-        _ = self.promised_cost
+    def with_its_prediction(self) -> "Fit":
+        """The fit, whose predicted cost is computed now: by the process that made it."""
+        _ = self.predicted_cost
         return self
 
     @property

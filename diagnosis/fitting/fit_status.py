@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import GAP_LIMIT
 from diagnosis.criteria.selection import NEAR_FLOOR
-from diagnosis.fitting.bounded_least_squares import promised_reduction
+from diagnosis.fitting.bounded_least_squares import predicted_reduction
 from diagnosis.fitting.objective import Objective
 
 Array = NDArray[np.float64]
@@ -180,16 +180,16 @@ class Stopping:
         slopes = self.objective.jacobian(x, at_x)
         self._there, self._tries = x.ravel().copy(), 0
         self._jacobians += 1
-        cost, promised = float(at_x.ravel() @ at_x.ravel()), self._promised(at_x.ravel(), slopes)
+        cost, predicted = float(at_x.ravel() @ at_x.ravel()), self._predicted_cost(at_x.ravel(), slopes)
         futile = _FUTILE if self._jacobians == 2 else _FUTILE_LATER
-        if self._jacobians > 1 and cost - futile * promised > self.enough:
+        if self._jacobians > 1 and cost - futile * predicted > self.enough:
             raise self._ended(self._there, Termination.BEHIND)
         freedom = slopes.shape[1]
         noise = cost / max(at_x.size - freedom, 1)
-        offset = np.sqrt(max(promised, 0.0) / (freedom * noise)) if noise > 0 else 0.0
+        offset = np.sqrt(max(predicted, 0.0) / (freedom * noise)) if noise > 0 else 0.0
         if offset <= self.tolerance:
             raise self._ended(self._there, Termination.OFFSET)
-        slow = cost > self.far * at_x.size and promised < _SLOW * (cost - at_x.size)
+        slow = cost > self.far * at_x.size and predicted < _SLOW * (cost - at_x.size)
         if slow and self._slow:
             raise self._ended(self._there, Termination.FAR)
         self._slow = slow
@@ -217,7 +217,7 @@ class Stopping:
         """The end after as many steps as there were Jacobians before this one, plus `more`."""
         return Ended(x, termination, self._jacobians - 1 + more)
 
-    def _promised(self, residual: Array, slopes: Array) -> float:
+    def _predicted_cost(self, residual: Array, slopes: Array) -> float:
         """Reduction of the cost that the linear model predicts, within bounds."""
         low, high = self.objective.low - self._there, self.objective.high - self._there
-        return promised_reduction(slopes, residual, low, high)
+        return predicted_reduction(slopes, residual, low, high)

@@ -1,6 +1,6 @@
 """A family of free-form laws: its place, the variable that it depends on, its coordinates in a fit."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -68,7 +68,7 @@ class Family:
     @property
     def place(self) -> Place:
         """The most probable place of the cause."""
-        return max(self.places, key=lambda place: self.places[place])
+        return most_probable(self.places)
 
     def with_prior(self, straight: float, rest: float) -> "Family":
         """The same family with other standard deviations of the priors on its coordinates."""
@@ -77,6 +77,11 @@ class Family:
             replace(p, prior_sigma=each[kind_of(p)]) if kind_of(p) else p for p in self.effect.parameters
         )
         return replace(self, effect=replace(self.effect, parameters=changed))
+
+
+def most_probable(places: Mapping[Place, float]) -> Place:
+    """The place of the highest probability; of several the first."""
+    return max(places, key=lambda place: places[place])
 
 
 def coordinates(straight: int, rest: int, scale: float = 1.0) -> tuple[Parameter, ...]:
@@ -98,6 +103,11 @@ def coordinates_of(curve: SmoothCurve, scale: float = 1.0) -> tuple[Parameter, .
     fine = np.zeros(curve.size, bool)
     fine[curve.straight :] = sizes < FINE * sizes.max(initial=0.0)
     return tuple(replace(p, fine=bool(one)) for p, one in zip(own, fine, strict=True))
+
+
+def from_neutral(own: Sequence[Parameter], beside: Parameter) -> tuple[Parameter, ...]:
+    """Coordinates with as many starts as another parameter has, all of them 0."""
+    return tuple(replace(p, start=(0.0,) * len(beside.start)) for p in own)
 
 
 def of_trials(count: int, scale: float = 1.0) -> tuple[Parameter, ...]:

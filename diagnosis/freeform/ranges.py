@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.effects.effect import Effect
+from diagnosis.effects.effect import Effect, Parameter
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
@@ -63,8 +63,6 @@ class LogRanges:
       nominal: readings of the nominal rig by trial.
       left: residual of the nominal rig by sensor and trial, in the unit of its name; NaN: no reading.
       softer: readings of a rig with a little less damping by trial; none: not simulated.
-      library: effects with bounds and starts for a rig of this size.
-      damping_n_mm_s_per_mm: nominal damping.
     """
 
     problem: FitProblem
@@ -78,6 +76,11 @@ class LogRanges:
     def library(self) -> Mapping[str, Effect]:
         """Effects with bounds and starts for a rig of this size."""
         return self.problem.library
+
+    @property
+    def dry_level(self) -> Parameter:
+        """The level of dry friction along the shaft, with its bounds and starts."""
+        return self.library["coulomb_friction"].parameters[0]
 
     @property
     def damping_n_mm_s_per_mm(self) -> float:

@@ -4,8 +4,8 @@ Every family is fitted through the simulation: for one iteration on the decimate
 needle, a few where it has few numbers; the most promising for a few more; the best to their end on the
 decimated log, the strength of their prior estimated, alone and, if none closes the gap, beside the
 effects of the library or the other laws that promise most there, and if that is not enough, beside a
-third; the best of these on the log itself, and checked on trials that the fit has not seen. Those that
-promise far more than the least gap do not go on. Where all leave far more than noise, there is no third
+third; the best of these on the log itself, and checked on trials that the fit has not seen. Those whose
+predicted gap is far above the least do not go on. Where all leave far more than noise, there is no third
 law, and fewer go to the log itself, and not to their end.
 """
 
@@ -22,7 +22,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.fits.checked import fitted_and_checked
 from diagnosis.freeform.fits.first_fit import first_fit
-from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, with_family
+from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
 from diagnosis.freeform.fits.growing import growing
 from diagnosis.freeform.fits.rougher import rougher
 from diagnosis.freeform.fits.to_its_end import to_its_end
@@ -41,7 +41,7 @@ SCREENING, FITTING, FINALS = (
 )
 MORE_ITERATIONS = 3
 WORTH_MORE = 10  # families that get more than the first iteration
-IN_REACH = 2.5  # times the least gap that one promises
+IN_REACH = 2.5  # times the least predicted gap
 CONTENDERS, FINALISTS, FAR_FINALISTS, FINALISTS_OF_ONE = 6, 4, 2, 2
 FEWEST_FINALISTS = 2
 WORTH_A_FINAL, WORTH_A_FINAL_BESIDE = 1.5, 1.3  # times the least gap; where that closes the gap
@@ -86,7 +86,8 @@ def free_form_fits(
     far = _far(fitted, problem, coarse)
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
     worth = [f for f in fitted if f.fit.gap <= reach * least]
-    last = _few_of_each(unlike(sorted(worth, key=lambda f: f.score)))
+    ranked = unlike(sorted(worth, key=lambda f: f.score))
+    last = list(few_of_each(ranked, lambda f: f.family.name, FINALISTS_OF_ONE))
     last = last[: FAR_FINALISTS if far else _affordable(last)]
     finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
     names = {f.family.name for f in finals}
@@ -110,7 +111,7 @@ def _far(fits: Sequence[FreeFit], problem: FitProblem, coarse: FitProblem) -> bo
 def _some_more(rough: FitProblem, first: FreeFit) -> FreeFit:
     own = with_family(rough, first.family)
     fit = fit_effects(own, first.fit.names, first.fit.x, most_iterations=MORE_ITERATIONS)
-    return replace(first, fit=fit.with_its_promise(), gap_after=fit.gap)
+    return replace(first, fit=fit.with_its_prediction(), gap_after=fit.gap)
 
 
 def _on_the_log(problem: FitProblem, contender: FreeFit, far: bool) -> FreeFit:
@@ -123,11 +124,11 @@ def _promising(fits: Sequence[FreeFit], most: int) -> tuple[list[FreeFit], list[
 
     A law far from straight comes nowhere with its first step, and its slopes tell that it will.
     """
-    ranked = sorted(fits, key=lambda f: f.promise)
+    ranked = sorted(fits, key=lambda f: f.predicted_score)
     closed = any(f.fit.gap <= CLOSED_GAP for f in fits)
     reach = WORTH_A_FINAL_BESIDE if closed else IN_REACH
-    reach *= min((f.promised_gap for f in fits), default=np.inf)
-    best = [f for f in ranked[:most] if f.promised_gap <= reach]
+    reach *= min((f.predicted_gap for f in fits), default=np.inf)
+    best = [f for f in ranked[:most] if f.predicted_gap <= reach]
     return best, [f for f in ranked if f not in best]
 
 
@@ -135,12 +136,3 @@ def _affordable(ranked: Sequence[FreeFit]) -> int:
     """How many go to the log itself: each number of a law is a simulation of it."""
     numbers = np.cumsum([f.fit.x.size for f in ranked[:FINALISTS]])
     return max(FEWEST_FINALISTS, int(np.sum(numbers <= FINAL_NUMBERS)))
-
-
-def _few_of_each(ranked: Sequence[FreeFit]) -> list[FreeFit]:
-    """Of each leading law the best fits, which differ in what stands beside it."""
-    kept: list[FreeFit] = []
-    for f in ranked:
-        if sum(k.family.name == f.family.name for k in kept) < FINALISTS_OF_ONE:
-            kept.append(f)
-    return kept

@@ -5,7 +5,7 @@ scatter by s and a window of width w has n of them, the slope scatters by sqrt(1
 motion slower than four of these cannot be distinguished from rest.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +85,7 @@ def motion_of(time_s: Array, angle: Array) -> Motion:
         rests_s=rests,
         reversals=_reversals(angle, noise if np.isfinite(noise) else 0.0),
     )
-    return Motion(**{**vars(motion), "resting": motion.at_rest(time_s)})
+    return replace(motion, resting=motion.at_rest(time_s))
 
 
 def _reversals(angle: Array, noise: float) -> tuple[int, ...]:

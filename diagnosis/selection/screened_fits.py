@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from diagnosis.criteria.fitting import GAP_LIMIT
-from diagnosis.criteria.selection import FITS_AT_ONCE, NEAR_FLOOR, PROMISE_BROKEN
+from diagnosis.criteria.selection import FITS_AT_ONCE, NEAR_FLOOR, PREDICTION_MISSED
 from diagnosis.effects import FITTED
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
@@ -91,7 +91,7 @@ def _fit_from_neutral(problem: FitProblem, one: Screened, enough: float) -> Fit:
 def _is_broken(one: Screened, new: Sequence[Candidate]) -> bool:
     """Whether every fit of a set leaves far more than was promised, or a past at its bound."""
     own = [c.fit for c in new if c.names == one.names]
-    return bool(own) and all(f.trial_at_bound or f.cost > PROMISE_BROKEN * one.cost for f in own)
+    return bool(own) and all(f.trial_at_bound or f.cost > PREDICTION_MISSED * one.cost for f in own)
 
 
 def _enough(problem: FitProblem, names: tuple[str, ...], found: Sequence[Candidate], used: int) -> float:

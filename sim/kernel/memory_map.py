@@ -186,6 +186,11 @@ def block(elements: int, rows: int) -> int:
     return OUTPUTS + INPUTS + 3 * elements + 2 + SITE * 2 * elements * rows
 
 
+def sets_at(elements: int) -> int:
+    """Where the sets begin in a copy of the state, after angles and rates."""
+    return B_ANGLES + 2 * elements + 2
+
+
 def sites_at(elements: int) -> int:
     """Where the sites begin in a copy of the state, after angles, rates and sets."""
     return B_ANGLES + 3 * elements + 2

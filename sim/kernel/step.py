@@ -10,7 +10,9 @@ tissue twist) is carried from stage to stage. Inputs run straight from one end o
 the other; lengths and speed are those of its middle.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from numba import njit
 
 from sim.kernel import memory_map
 from sim.kernel.advection import advect_tissue, forget_uncovered
@@ -28,6 +30,9 @@ from sim.kernel.stage.plasticity import carry_sets, hold_sets, keep_sets
 from sim.kernel.stage.workspace import Frame, Workspace, divide, frame_of
 from sim.kernel.torques import set_other
 from sim.kernel.view import view
+
+_sets_at: Any = njit(memory_map.sets_at)
+_sites_at: Any = njit(memory_map.sites_at)
 
 
 class Done(NamedTuple):
@@ -164,11 +169,10 @@ def advance(
       scratch: working memory (sim.kernel.stage.workspace).
     """
     n, rows = int(head[memory_map.H_ELEMENTS]), int(head[memory_map.H_ROWS])
-    first = memory_map.B_ANGLES + 3 * n + 2
-    sites = (rows, n, 2, memory_map.SITE)
-    before = view(now, first, sites)
-    w = divide(scratch, n, rows, view(nxt, first, sites))
-    sets, sets_after = view(now, first - n, (n,)), view(nxt, first - n, (n,))
+    at, sites = _sites_at(n), (rows, n, 2, memory_map.SITE)
+    before = view(now, at, sites)
+    w = divide(scratch, n, rows, view(nxt, at, sites))
+    sets, sets_after = view(now, _sets_at(n), (n,)), view(nxt, _sets_at(n), (n,))
     past = view(now, memory_map.B_INPUTS, (memory_map.INPUTS,))
     inputs = inputs_of(head, law, shaft, past, ctrl)
     frame = frame_of(head, shaft, GAMMAS[int(head[memory_map.H_ORDER]) - 1] * h, inputs)

@@ -11,6 +11,8 @@ where the eigenvalues of M are exp(p h). A needle with a given torque has no fre
 free shaft would then carry no torque and add no pole.
 """
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
@@ -148,8 +150,7 @@ def measure_yielding(setup: Setup, expected: YieldingTissueNeedle) -> tuple[Arra
     step_s = float(_RESOLUTION / abs(fast[-1]))
     apart = int(_APART / abs(fast[0]) / step_s)
     fine = setup.discretisation.but(step_s=step_s)
-    fields = {name: getattr(setup, name) for name in setup.__dataclass_fields__}
-    angles = _released(Setup(**{**fields, "discretisation": fine}), _SETTLING + 2 * apart + 2)
+    angles = _released(replace(setup, discretisation=fine), _SETTLING + 2 * apart + 2)
     poles = _realised_poles(angles, apart) / step_s
     # -1/tau is no pole of a shaft that is held; where it turns freely, the tissue alone has it.
     own = -1.0 / expected.time_constant_s

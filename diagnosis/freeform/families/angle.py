@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
-from diagnosis.freeform.families.interface import level_of
-from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve
 from diagnosis.replay.curve import ActsOn
@@ -64,7 +63,7 @@ def _angle(
         effect=Effect(
             name=f"{where} over tip_angle{more}",
             title=f"{where} that depends on its angle{more}",
-            place=max(places, key=lambda place: places[place]),
+            place=most_probable(places),
             parameters=coordinates(2 * len(waves), 0, size),
             apply=partial(_apply_angle, waves, tip),
         ),
@@ -79,7 +78,7 @@ def _angle(
 
 def _level(ranges: LogRanges) -> float:
     """Of strong friction, N mm / mm."""
-    return level_of(ranges).start[-1]
+    return ranges.dry_level.start[-1]
 
 
 def _pushed(ranges: LogRanges) -> Family:
@@ -187,7 +186,7 @@ def _uneven_friction(ranges: LogRanges) -> Family:
             name="dry friction along the shaft over tip_angle",
             title="dry friction that depends on the angle of the shaft",
             place=Place.INTERFACE,
-            parameters=_level_and_waves(level_of(ranges)),
+            parameters=_level_and_waves(ranges.dry_level),
             apply=_apply_uneven_friction,
             differences=(1e-2,),
         ),

@@ -73,7 +73,7 @@ def _at_the_tip(ranges: LogRanges) -> Family:
 
 def _numbers(ranges: LogRanges, length_mm: float) -> tuple[Parameter, ...]:
     """Level, twist and share of the axial speed, each with every start."""
-    dry = ranges.library["coulomb_friction"].parameters[0]
+    dry = ranges.dry_level
     pairs = [(level * length_mm, twist) for level in dry.start[1:] for twist in _TWISTS_DEG]
     levels, twists = zip(*pairs, strict=True)
     level = replace(dry, low=dry.low * length_mm, high=dry.high * length_mm, start=levels)

@@ -13,7 +13,14 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
+from diagnosis.freeform.family import (
+    VISCOUS,
+    Family,
+    Points,
+    coordinates_of,
+    from_neutral,
+    most_probable,
+)
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, jumping_curve, periodic_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
@@ -63,11 +70,6 @@ def curve_over(variable: Variable, ranges: LogRanges) -> SmoothCurve:
     return smooth_curve(*ends, fading=variable in FADING)
 
 
-def level_of(ranges: LogRanges) -> Parameter:
-    """The level of dry friction, with its starts."""
-    return ranges.library["coulomb_friction"].parameters[0]
-
-
 def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> Family:
     beta = ranges.damping_n_mm_s_per_mm
     places = INTERFACE if variable is Variable.BASE_ANGLE else DAMPING
@@ -78,7 +80,7 @@ def _damping_over(variable: Variable, curve: SmoothCurve, ranges: LogRanges) -> 
         effect=Effect(
             name=f"damping over {variable}{once_a_turn}",
             title=f"damping that changes with {variable}",
-            place=max(places, key=lambda place: places[place]),
+            place=most_probable(places),
             parameters=coordinates_of(curve),
             apply=partial(_apply_damping, variable, curve),
         ),
@@ -111,7 +113,7 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
             name=f"dry friction over {variable}",
             title=f"dry friction that changes with {variable}",
             place=Place.INTERFACE,
-            parameters=(level_of(ranges), *from_neutral(coordinates_of(curve), level_of(ranges))),
+            parameters=(ranges.dry_level, *from_neutral(coordinates_of(curve), ranges.dry_level)),
             apply=partial(_apply_friction, variable, curve),
             differences=(1e-2,),
         ),
@@ -126,11 +128,6 @@ def _friction_over(variable: Variable, ranges: LogRanges) -> Family:
 
 def _dry_level(curve: SmoothCurve, level: float, *c: float) -> Points:
     return curve.places, level * np.exp(curve.values(c))
-
-
-def from_neutral(own: Sequence[Parameter], level: Parameter) -> tuple[Parameter, ...]:
-    """The parameters with as many starts as the level has, all neutral."""
-    return tuple(replace(p, start=(0.0,) * len(level.start)) for p in own)
 
 
 def _apply_friction(
@@ -151,7 +148,7 @@ def _direction(ranges: LogRanges) -> Family:
             title="friction that is stronger one way than the other",
             place=Place.INTERFACE,
             parameters=(
-                level_of(ranges),
+                ranges.dry_level,
                 _SIDE,
                 replace(_SIDE, name="viscous asymmetry", start=(0.0, 0.0, 0.0)),
             ),

@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import Family, Points, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, bent_curve, separate_values, smooth_curve
 from diagnosis.replay.curve import ActsOn
@@ -43,7 +43,7 @@ def _length_over(variable: Variable, ranges: LogRanges) -> Family:
         effect=Effect(
             name=f"inserted length over {variable}",
             title=f"an inserted length whose error changes with {variable}",
-            place=max(places, key=lambda place: places[place]),
+            place=most_probable(places),
             parameters=coordinates_of(curve, _SIZE_MM),
             apply=partial(_apply, variable, curve),
             differences=(1e-2,),
@@ -66,7 +66,7 @@ def _dragged(ranges: LogRanges) -> Family:
         effect=Effect(
             name=f"inserted length over {Variable.ADVANCED_BY}",
             title="an inserted length whose error has hysteresis over the advance",
-            place=max(places, key=lambda place: places[place]),
+            place=most_probable(places),
             parameters=coordinates_of(limits, _SHARE),
             apply=partial(_apply, Variable.ADVANCED_BY, limits),
             differences=(1e-2,),

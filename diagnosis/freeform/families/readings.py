@@ -18,7 +18,7 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.family import Family, Points, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.ripple import waves_in_a_turn
 from diagnosis.freeform.smooth_curve import (
@@ -219,7 +219,7 @@ def family_of(added: Added, curve: SmoothCurve, ranges: LogRanges) -> Family:
         effect=Effect(
             name=name,
             title=name,
-            place=max(added.places, key=lambda place: added.places[place]),
+            place=most_probable(added.places),
             parameters=coordinates_of(curve, scale),
             apply=partial(_apply, added, curve),
         ),

@@ -13,7 +13,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.readings import DRIVE, SENSOR, TIP, TORQUE
-from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.family import Family, Points, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -81,7 +81,7 @@ def _limited(follower: _Follower, ranges: LogRanges) -> Family:
         effect=Effect(
             name=f"{follower.acts_on.replace('_', ' ')} over lag",
             title=f"{follower.words} follows at a limited rate",
-            place=max(follower.places, key=lambda place: follower.places[place]),
+            place=most_probable(follower.places),
             parameters=(time, rate),
             apply=partial(_apply, follower.acts_on),
             differences=(1e-2,),

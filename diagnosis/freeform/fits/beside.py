@@ -3,14 +3,15 @@
 By a linear model of all laws and all effects at once. With J the slopes of a law's fit, r what that
 leaves, and d what an effect at a start changes of the readings without the law,
 
-    promised cost = min over x and a >= 0 of |r + J x + a d|^2,
+    predicted cost = min over x and a >= 0 of |r + J x + a d|^2,
 
 which takes no simulation. The effects of the pairs that promise most
 are then simulated beside their laws (selection.screening), since both may be far from small.
 """
 
 from collections.abc import Sequence
-from typing import TypeVar
+from itertools import islice
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,12 @@ from numpy.typing import NDArray
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.parameterization import starts
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.freeform.fits.free_fit import FreeFit, few_of_each, with_family
 from diagnosis.freeform.fits.linear_model import linear_model
 from diagnosis.selection.screening import Screened, screen
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
-T = TypeVar("T")
 
 SCREENING_ALONE, SCREENING_BESIDE = (
     "screening effects without a law",
@@ -56,7 +56,8 @@ def pairs_beside(
     tasks = [Task(effects=(name,), arguments=(coarse, law, name)) for law, name in pairs]
     each = zip(pairs, workers.each(SCREENING_BESIDE, _screened_beside, tasks), strict=True)
     found = [(law, s) for (law, _), s in each if not isinstance(s, Failure)]
-    return _few_of_each(sorted(found, key=lambda pair: pair[1].cost), PAIRS, PAIRS_OF_ONE)
+    ranked = sorted(found, key=lambda pair: pair[1].cost)
+    return list(islice(few_of_each(ranked, _law_of, PAIRS_OF_ONE), PAIRS))
 
 
 def _promising(
@@ -74,24 +75,17 @@ def _promising(
         return []
     changes = np.hstack(list(known.values()))
     owners = np.repeat(list(known), [rows.shape[1] for rows in known.values()])
-    promised = []
+    predicted = []
     for law in laws:
-        costs = promised_costs(law.fit, changes)
+        costs = predicted_costs(law.fit, changes)
         least = {name: float(costs[owners == name].min()) for name in known}
-        promised += [(cost, law, name) for name, cost in least.items()]
-    ranked = [(law, name) for _, law, name in sorted(promised, key=lambda one: one[0])]
-    return _few_of_each(ranked, SIMULATED, SIMULATED_OF_ONE)
+        predicted += [(cost, law, name) for name, cost in least.items()]
+    ranked = [(law, name) for _, law, name in sorted(predicted, key=lambda one: one[0])]
+    return list(islice(few_of_each(ranked, _law_of, SIMULATED_OF_ONE), SIMULATED))
 
 
-def _few_of_each(
-    ranked: Sequence[tuple[FreeFit, T]], most: int, most_of_one: int
-) -> list[tuple[FreeFit, T]]:
-    """The first so many pairs, of one law no more than so many."""
-    kept: list[tuple[FreeFit, T]] = []
-    for law, other in ranked:
-        if sum(known is law for known, _ in kept) < most_of_one and len(kept) < most:
-            kept.append((law, other))
-    return kept
+def _law_of(pair: tuple[FreeFit, Any]) -> FreeFit:
+    return pair[0]
 
 
 def _changes(rough: FitProblem, base: Fit, name: str) -> Array:
@@ -105,7 +99,7 @@ def _changes(rough: FitProblem, base: Fit, name: str) -> Array:
     )
 
 
-def promised_costs(law: Fit, changes: Array) -> Array:
+def predicted_costs(law: Fit, changes: Array) -> Array:
     """The cost that each change, (N, k), could leave beside a law, (k,)."""
     model = linear_model(law)
     squares, along = model.beyond(changes)

@@ -45,7 +45,7 @@ def first_fit(rough: FitProblem, base: Fit, family: Family) -> FreeFit:
     few = len(family.effect.parameters) <= FEW_NUMBERS
     iterations = FEW_ITERATIONS if few else FIRST_ITERATIONS
     fit = fit_effects(problem, (family.name,), start, most_iterations=iterations, near=near)
-    fit = with_fine(fit, with_family(rough, family), family).with_its_promise()
+    fit = with_fine(fit, with_family(rough, family), family).with_its_prediction()
     return FreeFit(family=family, fit=fit, gap_after=fit.gap)
 
 

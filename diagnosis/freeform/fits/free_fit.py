@@ -1,9 +1,10 @@
 """A family of free-form laws fitted to a log, alone or beside others."""
 
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.workers import Failure, Task, Workers
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,20 +70,29 @@ class FreeFit:
         return self._score(self.fit.cost)
 
     @property
-    def promise(self) -> float:
+    def predicted_score(self) -> float:
         """The score that one more step of the fit promises."""
-        return self._score(self.fit.promised_cost)
+        return self._score(self.fit.predicted_cost)
 
     @property
-    def promised_gap(self) -> float:
+    def predicted_gap(self) -> float:
         """The gap that one more step of the fit promises, with the prior."""
-        return float(np.sqrt(max(self.fit.promised_cost, 0.0) / self.fit.samples))
+        return float(np.sqrt(max(self.fit.predicted_cost, 0.0) / self.fit.samples))
 
     def _score(self, cost: float) -> float:
         samples = self.fit.samples
         freedom = sum(well_determined(family, self.fit) for family in self.families)
         freedom += 2.0 * (len(self.beside) + len(self.others))
         return samples * float(np.log(cost / samples)) + freedom * float(np.log(samples))
+
+
+def few_of_each(ranked: Iterable[T], law_of: Callable[[T], Hashable], most_of_one: int) -> Iterator[T]:
+    """Of each law the first so many of a ranking."""
+    taken = Counter[Hashable]()
+    for one in ranked:
+        taken[law_of(one)] += 1
+        if taken[law_of(one)] <= most_of_one:
+            yield one
 
 
 def each_fit(

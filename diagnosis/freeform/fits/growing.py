@@ -6,15 +6,16 @@ of the factor; those that promise most are fitted.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
-from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, with_family
+from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
 from diagnosis.freeform.fits.grown import all_grown, may_grow
-from diagnosis.freeform.fits.laws_beside import promised_score
+from diagnosis.freeform.fits.laws_beside import predicted_score
 from diagnosis.freeform.fits.to_its_end import to_its_end
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.workers import Failure, Task, Workers
@@ -41,12 +42,10 @@ def growing(
     may = [law for law in laws if may_grow(law.fit.parameterization.rig(law.fit.x).free)][:LEADING]
     pairs = [(law, family) for law in may for family in all_grown(law.family, ranges)]
     tasks = [Task(effects=(), arguments=(coarse, law, family)) for law, family in pairs]
-    each = zip(pairs, workers.each(SCREENING, promise_of, tasks), strict=True)
-    promised = [(score, pair) for pair, score in each if not isinstance(score, Failure)]
-    kept: list[tuple[FreeFit, Family]] = []
-    for _, (law, family) in sorted(promised, key=lambda one: one[0]):
-        if sum(other is law for other, _ in kept) < GROWN_OF_ONE and len(kept) < GROWN:
-            kept.append((law, family))
+    each = zip(pairs, workers.each(SCREENING, prediction_of, tasks), strict=True)
+    predicted = [(score, pair) for pair, score in each if not isinstance(score, Failure)]
+    ranked = (pair for _, pair in sorted(predicted, key=lambda one: one[0]))
+    kept = islice(few_of_each(ranked, lambda pair: pair[0], GROWN_OF_ONE), GROWN)
     enough = min((law.fit.cost for law in laws), default=np.inf)
     calls = [
         (coarse, replace(law, family=family), enough, start_of(coarse, law, family))
@@ -64,7 +63,7 @@ def start_of(coarse: FitProblem, law: FreeFit, family: Family) -> Array:
     return parameterization.joined({**parts, family.name: own})
 
 
-def promise_of(coarse: FitProblem, law: FreeFit, family: Family) -> float:
+def prediction_of(coarse: FitProblem, law: FreeFit, family: Family) -> float:
     """The score that the law could come to if it grew."""
     problem = with_family(coarse, family)
     parameterization = problem.parameterization((family.name,))
@@ -73,4 +72,4 @@ def promise_of(coarse: FitProblem, law: FreeFit, family: Family) -> float:
     rigs = [parameterization.rig(start + _STEP * one) for one in np.eye(start.size)[new]]
     each = zip(problem.residuals(rigs, callback_alone=True), law.fit.by_trial, strict=True)
     slopes = np.concatenate([(np.stack(own, axis=1) - was[:, None]) / _STEP for own, was in each])
-    return promised_score(law.fit, slopes, parameterization.weights[new])
+    return predicted_score(law.fit, slopes, parameterization.weights[new])

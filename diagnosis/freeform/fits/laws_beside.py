@@ -3,7 +3,7 @@
 By a linear model of both at once. With J the slopes of the one law's fit, r what that leaves, K the
 slopes of the other law's first fit, d what that changed of the readings, and W the weights of its prior,
 
-    promised cost = min over x, y, a of |r + J x + K y + a d|^2 + |W y|^2 + a^2,
+    predicted cost = min over x, y, a of |r + J x + K y + a d|^2 + |W y|^2 + a^2,
 
 which takes no simulation. Of the pairs of all laws with those that leave
 least alone, the few that promise most are fitted.
@@ -45,14 +45,14 @@ def laws_beside(base: Fit, laws: Sequence[FreeFit], others: Sequence[FreeFit]) -
       others: first fits of all laws that may stand beside them.
     """
     known = [_other(base, one) for one in others]
-    promised, leading = [], set[str]()
+    predicted, leading = [], set[str]()
     for law in laws:
         leading.add(law.family.name)  # of two laws the one that leaves less alone
         may_be = [o for o in known if o.fit.family.name not in {*leading, *law.names}]
-        promises = _promises(law.fit, may_be)
-        promised += [(p, law, o.fit) for p, o in zip(promises, may_be, strict=True)]
+        promises = _predicted(law.fit, may_be)
+        predicted += [(p, law, o.fit) for p, o in zip(promises, may_be, strict=True)]
     kept: list[FreeFit] = []
-    for _, law, other in sorted(promised, key=lambda one: one[0]):
+    for _, law, other in sorted(predicted, key=lambda one: one[0]):
         pair = replace(law, others=(*law.others, other.family))
         of_it = sum(k.fit is law.fit for k in kept)
         new = not any(_same(pair, k) for k in kept)
@@ -71,23 +71,23 @@ def _other(base: Fit, one: FreeFit) -> _Other:
     )
 
 
-def _promises(law: Fit, others: Sequence[_Other]) -> list[float]:
+def _predicted(law: Fit, others: Sequence[_Other]) -> list[float]:
     """Scores as of a FreeFit, which the law could come to beside each of the others."""
     model = linear_model(law)
-    return [_promised(model, law.samples, other.columns, other.weights) for other in others]
+    return [_predicted_cost(model, law.samples, other.columns, other.weights) for other in others]
 
 
-def promised_score(law: Fit, columns: Array, weights: Array) -> float:
+def predicted_score(law: Fit, columns: Array, weights: Array) -> float:
     """Score as of a FreeFit that a law could come to with more coordinates.
 
     Args:
       columns: what each of these changes of residuals, (N, k).
       weights: of their prior, (k,).
     """
-    return _promised(linear_model(law), law.samples, columns, weights)
+    return _predicted_cost(linear_model(law), law.samples, columns, weights)
 
 
-def _promised(model: LinearModel, samples: int, columns: Array, weights: Array) -> float:
+def _predicted_cost(model: LinearModel, samples: int, columns: Array, weights: Array) -> float:
     squares, along = model.beyond(columns)
     squares[np.diag_indices_from(squares)] += _ROUNDING * np.sum(columns**2, axis=0) + 1e-12
     whole = squares + np.diag(weights**2)

@@ -23,7 +23,7 @@ def begun_only(
     """Fitted for the first iterations; the arguments are those of `to_its_end`."""
     own = with_family(coarse, *contender.families)
     fit = _fitted(own, contender, enough, start, FIRST_ITERATIONS)
-    return replace(contender, fit=fit.with_its_promise(), gap_after=fit.gap)
+    return replace(contender, fit=fit.with_its_prediction(), gap_after=fit.gap)
 
 
 def to_its_end(

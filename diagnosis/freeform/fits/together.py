@@ -70,7 +70,7 @@ def beside_several(
 
 def _begun(stage: str, calls: Sequence[tuple[Any, ...]], workers: Workers) -> list[FreeFit]:
     """Fits that calls begin for a rougher needle, most promising first."""
-    return sorted(each_fit(stage, begun_only, calls, workers), key=lambda f: f.promise)
+    return sorted(each_fit(stage, begun_only, calls, workers), key=lambda f: f.predicted_score)
 
 
 def _ended(

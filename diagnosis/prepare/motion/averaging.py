@@ -1,4 +1,4 @@
-"""Averages logs with more than 200 samples per second to about 100: as much is known, ten times faster.
+"""Averages logs with more than 220 samples per second to about 100: as much is known, ten times faster.
 
 The motion of a needle takes a hundredth of a second and longer, and a replay takes a step per sample.
 Means over windows of a hundredth of a second keep the information: the mean of n samples with white

@@ -10,7 +10,7 @@ from diagnosis.criteria.freeform import FAR_GAP, PLAINER_LEAVES, PLAINER_SETS
 from diagnosis.criteria.selection import CONTENDING, FINALISTS, SIMPLE_LEAD
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.fitting.bounded_least_squares import promised_reduction
+from diagnosis.fitting.bounded_least_squares import predicted_reduction
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.log.trial import SENSORS
@@ -77,7 +77,7 @@ def _cost_without(fit: Fit, name: str) -> float:
         return np.inf
     low, high = parameterization.bounds()
     moves = [np.where(own, at, end) - fit.x for end in (low, high)]
-    return fit.cost - promised_reduction(fit.slopes, fit.residual, *moves)
+    return fit.cost - predicted_reduction(fit.slopes, fit.residual, *moves)
 
 
 def _absent_at(parameter: Parameter) -> float:
@@ -144,5 +144,5 @@ def _gap_without_prior(fit: Fit, names: Sequence[str]) -> float:
     slopes = np.vstack([*fit.jacobian, np.diag(weights)])
     residual = np.concatenate([*fit.by_trial, weights * fit.x])
     low, high = fit.parameterization.bounds()
-    reduction = promised_reduction(slopes, residual, low - fit.x, high - fit.x)
+    reduction = predicted_reduction(slopes, residual, low - fit.x, high - fit.x)
     return float(np.sqrt(max(residual @ residual - reduction, 0.0) / fit.samples))

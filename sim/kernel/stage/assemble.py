@@ -150,7 +150,7 @@ def add_row(w: Workspace, r: int, row: Array, frame: Frame, tip_torque: float) -
         weight = to_left + to_right
         if weight == 0.0:
             continue
-        twist = theta[e + 1] - theta[e] + g * (omega[e + 1] - omega[e])
+        twist = twist_of(theta, omega, e, g)
         per_length = frame.drift / (x[e + 1] - x[e])
         advected = per_length * twist
         rate = left * omega[e] + right * omega[e + 1]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from diagnosis.fitting.bounded_least_squares import bounded_least_squares, promised_reduction
+from diagnosis.fitting.bounded_least_squares import bounded_least_squares, predicted_reduction
 
 
 @pytest.fixture
@@ -45,7 +45,7 @@ def test_what_is_promised_is_what_the_least_squares_take_off(system):
     low, high = np.array([-1.0, -1.0, -1.0]), np.array([0.4, 5.0, 5.0])
     x = bounded_least_squares(matrix, wanted, low, high)
     taken = wanted @ wanted - np.sum((matrix @ x - wanted) ** 2)
-    assert promised_reduction(matrix, -wanted, low, high) == pytest.approx(taken)
-    assert promised_reduction(matrix, matrix @ x - wanted, low - x, high - x) == pytest.approx(
+    assert predicted_reduction(matrix, -wanted, low, high) == pytest.approx(taken)
+    assert predicted_reduction(matrix, matrix @ x - wanted, low - x, high - x) == pytest.approx(
         0.0, abs=1e-6
     )

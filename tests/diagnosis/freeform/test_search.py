@@ -110,10 +110,10 @@ def test_a_law_that_comes_nowhere_at_first_goes_on_where_its_slopes_promise_more
     """Of ten, three go on; the last is the only one whose next step would close the gap."""
     run, seen = fitted
     gaps = {f"law {i}": 2.0 + 0.1 * i for i in range(10)}
-    promised = Fit.promised_cost.func
+    promised = Fit.predicted_cost.func
     last = max(gaps.values()) ** 2 * 100
     monkeypatch.setattr(
-        Fit, "promised_cost", property(lambda fit: 100.0 if fit.cost >= last - 1e-6 else promised(fit))
+        Fit, "predicted_cost", property(lambda fit: 100.0 if fit.cost >= last - 1e-6 else promised(fit))
     )
     monkeypatch.setattr(search, "CONTENDERS", 3)
     run(gaps, gaps)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import FITTED_SAMPLES, NO_LOG
 
-from diagnosis.criteria.selection import CONTENDING, NEAR_FLOOR, PROMISE_BROKEN
+from diagnosis.criteria.selection import CONTENDING, NEAR_FLOOR, PREDICTION_MISSED
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.selection import fitting, screened_fits
@@ -168,15 +168,18 @@ def test_other_starts_of_what_came_to_the_floor_at_a_bound_are_fitted(at_bound, 
 def test_what_leaves_far_more_than_promised_is_fitted_once_more_from_a_neutral_start(made, monkeypatch):
     """Of the two starts of a set, once; and where the promise is kept, not at all."""
     monkeypatch.setattr(
-        screened_fits, "neutral_start", lambda _, one: np.array([0.5 * PROMISE_BROKEN * one.cost])
+        screened_fits, "neutral_start", lambda _, one: np.array([0.5 * PREDICTION_MISSED * one.cost])
     )
-    broken = start_of(("stiction",), 2000.0, 1.01 * PROMISE_BROKEN * 2000.0)
-    twice = start_of(("stiction",), 2100.0, 1.01 * PROMISE_BROKEN * 2100.0)
-    kept = start_of(("tip_drag",), 2000.0, 0.99 * PROMISE_BROKEN * 2000.0)
+    broken = start_of(("stiction",), 2000.0, 1.01 * PREDICTION_MISSED * 2000.0)
+    twice = start_of(("stiction",), 2100.0, 1.01 * PREDICTION_MISSED * 2100.0)
+    kept = start_of(("tip_drag",), 2000.0, 0.99 * PREDICTION_MISSED * 2000.0)
     found, _ = fit_screened("single effects", NO_LOG, [broken, twice, kept], 9, Workers())
     assert made == [("stiction",), ("tip_drag",), ("stiction",), ("stiction",)]
     assert {c.names: c.fit.cost for c in found} == pytest.approx(
-        {("stiction",): 0.5 * PROMISE_BROKEN * 2000.0, ("tip_drag",): 0.99 * PROMISE_BROKEN * 2000.0}
+        {
+            ("stiction",): 0.5 * PREDICTION_MISSED * 2000.0,
+            ("tip_drag",): 0.99 * PREDICTION_MISSED * 2000.0,
+        }
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import coarse_of, log_of, problem_of
 
-from diagnosis.criteria.selection import PROMISE_BROKEN
+from diagnosis.criteria.selection import PREDICTION_MISSED
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.replay.rig_parameters import RigParameters
@@ -87,7 +87,7 @@ def test_from_a_neutral_start_an_effect_is_found_that_the_nuisance_hides():
     start = neutral_start(coarse, best)
     np.testing.assert_array_equal(start[1:], 0.0)
     led, neutral = (fit_effects(coarse, best.names, x) for x in (best.start, start))
-    assert led.cost > PROMISE_BROKEN * best.cost
+    assert led.cost > PREDICTION_MISSED * best.cost
     assert np.exp(neutral.x[0]) == pytest.approx(1.0, rel=0.05)
 
 

@@ -45,7 +45,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 def _bonds(ranges: LogRanges) -> Family:
     """Bristles whose level fades with the slip so far, to a part that stays."""
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = ranges.dry_level
     starts = len(_BONDS[0].start)
     return Family(
         effect=Effect(

@@ -158,7 +158,7 @@ def _apply_damping(
 
 def _friction_over(neutral: ContactCurve, ranges: LogRanges) -> Family:
     curve = smooth_curve(0.0, 1.0, CONTACT_POINTS)
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = ranges.dry_level
     shape = coordinates_of(curve)
     if neutral.over is ContactVariable.AGE:
         grows = replace(shape[1], start=(_GROWS,))

@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import partial
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.interface import level_of
 from diagnosis.freeform.family import VISCOUS, Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.along_depth import AlongDepth
@@ -34,7 +33,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _beyond_start(ranges: LogRanges) -> Family:
-    level = level_of(ranges)
+    level = ranges.dry_level
     little = level.start[0]
     return Family(
         effect=Effect(

@@ -11,7 +11,6 @@ from functools import partial
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.in_layers.layers import factor_of_damping, place_of
-from diagnosis.freeform.families.interface import level_of
 from diagnosis.freeform.family import VISCOUS, Family, Points
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.along_depth import AlongDepth
@@ -54,7 +53,7 @@ def _damping(deepest_mm: float, ranges: LogRanges) -> Family:
 
 
 def _friction(deepest_mm: float, ranges: LogRanges) -> Family:
-    level = level_of(ranges)
+    level = ranges.dry_level
     return Family(
         effect=Effect(
             name="dry friction over position, from a depth on",

@@ -14,7 +14,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import PARTS
-from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of, from_neutral
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, rough_curve, smooth_curve
 from diagnosis.replay.along_depth import AlongDepth
@@ -60,13 +60,13 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _friction(layers: _Layers, ranges: LogRanges) -> Family:
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = ranges.dry_level
     return Family(
         effect=Effect(
             name="dry friction over position, in layers",
             title="dry friction that changes with the depth below the surface",
             place=Place.INTERFACE,
-            parameters=(level, *_neutral(layers, level)),
+            parameters=(level, *from_neutral(coordinates_of(layers.curve), level)),
             apply=partial(_apply_friction, layers),
             differences=(1e-2,),
         ),
@@ -121,7 +121,7 @@ def _elastic(layers: _Layers, ranges: LogRanges) -> Family:
             name="elastic tissue over position, in layers",
             title="elastic tissue that changes with the depth below the surface",
             place=Place.TISSUE,
-            parameters=(*elastic, *_neutral(layers, elastic[0])),
+            parameters=(*elastic, *from_neutral(coordinates_of(layers.curve), elastic[0])),
             apply=partial(_apply_elastic, layers),
         ),
         places={Place.TISSUE: 1.0},
@@ -170,7 +170,7 @@ def place_of(name: str, deepest_mm: float, shares: Sequence[float]) -> Parameter
 
 def _one_dry_layer(deepest_mm: float, ranges: LogRanges) -> Family:
     depth, thickness = _where(deepest_mm, 1)
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = ranges.dry_level
     usual = level.start[0] / _THICK
     level = replace(level, high=level.high / _THICK, start=(usual,) * len(depth.start))
     return Family(
@@ -244,9 +244,3 @@ def _apply_one_layer(rig: RigParameters, depth: float, thickness: float, times: 
 
 def _with(rig: RigParameters, along: AlongDepth) -> RigParameters:
     return replace(rig, free=FreeLaw(along_depth=along))
-
-
-def _neutral(layers: _Layers, beside: Parameter) -> Sequence[Parameter]:
-    """Coordinates of the curve, with as many starts as another parameter has, all neutral."""
-    own = coordinates_of(layers.curve)
-    return tuple(replace(p, start=(0.0,) * len(beside.start)) for p in own)

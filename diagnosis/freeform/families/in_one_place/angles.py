@@ -18,7 +18,7 @@ from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.angle import ALONG, shown_deg, waves_over
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
 from diagnosis.freeform.families.in_one_place.tip import AT_TIP_MM
-from diagnosis.freeform.family import Family, Points, coordinates
+from diagnosis.freeform.family import Family, Points, coordinates, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -45,7 +45,7 @@ def _bent(spot: Spot, ranges: LogRanges) -> Family:
         effect=Effect(
             name=f"{spot.name} towards one angle over base_angle",
             title=f"a torque {spot.words} that depends on the angle of the shaft",
-            place=max(spot.places, key=lambda place: spot.places[place]),
+            place=most_probable(spot.places),
             parameters=coordinates(2 * len(ALONG), 0, spot.dry(ranges).start[-1]),
             apply=partial(_apply_bent, spot),
         ),
@@ -65,7 +65,7 @@ def _apply_bent(spot: Spot, rig: RigParameters, *c: float) -> RigParameters:
 def _wound(ranges: LogRanges, *, tip: bool) -> Family:
     farthest_deg = max(abs(end) for end in ranges.ends[Variable.BASE_ANGLE])
     waves = tuple(n * _QUARTER_DEG / farthest_deg for n in _SLOW_WAVES)
-    level = ranges.library["coulomb_friction"].parameters[0].start[-1]
+    level = ranges.dry_level.start[-1]
     where = "tip torque" if tip else "torque along the shaft"
     return Family(
         effect=Effect(

@@ -16,7 +16,7 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import SLOW_RAD_S
-from diagnosis.freeform.family import Family, Points
+from diagnosis.freeform.family import Family, Points, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -125,7 +125,7 @@ def _rubbing(spot: Spot, over: str, parameters: tuple[Parameter, ...]) -> Effect
     return Effect(
         name=f"{spot.name} over {over}",
         title=f"drag and dry friction {spot.words}, which may depend on the {over}",
-        place=max(spot.places, key=lambda place: spot.places[place]),
+        place=most_probable(spot.places),
         parameters=parameters,
         apply=partial(_apply, spot),
         differences=(1e-2,),

@@ -11,7 +11,7 @@ from diagnosis.effects.effect import Effect
 from diagnosis.freeform.families.in_one_place.rubbing import SPOTS, Spot
 from diagnosis.freeform.families.in_one_place.tip import torques
 from diagnosis.freeform.families.interface import SLOW_RAD_S, TURN_DEG, WAVES, curve_over
-from diagnosis.freeform.family import Family, coordinates_of
+from diagnosis.freeform.family import Family, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
 from diagnosis.replay.curve import ActsOn
@@ -37,7 +37,7 @@ def _over(spot: Spot, variable: Variable, curve: SmoothCurve, ranges: LogRanges)
         effect=Effect(
             name=f"{spot.name} over {variable}",
             title=f"drag and dry friction {spot.words} that change with {variable}",
-            place=max(spot.places, key=lambda place: spot.places[place]),
+            place=most_probable(spot.places),
             parameters=(spot.drag(ranges), dry, *own),
             apply=partial(_apply, spot, variable, curve),
             differences=(1e-2,),

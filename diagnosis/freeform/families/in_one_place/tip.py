@@ -130,7 +130,7 @@ def _drag(ranges: LogRanges, starts: int) -> Parameter:
 
 def _dry(ranges: LogRanges) -> Parameter:
     """Dry friction at the tip, in the range of what `AT_TIP_MM` of shaft have."""
-    along = ranges.library["coulomb_friction"].parameters[0]
+    along = ranges.dry_level
     each = {k: getattr(along, k) * AT_TIP_MM for k in ("low", "high")}
     start = tuple(v * AT_TIP_MM for v in along.start)
     return replace(along, unit="N mm", start=start, **each)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import DAMPING
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
-from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.prepare.prepared_log import PreparedTrial
@@ -141,7 +141,7 @@ def _damping(session: Session, ranges: LogRanges) -> Family:
         effect=Effect(
             name=f"damping over {session.variable}, of the session",
             title=f"damping that changes with the {'turns' if worn else 'time'} of all trials",
-            place=max(places, key=lambda place: places[place]),
+            place=most_probable(places),
             parameters=session.parameters,
             apply=partial(_apply_damping, session),
         ),
@@ -159,7 +159,7 @@ def _apply_damping(session: Session, rig: RigParameters, *c: float) -> RigParame
 
 
 def _friction(session: Session, ranges: LogRanges) -> Family:
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = ranges.dry_level
     most = len(level.start)
     return Family(
         effect=Effect(

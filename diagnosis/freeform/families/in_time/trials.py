@@ -14,9 +14,9 @@ from functools import partial
 
 import numpy as np
 
-from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
-from diagnosis.freeform.family import VISCOUS, Family, Points, of_trials
+from diagnosis.freeform.family import VISCOUS, Family, Points, from_neutral, most_probable, of_trials
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -112,7 +112,7 @@ def _of_each_trial(quantity: _Quantity, trials: Sequence[str]) -> Family:
         effect=Effect(
             name=f"{quantity.acts_on.replace('_', ' ')} over time, of each trial",
             title=f"{quantity.words}, another one in each trial",
-            place=max(quantity.places, key=lambda place: quantity.places[place]),
+            place=most_probable(quantity.places),
             parameters=of_trials(len(trials), quantity.scale),
             apply=partial(_apply, quantity, trials),
         ),
@@ -177,8 +177,8 @@ def _apply_drift(acts_on: ActsOn, trials: Sequence[str], rig: RigParameters, *c:
 
 
 def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:
-    level = ranges.library["coulomb_friction"].parameters[0]
-    own = (_beside(p, level) for p in of_trials(len(trials)))
+    level = ranges.dry_level
+    own = from_neutral(of_trials(len(trials)), level)
     return Family(
         effect=Effect(
             name="dry friction over time, of each trial",
@@ -195,11 +195,6 @@ def _friction(ranges: LogRanges, trials: Sequence[str]) -> Family:
         x_unit="number of the trial",
         unit="N mm / mm",
     )
-
-
-def _beside(own: Parameter, level: Parameter) -> Parameter:
-    """The coordinate, with as many starts as the level has, all neutral."""
-    return replace(own, start=(0.0,) * len(level.start))
 
 
 def _levels(level: float, *c: float) -> Points:

@@ -92,7 +92,7 @@ def _breathes(ranges: LogRanges, rate_hz: float) -> Family:
 
 def _pulses(ranges: LogRanges, rate_hz: float) -> Family:
     trials = tuple(trial.name for trial in ranges.problem.log.trials)
-    level = ranges.library["coulomb_friction"].parameters[0]
+    level = ranges.dry_level
     shape = (_period(rate_hz), *_SECOND, *of_trials(2 * len(trials)))
     return Family(
         effect=Effect(

@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.interface import INTERFACE, from_neutral, level_of
-from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of
+from diagnosis.freeform.families.interface import INTERFACE
+from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of, from_neutral
 from diagnosis.freeform.ranges import LEAST_RANGE, LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -88,7 +88,7 @@ def _friction_over_rate(ranges: LogRanges) -> Family:
             name="friction over rate",
             title="friction that changes with the rate of turning",
             place=Place.INTERFACE,
-            parameters=(level_of(ranges), *from_neutral(coordinates_of(curve), level_of(ranges))),
+            parameters=(ranges.dry_level, *from_neutral(coordinates_of(curve), ranges.dry_level)),
             apply=partial(_apply_rate, curve, rates),
             differences=(1e-2,),
         ),
@@ -98,7 +98,7 @@ def _friction_over_rate(ranges: LogRanges) -> Family:
         curve=partial(_friction, curve, rates, beta),
         x_unit="rad/s",
         unit="N mm / mm",
-        as_effect={"shear_thinning": partial(_power_law, curve, rates, level_of(ranges).low)},
+        as_effect={"shear_thinning": partial(_power_law, curve, rates, ranges.dry_level.low)},
         contains=("coulomb_friction", "stiction"),
     )
 

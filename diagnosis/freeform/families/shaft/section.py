@@ -14,8 +14,8 @@ import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.in_layers.layers import box, place_of
-from diagnosis.freeform.families.interface import PARTS, level_of
-from diagnosis.freeform.family import Family, Points, coordinates_of
+from diagnosis.freeform.families.interface import PARTS
+from diagnosis.freeform.family import Family, Points, coordinates_of, from_neutral
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
 from diagnosis.replay.free_law import FreeLaw
@@ -50,7 +50,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
 
 
 def _one_section(deepest_mm: float, ranges: LogRanges) -> Family:
-    level, starts = level_of(ranges), len(_FROM)
+    level, starts = ranges.dry_level, len(_FROM)
     from_tip = place_of("from_tip", deepest_mm, _FROM)
     return Family(
         effect=Effect(
@@ -79,14 +79,13 @@ def _apply_one(rig: RigParameters, from_tip: float, length: float, level: float)
 
 
 def _along_the_shaft(sections: _Sections, ranges: LogRanges) -> Family:
-    level = level_of(ranges)
-    neutral = (replace(p, start=(0.0,) * len(level.start)) for p in coordinates_of(sections.curve))
+    level = ranges.dry_level
     return Family(
         effect=Effect(
             name="dry friction over position, from the tip",
             title="dry friction that changes along the shaft",
             place=Place.INTERFACE,
-            parameters=(level, *neutral),
+            parameters=(level, *from_neutral(coordinates_of(sections.curve), level)),
             apply=partial(_apply_all, sections),
             differences=(1e-2,),
         ),

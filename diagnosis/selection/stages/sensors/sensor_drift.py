@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from diagnosis.criteria.selection import (
     CONTENDING,
-    DRIFT_PROMISED_GAP,
+    DRIFT_PREDICTED_GAP,
     DRIFT_SHARE,
     JUMP_LEAST_SAMPLES,
     JUMP_PARAMETERS,
@@ -93,8 +93,8 @@ def _comes_near(state: SearchState, noise: Noise) -> bool:
     rare = state.renoised(noise).coarse.noise
     found = [in_noise(c, state.problem, noise).fit for c in leading_on_the_log(state)]
     found += [in_noise(c, state.coarse, rare).fit for c in (*state.singles, *state.pairs)]
-    left = (max(fit.promised_cost - fit.prior, 0.0) / max(fit.samples, 1) for fit in found)
-    return math.sqrt(min(left)) <= DRIFT_PROMISED_GAP
+    left = (max(fit.predicted_cost - fit.prior, 0.0) / max(fit.samples, 1) for fit in found)
+    return math.sqrt(min(left)) <= DRIFT_PREDICTED_GAP
 
 
 def _jumps_rather(state: SearchState, drifting: SearchState, sensor: str) -> bool:

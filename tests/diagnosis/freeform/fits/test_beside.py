@@ -6,7 +6,7 @@ from free_forms import CURVE, family_of, linear_fit, one_trial
 
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.fits import beside
-from diagnosis.freeform.fits.beside import pairs_beside, promised_costs
+from diagnosis.freeform.fits.beside import pairs_beside, predicted_costs
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.selection.screening import Screened
 from diagnosis.workers import Workers
@@ -31,7 +31,7 @@ def law():
 def test_the_promise_is_the_cost_of_a_common_fit_where_both_are_linear(law):
     """Least squares of both together, the prior of the law included, is the oracle."""
     fit, changes = law
-    costs = promised_costs(fit, changes)
+    costs = predicted_costs(fit, changes)
     for k, change in enumerate(changes.T[:2]):
         both = np.column_stack([fit.slopes, np.pad(change, (0, CURVE.size))])
         left, amount = _least_squares(both, -fit.residual)
@@ -46,7 +46,7 @@ def _least_squares(system, wanted):
 
 def test_what_the_law_can_do_itself_promises_nothing(law):
     fit, changes = law
-    costs = promised_costs(fit, changes)
+    costs = predicted_costs(fit, changes)
     assert costs[2] > 0.9 * fit.cost
     assert costs[0] < 0.1 * fit.cost
 
@@ -75,7 +75,7 @@ def screened(monkeypatch):
 
         monkeypatch.setattr(beside, "_screened_beside", simulated)
         monkeypatch.setattr(beside, "_changes", lambda *_: np.zeros((SAMPLES, 1)))
-        monkeypatch.setattr(beside, "promised_costs", promised)
+        monkeypatch.setattr(beside, "predicted_costs", promised)
         pairs = pairs_beside(problem, problem, base, laws, effects, Workers())
         return [(law.family.name, s.names[-1]) for law, s in pairs]
 
