@@ -55,6 +55,21 @@ def drift_spread_sigma(
     return float(np.ptp(np.concatenate([np.zeros(0), *drifts]))) if drifts else 0.0
 
 
+def drift_means_apart(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> float:
+    """Range of the means of the drift over each trial, in sigma of the sensor."""
+    means = means_sigma(log, sensor, noise, predictions)
+    return float(np.ptp(means)) if means.size else 0.0
+
+
+def drift_ranges_sum(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> float:
+    """Ranges of the drift within all trials together, in sigma of the sensor."""
+    return sum(float(np.ptp(drift)) for drift in _by_trial(log, sensor, noise, predictions))
+
+
 def drifts_alike(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> bool:
     """Whether the sensor drifts along a line in every trial, at one rate: a law, and no accident."""
     rates = []

@@ -4,7 +4,8 @@ Where that is another, effects are fitted once more, from where they are; and ag
 noise that the best of them leaves. Where nothing explains a log, and the best leaves little, a colour
 that shows less is allowed for if it does; and noise may go on as 1 / f. Where it shows that at
 frequencies at which effects leave little, that is enough; where it begins below, both sensors have to
-show it, what is left of them must have nothing in common, and little may be left.
+show it, what is left of them must have nothing in common, little may be left, and one effect may be
+beside it at most, as beside a drift.
 """
 
 from dataclasses import replace
@@ -19,6 +20,7 @@ from diagnosis.criteria.noise import (
     FLICKER_COMMON_SIGMA,
     FLICKER_GAP,
 )
+from diagnosis.criteria.selection import DRIFT_MOST_EFFECTS
 from diagnosis.fitting.noise_reestimation import flicker_left, with_colour
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import Noise
@@ -84,13 +86,15 @@ def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
         state, explained = state.rechecked()
         if explained:
             break
+        slow = sensors is _slow_flicker
         allowed = sensors(state)
         if not allowed:
             continue
         noise = replace(state.problem.noise, flicker=allowed)
         noise = with_colour(replace(state.problem, noise=noise), state.best.fit)
-        if _may_explain(state.renoised(noise), apart=sensors is _slow_flicker):
-            state = _kept_if_it_explains(FLICKER, state, noise, workers)
+        contenders = _with_few_effects(state) if slow else state
+        if contenders.candidates and _may_explain(contenders.renoised(noise), apart=slow):
+            state = _kept_if_it_explains(FLICKER, state, noise, workers, contenders)
     return state
 
 
@@ -111,6 +115,12 @@ def _slow_flicker(state: SearchState) -> dict[str, float]:
     return dict.fromkeys(found, FLICKER_ABOVE_HZ) if told else {}
 
 
+def _with_few_effects(state: SearchState) -> SearchState:
+    """The state without explanations of more effects than may be beside a drift, which is slow too."""
+    few = (c for c in state.candidates if len(c.named) <= DRIFT_MOST_EFFECTS)
+    return replace(state, candidates=tuple(few))
+
+
 def _may_explain(state: SearchState, *, apart: bool) -> bool:
     """Whether a leading explanation leaves little in that noise.
 
@@ -122,9 +132,19 @@ def _may_explain(state: SearchState, *, apart: bool) -> bool:
     return best.gap <= FLICKER_GAP and not alike
 
 
-def _kept_if_it_explains(stage: str, state: SearchState, noise: Noise, workers: Workers) -> SearchState:
-    """The leading explanations fitted again in another noise, if one of them explains the log there."""
-    begun = state.renoised(noise)
+def _kept_if_it_explains(
+    stage: str,
+    state: SearchState,
+    noise: Noise,
+    workers: Workers,
+    contenders: SearchState | None = None,
+) -> SearchState:
+    """The leading explanations fitted again in another noise, if one of them explains the log there.
+
+    Args:
+      contenders: the state with the explanations that may; None: all of them.
+    """
+    begun = (contenders or state).renoised(noise)
     made = leading_fitted_again(stage, begun, begun.problem, workers)
     again, explained = replace(begun, candidates=()).adding(made).rechecked()
     if explained:

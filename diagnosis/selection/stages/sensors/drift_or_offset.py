@@ -7,9 +7,7 @@ none of them. And a large drift of the tip beside which nothing is missing is no
 diagnosis but the diagnosis: the log stays unknown, and the drift is told as the law that is missing.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 from diagnosis.log.trial import SENSORS
 from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise
@@ -18,6 +16,7 @@ from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.scoring.drift_evidence import likeliest_drift, score_beside_drift
 from diagnosis.selection.stages.sensors.working_sensor import (
+    OFFSETS,
     allowed_sigma,
     drifts,
     is_all_that_is_missing,
@@ -31,7 +30,6 @@ from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 STAGE = "drift or offset"
-OFFSETS: Mapping[str, str] = MappingProxyType({TORQUE: "torque_bias", TIP: "tip_angle_bias"})
 _WORDS = {TORQUE: "torque", TIP: "tip"}
 _MOST_EFFECTS = 3
 

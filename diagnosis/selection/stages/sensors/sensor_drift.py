@@ -25,9 +25,9 @@ from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import Decision, RecordEntry, noted
 from diagnosis.selection.scoring.drift_evidence import in_noise, score_beside_drift, wide_drifts
-from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS
 from diagnosis.selection.stages.sensors.reading_jumps import rows_of
 from diagnosis.selection.stages.sensors.working_sensor import (
+    OFFSETS,
     allowed_sigma,
     range_sigma,
     with_few_effects,

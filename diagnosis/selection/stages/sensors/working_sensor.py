@@ -3,17 +3,20 @@
 A drift of more than DRIFT_RANGE_SIGMA within a trial is none of a sensor that works; nor is one of more
 than DRIFT_ALIKE_SIGMA that is the same line in every trial, or than DRIFT_ONE_COURSE_SIGMA that is
 another course, and the same in every trial. Where nothing else is missing, a drift of the tip by more
-than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is itself what the model lacks. And it stands beside one
-effect at most, but for those of the other sensor: with two it takes the shape of what no library holds.
-Nor does it follow the axial speed, the angle of the base (torque), or depth, rate, direction or angle of
-the tip (scoring/followed); and where such a law is likelier than a drift, it is none.
+than DRIFT_OF_TIP_ALONE_SIGMA, over all trials, is itself what the model lacks; and so is one of the
+torque whose zeros in the trials are further apart than DRIFT_ALIKE_SIGMA and than all that it drifts by
+within them. And it stands beside one effect at most, but for those of the other sensor: with two it
+takes the shape of what no library holds. Nor does it follow the axial speed, the angle of the base
+(torque), or depth, rate, direction or angle of the tip (scoring/followed); and where such a law is
+likelier than a drift, it is none.
 
 Sigma is the noise of a reading as the sensor gives it: means and filters quieten it, and leave a drift.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +33,11 @@ from diagnosis.criteria.selection import (
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.prepare.noise.sensor_noise import TIP
+from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.replay.drift import (
+    drift_means_apart,
     drift_range_sigma,
+    drift_ranges_sum,
     drift_spread_sigma,
     drifts_alike,
     drifts_by_one_course,
@@ -46,7 +51,7 @@ from diagnosis.selection.scoring.followed import followed
 from diagnosis.selection.stages.stage import leading_on_the_log
 from diagnosis.selection.state import SearchState
 
-_TIP_OFFSET = "tip_angle_bias"
+OFFSETS: Mapping[str, str] = MappingProxyType({TORQUE: "torque_bias", TIP: "tip_angle_bias"})
 _SEVERAL = 3  # trials, whose scatter tells whether their mean is by chance
 
 
@@ -87,6 +92,14 @@ def _of_a_reading(state: SearchState, sensor: str, size: Callable[..., float]) -
     return sigma * problem.noise[sensor] / noise_of_a_reading(problem, sensor)
 
 
+def zeros_apart(state: SearchState, sensor: str) -> bool:
+    """Whether trials have other zeros, further apart than the sensor drifts within all of them."""
+    apart, within = (
+        _of_a_reading(state, sensor, size) for size in (drift_means_apart, drift_ranges_sum)
+    )
+    return apart > max(within, DRIFT_ALIKE_SIGMA)
+
+
 def allowed_sigma(state: SearchState, sensor: str) -> float:
     """Range of a drift of a working sensor; less, where it is the same in every trial."""
     of = state.problem.log, sensor, state.problem.noise, _replayed(state)
@@ -96,9 +109,10 @@ def allowed_sigma(state: SearchState, sensor: str) -> float:
 
 
 def is_all_that_is_missing(state: SearchState, sensor: str) -> bool:
-    """Whether the drift is a large one of the tip, beside which nothing but its offset is missing."""
-    alone = sensor == TIP and {*state.best.named} <= {_TIP_OFFSET}
-    return alone and spread_sigma(state, sensor) > DRIFT_OF_TIP_ALONE_SIGMA
+    """Whether the drift is too large for one beside which nothing but its offset is missing."""
+    alone = {*state.best.named} <= {OFFSETS[sensor]}
+    large = spread_sigma(state, sensor) > DRIFT_OF_TIP_ALONE_SIGMA
+    return alone and (large if sensor == TIP else zeros_apart(state, sensor))
 
 
 def what_it_follows(state: SearchState, sensor: str) -> str:

@@ -8,10 +8,12 @@ from diagnosis_fixtures import TIP, TORQUE, log_of, start_of_search
 from scipy.signal import lfilter
 
 from diagnosis.criteria.noise import COLOUR_CHI_SQUARE
+from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.log.trial import Trial
 from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
+from diagnosis.selection.candidate import candidate
 from diagnosis.selection.stages.sensors import coloured_noise as module
 from diagnosis.workers import Workers
 
@@ -140,6 +142,19 @@ def test_slow_noise_of_one_over_f_in_both_sensors_explains_a_log():
     after = module.flicker_noise(state, Workers())
     assert after.rechecked()[1]
     assert set(after.problem.noise.flicker) == {"tip_angle_deg", TORQUE_NAME}
+
+
+@pytest.mark.parametrize(
+    ("names", "explained"), [(("torque_bias",), True), (("torque_bias", "tip_angle_bias"), False)]
+)
+def test_slow_noise_stands_beside_one_effect_at_most(names, explained):
+    state = module.nominal_rig(start_of_search(of_both(NOMINAL), effects=()), Workers())
+    state = module.coloured_noise(state, Workers())
+    one = candidate(fit_effects(state.problem, names))
+    state = replace(state, candidates=(one,))
+    after = module.flicker_noise(state, Workers())
+    assert after.rechecked()[1] is explained
+    assert [c.names for c in after.candidates] == [names]
 
 
 def test_what_tip_and_torque_have_in_common_is_no_noise():

@@ -13,6 +13,7 @@ from diagnosis.criteria.selection import (
     DRIFT_RANGE_SIGMA,
 )
 from diagnosis.log.trial import SENSORS
+from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.selection.stages.sensors import working_sensor as module
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
@@ -24,6 +25,7 @@ from diagnosis.selection.stages.sensors.working_sensor import (
     what_is_likelier,
     what_it_follows,
     with_few_effects,
+    zeros_apart,
 )
 
 
@@ -62,6 +64,19 @@ def test_of_one_line_in_every_trial_less_is_allowed(sensor):
     _, alike = searched(moved((0, 0, 4), (0, 0, 4), sensor=sensor), sensor)
     assert allowed_sigma(apart, sensor) == DRIFT_RANGE_SIGMA
     assert allowed_sigma(alike, sensor) == DRIFT_ALIKE_SIGMA
+
+
+@pytest.mark.parametrize("sensor", SENSORS)
+@pytest.mark.parametrize(
+    ("begins", "rises", "apart"),
+    [((9, 0), (0, 0), True), ((9, 0), (1, 1), True), ((9, 0), (5, 5), False), ((4, 0), (0, 0), False)],
+    ids=["jumps", "hardly drifts", "drifts as far", "little"],
+)
+def test_zeros_that_jump_between_trials_are_no_drift(begins, rises, apart, sensor):
+    each = ((zero, 0, rise) for zero, rise in zip(begins, rises, strict=True))
+    _, after = searched(moved(*each, sensor=sensor), sensor)
+    assert zeros_apart(after, sensor) is apart
+    assert is_all_that_is_missing(after, sensor) is (apart if sensor == TORQUE else True)
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
