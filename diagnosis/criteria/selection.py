@@ -77,17 +77,19 @@ DRIFT_RANGE_SIGMA, DRIFT_ALIKE_SIGMA, DRIFT_ONE_COURSE_SIGMA, DRIFT_ALIKE = 15.0
 """Physical: a choice of what a working sensor drifts by within a trial, in sigma of its noise: half of
 it to one side and the other; more is no roughness but a fault, and the answer stays unknown. So it does
 for less where the drift is a line of one rate in all trials, to that share: that is a law. Another
-course that is the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma in
-each trial."""
+course that is the same in all trials is so even more. Set on one log, of a base that turns by 9 sigma
+in each trial. Zeros of a torque that are further apart than the second, and than it drifts by within
+trials, are no drift where nothing else is missing: 13 sigma beside 4 in a log whose cell feels the
+axial force."""
 DRIFT_OF_TIP_ALONE_SIGMA = 4.0
 """What a tip sensor may drift by over all trials where nothing but an offset of it is missing: noise
 that is correlated over seconds wanders so far. More, or another zero in each trial, is itself what the
 model lacks, and is told as the law that is missing. A choice, below four logs of two rigs whose tip
 sensor drifts, jumps, depends on the depth or is zeroed by hand (4.7 to 9 sigma), above noise (1.6)."""
 DRIFT_MOST_EFFECTS = 1
-"""Effects that an explanation may name beside a drift, but for those of the other sensor. Of 13 logs of
-three rigs that two effects and a drift explained one was so; the others had one effect, or a law that is
-in no library."""
+"""Effects that an explanation may name beside a drift, but for those of the other sensor, or beside
+noise as 1 / f that shows only where effects do. Of 13 logs of three rigs that two effects and a drift
+explained one was so; the others had one effect, or a law that is in no library."""
 DRIFT_FOLLOWS_SIGMA = 5.0
 """Standard deviations of the axial speed in what a drift takes up, or of another course that a law of
 the sensor has (selection/scoring/followed): derived, by chance in one of 10^5 logs. Six blind logs with

@@ -71,12 +71,12 @@ class FreeFit:
 
     @property
     def predicted_score(self) -> float:
-        """The score that one more step of the fit promises."""
+        """The score after one more step of the fit, by its slopes."""
         return self._score(self.fit.predicted_cost)
 
     @property
     def predicted_gap(self) -> float:
-        """The gap that one more step of the fit promises, with the prior."""
+        """The gap after one more step of the fit, by its slopes, with the prior."""
         return float(np.sqrt(max(self.fit.predicted_cost, 0.0) / self.fit.samples))
 
     def _score(self, cost: float) -> float:

@@ -42,7 +42,7 @@ def growing(
     may = [law for law in laws if may_grow(law.fit.parameterization.rig(law.fit.x).free)][:LEADING]
     pairs = [(law, family) for law in may for family in all_grown(law.family, ranges)]
     tasks = [Task(effects=(), arguments=(coarse, law, family)) for law, family in pairs]
-    each = zip(pairs, workers.each(SCREENING, prediction_of, tasks), strict=True)
+    each = zip(pairs, workers.each(SCREENING, score_of_growing, tasks), strict=True)
     predicted = [(score, pair) for pair, score in each if not isinstance(score, Failure)]
     ranked = (pair for _, pair in sorted(predicted, key=lambda one: one[0]))
     kept = islice(few_of_each(ranked, lambda pair: pair[0], GROWN_OF_ONE), GROWN)
@@ -63,7 +63,7 @@ def start_of(coarse: FitProblem, law: FreeFit, family: Family) -> Array:
     return parameterization.joined({**parts, family.name: own})
 
 
-def prediction_of(coarse: FitProblem, law: FreeFit, family: Family) -> float:
+def score_of_growing(coarse: FitProblem, law: FreeFit, family: Family) -> float:
     """The score that the law could come to if it grew."""
     problem = with_family(coarse, family)
     parameterization = problem.parameterization((family.name,))

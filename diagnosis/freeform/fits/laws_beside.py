@@ -49,8 +49,8 @@ def laws_beside(base: Fit, laws: Sequence[FreeFit], others: Sequence[FreeFit]) -
     for law in laws:
         leading.add(law.family.name)  # of two laws the one that leaves less alone
         may_be = [o for o in known if o.fit.family.name not in {*leading, *law.names}]
-        promises = _predicted(law.fit, may_be)
-        predicted += [(p, law, o.fit) for p, o in zip(promises, may_be, strict=True)]
+        scores = _predicted_scores(law.fit, may_be)
+        predicted += [(score, law, o.fit) for score, o in zip(scores, may_be, strict=True)]
     kept: list[FreeFit] = []
     for _, law, other in sorted(predicted, key=lambda one: one[0]):
         pair = replace(law, others=(*law.others, other.family))
@@ -71,10 +71,10 @@ def _other(base: Fit, one: FreeFit) -> _Other:
     )
 
 
-def _predicted(law: Fit, others: Sequence[_Other]) -> list[float]:
+def _predicted_scores(law: Fit, others: Sequence[_Other]) -> list[float]:
     """Scores as of a FreeFit, which the law could come to beside each of the others."""
     model = linear_model(law)
-    return [_predicted_cost(model, law.samples, other.columns, other.weights) for other in others]
+    return [_score_of(model, law.samples, other.columns, other.weights) for other in others]
 
 
 def predicted_score(law: Fit, columns: Array, weights: Array) -> float:
@@ -84,10 +84,10 @@ def predicted_score(law: Fit, columns: Array, weights: Array) -> float:
       columns: what each of these changes of residuals, (N, k).
       weights: of their prior, (k,).
     """
-    return _predicted_cost(linear_model(law), law.samples, columns, weights)
+    return _score_of(linear_model(law), law.samples, columns, weights)
 
 
-def _predicted_cost(model: LinearModel, samples: int, columns: Array, weights: Array) -> float:
+def _score_of(model: LinearModel, samples: int, columns: Array, weights: Array) -> float:
     squares, along = model.beyond(columns)
     squares[np.diag_indices_from(squares)] += _ROUNDING * np.sum(columns**2, axis=0) + 1e-12
     whole = squares + np.diag(weights**2)

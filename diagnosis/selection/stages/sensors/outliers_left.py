@@ -88,7 +88,7 @@ def outliers_and_more(others: Sequence[Stage]) -> Stage:
 def _without_outliers(state: SearchState, workers: Workers) -> SearchState | None:
     """The state without outliers, the leading explanations fitted anew; None: there are none."""
     found = _found(state.problem, state.best.fit)
-    if not _predicted(state, found):
+    if not _are_worth_a_fit(state, found):
         return None
     begun = _without(state, found)
     return begun.adding(leading_fitted_again(STAGE, state, begun.problem, workers))
@@ -105,7 +105,7 @@ def _found(problem: FitProblem, fit: Fit) -> list[_Readings]:
     ]
 
 
-def _predicted(state: SearchState, found: Sequence[_Readings]) -> bool:
+def _are_worth_a_fit(state: SearchState, found: Sequence[_Readings]) -> bool:
     """Whether outliers are few, and a good part of what is left beyond noise."""
     fit = state.best.fit
     squares = sum(float(np.sum(one.left[one.off] ** 2)) for one in found)

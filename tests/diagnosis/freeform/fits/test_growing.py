@@ -9,7 +9,7 @@ from diagnosis_fixtures import coarse_of, log_of
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.families.readings import families
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
-from diagnosis.freeform.fits.growing import GROWN_OF_ONE, growing, prediction_of, start_of
+from diagnosis.freeform.fits.growing import GROWN_OF_ONE, growing, score_of_growing, start_of
 from diagnosis.freeform.fits.grown import all_grown, grown_over
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.curve import ActsOn, Course, Curve
@@ -66,7 +66,7 @@ def test_a_law_that_grows_in_time_is_promised_most_and_fitted_to_the_noise(grown
 
 def test_growing_promises_more_than_the_law_leaves_alone(grown):
     coarse, ranges, law, _ = grown
-    promised = {f.name: prediction_of(coarse, law, f) for f in all_grown(law.family, ranges)}
+    promised = {f.name: score_of_growing(coarse, law, f) for f in all_grown(law.family, ranges)}
     assert min(promised, key=promised.get) == f"{NAME}, growing with time"
     assert min(promised.values()) < law.score
 
