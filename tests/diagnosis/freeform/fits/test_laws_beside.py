@@ -62,7 +62,7 @@ def test_the_promise_is_what_a_common_fit_leaves(linear):
     """Least squares of both together, with the priors of both, is the oracle."""
     slopes, readings = linear
     first, _, second, _ = fits_of(slopes, readings)
-    (promised,) = module._predicted(first.fit, [module._other(base_of(readings), second)])
+    (promised,) = module._predicted_scores(first.fit, [module._other(base_of(readings), second)])
     change = second.fit.by_trial[0] + readings  # by its first fit
     other = np.vstack([np.column_stack([slopes["c"], change]), np.zeros((CURVE.size, CURVE.size + 1))])
     law = np.vstack([slopes["a"], np.eye(CURVE.size)])
