@@ -41,5 +41,8 @@ EXACT = 0.001
 (SCATTER_LEAST), and three times what two simulations of the same rig differ by."""
 SCATTER_NAMED = 2.0
 """Standard deviations of that scatter beyond which it is named beside other effects."""
+SCATTER_ALIKE = 2.49
+"""The same of both together, the root of the sum of squares, where both are off alike: one cause may be
+behind them. As unlikely by chance as the one above (the chi-square distribution of two)."""
 SLIDING_MM_S = 0.05
 """Axial speed from which the needle counts as sliding."""

@@ -12,6 +12,7 @@ from diagnosis.criteria.fitting import (
     BASE_NOISE_MORE,
     BASE_NOISE_READINGS,
     SCATTER,
+    SCATTER_ALIKE,
     SCATTER_NAMED,
 )
 from diagnosis.criteria.selection import (
@@ -225,12 +226,26 @@ class Candidate:
 
     def _is_off(self, name: str) -> bool:
         if self.names:
-            off = math.expm1(float(self.fit.parts[name][0]))  # fitted as log of the scale
-            return abs(off) > SCATTER_NAMED * SCATTER[name]
+            return abs(self._scatters(name)) > SCATTER_NAMED or self._off_alike
         away, spread = scatter_of(self.fit)
         entry = open_scatter(self.fit).index(name)
         certain = SCATTER_CERTAIN_SIGMA * float(np.sqrt(spread[entry, entry]))
         return abs(float(away[entry])) > max(certain, SCATTER_LEAST)
+
+    def _scatters(self, name: str) -> float:
+        """By how much a constant is off, in standard deviations of what it scatters by."""
+        return math.expm1(float(self.fit.parts[name][0])) / SCATTER[name]  # fitted as log of the scale
+
+    @property
+    def _off_alike(self) -> bool:
+        """Whether stiffness and damping are off by the same, as far as is told, and by too much."""
+        both = open_scatter(self.fit)
+        if len(both) != len(SCATTER):
+            return False
+        (one, other), spread = scatter_of(self.fit)
+        apart = math.sqrt(spread[0, 0] + spread[1, 1] - 2 * spread[0, 1])
+        alike = abs(one - other) <= SCATTER_NAMED * apart <= min(SCATTER.values())
+        return alike and math.hypot(*(self._scatters(name) for name in both)) > SCATTER_ALIKE
 
 
 def candidate(fit: Fit) -> Candidate:

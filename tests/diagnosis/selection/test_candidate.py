@@ -128,6 +128,19 @@ def test_beside_an_effect_a_constant_is_named_beyond_its_scatter(sign):
         assert off_by(off, 0.0, names=("tip_drag",)).named == ("tip_drag", *named)
 
 
+@pytest.mark.parametrize(
+    ("damping", "slope", "named"),
+    [(0.029, 1e3, True), (0.018, 1e3, False), (0.029, 30.0, False)],
+    ids=["alike", "not alike", "alike, as far as little tells"],
+)
+def test_constants_that_are_off_alike_are_named_before_either_alone_would_be(damping, slope, named):
+    """As a torque gain would make them, which is likelier than both by chance."""
+    rows = np.tile([[0.0, slope, 0.0], [0.0, 0.0, slope]], (10, 1))
+    fit = fit_of(("tip_drag",), x=np.array([-3.0, 0.029, damping]), jacobian=[rows], nuisance=SCALES)
+    one = replace(scored(["tip_drag"], 1.0), fit=fit)
+    assert one.named == ("tip_drag", *(SCATTER if named else ()))
+
+
 def test_a_ratio_that_is_off_does_not_say_which_constant_is():
     """Slopes of stiffness and damping that are opposite: their ratio alone shows."""
     ratio = off_by(0.02, -0.02, slopes=(1e3, -1e3))
