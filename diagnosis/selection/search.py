@@ -18,12 +18,12 @@ dropped.
 from diagnosis.selection.stages.best import (
     best_to_its_end,
     best_without_each_effect,
-    imperfections_in_place,
     plainer_sets,
     scatter_of_the_best,
 )
 from diagnosis.selection.stages.dragged_tissue import tissue_that_goes_along
 from diagnosis.selection.stages.exchange import exchanges
+from diagnosis.selection.stages.late_sensors import imperfections_in_place
 from diagnosis.selection.stages.mesh_refinement import finer_mesh, finer_mesh_near_the_floor
 from diagnosis.selection.stages.nominal_rig import nominal_rig, stiffness_or_damping_alone
 from diagnosis.selection.stages.pairs import pairs

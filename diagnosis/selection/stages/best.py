@@ -8,12 +8,10 @@ import numpy as np
 
 from diagnosis.criteria.freeform import FAR_GAP, PLAINER_LEAVES, PLAINER_SETS
 from diagnosis.criteria.selection import CONTENDING, FINALISTS, SIMPLE_LEAD
-from diagnosis.effects import FITTED, IMPERFECTIONS
-from diagnosis.effects.effect import Effect, Parameter, Place
+from diagnosis.effects.effect import Parameter
 from diagnosis.fitting.bounded_least_squares import predicted_reduction
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.fit_status import Termination
-from diagnosis.log.trial import SENSORS
 from diagnosis.selection.fitting import fit_all, fit_beside
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -85,34 +83,6 @@ def _absent_at(parameter: Parameter) -> float:
     if parameter.neutral is None or (parameter.logarithmic and parameter.neutral <= 0.0):
         return np.nan
     return parameter.to_fit(parameter.neutral)
-
-
-def imperfections_in_place(state: SearchState, workers: Workers) -> SearchState:
-    """The best with another reason for which a sensor is late in place of the one that it has.
-
-    That is a delay, or an imperfection. The decimated log is too coarse to tell a delay from a low pass,
-    and what leads there may be the only one that came this far. Two of them may be a third one.
-    """
-    best = state.best
-    state, _ = state.rechecked()
-    if not state.at_the_floor(best):
-        return state
-    known = {frozenset(c.names) for c in state.candidates}
-    swapped: dict[frozenset[str], tuple[str, ...]] = {}
-    for column in SENSORS:
-        lags = [e.name for e in FITTED.values() if e.needs == column and _is_in_time(e)]
-        for late in (name for name in best.names if name in lags and FITTED[name].delays_a_sensor):
-            others = tuple(name for name in best.names if name != late)
-            bare = tuple(name for name in others if name not in lags)
-            for names in ((*kept, lag) for kept in (others, bare) for lag in lags if lag not in kept):
-                swapped.setdefault(frozenset(names), names)
-    new = [names for key, names in swapped.items() if key not in known]
-    return state.adding(fit_beside("imperfections in place", state.problem, best, new, workers))
-
-
-def _is_in_time(effect: Effect) -> bool:
-    """Whether it is a delay of a sensor, a low pass or a clock."""
-    return effect.delays_a_sensor or (effect.place is Place.SENSOR and effect.name in IMPERFECTIONS)
 
 
 def scatter_of_the_best(state: SearchState, workers: Workers) -> SearchState:

@@ -13,30 +13,10 @@ from diagnosis.fitting.fit_status import FitStatus, Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.replay.rig_parameters import RigParameters
-from diagnosis.selection import candidate, checked, fitting
+from diagnosis.selection import candidate, checked
 from diagnosis.selection.search import search
 from diagnosis.selection.stages import best as module
 from diagnosis.workers import Workers
-
-TORQUE_LAGS = (
-    *("torque_average", "torque_butterworth", "torque_clock", "torque_low_pass"),
-    "torque_sensor_delay",
-)
-
-
-@pytest.fixture
-def asked(monkeypatch):
-    """Sets of effects that are fitted; fits that are scores alone have no trials to leave out."""
-    found = []
-    monkeypatch.setattr(candidate, "held_out_or_refitted", lambda _, fit: fit.by_trial)
-
-    def fit_all(stage, calls, workers):
-        found.extend(call[1] for call in calls)
-        return [], ()
-
-    for owner in (module, fitting):
-        monkeypatch.setattr(owner, "fit_all", fit_all)
-    return found
 
 
 def test_one_effect_has_nothing_to_be_taken_apart(asked, still_start):
@@ -50,32 +30,6 @@ def test_of_three_effects_each_is_left_out_in_turn_but_for_what_was_fitted(asked
     found = [scored(three, 1.0), scored(["torque_bias", "tip_drag"], 2.0)]
     module.best_without_each_effect(replace(still_start, candidates=found), Workers())
     assert asked == [("tip_drag", "stiction"), ("torque_bias", "stiction")]
-
-
-def test_a_delay_may_be_an_imperfection_of_its_sensor(asked, still_start):
-    """Of the same sensor, and no set twice."""
-    late = scored(["tip_drag", "torque_sensor_delay"], 1.0)
-    known = scored(["torque_clock", "tip_drag"], 2.0)
-    module.imperfections_in_place(replace(still_start, candidates=(late, known)), Workers())
-    assert asked == [
-        ("tip_drag", name) for name in ("torque_average", "torque_butterworth", "torque_low_pass")
-    ]
-    asked.clear()
-    tip = scored(["tip_sensor_delay"], 1.0)
-    module.imperfections_in_place(replace(still_start, candidates=(tip,)), Workers())
-    assert asked == [("tip_clock",)]
-    asked.clear()
-    other = scored(["tissue_viscoelasticity"], 1.0)  # its time constant is no delay of a sensor
-    module.imperfections_in_place(replace(still_start, candidates=(other,)), Workers())
-    assert asked == []
-
-
-@pytest.mark.parametrize("lag", ["torque_sensor_delay", "torque_butterworth"])
-def test_a_lag_beside_one_low_pass_may_be_another_one(lag, asked, still_start):
-    both = scored(["torque_low_pass", lag], 1.0)
-    module.imperfections_in_place(replace(still_start, candidates=(both,)), Workers())
-    assert {("torque_average",), ("torque_low_pass",), ("torque_sensor_delay",)} <= {*asked} | {(lag,)}
-    assert all({*names} <= {*TORQUE_LAGS} for names in asked)
 
 
 @pytest.mark.parametrize(("slow", "fitted"), [(0.99, 2), (1.01, 0)])
