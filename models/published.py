@@ -80,7 +80,6 @@ TISSUE_DEPTH = PublishedFigure(
     value=0.5, unit="mm", source="Section IV-A2", note="tissue that turns with the shaft"
 )
 ELEMENT_AREA = PublishedFigure(value=1.9, unit="mm^2", source="Section IV-A2", note="of 1 mm of shaft")
-ELEMENT_LENGTH = PublishedFigure(value=1.0, unit="mm", source="Section IV")
 TISSUE_SPRING = PublishedFigure(value=5.2e-3, unit="N mm/rad", source="(29)", note="per 1 mm element")
 TISSUE_DAMPER = PublishedFigure(value=5.4e-3, unit="N mm s/rad", source="Section IV-A2", note="per 1 mm")
 HARD_OVER_SOFT = PublishedFigure(value=100.0, unit="-", source="Section IV-B")

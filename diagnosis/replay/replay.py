@@ -61,11 +61,9 @@ def predict(
     return sensed_at_samples(rigs, [runs[i] for i in each], trial)
 
 
-def shape_of(
-    nominal: NominalRig, trial: PreparedTrial, rig: RigParameters, resolution: Resolution = FINE
-) -> Run:
+def shape_of(nominal: NominalRig, trial: PreparedTrial, rig: RigParameters) -> Run:
     """The simulated run of one trial, at its own time steps, with the shape of the shaft."""
-    run = _run(nominal, trial, [rig], resolution, keep_shape=True)[0]
+    run = _run(nominal, trial, [rig], FINE, keep_shape=True)[0]
     return run.since(float(trial.time_s[0]))
 
 

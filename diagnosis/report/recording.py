@@ -28,13 +28,13 @@ _COLOURS = {"measured": [150, 150, 150], "nominal": [31, 119, 180], "explained":
 _LABELS = {"tip_angle_deg": "tip, deg", "base_torque_n_mm": "base torque, N mm"}
 
 
-def log_gap(diagnosis: Diagnosis, sentence: str, path: Path, *, force: bool = False) -> None:
+def log_gap(diagnosis: Diagnosis, sentence: str, path: Path) -> None:
     """Write the recording; `sentence` is the verdict in words.
 
     Raises:
-      OutputExists: the path exists and `force` is not given.
+      OutputExists: the path exists.
     """
-    with recorded(f"{APPLICATION}-gap", _blueprint(diagnosis), path, force=force) as stream:
+    with recorded(f"{APPLICATION}-gap", _blueprint(diagnosis), path) as stream:
         stream.log("about", rr.TextDocument(f"# {sentence}", media_type="text/markdown"), static=True)
         each = zip(diagnosis.log.trials, diagnosis.nominal, diagnosis.assessment.explained, strict=True)
         for i, (trial, nominal, explained) in enumerate(each):

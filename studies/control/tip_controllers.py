@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from controllers.adaptive import AdaptiveEstimator
 from controllers.estimators import (
@@ -115,17 +115,6 @@ class ControllerDesign:
     base_noise_deg: float = 0.05
     torque_noise_n_mm: float = 0.015
     bias_spread_n_mm: float = 0.2
-
-    def off_by(
-        self, *, stiffness_factor: float = 1.0, damping_factor: float = 1.0
-    ) -> "ControllerDesign":
-        """The same design with needle constants that are wrong by these factors."""
-        modulus = self.needle.shear_modulus_gpa * stiffness_factor
-        return replace(
-            self,
-            needle=self.needle.but(shear_modulus_gpa=modulus),
-            damping_n_mm_s_per_mm=self.damping_n_mm_s_per_mm * damping_factor,
-        )
 
 
 def _feedforward(design: ControllerDesign) -> Estimator:

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 GAP_GOAL = 1.03
 """Residual / sigma that an exact diagnosis should leave at most."""
+_BINS = 5  # of probability
 
 
 def summary(scores: pd.DataFrame) -> pd.DataFrame:
@@ -43,7 +44,7 @@ def undetected_within_limit(scores: pd.DataFrame) -> tuple[float, int]:
     return (float((ratio <= 1.0).mean()) if len(ratio) else float("nan")), len(ratio)
 
 
-def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
+def reliability(scores: pd.DataFrame) -> pd.DataFrame:
     """By bin of probability: predicted and observed share of right first ranks, and number of logs.
 
     If several effects are true, the predicted share is the probability of all of them together.
@@ -52,7 +53,7 @@ def reliability(scores: pd.DataFrame, bins: int = 5) -> pd.DataFrame:
     share = _predicted(scores)
     table = pd.DataFrame(
         {
-            "bin": _bins(share, bins),
+            "bin": _bins(share),
             "predicted": share,
             "observed": scores["top_right"].astype(float),
         }
@@ -74,7 +75,7 @@ def calibration_error(scores: pd.DataFrame) -> float:
     return float((table["logs"] * distance).sum() / table["logs"].sum())
 
 
-def calibration_error_by_chance(scores: pd.DataFrame, bins: int = 5) -> float:
+def calibration_error_by_chance(scores: pd.DataFrame) -> float:
     """What the calibration error would be if every probability were right: so few logs tell no better.
 
     The mean of 2000 draws, in which each first rank is right with the probability that was predicted.
@@ -83,7 +84,7 @@ def calibration_error_by_chance(scores: pd.DataFrame, bins: int = 5) -> float:
     if not share.size:
         return float("nan")
     right = np.random.default_rng(1).random((2000, share.size)) < share
-    inside = np.eye(bins)[_bins(share, bins)]
+    inside = np.eye(_BINS)[_bins(share)]
     return float(np.abs((right - share) @ inside).sum(axis=1).mean() / share.size)
 
 
@@ -94,8 +95,8 @@ def _predicted(scores: pd.DataFrame) -> NDArray[np.float64]:
     )
 
 
-def _bins(share: NDArray[np.float64], bins: int) -> NDArray[np.int64]:
-    return np.clip((share * bins).astype(np.int64), 0, bins - 1)
+def _bins(share: NDArray[np.float64]) -> NDArray[np.int64]:
+    return np.clip((share * _BINS).astype(np.int64), 0, _BINS - 1)
 
 
 def gap_left(scores: pd.DataFrame) -> float:

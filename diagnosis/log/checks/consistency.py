@@ -19,7 +19,6 @@ from diagnosis.criteria.checks import (
     DISTINCT_NOISES,
     LARGE_TURN_DEG,
     NEGATIVE_WORK,
-    NOISE_RATIO,
     SWAPPED_LEAST,
     SWAPPED_SHARE,
     TORQUE_OVER_TWIST,
@@ -30,7 +29,7 @@ from diagnosis.criteria.checks import (
 from diagnosis.log.checks.binned_trial import BinnedTrial, binned, misfit
 from diagnosis.log.checks.torque_scale import stiffest_n_mm_per_rad, torque_over_twist
 from diagnosis.log.checks.travel import travelled_mm
-from diagnosis.log.faults.scatter import scatter
+from diagnosis.log.faults.scatter import agrees, scatter
 from diagnosis.log.trial import SENSORS, Trial, UnusableLog
 
 Array = NDArray[np.float64]
@@ -71,7 +70,7 @@ def _refuse_swapped_noise(path: Path, trial: Trial, noise: Mapping[str, float]) 
     for one, other in combinations(measured, 2):
         if 1 / DISTINCT_NOISES < noise[one] / noise[other] < DISTINCT_NOISES:
             continue
-        swapped = _agrees(trial[one], noise[other]) and _agrees(trial[other], noise[one])
+        swapped = agrees(scatter(trial[one]), noise[other]) and agrees(scatter(trial[other]), noise[one])
         if swapped and not _angles_go_together(trial, {one, other}):
             _swapped(path, one, other, "each scatters as rig.yaml claims for the other")
 
@@ -168,12 +167,6 @@ def _refuse_negative_work(path: Path, turning: BinnedTrial) -> None:
 def _both_turn(turning: BinnedTrial) -> bool:
     base, tip = turning.base_angle_deg, turning.tip_angle_deg
     return tip.size > 0 and bool(min(np.ptp(base), 2 * np.ptp(tip)) >= LARGE_TURN_DEG)
-
-
-def _agrees(values: Array, claim: float) -> bool:
-    """Whether the scatter of a reading agrees with a claim."""
-    low, high = NOISE_RATIO
-    return low < scatter(values) / claim < high
 
 
 def _correlation(one: Array, other: Array) -> float:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria.checks import NOISE_RATIO
 from diagnosis.criteria.faults import BELIEVED_SCATTER, FROZEN_LEAST_RUN
 from diagnosis.log.white_noise import white_noise
 
@@ -34,6 +35,12 @@ def seen_scatter(values: Array, claim: float) -> float:
         return 0.0
     least = min(claim, found) if math.isfinite(found) else claim
     return least if least >= 0.5 * quantum(values) else 0.0
+
+
+def agrees(found: float, claim: float) -> bool:
+    """Whether a scatter that was found agrees with a claim of noise."""
+    low, high = NOISE_RATIO
+    return low <= found / claim <= high
 
 
 def runs_of(values: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

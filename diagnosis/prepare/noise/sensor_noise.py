@@ -21,6 +21,7 @@ from diagnosis.criteria.noise import (
     LEAST_GAP,
 )
 from diagnosis.criteria.prepare import LEAST_DIFFERENCES
+from diagnosis.log.faults.scatter import agrees
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.trial import SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
@@ -210,11 +211,11 @@ def _most_coloured(scatter: float, claimed: float) -> float:
         return math.inf
     if scatter > COLOUR_FAR_ABOVE_CLAIM * claimed:
         return 0.0
-    return COLOUR_MOST * max(claimed, scatter) if _agrees(scatter, claimed) else math.inf
+    return COLOUR_MOST * max(claimed, scatter) if agrees(scatter, claimed) else math.inf
 
 
 def _scatters_otherwise(column: str, found: float, claimed: float, means_of: int) -> str:
-    if claimed <= 0 or _agrees(found, claimed):
+    if claimed <= 0 or agrees(found, claimed):
         return ""
     found, claimed = (math.sqrt(means_of) * own for own in (found, claimed))  # of a single reading
     return (
@@ -247,7 +248,7 @@ def base_noise_deg(rig: NominalRig, trials: Sequence[Trial]) -> float:
         for trial in trials
     )
     found = min((own for own in each if np.isfinite(own)), default=np.nan)
-    near = claimed > 0 and (not np.isfinite(found) or _agrees(found, claimed))
+    near = claimed > 0 and (not np.isfinite(found) or agrees(found, claimed))
     return claimed if near else float(np.nan_to_num(found))
 
 
@@ -258,8 +259,3 @@ def _where_not_moved(trial: Trial) -> Array:
         return trial[BASE]
     moved = np.interp(trial["time_s"], rows.taken_s, rows.taken_s != rows.stamps_s)
     return np.where(moved > 0, np.nan, trial[BASE])
-
-
-def _agrees(found: float, claimed: float) -> bool:
-    low, high = NOISE_RATIO
-    return low <= found / claimed <= high

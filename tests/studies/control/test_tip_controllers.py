@@ -61,13 +61,6 @@ def test_only_those_that_estimate_a_bias_log_one_and_take_it_off():
         )
 
 
-def test_a_design_can_be_wrong_by_factors():
-    wrong = DESIGN.off_by(stiffness_factor=1.2, damping_factor=0.5)
-    assert wrong.needle.rigidity_n_mm2 == pytest.approx(1.2 * DESIGN.needle.rigidity_n_mm2)
-    assert wrong.damping_n_mm_s_per_mm == pytest.approx(0.5 * DESIGN.damping_n_mm_s_per_mm)
-    assert wrong.limits == DESIGN.limits
-
-
 @pytest.mark.parametrize("name", ["base_only", "feedforward", "lqr"])
 def test_a_controller_that_was_reset_acts_as_a_new_one(name):
     def bases(controller):

@@ -30,6 +30,7 @@ from diagnosis.prepare.noise.spectrum.missing_values import completed
 from diagnosis.prepare.noise.spectrum.periodograms import (
     MEAN,
     QUANTILE,
+    SAME_STEP,
     even,
     periodogram,
     step_of,
@@ -40,7 +41,6 @@ from diagnosis.prepare.noise.spectrum.periodograms import (
 Array = NDArray[np.float64]
 
 _LEVEL = 2.0  # the spectrum is level below a frequency as it is from there to so many times as much
-_SAME_STEP = 0.02  # relative difference between the steps of trials
 _TOLD = 0.5  # of the samples
 _FILLS, _SEED = 4, 0
 
@@ -97,7 +97,7 @@ def _completed_white(values: Array, rng: np.random.Generator) -> Array:
 
 
 def _has_step(time_s: Array, step_s: float) -> bool:
-    return time_s.size < 2 or abs(float(np.median(np.diff(time_s))) / step_s - 1.0) < _SAME_STEP
+    return time_s.size < 2 or abs(float(np.median(np.diff(time_s))) / step_s - 1.0) < SAME_STEP
 
 
 def _autocovariances(cut: Sequence[Array], step_s: float) -> Array:

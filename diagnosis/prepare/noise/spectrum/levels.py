@@ -23,9 +23,11 @@ from diagnosis.prepare.noise.noise_colour import ColouredPart, covariances_of_me
 from diagnosis.prepare.noise.spectrum.periodograms import (
     MEAN,
     QUANTILE,
+    SAME_STEP,
     even,
     periodogram,
     step_of,
+    steps_of_trials,
     taper_of,
     trend,
     windows_of,
@@ -121,18 +123,16 @@ def spectrum_of(
       above_hz: frequency at which bands begin.
       window_s: of the windows.
     """
-    step_s = step_of(parts)
-    if np.isnan(step_s):
+    step_s, cut = _enough_windows(parts, window_s)
+    if not cut:
         return None
-    size = round(window_s / step_s)
-    evens = [even(time_s, values, step_s) for time_s, values in parts]
-    taper, cut = taper_of(size), windows_of(evens, step_s, window_s=window_s)
-    frequencies = np.fft.rfftfreq(size, step_s)
+    size = cut[0].size
+    taper, frequencies = taper_of(size), np.fft.rfftfreq(size, step_s)
     # The last, of half the sampling rate, has no phase: it scatters more, and its low quantile is lower.
     edges = np.geomspace(above_hz, max(frequencies[-1], 1.001 * above_hz), _BANDS + 1)
     inside = [np.flatnonzero((frequencies >= a) & (frequencies < b)) for a, b in pairwise(edges)]
     bands = [own for own in inside if own.size]
-    if len(cut) < COLOUR_WINDOWS or len(bands) < _FEWEST_BANDS:
+    if len(bands) < _FEWEST_BANDS:
         return None
     squares = np.array([periodogram(values, taper) for values in cut])
     levels = np.array([np.quantile(squares[:, own], QUANTILE) / MEAN for own in bands])
@@ -145,6 +145,21 @@ def spectrum_of(
         lag_weights=_lag_weights(cut, taper, bands),
         step_s=step_s,
     )
+
+
+def _enough_windows(parts: Sequence[tuple[Array, Array]], window_s: float) -> tuple[float, list[Array]]:
+    """Windows of all trials at one step, s, and that step; none: the trials are too short.
+
+    The step is that of most samples, or else a longer one of slower trials, at which of faster ones
+    some samples are used. Those that are slower still are not: every other value would be missing.
+    """
+    for step_s in steps_of_trials(parts):
+        fast = [part for part in parts if step_of([part]) <= (1 + SAME_STEP) * step_s]
+        evens = [even(time_s, values, step_s) for time_s, values in fast]
+        cut = windows_of(evens, step_s, window_s=window_s)
+        if len(cut) >= COLOUR_WINDOWS:
+            return step_s, cut
+    return np.nan, []
 
 
 def _lag_weights(cut: Sequence[Array], taper: Array, bands: Sequence[NDArray[np.int_]]) -> Array:

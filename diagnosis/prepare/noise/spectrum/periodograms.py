@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 QUANTILE = 0.3
 MEAN = -np.log(1 - QUANTILE)
 """The quantile that is used, and what it is of the mean of an exponential distribution."""
+SAME_STEP = 0.02
+"""Relative difference between the steps of trials up to which they are the same."""
 _FEWEST = 0.5  # share of its samples that a window has to have
 
 
@@ -25,6 +27,13 @@ def step_of(parts: Sequence[tuple[Array, Array]]) -> float:
     """Median step of the samples of all trials, s; NaN: there are none."""
     steps = np.concatenate([np.diff(time) for time, _ in parts]) if parts else np.zeros(0)
     return float(np.median(steps)) if steps.size else float("nan")
+
+
+def steps_of_trials(parts: Sequence[tuple[Array, Array]]) -> list[float]:
+    """The median step of all samples, s, then those of trials that were sampled more slowly."""
+    first = step_of(parts)
+    slower = {step_of([part]) for part in parts if step_of([part]) > first}
+    return [first, *sorted(slower)] if np.isfinite(first) else []
 
 
 def windows_of(

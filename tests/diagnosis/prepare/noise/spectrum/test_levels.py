@@ -84,3 +84,21 @@ def test_what_is_slower_than_a_window_does_not_show():
 def test_trials_that_are_too_short_have_no_spectrum():
     assert spectrum_of([]) is None
     assert spectrum_of(trials(6)[:1], above_hz=0.1, window_s=29.0) is None
+
+
+def test_of_trials_at_many_rates_the_step_is_one_that_leaves_enough_windows():
+    """Of 8 s at 500 Hz there are 7 windows of 2 s; 12 are asked for."""
+    kept_s, rng = 0.05, np.random.default_rng(5)
+
+    def trial(rate_hz, lasting_s):
+        kept, size = np.exp(-1.0 / (kept_s * rate_hz)), round(rate_hz * lasting_s)
+        own = lfilter([np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=size))
+        return np.arange(size) / rate_hz, own
+
+    fast = trial(500, 8.0)
+    assert spectrum_of([fast]) is None
+    spectrum = spectrum_of([fast, trial(200, 12.0), trial(20, 10.0)])
+    assert spectrum.step_s == pytest.approx(1 / 200)
+    own = process(spectrum, kept_s, 1)
+    off = np.log(spectrum.levels / own.levels) / spectrum.error
+    assert np.sqrt(np.mean(off**2)) == pytest.approx(1.0, abs=0.65)

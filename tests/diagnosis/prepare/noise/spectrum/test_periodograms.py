@@ -9,6 +9,7 @@ from diagnosis.prepare.noise.spectrum.periodograms import (
     even,
     periodogram,
     step_of,
+    steps_of_trials,
     taper_of,
     windows_of,
 )
@@ -66,3 +67,9 @@ def test_the_step_is_that_of_most_samples():
     assert step_of([trial()]) == pytest.approx(0.01)
     assert np.isnan(step_of([]))
     assert np.isnan(step_of([(np.array([1.0]), np.array([2.0]))]))
+
+
+def test_steps_are_that_of_most_samples_and_those_of_slower_trials():
+    each = [(np.arange(size) / rate, np.zeros(size)) for rate, size in ((500, 900), (50, 80), (100, 80))]
+    assert steps_of_trials(each) == pytest.approx([0.002, 0.01, 0.02])
+    assert steps_of_trials([]) == []
