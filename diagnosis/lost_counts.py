@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria.faults import LOST_COUNTS_FURTHEST, LOST_COUNTS_LEAVES, LOST_COUNTS_MOST
 from diagnosis.log.rig_log import RigLog
-from diagnosis.log.trial import Trial
-from diagnosis.prepare.motion.base_jumps import BASE, Jump, large_jumps
+from diagnosis.log.trial import BASE, Trial
+from diagnosis.prepare.motion.base_jumps import Jump, large_jumps
 
 Array = NDArray[np.float64]
 

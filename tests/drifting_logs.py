@@ -3,8 +3,7 @@
 import numpy as np
 from diagnosis_fixtures import RIG, log_of, log_with, prepared, start_of_search, trial, turns
 
-from diagnosis.log.trial import Trial
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE, Trial
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL
 from diagnosis.selection.stages.nominal_rig import nominal_rig

@@ -11,8 +11,9 @@ from models.errors import NeedleError
 
 Array = NDArray[np.float64]
 
-REQUIRED = ("time_s", "base_angle_deg", "inserted_mm", "free_mm", "speed_mm_s")
-SENSORS = ("base_torque_n_mm", "tip_angle_deg")
+BASE, TORQUE, TIP = "base_angle_deg", "base_torque_n_mm", "tip_angle_deg"
+REQUIRED = ("time_s", BASE, "inserted_mm", "free_mm", "speed_mm_s")
+SENSORS = (TORQUE, TIP)
 OPTIONAL = (*SENSORS, "tip_torque_n_mm")
 COLUMNS = (*REQUIRED, *OPTIONAL)
 

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 
 from diagnosis.log.nominal_rig import NominalRig
 from diagnosis.log.rig_log import RigLog
-from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.log.trial import BASE, SENSORS, Trial
 from diagnosis.prepare.motion.base_smoothing import smooth_base
 from diagnosis.prepare.motion.gap_filling import fill_gaps
 from diagnosis.prepare.motion.inertia import inertia_torque
 from diagnosis.prepare.needle_memory import time_constant_s
 from diagnosis.prepare.noise.rounding import rounded_noise, steps_of, without_repeats
-from diagnosis.prepare.noise.sensor_noise import BASE, base_noise_deg
+from diagnosis.prepare.noise.sensor_noise import base_noise_deg
 from diagnosis.prepare.prepared_log import PreparedLog, PreparedTrial
 
 Array = NDArray[np.float64]

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, TORQUE
 from diagnosis.prepare.low_band import low_passed
-from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.rig_parameters import RigParameters, SmoothedReading

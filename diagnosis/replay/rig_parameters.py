@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 from diagnosis.log.nominal_rig import NominalRig
+from diagnosis.log.trial import BASE
 from diagnosis.replay.free_law import FreeLaw
 from models.drive import Drive
 from models.needle import Needle
@@ -18,9 +19,6 @@ from sim.needles.setup import Setup
 from sim.schedule import Schedule
 
 LAW_ROWS = 5  # of the law table: two layers, sheath, entry, tip
-
-
-BASE = "base_angle_deg"
 
 
 @dataclass(frozen=True, kw_only=True)

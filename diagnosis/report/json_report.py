@@ -15,7 +15,7 @@ from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.missing import Dependence, Law, Missing
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.report.sentences.names import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
 from diagnosis.residuals.residual_shape import ResidualShape

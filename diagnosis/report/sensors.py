@@ -3,7 +3,7 @@
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.result import Diagnosis
 

@@ -10,10 +10,10 @@ from diagnosis.criteria.faults import LOST_COUNTS_SHARE
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import TORQUE
 from diagnosis.lost_counts import with_jumps_restored
 from diagnosis.nominal_replay import NominalReplay, replay_nominal
 from diagnosis.prepare.motion.base_jumps import small_jumps
-from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.selection.jumps_beside import STAGE, jumps_beside, shifted_back
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.scoring.drift_evidence import in_noise, wide_drifts

@@ -14,11 +14,10 @@ from diagnosis.criteria.fitting import NOISE_TRUST
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_floor import floor_of
 from diagnosis.log.rig_log import read_rig_log
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, TORQUE
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.pipeline import diagnose
 from diagnosis.prepare.noise.drift import AllowedDrift
-from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.replay import replay as replaying
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.selection.candidate import candidate

@@ -11,10 +11,10 @@ from functools import partial
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.interface import TURN_DEG, curve_over
-from diagnosis.freeform.families.readings import TORQUE
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, periodic_curve
+from diagnosis.log.trial import TORQUE
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -31,6 +31,7 @@ from diagnosis.freeform.smooth_curve import (
     three_values,
     two_values,
 )
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import FACTORS, ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters
@@ -87,9 +88,6 @@ class Added:
     def of_the_drive(self) -> bool:
         """Whether it is an angle of the drive, or its rate, or one that is as good as that."""
         return self.acts_on in (ActsOn.DRIVE_ANGLE, ActsOn.TISSUE_ANGLE, *_SLIPS)
-
-
-TIP, TORQUE = "tip_angle_deg", "base_torque_n_mm"
 
 
 def _added(

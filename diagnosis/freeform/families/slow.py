@@ -12,9 +12,10 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.readings import DRIVE, SENSOR, TIP, TORQUE
+from diagnosis.freeform.families.readings import DRIVE, SENSOR
 from diagnosis.freeform.family import Family, Points, most_probable
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

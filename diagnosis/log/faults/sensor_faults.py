@@ -28,13 +28,12 @@ from diagnosis.log.checks.wording import lines
 from diagnosis.log.faults.outliers import AT_AN_END, Outliers, find_outliers
 from diagnosis.log.faults.saturated import saturated_rows
 from diagnosis.log.faults.scatter import quantum, runs_of, seen_scatter
-from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.log.trial import BASE, SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-BASE = "base_angle_deg"
 _EMPTIED = "these samples are not used"
 _REPLACED = "replaced by values from their neighbours"
 _KEPT = "used as it is: correct or cut these rows"

@@ -25,10 +25,10 @@ from diagnosis.criteria.faults import (
     LOST_COUNTS_STEP,
 )
 from diagnosis.log.rig_log import RigLog
+from diagnosis.log.trial import BASE
 
 Array = NDArray[np.float64]
 
-BASE = "base_angle_deg"
 _NEAR, _USUAL = 101, 67  # moves of which a jump sticks out; percentile: of noise, a third are no jumps
 
 

@@ -23,7 +23,7 @@ from diagnosis.criteria.noise import (
 from diagnosis.criteria.prepare import LEAST_DIFFERENCES
 from diagnosis.log.faults.scatter import agrees
 from diagnosis.log.nominal_rig import NominalRig
-from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.log.trial import BASE, SENSORS, Trial
 from diagnosis.log.white_noise import white_noise
 from diagnosis.prepare.noise.colour import Colour
 from diagnosis.prepare.noise.drift import AllowedDrift, Drift
@@ -34,7 +34,6 @@ from diagnosis.prepare.noise.spectrum.time_or_rows import colour_in_time_or_rows
 Array = NDArray[np.float64]
 TimedArray = tuple[Array, Array]
 
-BASE, TORQUE, TIP = "base_angle_deg", "base_torque_n_mm", "tip_angle_deg"
 _ORDER = 4  # of differences, which a residual of a wrong model asks for
 _UNKNOWN = 1.0  # where nothing is claimed and too little was read
 

@@ -18,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.prepare import START_FILTER_DECAYS, START_MOST_UNUSED
+from diagnosis.log.trial import BASE
 from diagnosis.replay.interpolation import interpolated
-from diagnosis.replay.rig_parameters import BASE, RigParameters
+from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.sensing.bearing import bearing_torque_n_mm
 from diagnosis.replay.sensing.filters import butterworth, first_order, moving_average
 from sim.needles.run import SimulationFailed

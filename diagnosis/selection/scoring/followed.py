@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria.selection import CONTENDING, UNRESOLVED_SHARE
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.noise.sensor_noise import TIP
+from diagnosis.log.trial import SENSORS, TIP
 from diagnosis.prepare.prepared_log import PreparedTrial
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ from free_forms import LAW, VOCABULARY, missing_with
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.report.json_report import FORMAT, as_json
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision

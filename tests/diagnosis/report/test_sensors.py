@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.report.sensors import imperfections
 

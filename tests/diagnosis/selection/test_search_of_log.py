@@ -7,9 +7,9 @@ import pytest
 from diagnosis_fixtures import TORQUE as DRIFT_SIZE
 from lossy_logs import LOST_DEG, NAMES, read
 
+from diagnosis.log.trial import TORQUE
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.prepare.motion.base_jumps import small_jumps
-from diagnosis.prepare.noise.sensor_noise import TORQUE
 from diagnosis.selection import search_of_log as module
 from diagnosis.selection.jumps_beside import STAGE
 from diagnosis.selection.record import Decision

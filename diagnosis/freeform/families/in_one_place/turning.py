@@ -8,10 +8,10 @@ from functools import partial
 
 from diagnosis.effects.effect import Effect, Place
 from diagnosis.freeform.families.interface import curve_over
-from diagnosis.freeform.families.readings import TIP, TORQUE
 from diagnosis.freeform.family import Family, Points, coordinates_of
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -25,10 +25,9 @@ from diagnosis.freeform.families.in_time.events import (
     times_of,
     trials_after,
 )
-from diagnosis.freeform.families.readings import TIP
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, TIP
 from diagnosis.replay.curve import ActsOn
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

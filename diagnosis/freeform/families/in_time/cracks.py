@@ -22,9 +22,9 @@ from diagnosis.freeform.families.in_time.events import (
     how_and_where,
     times_of,
 )
-from diagnosis.freeform.families.readings import TIP
 from diagnosis.freeform.family import Family, Points
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -18,9 +18,9 @@ from scipy.linalg import null_space
 from scipy.stats import theilslopes
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.readings import TIP, TORQUE
 from diagnosis.freeform.family import FARTHEST, Family, Points, coordinates
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.interface import DAMPING
-from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
+from diagnosis.freeform.families.readings import SENSOR
 from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates_of, most_probable
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.freeform.smooth_curve import SmoothCurve, smooth_curve
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.prepare.prepared_log import PreparedTrial
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from diagnosis.criteria.freeform import STEPS_GAIN, STEPS_MOST, STEPS_SHARE
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.events import DIFFERENCES
-from diagnosis.freeform.families.readings import TIP, TORQUE
 from diagnosis.freeform.family import Family, Points, of_trials
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -15,9 +15,10 @@ from functools import partial
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Place
-from diagnosis.freeform.families.readings import SENSOR, TIP, TORQUE
+from diagnosis.freeform.families.readings import SENSOR
 from diagnosis.freeform.family import VISCOUS, Family, Points, from_neutral, most_probable, of_trials
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.in_time.events import events, started, step, times_of
-from diagnosis.freeform.families.readings import TIP
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP
 from diagnosis.replay.curve import ActsOn
 
 _TAKES_S, _LONGEST_S = (0.3, 3.0), 10.0

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.freeform.families.in_time.changes import in_time
-from diagnosis.freeform.families.readings import TIP
 from diagnosis.freeform.family import VISCOUS, Family, Points, coordinates, of_trials
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP
 from diagnosis.replay.curve import FACTORS, ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.effects.effect import Effect, Parameter, Place
-from diagnosis.freeform.families.readings import TIP
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.ranges import LogRanges
+from diagnosis.log.trial import TIP
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import RigParameters

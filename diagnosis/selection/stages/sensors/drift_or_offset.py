@@ -9,8 +9,8 @@ diagnosis but the diagnosis: the log stays unknown, and the drift is told as the
 
 from dataclasses import replace
 
-from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise
+from diagnosis.log.trial import SENSORS, TIP, TORQUE
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted

@@ -28,9 +28,9 @@ from diagnosis.criteria.selection import (
 )
 from diagnosis.fitting.nuisance import reading_jump
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import BASE, SENSORS
 from diagnosis.prepare.prepared_log import PreparedTrial
-from diagnosis.replay.rig_parameters import BASE, ReadingJump
+from diagnosis.replay.rig_parameters import ReadingJump
 from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all

@@ -20,7 +20,8 @@ from diagnosis.criteria.selection import (
     JUMP_PARAMETERS,
     NEAR_FLOOR,
 )
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise
+from diagnosis.log.trial import TIP, TORQUE
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import Decision, RecordEntry, noted

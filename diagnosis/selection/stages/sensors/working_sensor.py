@@ -33,7 +33,7 @@ from diagnosis.criteria.selection import (
 )
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.replay.drift import (
     drift_means_apart,
     drift_range_sigma,

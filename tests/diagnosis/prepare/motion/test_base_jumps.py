@@ -7,7 +7,8 @@ import pytest
 from diagnosis_fixtures import joined, log_of
 
 from diagnosis.criteria.faults import LOST_COUNTS_MOST_SMALL
-from diagnosis.prepare.motion.base_jumps import BASE, large_jumps, small_jumps
+from diagnosis.log.trial import BASE
+from diagnosis.prepare.motion.base_jumps import large_jumps, small_jumps
 from diagnosis.replay.rig_parameters import NOMINAL
 
 AT, NOISE_DEG = 650, 0.02

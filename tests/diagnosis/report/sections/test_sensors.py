@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from diagnosis.prepare.noise.sensor_noise import TORQUE
+from diagnosis.log.trial import TORQUE
 from diagnosis.report.sections.sensors import sensors_section
 from diagnosis.report.sentences.residual import replay_quality
 

@@ -10,8 +10,9 @@ from diagnosis_fixtures import fit_of
 from diagnosis.criteria.noise import DRIFT_SIZES_SIGMA
 from diagnosis.criteria.selection import MOST_QUIETENED
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.prepare.noise.drift import AllowedDrift
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE, Noise
+from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.scoring.drift_evidence import (
     in_noise,

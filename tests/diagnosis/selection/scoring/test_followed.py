@@ -8,9 +8,8 @@ from diagnosis_fixtures import NOISE, fit_of, problem_of
 from drifting_logs import sliding
 
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, TIP, TORQUE
 from diagnosis.prepare.noise.drift import AllowedDrift
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
 from diagnosis.replay.replay import replay
 from diagnosis.selection.scoring.followed import COURSES, followed, taken_off
 

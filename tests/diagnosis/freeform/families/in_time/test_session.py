@@ -11,8 +11,7 @@ from free_forms import DAMPING, covered_by
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families.in_time.session import FEWEST_TRIALS, families
-from diagnosis.freeform.families.readings import TIP, TORQUE
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, TIP, TORQUE
 from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters

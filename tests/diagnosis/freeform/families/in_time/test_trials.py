@@ -9,8 +9,7 @@ from free_forms import DAMPING, VOCABULARY, covered_by
 
 from diagnosis.effects import LIBRARY
 from diagnosis.freeform.families.in_time.trials import FEWEST_TRIALS, families
-from diagnosis.freeform.families.readings import TIP, TORQUE
-from diagnosis.log.trial import SENSORS
+from diagnosis.log.trial import SENSORS, TIP, TORQUE
 from diagnosis.replay.replay import predict
 from diagnosis.replay.resolution import COARSE
 from diagnosis.replay.rig_parameters import NOMINAL

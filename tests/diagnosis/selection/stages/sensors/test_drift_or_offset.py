@@ -4,8 +4,7 @@ import pytest
 from diagnosis_fixtures import start_of_search
 from drifting_logs import STAGES, moved, off, sliding
 
-from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.noise.sensor_noise import TORQUE
+from diagnosis.log.trial import SENSORS, TORQUE
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig
 from diagnosis.selection.stages.sensors.drift_or_offset import OFFSETS, STAGE, drift_or_offset

@@ -8,9 +8,9 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.rig_log import RigLog
-from diagnosis.log.trial import Trial
+from diagnosis.log.trial import BASE, Trial
 from diagnosis.replay.replay import predict
-from diagnosis.replay.rig_parameters import BASE, NOMINAL, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision
 from diagnosis.selection.stages.nominal_rig import nominal_rig

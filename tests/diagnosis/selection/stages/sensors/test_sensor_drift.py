@@ -9,8 +9,7 @@ from drifting_logs import SIZES, STAGES, drifted, jumped, moved, off, searched
 
 from diagnosis.criteria.selection import CONTENDING, DRIFT_RANGE_SIGMA, NEAR_FLOOR
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.log.trial import SENSORS, Trial
-from diagnosis.prepare.noise.sensor_noise import TIP, TORQUE
+from diagnosis.log.trial import SENSORS, TIP, TORQUE, Trial
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision

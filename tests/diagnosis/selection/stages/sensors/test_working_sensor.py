@@ -12,8 +12,7 @@ from diagnosis.criteria.selection import (
     DRIFT_OF_TIP_ALONE_SIGMA,
     DRIFT_RANGE_SIGMA,
 )
-from diagnosis.log.trial import SENSORS
-from diagnosis.prepare.noise.sensor_noise import TORQUE
+from diagnosis.log.trial import SENSORS, TORQUE
 from diagnosis.selection.stages.sensors import working_sensor as module
 from diagnosis.selection.stages.sensors.working_sensor import (
     allowed_sigma,
