@@ -243,7 +243,7 @@ class Candidate:
         if len(both) != len(SCATTER):
             return False
         (one, other), spread = scatter_of(self.fit)
-        apart = math.sqrt(spread[0, 0] + spread[1, 1] - 2 * spread[0, 1])
+        apart = math.sqrt(max(spread[0, 0] + spread[1, 1] - 2 * spread[0, 1], 0.0))
         alike = abs(one - other) <= SCATTER_NAMED * apart <= min(SCATTER.values())
         return alike and math.hypot(*(self._scatters(name) for name in both)) > SCATTER_ALIKE
 
