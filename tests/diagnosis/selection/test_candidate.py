@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import fit_of, joined, log_of, problem_of, scored
 
-from diagnosis.criteria.fitting import BASE_NOISE_READINGS, SCATTER, SCATTER_NAMED
+from diagnosis.criteria.fitting import BASE_NOISE_READINGS, SCATTER, SCATTER_ALIKE, SCATTER_NAMED
 from diagnosis.criteria.selection import HELD_OUT_GAP, SHIFT_LIMIT
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import fit_effects
@@ -130,8 +130,13 @@ def test_beside_an_effect_a_constant_is_named_beyond_its_scatter(sign):
 
 @pytest.mark.parametrize(
     ("damping", "slope", "named"),
-    [(0.029, 1e3, True), (0.018, 1e3, False), (0.029, 30.0, False)],
-    ids=["alike", "not alike", "alike, as far as little tells"],
+    [
+        (0.029, 1e3, True),
+        (0.024, 1e3, False),  # together they are off by 2.54 standard deviations, more than is asked
+        (-0.029, 1e3, False),
+        (0.029, 30.0, False),
+    ],
+    ids=["alike", "not alike", "in opposite directions", "alike, as far as little tells"],
 )
 def test_constants_that_are_off_alike_are_named_before_either_alone_would_be(damping, slope, named):
     """As a torque gain would make them, which is likelier than both by chance."""
@@ -139,6 +144,14 @@ def test_constants_that_are_off_alike_are_named_before_either_alone_would_be(dam
     fit = fit_of(("tip_drag",), x=np.array([-3.0, 0.029, damping]), jacobian=[rows], nuisance=SCALES)
     one = replace(scored(["tip_drag"], 1.0), fit=fit)
     assert one.named == ("tip_drag", *(SCATTER if named else ()))
+
+
+@pytest.mark.parametrize(("share", "named"), [(0.99, ()), (1.01, tuple(SCATTER))])
+def test_constants_that_are_off_alike_by_little_are_scatter(share, named):
+    off = np.log1p(share * SCATTER_ALIKE / np.sqrt(2.0) * SCATTER["stiffness_error"])
+    rows = np.tile([[0.0, 1e3, 0.0], [0.0, 0.0, 1e3]], (10, 1))
+    fit = fit_of(("tip_drag",), x=np.array([-3.0, off, off]), jacobian=[rows], nuisance=SCALES)
+    assert replace(scored(["tip_drag"], 1.0), fit=fit).named == ("tip_drag", *named)
 
 
 def test_a_ratio_that_is_off_does_not_say_which_constant_is():
