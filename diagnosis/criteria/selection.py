@@ -110,9 +110,6 @@ effect may take up what a replay does not resolve. A choice; in 4000 samples, an
 UNRESOLVED_SHARE = 1e-4
 """Share of a reading that no model of a needle resolves. Measured: independent solvers of the contract
 differ by 1e-5 to 2e-4 of the torque; a choice for rigs, which are no better."""
-LAG_ALONE_SIGMA = 1.0
-"""Standard deviation of the sum of squares of noise by which a delay has to be behind a filter beside
-which nothing is missing: no model of a rig is known to less. A choice."""
 LAG_LITTLE = 1.0
 """Sigma of a reading, root mean square of its change, below which a filter of a sensor beside effects
 does little: whether it is a filter or a delay is then no second cause, and does not make the effects

@@ -21,7 +21,7 @@ from diagnosis.criteria.selection import (
     SCATTER_LEAST,
     SHIFT_LIMIT,
 )
-from diagnosis.effects import LIBRARY
+from diagnosis.effects import FITTED, LIBRARY
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.held_out.cross_validation import shift_statistic
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
@@ -55,6 +55,7 @@ class Candidate:
       means_of: readings that a sample is the mean of: its noise may be below what a replay resolves.
       begun_late: whether trials began wound up or moving, of which little of what was before is known.
       unresolved_cost: cost by which it may lead for what no model of a needle resolves.
+      base_noise_cost: cost that the noise of the encoder makes, for a late sensor alone; else 0.
       coloured: floors of the sensors whose noise is, with a slow part over seconds.
       swinging_hz: frequencies at which sensors with coloured noise swing, as no noise does.
       shape_open: whether typical forms of its law explain the log too: a bound is nothing against it.
@@ -71,6 +72,7 @@ class Candidate:
     means_of: int = 1
     begun_late: bool = False
     unresolved_cost: float = 0.0
+    base_noise_cost: float = 0.0
     coloured: Mapping[str, NoiseFloor] = field(default_factory=dict)
     swinging_hz: Mapping[str, float] = field(default_factory=dict)
     shape_open: bool = False
@@ -135,6 +137,16 @@ class Candidate:
             if not self.floor.allowing(worst.times(BASE_NOISE_MORE)).reached:
                 break  # none of the others changes so much more
         return replace(self, floor=floor, shift_limit=shift_limit)
+
+    def with_base_noise_cost(self, problem: FitProblem) -> "Candidate":
+        """The same with the cost that the noise of the encoder makes, where only a delay is missing.
+
+        A filter in place of the delay takes it away. Residuals differ by the noise of two readings.
+        """
+        if not (self.floor.reached and self.only_late):
+            return self
+        changes = self._base_noise_changes(problem)
+        return replace(self, base_noise_cost=max(_squares(own) for own in changes) / 2)
 
     def _base_noise_changes(self, problem: FitProblem) -> Iterator[tuple[Array, ...]]:
         """By how much residuals of each trial change from reading to reading of the encoder."""
@@ -213,6 +225,11 @@ class Candidate:
         return bool(self.names) and set(self.names) <= set(SCATTER)
 
     @property
+    def only_late(self) -> bool:
+        """Whether it names a delay of a sensor, and nothing else."""
+        return len(self.named) == 1 and FITTED[self.named[0]].delays_a_sensor
+
+    @property
     def unidentifiable(self) -> bool:
         """Whether stiffness and damping are off for certain, and it is open which: a ratio shows."""
         return not self.named and self.jointly_significant
@@ -246,6 +263,10 @@ class Candidate:
         apart = math.sqrt(max(spread[0, 0] + spread[1, 1] - 2 * spread[0, 1], 0.0))
         alike = abs(one - other) <= SCATTER_NAMED * apart <= min(SCATTER.values())
         return alike and math.hypot(*(self._scatters(name) for name in both)) > SCATTER_ALIKE
+
+
+def _squares(by_trial: tuple[Array, ...]) -> float:
+    return sum(float(own @ own) for own in by_trial)
 
 
 def candidate(fit: Fit) -> Candidate:

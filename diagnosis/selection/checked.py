@@ -72,7 +72,9 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
 def _checked(one: Candidate, problem: FitProblem) -> Candidate:
     try:
         found = _completed(one.allowing_base_noise(problem), problem).cross_validated(problem)
-        return found.allowing_base_noise(problem) if found.floor.reached else found
+        if not found.floor.reached:
+            return found
+        return found.allowing_base_noise(problem).with_base_noise_cost(problem)
     except SimulationFailed:
         return one.cross_validated(problem)  # with another motion it cannot be simulated
 

@@ -38,17 +38,31 @@ _REFINEMENTS = 4
 
 
 def with_even_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
-    """The trials with even times, if stamps scatter about such and the motion confirms it; warnings."""
-    evens = [max(_even_times(t["time_s"]), key=lambda at: _certainty([t], [at])) for t in trials]
-    scatter_s = max(_rms(t["time_s"] - at) for t, at in zip(trials, evens, strict=True))
-    step_s = min(float(np.diff(at).min()) for at in evens)
-    if scatter_s > EVEN_MOST_STEPS * step_s or _certainty(trials, evens) < EVEN_SIGMA:
+    """The trials with even times, if stamps scatter about such and the motion confirms it; warnings.
+
+    Stamps that have lost count of their steps stay.
+    """
+    guesses = [max(_even_times(t["time_s"]), key=lambda at: _certainty([t], [at])) for t in trials]
+    evens = [at if _counted(t["time_s"], at) else None for t, at in zip(trials, guesses, strict=True)]
+    told = [(t, at) for t, at in zip(trials, evens, strict=True) if at is not None]
+    if not told or _certainty(*zip(*told, strict=True)) < EVEN_SIGMA:
         return list(trials), []
+    scatter_s, step_s = max((_rms(t["time_s"] - at), _step_s(at)) for t, at in told)
     said = (
         f"time_s scatters by {1e3 * scatter_s:.2g} ms about steps of {1e3 * step_s:.4g} ms, over "
         "which the motion is smooth: the samples are taken to be even; stamp them where they are taken"
     )
-    return [_over(t, e) for t, e in zip(trials, evens, strict=True)], [said]
+    pairs = zip(trials, evens, strict=True)
+    return [trial if at is None else _over(trial, at) for trial, at in pairs], [said]
+
+
+def _counted(stamps_s: Array, even_s: Array) -> bool:
+    """Whether stamps scatter by so little about even times that no count of them is lost."""
+    return _rms(stamps_s - even_s) <= EVEN_MOST_STEPS * _step_s(even_s)
+
+
+def _step_s(even_s: Array) -> float:
+    return float(np.diff(even_s).min())
 
 
 def _over(trial: Trial, even_s: Array) -> Trial:

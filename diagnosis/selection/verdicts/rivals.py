@@ -3,10 +3,7 @@
 Scores of candidates are compared; `reached` is that of the best.
 """
 
-import math
-
 from diagnosis.criteria.selection import (
-    LAG_ALONE_SIGMA,
     LATE_LEAD,
     NEARLY,
     NESTED_LEAD,
@@ -41,17 +38,18 @@ def may_be_it(best: Candidate, late: Candidate, reached: float) -> bool:
     """Whether a delay in place of the filters of the best is led by what a replay may not resolve.
 
     That is no more than what the best itself leaves beyond noise. And where the best says nothing else,
-    a delay at the floor may be the one cause that there is, so that more of a lead is asked for.
+    a delay at the floor may be the one cause that there is: then it is also what the noise of the
+    encoder makes of the torque, which a filter takes away.
 
     Args:
       reached: score of the best.
     """
     behind, samples = late.score - reached, best.fit.samples
     beyond = max(sum(float(r @ r) for r in best.fit.by_trial) - samples, 0.0)
-    if late.explains and behind <= max(PART_LEAD, beyond):
-        return True
-    by_chance = LAG_ALONE_SIGMA * math.sqrt(2.0 * samples)
-    return not best.named and late.floor.reached and behind <= beyond + by_chance
+    alone = not best.named and late.floor.reached
+    if not (late.explains or alone):
+        return False
+    return behind <= max(PART_LEAD, beyond + (late.base_noise_cost if alone else 0.0))
 
 
 def certain_lead(best: Candidate, other: Candidate, reached: float) -> float:

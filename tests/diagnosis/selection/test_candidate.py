@@ -300,3 +300,32 @@ def test_the_encoder_is_read_again_only_where_that_may_be_enough(
     monkeypatch.setattr(FitProblem, "read_again", counted)
     one.allowing_base_noise(problem)
     assert len(seen) == readings
+
+
+def late_of(names, *, gap=1.0, base_deg=0.02):
+    """A torque that is late by 20 ms, in a log whose base was read with that noise."""
+    problem = problem_of(log_of(NOMINAL))
+    noise = replace(problem.noise, sigma={**problem.noise.sigma, "base_angle_deg": base_deg})
+    problem = replace(problem, noise=noise)
+    fit = fit_of(names, by_trial=[own[0] for own in problem.residuals([NOMINAL])])
+    return replace(candidate(fit), floor=NoiseFloor(gap=gap, slow=gap)), problem
+
+
+def test_the_noise_of_the_encoder_costs_a_late_sensor_in_proportion_to_its_square():
+    costs = []
+    for base_deg in (0.01, 0.02):
+        late, problem = late_of(["torque_sensor_delay"], base_deg=base_deg)
+        costs.append(late.with_base_noise_cost(problem).base_noise_cost)
+    assert costs[0] > 0.0
+    assert costs[1] == pytest.approx(4 * costs[0], rel=0.2)  # but for how far the motion is smoothed
+
+
+@pytest.mark.parametrize("names", [["tip_drag"], ["torque_sensor_delay", "tip_drag"], []])
+def test_that_cost_is_asked_of_a_late_sensor_alone(names):
+    one = scored(names, 1.0, floor=NoiseFloor(gap=1.0, slow=1.0))
+    assert one.with_base_noise_cost(None) is one
+
+
+def test_that_cost_is_not_asked_above_the_floor():
+    late, _ = late_of(["torque_sensor_delay"], gap=3.0)
+    assert late.with_base_noise_cost(None) is late

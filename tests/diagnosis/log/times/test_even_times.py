@@ -59,6 +59,26 @@ def test_a_trial_at_rest_follows_the_others_of_its_log():
     np.testing.assert_allclose(found[0]["time_s"], EVEN, atol=0.0002)
 
 
+def test_the_jitter_of_a_slow_trial_is_compared_with_its_own_steps():
+    """At 40 Hz stamps scatter by more than the steps of a trial at 1 kHz, and count them."""
+    slow = STEP_S * 2.5 * np.arange(800)
+    fast = 0.001 * np.arange(20000)
+    one = trial(jittered(slow, 0.004), slow)
+    other = trial(jittered(fast, 0.0002), fast, seed=4)
+    found, _ = with_even_times([one, other])
+    np.testing.assert_allclose(found[0]["time_s"], slow, atol=0.0008)
+    np.testing.assert_allclose(found[1]["time_s"], fast, atol=0.00004)
+
+
+def test_a_trial_that_has_lost_count_keeps_its_stamps_beside_one_that_has_not():
+    """Its clock runs by 3 % faster from the middle on: no even grid is within a step of that."""
+    later = np.where(EVEN < 10, EVEN, 10 + 0.97 * (EVEN - 10))
+    lost = trial(later, later)
+    found, _ = with_even_times([lost, trial(jittered(EVEN, 0.001), EVEN)])
+    np.testing.assert_array_equal(found[0]["time_s"], lost["time_s"])
+    np.testing.assert_allclose(found[1]["time_s"], EVEN, atol=0.0002)
+
+
 def test_even_stamps_are_left_alone():
     one = trial(EVEN, EVEN)
     assert with_even_times([one]) == ([one], [])
