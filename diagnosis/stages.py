@@ -82,6 +82,7 @@ STAGES = {
     "outliers beside the best": _whole("fitting without outliers", 1.0, 0, 0),
     "weakly coloured noise": _whole("fitting with noise of another colour", 1.0, 0, 0),
     "flicker noise": _whole("fitting with 1/f noise", 1.0, 0, 0),
+    "screening jumps of readings": _coarse("screening single effects beside a jump", 0.06, 0, 0),
     "jumps of readings": _coarse("fitting with jumps of readings", 0.3, 0, 0),
     "drift of the torque sensor": _coarse("fitting with a drift of the torque sensor", 0.3, 0, 14),
     "drift of the tip sensor": _coarse("fitting with a drift of the tip sensor", 0.3, 0, 0),

@@ -2,11 +2,12 @@
 
 The step in the residual of each leading explanation that takes most off its cost tells sensor, trial
 and sample. If that is a good part of what is left beyond noise, the leading explanations are fitted
-again with a jump there, whose size is open; and once more, if another jump is left that takes off enough
-for those that may follow, which are smaller, to take off the rest. It is allowed for only if the log is
-explained so, and not as well by a chuck that slipped at that moment, or a base that lost counts, which
-move the needle against its reading. That shows for a moment in the torque, so that a trial has to have
-both, tip and torque.
+again with a jump there, whose size is open, in the noise that the best of them then leaves; so are
+single effects that promise most beside the jump, which may have hidden them. Once more, if another jump
+is left that takes off enough for those that may follow, which are smaller, to take off the rest. It is
+allowed for only if the log is explained so, and not as well by a chuck that slipped at that moment, or a
+base that lost counts, which move the needle against its reading. That shows for a moment in the torque,
+so that a trial has to have both, tip and torque.
 
 A recording may have more than jumps: a drift of the torque is asked for beside the largest one.
 
@@ -35,7 +36,15 @@ from diagnosis.residuals.largest_step import ResidualStep, largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.fitting import fit_all
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.stages.stage import Stage, fitted_again, leading_on_the_log, leading_sets
+from diagnosis.selection.screening import Screened
+from diagnosis.selection.stages.sensors.coloured_noise import noise_of_the_best
+from diagnosis.selection.stages.stage import (
+    Stage,
+    fitted_again,
+    leading_on_the_log,
+    leading_sets,
+    screen_all,
+)
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -185,4 +194,14 @@ def _refitted(
         pairs=state.pairs,
         record=(*jumping.record, noted(STAGE, Decision.MADE, effect.title)),
     )
-    return fitted_again(STAGE, start, calls, workers)
+    known = {c.names for c in contenders}
+    hidden = [name for name in state.effects if (name,) not in known]
+    beside = _screened_with(coarse, hidden, workers)
+    return noise_of_the_best(fitted_again(STAGE, start, calls, workers, beside), workers)
+
+
+def _screened_with(coarse: FitProblem, effects: Sequence[str], workers: Workers) -> list[Screened]:
+    """What single effects promise beside the jump, which may have hidden them."""
+    bare, _ = fit_all(STAGE, [(coarse, ())], workers)
+    found, _ = screen_all(STAGE, [(coarse, c.fit, name) for c in bare for name in effects], workers)
+    return found

@@ -9,6 +9,7 @@ from diagnosis_fixtures import joined, log_of, start_of_search
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.log.rig_log import RigLog
 from diagnosis.log.trial import BASE, Trial
+from diagnosis.prepare.noise.noise_colour import NoiseColour
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
 from diagnosis.selection.candidate import candidate
@@ -65,6 +66,29 @@ def test_a_jump_is_found_with_its_time_and_size_beside_an_effect(column):
     assert jump.time_s == pytest.approx(5.0, abs=0.011)
     assert jump.size == pytest.approx(8.0 * NOISE[column], abs=0.3 * NOISE[column])
     assert decisions(after)[-1] is Decision.KEPT
+
+
+def hidden(log):
+    """A search that has not fitted the dry friction, since a jump makes other effects likelier."""
+    return nominal_rig(start_of_search(log, effects=("coulomb_friction",)), Workers())
+
+
+def test_an_effect_that_the_jump_has_hidden_is_found_beside_it():
+    after = jumps_of_readings(hidden(off(two(DRY), TIP, (5.0, 60.0))), Workers())
+    assert after.best.floor.reached
+    assert after.best.names == ("coulomb_friction",)
+    assert len(after.best.fit.parameterization.rig(after.best.fit.x).jumps) == 1
+
+
+def test_what_passed_for_coloured_noise_is_white_where_the_effect_is_found():
+    before = hidden(off(two(DRY), TIP, (5.0, 60.0)))
+    colour = {TORQUE: NoiseColour.of(share=0.7, correlation_time_s=0.2)}
+    noise = replace(before.problem.noise, colour=colour, white=before.problem.noise.sigma)
+    after = jumps_of_readings(before.renoised(noise), Workers())
+    assert after.problem.noise.colour == {}
+    assert after.best.names == ("coulomb_friction",)
+    left = np.concatenate(after.best.fit.by_trial)
+    assert np.sqrt(np.mean(left**2)) == pytest.approx(1.0, abs=3 / np.sqrt(2 * left.size))
 
 
 def test_two_jumps_are_found_one_after_the_other():
