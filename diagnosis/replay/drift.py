@@ -70,18 +70,37 @@ def drift_ranges_sum(
     return sum(float(np.ptp(drift)) for drift in _by_trial(log, sensor, noise, predictions))
 
 
+def drifts_along_lines(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> bool:
+    """Whether the sensor drifts along a line in every trial."""
+    return len(_rates(log, sensor, noise, predictions)) == sum(trial.has(sensor) for trial in log.trials)
+
+
 def drifts_alike(log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]) -> bool:
     """Whether the sensor drifts along a line in every trial, at one rate: a law, and no accident."""
+    rates = _rates(log, sensor, noise, predictions)
+    along_lines = drifts_along_lines(log, sensor, noise, predictions)
+    return (
+        along_lines
+        and len(rates) > 1
+        and float(np.ptp(rates)) <= DRIFT_ALIKE * abs(float(np.mean(rates)))
+    )
+
+
+def _rates(
+    log: PreparedLog, sensor: str, noise: Noise, predictions: Sequence[Prediction]
+) -> list[float]:
+    """Rates of the drift in the trials where it is a line, sigma / s."""
     rates = []
-    drifts = _by_trial(log, sensor, noise, predictions)
-    for trial, drift in zip(log.trials, drifts, strict=True):
-        if trial.has(sensor):
-            after_s = trial.time_s - trial.time_s[0]
-            line = np.polyfit(after_s, drift, 1)
-            if np.ptp(drift - np.polyval(line, after_s)) > DRIFT_ALIKE * np.ptp(drift):
-                return False
+    for trial, drift in zip(log.trials, _by_trial(log, sensor, noise, predictions), strict=True):
+        after_s = trial.time_s - trial.time_s[0]
+        line = np.polyfit(after_s, drift, 1)
+        if trial.has(sensor) and np.ptp(drift - np.polyval(line, after_s)) <= DRIFT_ALIKE * np.ptp(
+            drift
+        ):
             rates.append(float(line[0]))
-    return len(rates) > 1 and float(np.ptp(rates)) <= DRIFT_ALIKE * abs(float(np.mean(rates)))
+    return rates
 
 
 def drifts_by_one_course(

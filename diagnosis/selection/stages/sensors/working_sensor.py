@@ -40,6 +40,7 @@ from diagnosis.replay.drift import (
     drift_ranges_sum,
     drift_spread_sigma,
     drifts_alike,
+    drifts_along_lines,
     drifts_by_one_course,
     means_sigma,
     starts,
@@ -103,9 +104,9 @@ def zeros_apart(state: SearchState, sensor: str) -> bool:
 def allowed_sigma(state: SearchState, sensor: str) -> float:
     """Range of a drift of a working sensor; less, where it is the same in every trial."""
     of = state.problem.log, sensor, state.problem.noise, _replayed(state)
-    if drifts_alike(*of):
-        return DRIFT_ALIKE_SIGMA
-    return DRIFT_ONE_COURSE_SIGMA if drifts_by_one_course(*of) else DRIFT_RANGE_SIGMA
+    if not (drifts_alike(*of) or drifts_by_one_course(*of)):
+        return DRIFT_RANGE_SIGMA
+    return DRIFT_ALIKE_SIGMA if drifts_along_lines(*of) else DRIFT_ONE_COURSE_SIGMA
 
 
 def is_all_that_is_missing(state: SearchState, sensor: str) -> bool:

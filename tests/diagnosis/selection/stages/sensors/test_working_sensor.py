@@ -10,6 +10,7 @@ from drifting_logs import drifted, moved, off, searched, sliding
 from diagnosis.criteria.selection import (
     DRIFT_ALIKE_SIGMA,
     DRIFT_OF_TIP_ALONE_SIGMA,
+    DRIFT_ONE_COURSE_SIGMA,
     DRIFT_RANGE_SIGMA,
 )
 from diagnosis.log.trial import SENSORS, TORQUE
@@ -63,6 +64,14 @@ def test_of_one_line_in_every_trial_less_is_allowed(sensor):
     _, alike = searched(moved((0, 0, 4), (0, 0, 4), sensor=sensor), sensor)
     assert allowed_sigma(apart, sensor) == DRIFT_RANGE_SIGMA
     assert allowed_sigma(alike, sensor) == DRIFT_ALIKE_SIGMA
+
+
+def test_lines_that_are_one_course_are_allowed_as_much_as_of_one_rate(monkeypatch):
+    _, lines = searched(moved((0, 0, 4), (0, 0, 6), sensor=TORQUE), TORQUE)
+    monkeypatch.setattr(module, "drifts_alike", lambda *_: False)
+    assert allowed_sigma(lines, TORQUE) == DRIFT_ALIKE_SIGMA
+    monkeypatch.setattr(module, "drifts_along_lines", lambda *_: False)
+    assert allowed_sigma(lines, TORQUE) == DRIFT_ONE_COURSE_SIGMA
 
 
 @pytest.mark.parametrize("sensor", SENSORS)
