@@ -106,6 +106,7 @@ STAGES: tuple[Stage, ...] = (
     finer_mesh,
     simpler_effects,
     imperfections_in_place,
+    best_without_each_effect,
     plainer_sets,
 )
 

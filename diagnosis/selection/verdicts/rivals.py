@@ -12,6 +12,7 @@ from diagnosis.criteria.selection import (
 )
 from diagnosis.effects import FITTED, IMPERFECTIONS
 from diagnosis.selection.candidate import Candidate
+from diagnosis.selection.scoring.complexity import complexity_penalty
 from diagnosis.selection.verdicts.delay_or_filter import lags_little
 
 
@@ -55,15 +56,16 @@ def may_be_it(best: Candidate, late: Candidate, reached: float) -> bool:
 def certain_lead(best: Candidate, other: Candidate, reached: float) -> float:
     """The lead of the best over another, without what the unknown past of late trials may have made.
 
-    What stiffness and damping would have to be off for the other has nothing to do with that.
+    What the other needs more has nothing to do with that, of effects or of stiffness and damping off.
 
     Args:
       reached: score of the best.
     """
-    lead, of_priors = other.score - reached, other.fit.prior - best.fit.prior
+    lead = other.score - reached
     if not best.begun_late:
         return lead
-    of_readings = lead - max(of_priors, 0.0)
+    of_size = complexity_penalty(other.fit) - complexity_penalty(best.fit)
+    of_readings = lead - max(other.fit.prior - best.fit.prior, 0.0) - max(of_size, 0.0)
     return lead - min(max(of_readings, 0.0), LATE_LEAD)
 
 

@@ -62,6 +62,7 @@ def test_the_stages_are_these_in_this_order():
         "finer_mesh",
         "simpler_effects",
         "imperfections_in_place",
+        "best_without_each_effect",
         "plainer_sets",
     ]
 

@@ -10,6 +10,7 @@ from diagnosis.criteria.fitting import SCATTER
 from diagnosis.criteria.selection import PART_LEAD
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.noise_floor import NoiseFloor
+from diagnosis.selection.scoring.complexity import choice_penalty
 from diagnosis.selection.verdicts.decision import verdict_on
 from diagnosis.selection.verdicts.rivals import (
     certain_lead,
@@ -38,6 +39,16 @@ def test_what_the_past_of_late_trials_may_have_made_of_a_lead_does_not_count(
     other = replace(scored(["tip_angle_scale"], 112.0), fit=replace(fit, x=x))
     assert other.fit.prior == pytest.approx(of_prior)
     assert certain_lead(best, other, 100.0) == pytest.approx(certain)
+
+
+def test_what_more_effects_cost_is_no_matter_of_the_past_of_late_trials():
+    """Two effects in place of one that fit as well are behind by what the choice of a pair costs."""
+    best = scored(["tip_angle_scale"], 100.0, begun_late=True)
+    names = ["base_angle_scale", "torque_scale"]
+    more = choice_penalty(names) - choice_penalty(best.names)
+    assert more > 5.0
+    assert certain_lead(best, scored(names, 100.0 + more), 100.0) == pytest.approx(more)
+    assert certain_lead(best, scored(names, 103.0 + more), 100.0) == pytest.approx(more)
 
 
 @pytest.mark.parametrize(("lead", "beside"), [(8, True), (12, False)])
