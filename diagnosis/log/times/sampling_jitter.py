@@ -81,25 +81,31 @@ class _Beside:
 
 
 def with_sampling_times(trials: Sequence[Trial]) -> tuple[list[Trial], list[str]]:
-    """The trials with the times that their base tells, if it does; warnings."""
+    """The trials with the times that their base tells, if it does; warnings.
+
+    Trials of other rates may be off by the same time, or by the same share of their steps.
+    """
     each = [_beside(trial) for trial in trials]
     told = [own for own in each if own is not None]
     if not told:
         return list(trials), []
-    (scatter, certainty_sigma), step_s = _scatter(told), float(np.median([own.step_s for own in told]))
-    jitters = JITTER_LEAST_STEPS < scatter.jitter_s / step_s < JITTER_MOST_STEPS
-    certain = certainty_sigma > JITTER_CERTAIN_SIGMA
-    if not jitters or not certain or _alike(told) > JITTER_MOST_ALIKE:
+    alike = [_scatter(told, units_s) for units_s in ([1.0] * len(told), [own.step_s for own in told])]
+    scatters, certainty_sigma = max(alike, key=lambda found: found[1])
+    shares = [found.jitter_s / own.step_s for found, own in zip(scatters, told, strict=True)]
+    jitters = JITTER_LEAST_STEPS < float(np.median(shares)) < JITTER_MOST_STEPS
+    if not jitters or certainty_sigma <= JITTER_CERTAIN_SIGMA or _alike(told) > JITTER_MOST_ALIKE:
         return list(trials), []
-    if _beyond(told, scatter) > JITTER_MOST_BEYOND:
+    if _beyond(told, scatters) > JITTER_MOST_BEYOND:
         return list(trials), []
+    jitter_s, step_s = max((own.jitter_s, one.step_s) for own, one in zip(scatters, told, strict=True))
     said = (
         "base_angle_deg scatters in proportion to its rate, as rows do that were read "
-        f"{_ms(scatter.jitter_s)} early or late (rms) under stamps {_ms(step_s)} apart: every row is "
+        f"{_ms(jitter_s)} early or late (rms) under stamps {_ms(step_s)} apart: every row is "
         "moved to the time that its base angle tells; stamp rows when they are read"
     )
+    of = iter(scatters)
     pairs = zip(trials, each, strict=True)
-    return [trial if own is None else _moved(trial, own, scatter) for trial, own in pairs], [said]
+    return [trial if own is None else _moved(trial, own, next(of)) for trial, own in pairs], [said]
 
 
 def _ms(time_s: float) -> str:
@@ -152,13 +158,17 @@ def _in_window(base: Array, rows: Counts, width: int, step_s: float) -> _Beside:
     )
 
 
-def _scatter(told: Sequence[_Beside]) -> tuple[Scatter, float]:
+def _scatter(told: Sequence[_Beside], units_s: Sequence[float]) -> tuple[list[Scatter], float]:
     """From medians in bins of the rate, variance = noise^2 + rate^2 jitter^2, against noise alone.
 
-    Returns: the scatter, and how certain its part in time is, sigma.
+    Args:
+      units_s: in which the jitter of each trial is the same.
+
+    Returns: the scatter of each trial, and how certain its part in time is, sigma.
     """
     size = np.concatenate([np.abs(own.off[own.moves]) / own.gain[own.moves] for own in told])
-    rate = np.concatenate([np.abs(own.rate[own.moves]) for own in told])
+    each = zip(told, units_s, strict=True)
+    rate = np.concatenate([np.abs(own.rate[own.moves]) * unit_s for own, unit_s in each])
     bins = np.array_split(np.argsort(rate), _BINS)
     count = np.array([own.size for own in bins])
     squared = np.array([np.mean(rate[own] ** 2) for own in bins])
@@ -172,7 +182,7 @@ def _scatter(told: Sequence[_Beside]) -> tuple[Scatter, float]:
         both = slopes @ parts
     gained = _likelihood(variance, both, count) - _likelihood(variance, alone, count)
     noise, jitter = np.sqrt(parts)
-    found = Scatter(noise_deg=float(noise), jitter_s=float(jitter))
+    found = [Scatter(noise_deg=float(noise), jitter_s=float(jitter * unit_s)) for unit_s in units_s]
     return found, float(np.sqrt(max(2 * gained, 0.0)))
 
 
@@ -193,9 +203,10 @@ def _alike(told: Sequence[_Beside]) -> float:
     return products / squares if squares > 0 else 0.0
 
 
-def _beyond(told: Sequence[_Beside], scatter: Scatter) -> float:
+def _beyond(told: Sequence[_Beside], scatters: Sequence[Scatter]) -> float:
     """Share of samples that neither scatter explains: where the curve, and not the time, is wrong."""
-    far = [own.off**2 > _OUTLIER_SIGMA**2 * own.variance(scatter) for own in told]
+    each = zip(told, scatters, strict=True)
+    far = [own.off**2 > _OUTLIER_SIGMA**2 * own.variance(scatter) for own, scatter in each]
     moving = np.concatenate([own.moves for own in told])
     return float(np.mean(np.concatenate(far)[moving]))
 

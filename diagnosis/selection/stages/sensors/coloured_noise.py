@@ -101,7 +101,11 @@ def flicker_noise(state: SearchState, workers: Workers) -> SearchState:
 def _coloured_flicker(state: SearchState) -> dict[str, float]:
     """Sensors whose noise shows it where effects leave little, and the frequency above which that is."""
     found = flicker_left(state.problem, state.best.fit, COLOUR_ABOVE_HZ)
-    told = (s for s, own in found.items() if own.gain_cost >= COLOUR_CHI_SQUARE >= own.behind_cost)
+    little = state.best.fit.gap <= COLOUR_WEAK_GAP
+    asked = COLOUR_WEAK_CHI_SQUARE if little else COLOUR_CHI_SQUARE
+    told = (
+        s for s, own in found.items() if own.gain_cost >= asked and own.behind_cost <= COLOUR_CHI_SQUARE
+    )
     return dict.fromkeys(told, COLOUR_ABOVE_HZ)
 
 

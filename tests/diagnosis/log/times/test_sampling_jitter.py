@@ -66,6 +66,28 @@ def test_samples_are_moved_to_when_they_were_taken(motion, steps):
     np.testing.assert_array_equal(found.file_rows.taken_s, found["time_s"])
 
 
+@pytest.mark.parametrize("alike", ["time", "share of a step"])
+def test_trials_of_other_rates_are_off_by_the_same_time_or_share_of_their_steps(alike):
+    """At 20 Hz a share of 0.15 is 7.5 ms, and at 100 Hz 1.5 ms; or both are off by 2 ms."""
+    steps_s, motion = (0.01, 0.05), swinging
+    trials, lates = [], []
+    for seed, step_s in enumerate(steps_s):
+        stamps = step_s * np.arange(round(60 / step_s))
+        rms_s = 0.002 if alike == "time" else 0.15 * step_s
+        rng = np.random.default_rng(seed)
+        lates.append(np.clip(rng.normal(0, rms_s, stamps.size), -0.45 * step_s, 0.45 * step_s))
+        base = motion(stamps + lates[-1]) + rng.normal(0, NOISE, stamps.size)
+        table = pd.DataFrame({"time_s": stamps, "base_angle_deg": base, "tip_angle_deg": base})
+        trials.append(Trial(name=f"trial_{seed}.csv", table=table))
+    found, (warning,) = with_sampling_times(trials)
+    for before, after, late in zip(trials, found, lates, strict=True):
+        turning = np.abs(np.gradient(motion(before["time_s"]), before["time_s"])) > 45
+        left = (after["time_s"] - before["time_s"] - late)[turning]
+        assert np.sqrt(np.mean(left**2)) < 0.7 * np.sqrt(np.mean(late[turning] ** 2))
+    said = 2.0 if alike == "time" else 7.5
+    assert said_ms(warning) == pytest.approx(said, rel=4 * SCATTER)
+
+
 @pytest.mark.parametrize("lost", [0.05, 0.2])
 def test_rows_may_be_missing(lost):
     """A fifth of the rows less is at most 1 / sqrt(0.8) = 1.12 times the error of the curve."""

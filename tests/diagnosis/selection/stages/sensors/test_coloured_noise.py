@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import TIP, TORQUE, log_of, start_of_search
 from scipy.signal import lfilter
 
-from diagnosis.criteria.noise import COLOUR_CHI_SQUARE
+from diagnosis.criteria.noise import COLOUR_ABOVE_HZ, COLOUR_CHI_SQUARE
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.log.trial import Trial
@@ -126,6 +126,26 @@ def test_noise_may_go_on_as_one_over_f_where_only_that_explains_the_log():
     assert after.problem.noise.colour["tip_angle_deg"].flicker
     assert after.rechecked()[1]
     assert module.flicker_noise(after, Workers()).problem is after.problem  # it is explained
+
+
+@pytest.mark.parametrize(("gap", "told"), [(1.25, True), (1.35, False)])
+def test_where_little_is_left_less_of_one_over_f_is_enough(gap, told, monkeypatch):
+    """White noise fits worse by 15; what is left of noise that lasts for seconds is little."""
+    state = start_of_search(of_the_tip(NOMINAL), effects=())
+    state = module.coloured_noise(module.nominal_rig(state, Workers()), Workers())
+    found = module.flicker_left(state.problem, state.best.fit, COLOUR_ABOVE_HZ)
+    weak = {sensor: replace(own, gain_cost=15.0) for sensor, own in found.items()}
+    monkeypatch.setattr(module, "flicker_left", lambda *_: weak)
+    best = state.best
+    size = gap / best.fit.gap
+    fit = replace(best.fit, by_trial=tuple(size * left for left in best.fit.by_trial))
+    assert fit.gap == pytest.approx(gap)
+    state = replace(state, candidates=(replace(best, fit=fit),))
+    monkeypatch.setattr(module, "_may_explain", lambda *_, **__: True)
+    asked = [
+        e.reason for e in module.flicker_noise(state, Workers()).record if e.stage == "flicker noise"
+    ]
+    assert bool(asked) is told
 
 
 def test_what_an_effect_leaves_is_no_noise_of_one_over_f():
