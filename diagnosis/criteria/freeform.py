@@ -5,6 +5,10 @@ FREE_LAW_GAIN, FREE_LAW_LEAVES = 0.95, 0.25
 """Gap on unseen trials up to which a free-form law closes it, and times the gap of the library's nearest
 explanation that it has to come below to be told; or, where that is near the noise, times the variance
 that it leaves beyond it. Choices: no verdict rests on them."""
+LAW_OPEN = 1.0
+"""Variance of a prediction, in that of the noise, from which the trials of its fit tell nothing of a law
+there. Physical: as much as the noise. In five logs of the twenty-seventh rig any limit from 0.05 to 2
+leaves the gap the same to 0.06."""
 STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.9
 """Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
 once in a thousand logs), how many, and their share of the nominal residual beyond noise: 0.986 of a

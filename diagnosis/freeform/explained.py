@@ -10,6 +10,7 @@ from diagnosis.assessment.assess import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
+from diagnosis.freeform.fits.checked import told_of
 from diagnosis.freeform.in_words import next_step
 from diagnosis.freeform.missing import Missing
 from diagnosis.log.rig_log import RigLog
@@ -73,15 +74,17 @@ def _twist(log: PreparedLog, rig: RigParameters, told: ShaftTwist | None) -> Sha
 
 
 def _after(missing: Missing, before: Sequence[Array]) -> tuple[Array, ...]:
-    """What the law leaves of trials that its fit has not seen, if others tell anything of these.
+    """What the law leaves of trials that its fit has not seen, where others tell anything of these.
 
-    A curve over the time of a session, led on to a trial at its end, may go anywhere: where that leaves
-    more than the nominal rig, and is no surprise, what is left of the trials of the fit counts.
+    Beyond the rates, depths or times of the others a curve may go anywhere: there what is left of the
+    trials of the fit counts; and everywhere, where led on it leaves more than the nominal rig, and that
+    is no surprise.
     """
     best = missing.best
     if best.held_out is None or (missing.closed and _rms(best.held_out) > _rms(before)):
         return best.fit.by_trial
-    return best.held_out
+    each = enumerate(zip(best.held_out, best.fit.by_trial, strict=True))
+    return tuple(np.where(told_of(best.fit, i), unseen, seen) for i, (unseen, seen) in each)
 
 
 def _rms(by_trial: Sequence[Array]) -> float:

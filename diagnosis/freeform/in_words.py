@@ -62,6 +62,7 @@ SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _HINT = "still far above the noise, so that a curve is no more than a hint"
 _OTHERS = 3
+_MOST_TOLD = 0.95  # of the readings: what is left is not worth a word
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
@@ -82,7 +83,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     beside = f", beside {' and '.join(FITTED[n].title for n in law.beside)}," if law.beside else ""
     # Of a trial that no other tells of:
     alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
-    where = UNSEEN if missing.best.held_out and not alone else SEEN
+    where = _unseen(missing.told_share) if missing.best.held_out and not alone else SEEN
     first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
     depends = (
         f"What is missing acts {_where(missing, law.place)} and depends on "
@@ -95,6 +96,13 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     others = "".join(f" {_more_of(law, course)}" for law, course in each)
     reduces = "Together they reduce" if others else f"A free-form law of this kind{beside} reduces"
     return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{_likeness(law)}"
+
+
+def _unseen(told_share: float) -> str:
+    """That a gap is one of trials that a fit has not seen, where others tell of its law."""
+    if told_share >= _MOST_TOLD:
+        return UNSEEN
+    return f"{UNSEEN} (others tell of the law in {100 * told_share:.0f} % of the readings)"
 
 
 def _with_so_many_more(count: int, beside: str) -> str:

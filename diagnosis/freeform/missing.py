@@ -26,6 +26,7 @@ from diagnosis.criteria.freeform import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAV
 from diagnosis.effects.effect import Place, slopes_at
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.family import VISCOUS, Family
+from diagnosis.freeform.fits.checked import share_told
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.prior import free_covariance, well_determined
 
@@ -95,6 +96,7 @@ class Missing:
       beside: laws that are fitted together with it, and factors of these and of it.
       best: the fit of that law.
       closed: whether the law leaves little more than noise.
+      told_share: share of the readings for which trials other than their own tell the law.
     """
 
     place: Mapping[Place, float]
@@ -102,6 +104,7 @@ class Missing:
     law: Law | None
     best: FreeFit
     closed: bool
+    told_share: float = 1.0
     beside: tuple[Law, ...] = ()
 
 
@@ -124,6 +127,7 @@ def missing_of(fits: Sequence[FreeFit], nearest_gap: float, *, one_trial: bool =
         beside=tuple(laws[1:]),
         best=best,
         closed=helps and best.gap_after <= CLOSED_GAP,
+        told_share=share_told(best),
     )
 
 

@@ -123,6 +123,7 @@ def _missing(missing: Missing) -> dict[str, Any]:
         "laws_beside": [_lists(asdict(other)) for other in missing.beside],
         "looks_like": _looks_like(law),
         "closed": missing.closed,
+        "told_share": missing.told_share,
     }
 
 

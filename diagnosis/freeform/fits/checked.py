@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.criteria.freeform import LAW_OPEN
 from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.held_out.cross_validation import slopes_by, told_by_others
 from diagnosis.fitting.held_out.refits import held_out_or_refitted
@@ -52,6 +53,18 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
     """
     squares = [left**2 / (1.0 + left_open(fit, i)) for i, left in enumerate(held_out)]
     return float(np.sqrt(np.mean(np.concatenate(squares))))
+
+
+def share_told(one: FreeFit) -> float:
+    """Share of the readings for which trials other than their own tell the law; 1 for a single trial."""
+    if one.held_out is None:
+        return 1.0
+    return float(np.mean(np.concatenate([told_of(one.fit, i) for i in range(len(one.held_out))])))
+
+
+def told_of(fit: Fit, trial: int) -> NDArray[np.bool_]:
+    """Residuals of a trial for which the other trials tell the law, to less than the noise, (N,)."""
+    return np.asarray(left_open(fit, trial) <= LAW_OPEN)
 
 
 def left_open(fit: Fit, trial: int) -> Array:

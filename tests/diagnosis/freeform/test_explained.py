@@ -120,3 +120,15 @@ def test_unseen_trials_count_unless_the_law_is_led_on_to_where_no_trial_tells(
     missing = missing_with(best=best, closed=predicted <= CLOSED_GAP)
     found = explained_by(missing, log, problem, nominal, before)
     assert found.gap.after == pytest.approx(after, abs=3.5 / 40)
+
+
+def test_of_readings_that_no_other_trial_tells_of_what_the_fit_leaves_counts(made):
+    """The slopes of half of them leave them open by more than the noise."""
+    log, problem, nominal, best, before = made
+    left = best.fit.by_trial[0]
+    slopes = np.zeros_like(best.fit.jacobian[0])
+    slopes[: left.size // 2] = 1e3
+    best = replace(best, fit=replace(best.fit, jacobian=(slopes,)), held_out=(np.full(left.size, 3.0),))
+    found = explained_by(missing_with(best=best, closed=False), log, problem, nominal, before)
+    # Half of the squares are 9, and half are those of noise.
+    assert found.gap.after == pytest.approx(np.sqrt((9.0 + 1.0) / 2), abs=3.5 / np.sqrt(2 * left.size))

@@ -227,7 +227,10 @@ def test_of_what_happened_once_nothing_is_called_unseen():
 
 def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen():
     best = seen_fit()
+    assert "others tell" not in what_is_missing(missing_with(best=best), 8.9)
     assert "not seen" in what_is_missing(missing_with(best=best), 8.9)
+    told = what_is_missing(missing_with(best=best, told_share=0.57), 8.9)
+    assert "not seen (others tell of the law in 57 % of the readings)" in told
     effect = best.family.effect
     own = tuple(replace(p, of_one_trial=True) for p in effect.parameters)
     waves = replace(best, family=replace(best.family, effect=replace(effect, parameters=own)))

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from free_forms import CURVE, family_of, linear_fit, priors, solved
 
-from diagnosis.freeform.fits.checked import left_open, predictive_gap
+from diagnosis.freeform.fits.checked import left_open, predictive_gap, share_told
+from diagnosis.freeform.fits.free_fit import FreeFit
 
 TRIALS, SAMPLES = 3, 200
 
@@ -79,3 +80,11 @@ def test_what_concerns_the_trial_alone_is_not_left_open():
     fit = replace(fit, parameterization=of_trial)
     # 5 coordinates of 400 samples leave 5 / 400 of the noise open: a percent, at three times its spread.
     assert left_open(fit, TRIALS - 1).mean() == pytest.approx(5 / 400, rel=0.3)
+
+
+@pytest.mark.parametrize(("reach", "share"), [(0.0, 1.0), (5.0, 2 / 3)])
+def test_the_last_trial_is_not_told_by_others_where_it_alone_reaches(reach, share):
+    fit, held_out = log_of_a_law(np.random.default_rng(3), reach=reach)
+    one = FreeFit(family=family_of(name="law"), fit=fit, held_out=tuple(held_out))
+    assert share_told(one) == pytest.approx(share, abs=0.01)
+    assert share_told(replace(one, held_out=None)) == 1.0
