@@ -1,8 +1,8 @@
 """Free laws of the angle of each piece of the shaft.
 
 - at the tip: a torque that depends on the angle, with one to four waves per turn
-- along the inserted shaft: such a torque with one and two waves, or with two alone, as of tissue whose
-  fibres run one way; a bent shaft prefers one angle in a turn
+- along the inserted shaft: such a torque with one and two waves, or with two alone: a bent shaft prefers
+  one angle in a turn, and a flat one two, as does tissue whose fibres run one way
 - at the tip: a torque towards one angle that depends on the axial speed, as of a bevel that is pushed
 - along the inserted shaft: damping, or dry friction, that depends on the angle, as of a shaft that is
   not round
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 AT_TIP, ALONG, OF_FIBRES = (1, 2, 3, 4), (1, 2), (2,)  # waves in a turn
 _HALF_TURN_DEG, _SHOWN = 180.0, 49  # angles at which a law is shown
 _EITHER = {Place.NEEDLE: 0.5, Place.TISSUE: 0.5}
-_TISSUE = {Place.TISSUE: 0.7, Place.NEEDLE: 0.3}
+_FLAT = {Place.NEEDLE: 0.55, Place.TISSUE: 0.45}
 _MOST_UNEVEN = 0.95  # of the damping, that it changes over a turn
 
 
@@ -41,7 +41,7 @@ def families(ranges: LogRanges) -> tuple[Family, ...]:
     if Variable.BASE_ANGLE not in ranges.ends:
         return ()
     found = [_angle(ranges, AT_TIP, {Place.NEEDLE: 1.0}, tip=True), _angle(ranges, ALONG, _EITHER)]
-    found.append(_angle(ranges, OF_FIBRES, _TISSUE, more=", twice a turn"))
+    found.append(_angle(ranges, OF_FIBRES, _FLAT, more=", twice a turn"))
     found += [_uneven_damping(ranges), _uneven_friction(ranges)]
     if Variable.AXIAL_SPEED in ranges.ends:
         found.append(_pushed(ranges))

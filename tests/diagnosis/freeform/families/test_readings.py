@@ -138,3 +138,10 @@ def test_a_hysteresis_is_told_over_what_has_changed_since_it_turned_back():
     assert units.pop("torque reading over turned_by") == "N mm"
     assert units
     assert set(units.values()) == {"deg"}
+
+
+def test_an_angle_that_errs_once_a_turn_is_of_the_encoder_or_of_the_drive():
+    places = FAMILIES["drive angle over base_angle, every 360 deg"].places
+    assert set(places) == {Place.SENSOR, Place.DRIVE}
+    assert min(places.values()) > 0.4
+    assert FAMILIES["drive angle over base_angle"].places == {Place.DRIVE: 1.0}
