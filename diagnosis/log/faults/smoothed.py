@@ -41,6 +41,7 @@ _SEGMENT_S = 2.5
 _LOWEST, _HIGHEST = 1e-6, 1e3  # levels that are looked at
 _SCATTER = 0.3  # of their logarithms
 _ORDERS = (2.0, 4.0)  # from which a fit begins
+_SAME_STEP = 0.02  # relative difference
 _NARROW = 4  # a zero rises within a quarter of its frequency
 _HALF = 0.5  # of the power: at the corner of a filter
 _CORNER_OF_MEANS = 0.443  # in that of its first zero: sin^2(x) / x^2 = 1/2
@@ -65,8 +66,8 @@ def _corner_hz(trials: Sequence[Trial], sensor: str, claim: float) -> float | No
     read = [(trial, rows) for trial, rows in runs if rows.stop - rows.start >= FEWEST_ROWS]
     if not claim > 0 or not read:
         return None
-    own = [trial[sensor][rows] for trial, rows in read]
     step_s = float(np.median(np.concatenate([np.diff(trial["time_s"][rows]) for trial, rows in read])))
+    own = [trial[sensor][rows] for trial, rows in read if _is_at(trial["time_s"][rows], step_s)]
     segment = min(round(_SEGMENT_S / step_s), sum(values.size for values in own) // SMOOTHED_SEGMENTS)
     if segment < FEWEST_ROWS:
         return None
@@ -74,6 +75,11 @@ def _corner_hz(trials: Sequence[Trial], sensor: str, claim: float) -> float | No
     rounding = float(np.mean([quantum(values) ** 2 for values in own])) / 12 / claim**2
     corner = _below_first_zero(frequency, levels) or _of_butterworth(frequency, levels, rounding)
     return corner / step_s if corner else None
+
+
+def _is_at(time_s: Array, step_s: float) -> bool:
+    """Whether rows are so far apart: spectra over cycles per row compare among such alone."""
+    return abs(float(np.median(np.diff(time_s))) / step_s - 1.0) <= _SAME_STEP
 
 
 def _below_first_zero(frequency: Array, levels: Array) -> float | None:
@@ -91,7 +97,7 @@ def _is_zero(levels: Array, k: int) -> bool:
     """Whether a spectrum rises on both sides of a frequency."""
     beside = max(2, k // _NARROW)
     sides = levels[max(k - beside, 0) : k], levels[k + 1 : k + 1 + beside]
-    return all(side.max(initial=0.0) > SMOOTHED_ZERO * levels[k] for side in sides)
+    return all(side.size > 0 and np.median(side) > SMOOTHED_ZERO * levels[k] for side in sides)
 
 
 def _of_butterworth(frequency: Array, levels: Array, rounding: float) -> float | None:

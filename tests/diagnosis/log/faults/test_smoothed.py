@@ -120,3 +120,24 @@ def test_nothing_is_claimed_or_read():
     assert smoothed_above_hz(trials(butterworth(4.0)), NOISE | {TIP: 0.0}) == ({}, [])
     empty = [Trial(name="a.csv", table=one.table.assign(**{TIP: np.nan})) for one in trials()]
     assert smoothed_above_hz(empty, NOISE) == ({}, [])
+
+
+def of_correlated_noise(rate_hz, seed, seconds=16.0):
+    """A trial of ramps whose tip has correlated noise of 33 ms, and no other."""
+    rng = np.random.default_rng(seed)
+    kept = np.exp(-1 / rate_hz / 0.033)
+
+    def noisy(values, _):
+        return values + lfilter([0.4 * np.sqrt(1 - kept**2)], [1, -kept], rng.normal(size=values.size))
+
+    return _trial(noisy, seed, rate_hz, 0.0, 4, seconds)
+
+
+@pytest.mark.parametrize(
+    "rates_hz", [(1000.0,), (1000.0, 1000.0), (1000.0, 100.0), (1000.0, 250.0, 100.0)]
+)
+@pytest.mark.parametrize("seed", range(5))
+def test_correlated_noise_of_trials_at_several_rates_was_not_smoothed(rates_hz, seed):
+    """In cycles per row it falls elsewhere at each rate: no mixture of them is the spectrum of one."""
+    each = [of_correlated_noise(rate_hz, 10 * seed + n) for n, rate_hz in enumerate(rates_hz)]
+    assert smoothed_above_hz(each, NOISE) == ({}, [])
