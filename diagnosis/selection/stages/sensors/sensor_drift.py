@@ -2,8 +2,9 @@
 
 A drift could take over a part of what friction does, or of what moves the tip, so that it is tried last,
 where it would take off most of what one of the leading explanations leaves beyond noise, and slopes
-promise that what is left comes near it. The leading explanations are then fitted again with it. It is
-kept if they explain the log, and if a working sensor may drift so (working_sensor). (An offset beside
+promise that what is left comes near it. The leading explanations are then fitted again with it, the best
+of them also without each of its effects: what had taken up a part of the drift is not needed. It is kept
+if they explain the log, and if a working sensor may drift so (working_sensor). (An offset beside
 it does not count before it is told from a drift.) And where one jump of its readings is likelier than a
 drift, that is looked at instead (reading_jumps). Both sensors may not drift at once: that explained a
 log whose depth was zeroed anew in each trial, beside effects that were not there.
@@ -26,6 +27,7 @@ from diagnosis.residuals.largest_step import largest_step
 from diagnosis.selection.candidate import Candidate
 from diagnosis.selection.record import Decision, RecordEntry, noted
 from diagnosis.selection.scoring.drift_evidence import in_noise, score_beside_drift, wide_drifts
+from diagnosis.selection.stages.best import best_without_each_effect
 from diagnosis.selection.stages.sensors.reading_jumps import rows_of
 from diagnosis.selection.stages.sensors.working_sensor import (
     OFFSETS,
@@ -132,7 +134,8 @@ def _searched_again(state: SearchState, sensor: str, noise: Noise, workers: Work
         (start.coarse, c.fit, name) for c in singles for name in state.effects if name not in c.names
     ]
     pairs, record = screen_all(stage, beside, workers)
-    return fitted_again(stage, start.noting(*record), calls, workers, pairs)
+    found = fitted_again(stage, start.noting(*record), calls, workers, pairs)
+    return best_without_each_effect(found, workers)
 
 
 def _dropped(sensor: str, reason: str) -> RecordEntry:

@@ -156,7 +156,9 @@ def test_pairs_with_the_leading_effect_that_a_drift_may_have_hidden_are_screened
 
     monkeypatch.setattr(sensor_drift, "screen_all", screen_all)
     monkeypatch.setattr(sensor_drift, "in_noise", lambda one, *_: one)
-    monkeypatch.setattr(sensor_drift, "fitted_again", lambda *_: _)
+    monkeypatch.setattr(
+        sensor_drift, "fitted_again", lambda _, start, *__: start.adding(([scored([], 1.0)], ()))
+    )
     state = start_of_search(drifted(3.5), effects=("tip_drag", "stiction", "torque_bias"))
     monkeypatch.setattr(type(state), "renoised", lambda own, noise: own)
     state = replace(state, singles=(scored(["stiction"], 5.0), scored(["tip_drag"], 1.0)))
@@ -210,3 +212,15 @@ def test_what_follows_the_axial_speed_is_no_drift(share, kept, sensor):
     table[sensor] += share * SIZES[sensor] * sliding
     _, after = searched(log, sensor)
     assert bool(after.problem.noise.drifts) == kept
+
+
+def test_the_best_beside_a_drift_is_fitted_without_what_it_had_taken_up():
+    """A tip that is off, and a torque that drifts: beside the first an offset had taken up a part."""
+    log = off(drifted(3.5), TIP, lambda share: 4.0 + 0.0 * share)
+    before = nominal_rig(start_of_search(log, effects=()), Workers())
+    pair = ("tip_angle_bias", "drive_friction")
+    coarse, fine = (candidate(fit_effects(own, pair)) for own in (before.coarse, before.problem))
+    before = replace(before, pairs=(coarse,)).adding(([fine], ()))
+    after = drift_of_the_torque_sensor(before, Workers())
+    assert ("tip_angle_bias",) in [c.names for c in after.candidates]
+    assert [*after.problem.noise.drifts] == [TORQUE]
