@@ -8,9 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.fitting import (
-    BASE_NOISE_GAP,
-    BASE_NOISE_MORE,
-    BASE_NOISE_READINGS,
     SCATTER,
     SCATTER_ALIKE,
     SCATTER_NAMED,
@@ -36,8 +33,6 @@ from diagnosis.selection.scoring.unresolved import unresolved_cost
 from sim.needles.run import SimulationFailed
 
 Array = NDArray[np.float64]
-
-_SEED = 21
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -117,46 +112,6 @@ class Candidate:
             yield f"held-out trials shift by {self.shift:.1f}, limit {self.shift_limit:.3g}"
         if self.unidentifiable:
             yield "stiffness or damping is off, but it is open which"
-
-    def allowing_base_noise(self, problem: FitProblem) -> "Candidate":
-        """The same with limits that know what the noise of the encoder leaves in the base motion.
-
-        Beside a stiff or sticking element near the base it comes back as torque, and slowly so; and so
-        does what smoothing rounds off the motion. Of some readings of the encoder the worst counts.
-        """
-        shifts = self.shift > self.shift_limit
-        if (self.floor.reached and not shifts) or self.floor.gap > BASE_NOISE_GAP:
-            return self
-        floor, shift_limit, worst = self.floor, self.shift_limit, NoiseFloor(gap=0.0, slow=0.0)
-        for own in self._base_noise_changes(problem):
-            one = floor_of(own)
-            worst = NoiseFloor(gap=max(worst.gap, one.gap), slow=max(worst.slow, one.slow))
-            floor = self.floor.allowing(worst)
-            shift = shift_statistic(replace(self.fit, by_trial=own))
-            shift_limit = max(shift_limit, self.shift_limit + shift)
-            if not self.floor.allowing(worst.times(BASE_NOISE_MORE)).reached:
-                break  # none of the others changes so much more
-        return replace(self, floor=floor, shift_limit=shift_limit)
-
-    def with_base_noise_cost(self, problem: FitProblem) -> "Candidate":
-        """The same with the cost that the noise of the encoder makes, where only a delay is missing.
-
-        A filter in place of the delay takes it away. Residuals differ by the noise of two readings.
-        """
-        if not (self.floor.reached and self.only_late):
-            return self
-        changes = self._base_noise_changes(problem)
-        return replace(self, base_noise_cost=max(_squares(own) for own in changes) / 2)
-
-    def _base_noise_changes(self, problem: FitProblem) -> Iterator[tuple[Array, ...]]:
-        """By how much residuals of each trial change from reading to reading of the encoder."""
-        rig, rng = self.fit.parameterization.rig(self.fit.x), np.random.default_rng(_SEED)
-        sharp = problem.sharpened()
-        true = sharp.residuals([rig], callback_alone=True)
-        for _ in range(BASE_NOISE_READINGS):
-            runs = sharp.read_again(rng).residuals([rig], callback_alone=True)
-            each = zip(runs, true, strict=True)
-            yield tuple(run[0] - left[0] for run, left in each)
 
     def cross_validated(self, problem: FitProblem) -> "Candidate":
         """The same with held-out trials, if it is at the noise floor."""
@@ -263,10 +218,6 @@ class Candidate:
         apart = math.sqrt(max(spread[0, 0] + spread[1, 1] - 2 * spread[0, 1], 0.0))
         alike = abs(one - other) <= SCATTER_NAMED * apart <= min(SCATTER.values())
         return alike and math.hypot(*(self._scatters(name) for name in both)) > SCATTER_ALIKE
-
-
-def _squares(by_trial: tuple[Array, ...]) -> float:
-    return sum(float(own @ own) for own in by_trial)
 
 
 def candidate(fit: Fit) -> Candidate:

@@ -8,6 +8,7 @@ from diagnosis.fitting.noise_reestimation import reestimated_noise, rescaled
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.prepare.noise.sensor_noise import Noise
 from diagnosis.selection.candidate import Candidate, candidate
+from diagnosis.selection.scoring.base_noise import allowing_base_noise, with_base_noise_cost
 from sim.needles.run import SimulationFailed
 
 
@@ -71,10 +72,10 @@ def check(problem: FitProblem, candidates: Sequence[Candidate], known: Checked |
 
 def _checked(one: Candidate, problem: FitProblem) -> Candidate:
     try:
-        found = _completed(one.allowing_base_noise(problem), problem).cross_validated(problem)
+        found = _completed(allowing_base_noise(one, problem), problem).cross_validated(problem)
         if not found.floor.reached:
             return found
-        return found.allowing_base_noise(problem).with_base_noise_cost(problem)
+        return with_base_noise_cost(allowing_base_noise(found, problem), problem)
     except SimulationFailed:
         return one.cross_validated(problem)  # with another motion it cannot be simulated
 
@@ -83,5 +84,5 @@ def _completed(one: Candidate, problem: FitProblem) -> Candidate:
     """The same at its minimum, where a fit that was given up explains the log after all."""
     if not (one.floor.reached and one.fit.status.ended_early):
         return one
-    again = candidate(completed(problem, one.fit)).allowing_base_noise(problem)
+    again = allowing_base_noise(candidate(completed(problem, one.fit)), problem)
     return again if again.score < one.score else one
