@@ -53,6 +53,9 @@ NAME_LIKENESS = 0.75
 """Likeness, 0 to 1, from which a name is taken for a misspelling of another. Set on the spellings in
 tests/diagnosis/log/test_unit_hints.py; it decides on the wording of an error alone."""
 
+SAME_STEP = 0.02
+"""Relative difference between the steps of trials up to which they are the same."""
+
 # Time stamps that jitter (log/times/even_times.py)
 
 EVEN_MOST_STEPS = 1.0

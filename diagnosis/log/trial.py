@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from diagnosis.criteria.log import SAME_STEP
 from models.errors import NeedleError
 
 Array = NDArray[np.float64]
@@ -20,6 +21,11 @@ COLUMNS = (*REQUIRED, *OPTIONAL)
 
 class UnusableLog(NeedleError):
     """A log that cannot be used; names file, line or column, what was expected and found, the fix."""
+
+
+def sampled_at(time_s: Array, step_s: float) -> bool:
+    """Whether samples are about so far apart, in the median."""
+    return time_s.size < 2 or abs(float(np.median(np.diff(time_s))) / step_s - 1.0) <= SAME_STEP
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

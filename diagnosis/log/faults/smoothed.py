@@ -6,7 +6,8 @@ falls by the power p have the spectrum
 
     S(f) = 2 s^2 dt (1 + (f1 / f)^p) |H(f)|^2
 
-A Butterworth filter of order n that was run twice has
+Spectra over cycles per row compare among trials at one rate alone: of others nothing is asked. A
+Butterworth filter of order n that was run twice has
 
     |H|^2 = 1 / (1 + (tan(pi f dt) / tan(pi f0 dt))^2n)^2
 
@@ -33,7 +34,7 @@ from diagnosis.criteria.faults import (
 )
 from diagnosis.criteria.log import FEWEST_ROWS
 from diagnosis.log.faults.scatter import quantum
-from diagnosis.log.trial import SENSORS, Trial
+from diagnosis.log.trial import SENSORS, Trial, sampled_at
 
 Array = NDArray[np.float64]
 
@@ -41,7 +42,6 @@ _SEGMENT_S = 2.5
 _LOWEST, _HIGHEST = 1e-6, 1e3  # levels that are looked at
 _SCATTER = 0.3  # of their logarithms
 _ORDERS = (2.0, 4.0)  # from which a fit begins
-_SAME_STEP = 0.02  # relative difference
 _NARROW = 4  # a zero rises within a quarter of its frequency
 _HALF = 0.5  # of the power: at the corner of a filter
 _CORNER_OF_MEANS = 0.443  # in that of its first zero: sin^2(x) / x^2 = 1/2
@@ -67,7 +67,7 @@ def _corner_hz(trials: Sequence[Trial], sensor: str, claim: float) -> float | No
     if not claim > 0 or not read:
         return None
     step_s = float(np.median(np.concatenate([np.diff(trial["time_s"][rows]) for trial, rows in read])))
-    own = [trial[sensor][rows] for trial, rows in read if _is_at(trial["time_s"][rows], step_s)]
+    own = [trial[sensor][rows] for trial, rows in read if sampled_at(trial["time_s"][rows], step_s)]
     segment = min(round(_SEGMENT_S / step_s), sum(values.size for values in own) // SMOOTHED_SEGMENTS)
     if segment < FEWEST_ROWS:
         return None
@@ -75,11 +75,6 @@ def _corner_hz(trials: Sequence[Trial], sensor: str, claim: float) -> float | No
     rounding = float(np.mean([quantum(values) ** 2 for values in own])) / 12 / claim**2
     corner = _below_first_zero(frequency, levels) or _of_butterworth(frequency, levels, rounding)
     return corner / step_s if corner else None
-
-
-def _is_at(time_s: Array, step_s: float) -> bool:
-    """Whether rows are so far apart: spectra over cycles per row compare among such alone."""
-    return abs(float(np.median(np.diff(time_s))) / step_s - 1.0) <= _SAME_STEP
 
 
 def _below_first_zero(frequency: Array, levels: Array) -> float | None:

@@ -25,12 +25,12 @@ from diagnosis.criteria.noise import (
     COLOUR_OSCILLATES_ABOVE_HZ,
     COLOUR_WINDOWS,
 )
+from diagnosis.log.trial import sampled_at
 from diagnosis.prepare.noise.autoregression import Autoregression
 from diagnosis.prepare.noise.spectrum.missing_values import completed
 from diagnosis.prepare.noise.spectrum.periodograms import (
     MEAN,
     QUANTILE,
-    SAME_STEP,
     even,
     periodogram,
     step_of,
@@ -52,7 +52,7 @@ def autoregression(parts: Sequence[tuple[Array, Array]]) -> tuple[float, Autoreg
       parts: time, s, and residual of each trial, (N,) each; NaN where nothing was read.
     """
     step_s = step_of(parts)
-    if np.isnan(step_s) or not all(_has_step(time_s, step_s) for time_s, _ in parts):
+    if np.isnan(step_s) or not all(sampled_at(time_s, step_s) for time_s, _ in parts):
         return None
     evens = [even(time_s, values, step_s) for time_s, values in parts]
     if len(windows_of(evens, step_s)) < COLOUR_WINDOWS:
@@ -94,10 +94,6 @@ def _interpolated(values: Array) -> Array:
 def _completed_white(values: Array, rng: np.random.Generator) -> Array:
     """Values with white noise of their own size where none was read."""
     return np.where(np.isfinite(values), values, np.nanstd(values) * rng.normal(size=values.size))
-
-
-def _has_step(time_s: Array, step_s: float) -> bool:
-    return time_s.size < 2 or abs(float(np.median(np.diff(time_s))) / step_s - 1.0) < SAME_STEP
 
 
 def _autocovariances(cut: Sequence[Array], step_s: float) -> Array:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from diagnosis.criteria.log import SAME_STEP
 from diagnosis.criteria.noise import (
     COLOUR_ABOVE_HZ,
     COLOUR_LONGEST_S,
@@ -23,7 +24,6 @@ from diagnosis.prepare.noise.noise_colour import ColouredPart, covariances_of_me
 from diagnosis.prepare.noise.spectrum.periodograms import (
     MEAN,
     QUANTILE,
-    SAME_STEP,
     even,
     periodogram,
     step_of,

@@ -18,8 +18,6 @@ Array = NDArray[np.float64]
 QUANTILE = 0.3
 MEAN = -np.log(1 - QUANTILE)
 """The quantile that is used, and what it is of the mean of an exponential distribution."""
-SAME_STEP = 0.02
-"""Relative difference between the steps of trials up to which they are the same."""
 _FEWEST = 0.5  # share of its samples that a window has to have
 
 
