@@ -78,6 +78,7 @@ STAGES = {
     "noise of the best": _whole("fitting with the noise that the best leaves", 1.0, 0, 0),
     "tissue that goes along": _whole("fitting with tissue that the shaft drags along", 1.0, 0, 0),
     "starts of trials": _whole("fitting what wound trials up before they began", 1.0, 0, 0),
+    "clocks before trials": _whole("fitting clocks that ran before the trials", 1.0, 0, 0),
     "noise that grows": _whole("fitting with noise that grows with rate or torque", 1.0, 0, 0),
     "outliers beside the best": _whole("fitting without outliers", 1.0, 0, 0),
     "weakly coloured noise": _whole("fitting with noise of another colour", 1.0, 0, 0),

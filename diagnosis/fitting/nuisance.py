@@ -5,7 +5,8 @@ needle slides while it is twisted, it is unknown which rate the tissue resists: 
 a fixed place, as in the paper's equation (9), or the material derivative of the sliding shaft;
 this is fitted separately for trials of constant depth and of growing depth.
 
-Each trial that began late has its own parameters for the motion of the base before it. And where a
+Each trial that began late has its own parameters for the motion of the base before it; and each trial,
+where the clock of a sensor drifts, one for how long it ran before, if that explains the log. And where a
 reading jumps within a trial, the size of that is fitted. Of readings that were smoothed after
 recording, what the filter did to slow ones is fitted.
 """
@@ -18,13 +19,20 @@ from diagnosis.criteria.prepare import START_SPREAD_DEG
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Effect, Parameter, Place
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.rig_parameters import Past, ReadingJump, RigParameters, SmoothedReading
+from diagnosis.replay.rig_parameters import (
+    ClockStart,
+    Past,
+    ReadingJump,
+    RigParameters,
+    SmoothedReading,
+)
 from sim.discretisation import Mesh
 
 # A share between 0 and 1 is as good as open with this standard deviation.
 CONVENTIONS = {"slip_constant_depth": 0.5, "slip_growing_depth": 0.5}
 PRIOR_SIGMA = SCATTER | CONVENTIONS
 _START_UNIT_DEG, _MOST_TURN_DEG = 30.0, 3600.0
+_MOST_BEFORE_S = 3600.0  # that a clock ran before a trial: a session
 _MOST_JUMP = 1e4  # sigma of the reading
 
 
@@ -89,6 +97,31 @@ def late_starts_of(log: PreparedLog) -> tuple[Effect, ...]:
         )
         for trial in log.trials
         if trial.late_start is not None
+    )
+
+
+def _with_clock(trial: str, sensor: str, rig: RigParameters, before_s: float) -> RigParameters:
+    own = ClockStart(trial=trial, sensor=sensor, before_s=before_s)
+    return replace(rig, clock_starts=(*rig.clock_starts, own))
+
+
+def clock_starts_of(log: PreparedLog, sensor: str) -> tuple[Effect, ...]:
+    """Nuisance effects for how long the clock of a sensor ran before each trial."""
+    before = Parameter(
+        name="before", unit="s", low=0.0, high=_MOST_BEFORE_S, start=(0.0,), reported=False
+    )
+    return tuple(
+        Effect(
+            name=f"clock of {sensor} before {trial.name}",
+            title=f"how long the clock of {sensor} ran before {trial.name} began",
+            place=Place.SENSOR,
+            parameters=(before,),
+            apply=partial(_with_clock, trial.name, sensor),
+            needs=sensor,
+            trial=trial.name,
+        )
+        for trial in log.trials
+        if trial.has(sensor)
     )
 
 

@@ -51,8 +51,11 @@ def sensed_at_samples(
       runs: by rig, all with the same time steps.
     """
     at_s, steps_s = trial.time_s, runs[0].time_s
+    start_s = float(at_s[0])
     shown = [
-        sensed(rig, run.inputs, _tip_deg(rig, run), run.base_torque_n_mm, float(at_s[0]))
+        sensed(
+            rig, run.inputs, _tip_deg(rig, run), run.base_torque_n_mm, start_s, _clocks_ran_s(rig, trial)
+        )
         for rig, run in zip(rigs, runs, strict=True)
     ]
     read = interpolated(at_s, steps_s, np.stack([signal for both in shown for signal in both], axis=-1))
@@ -60,6 +63,11 @@ def sensed_at_samples(
         _as_read(rig, Prediction(tip_angle_deg=tip, base_torque_n_mm=torque), trial, steps_s)
         for rig, tip, torque in zip(rigs, read.T[::2], read.T[1::2], strict=True)
     ]
+
+
+def _clocks_ran_s(rig: RigParameters, trial: PreparedTrial) -> dict[str, float]:
+    """For how long clocks of sensors ran before the trial, by sensor."""
+    return {one.sensor: one.before_s for one in rig.clock_starts if one.trial == trial.name}
 
 
 def _tip_deg(rig: RigParameters, run: Run) -> Array:
@@ -79,7 +87,7 @@ def _as_read(
     shown, at_s = {sensor: prediction[sensor] for sensor in SENSORS}, trial.time_s
     for jump in (one for one in rig.jumps if one.sensor in shown):
         shown[jump.sensor] = shown[jump.sensor] + jump.size * (at_s >= jump.time_s)
-    unknown = list(reads_ahead(rig, steps_s, at_s).items())
+    unknown = list(reads_ahead(rig, steps_s, at_s, _clocks_ran_s(rig, trial)).items())
     if trial.late_start is not None:
         unknown.append((TORQUE, shows_before(rig, at_s)))
     for sensor, rows in unknown:

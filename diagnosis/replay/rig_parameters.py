@@ -37,6 +37,20 @@ class Past:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ClockStart:
+    """How long the clock of a sensor ran before a trial.
+
+    Attributes:
+      trial: name of the trial.
+      sensor: column of the reading.
+    """
+
+    trial: str
+    sensor: str
+    before_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class ReadingJump:
     """A reading that is off from a moment on: an encoder that lost counts, a gauge that was knocked.
 
@@ -95,6 +109,7 @@ class RigParameters:
         where the depth is constant; the rest is the spatial derivative of equation (9).
       material_share_growing_depth: the same where the depth changes.
       pasts: turns of the base before trials that began late.
+      clock_starts: clocks of sensors that ran before trials.
       jumps: readings that are off from a moment on.
       smoothed: readings that were smoothed after recording.
       free: a free-form law; None: none.
@@ -139,6 +154,7 @@ class RigParameters:
     material_share_constant_depth: float = 0.0
     material_share_growing_depth: float = 0.0
     pasts: tuple[Past, ...] = ()
+    clock_starts: tuple[ClockStart, ...] = ()
     jumps: tuple[ReadingJump, ...] = ()
     smoothed: tuple[SmoothedReading, ...] = ()
     free: FreeLaw | None = None
@@ -207,6 +223,7 @@ class RigParameters:
             torque_bias_n_mm=0.0,
             tip_clock_ratio=1.0,
             torque_clock_ratio=1.0,
+            clock_starts=(),
             torque_low_pass_s=0.0,
             torque_butterworth_s=0.0,
             torque_average_s=0.0,
@@ -223,13 +240,14 @@ class RigParameters:
         return next((past for past in self.pasts if past.trial == trial), Past(trial=trial))
 
     def on_trial(self, trial: str) -> "RigParameters":
-        """The rig for one trial, without the pasts and jumps of others."""
+        """The rig for one trial, without the pasts, clocks and jumps of others."""
         own = tuple(past for past in self.pasts if past.trial == trial)
+        clocks = tuple(clock for clock in self.clock_starts if clock.trial == trial)
         jumps = tuple(jump for jump in self.jumps if jump.trial == trial)
         free = self.free.on_trial(trial) if self.free else None
-        if own == self.pasts and jumps == self.jumps and free is self.free:
+        if (own, clocks, jumps) == (self.pasts, self.clock_starts, self.jumps) and free is self.free:
             return self
-        return replace(self, pasts=own, jumps=jumps, free=free)
+        return replace(self, pasts=own, clock_starts=clocks, jumps=jumps, free=free)
 
     def setup(self, rig: NominalRig, schedule: Schedule, *, elements: int, step_s: float) -> Setup:
         """The MuJoCo needle for a schedule, as returned by `driven`."""

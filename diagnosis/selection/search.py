@@ -7,9 +7,10 @@ does, but a second effect promises to take more off than noise could, that pair 
 no pair does, every effect beside each of the leading pairs is. Where two or three effects nearly explain
 it, another one is tried in place of each of them.
 What the scatter of the rig's own constants explains is `none`. Where nothing explains the log, elastic
-tissue may go along with a sliding shaft, noise may grow with rate or torque, outliers may be left, noise
-may be weakly coloured or of 1/f, the torque may drift, readings may jump, and those of the tip may
-drift. What is far above the noise all the same is compared with plainer sets that leave hardly more.
+tissue may go along with a sliding shaft, clocks may have run before the trials, noise may grow with rate
+or torque, outliers may be left, noise may be weakly coloured or of 1/f, the torque may drift, readings
+may jump, and those of the tip may drift. What is far above the noise all the same is compared with
+plainer sets that leave hardly more.
 
 Each stage takes the state of the search and returns the next; its record says what it made, kept and
 dropped.
@@ -33,6 +34,7 @@ from diagnosis.selection.stages.richer_effects import (
     richer_effects_in_the_best,
     simpler_effects,
 )
+from diagnosis.selection.stages.sensors.clock_starts import clocks_before_trials
 from diagnosis.selection.stages.sensors.coloured_noise import (
     coloured_noise,
     flicker_noise,
@@ -86,6 +88,7 @@ STAGES: tuple[Stage, ...] = (
     finer_mesh,
     tissue_that_goes_along,
     starts_of_trials,
+    clocks_before_trials,
     noise_that_grows,
     outliers_beside_the_best,
     weakly_coloured_noise,

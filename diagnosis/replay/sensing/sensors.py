@@ -11,14 +11,15 @@ of the torque may have a low-pass filter (`filters`):
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.prepare import START_FILTER_DECAYS, START_MOST_UNUSED
-from diagnosis.log.trial import BASE
+from diagnosis.log.trial import BASE, SENSORS, TIP, TORQUE
 from diagnosis.replay.interpolation import interpolated
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.sensing.bearing import bearing_torque_n_mm
@@ -28,6 +29,9 @@ from sim.schedule import Schedule
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
+NEVER: Mapping[str, float] = MappingProxyType({})
+"""Clocks that did not run before a trial."""
 
 
 def driven(
@@ -66,23 +70,28 @@ def sensed(
     tip_deg: Array,
     torque_n_mm: Array,
     start_s: float | None = None,
+    ran_s: Mapping[str, float] = NEVER,
 ) -> tuple[Array, Array]:
     """Readings of tip and torque, (N,) each.
 
     Args:
       inputs: inputs of the needle.
       torque_n_mm: torque on the needle at the chuck.
-      start_s: start of the trial, when all clocks agree; None: that of the inputs, which have no past.
+      start_s: start of the trial; None: that of the inputs, which have no past.
+      ran_s: for how long clocks of sensors ran before that, since they agreed; the others agree there.
     """
     time_s, torque = inputs.time_s, torque_n_mm
     start_s = float(time_s[0]) if start_s is None else start_s
     if rig.drive_friction_n_mm != 0.0:
         torque = torque + bearing_torque_n_mm(inputs.drive, rig.drive_friction_n_mm)
-    tip = _late(interpolated, time_s, tip_deg, start_s, rig.tip_clock_ratio, rig.tip_delay_s)
+    begun_s = {sensor: start_s - ran_s.get(sensor, 0.0) for sensor in SENSORS}
+    tip = _late(interpolated, time_s, tip_deg, begun_s[TIP], rig.tip_clock_ratio, rig.tip_delay_s)
     torque = first_order(time_s, torque, rig.torque_low_pass_s)
     torque = butterworth(time_s, torque, rig.torque_butterworth_s)
     torque = moving_average(time_s, torque, rig.torque_average_s)
-    torque = _late(np.interp, time_s, torque, start_s, rig.torque_clock_ratio, rig.torque_delay_s)
+    torque = _late(
+        np.interp, time_s, torque, begun_s[TORQUE], rig.torque_clock_ratio, rig.torque_delay_s
+    )
     tip = rig.tip_bias_deg + rig.tip_scale * tip
     torque = rig.torque_bias_n_mm + rig.torque_scale * torque
     if rig.free is None:
@@ -91,19 +100,22 @@ def sensed(
     return tip + more[0], torque + more[1]
 
 
-def reads_ahead(rig: RigParameters, run_s: Array, at_s: Array) -> dict[str, Mask]:
+def reads_ahead(
+    rig: RigParameters, run_s: Array, at_s: Array, ran_s: Mapping[str, float] = NEVER
+) -> dict[str, Mask]:
     """By sensor: samples at which its clock is past the end of the run, where nothing is known, (N,).
 
     Args:
       run_s: times of the run, which may begin before the trial.
       at_s: times of the samples of the trial.
+      ran_s: as for `sensed`.
     """
     clocks = {
-        "tip_angle_deg": (rig.tip_clock_ratio, rig.tip_delay_s),
-        "base_torque_n_mm": (rig.torque_clock_ratio, rig.torque_delay_s),
+        TIP: (rig.tip_clock_ratio, rig.tip_delay_s),
+        TORQUE: (rig.torque_clock_ratio, rig.torque_delay_s),
     }
     return {
-        sensor: _shown_s(at_s, at_s[0], ratio, delay_s) > run_s[-1]
+        sensor: _shown_s(at_s, at_s[0] - ran_s.get(sensor, 0.0), ratio, delay_s) > run_s[-1]
         for sensor, (ratio, delay_s) in clocks.items()
         if ratio > 1.0
     }

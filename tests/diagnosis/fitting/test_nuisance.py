@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
@@ -11,6 +12,7 @@ from diagnosis.criteria.prepare import START_SPREAD_DEG
 from diagnosis.fitting.nuisance import (
     CONVENTIONS,
     PRIOR_SIGMA,
+    clock_starts_of,
     late_starts_of,
     nuisance_of,
     prior_sigma,
@@ -19,7 +21,7 @@ from diagnosis.fitting.nuisance import (
 )
 from diagnosis.prepare.prepared_log import PreparedLog
 from diagnosis.prepare.start.late_start import LateStart
-from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, SmoothedReading
+from diagnosis.replay.rig_parameters import NOMINAL, ClockStart, Past, ReadingJump, SmoothedReading
 
 STILL = prepared(trial(turns()))
 SLIDING = prepared(trial(turns(), speed=-1.0))
@@ -79,6 +81,20 @@ def test_the_size_of_a_jump_is_open_without_a_prior():
     assert size.to_fit(0.6) == pytest.approx(2.0)  # in sigma
     rig = jump.apply(jump.apply(NOMINAL, 1.0), 2.0)
     assert rig.jumps == (replace(lost, size=1.0), replace(lost, size=2.0))
+
+
+def test_each_trial_that_was_read_has_a_time_that_a_clock_ran_before_it():
+    read, unread = np.zeros(STILL.time_s.size), np.full(STILL.time_s.size, np.nan)
+    both = replace(STILL, name="a", readings={"tip_angle_deg": read, "base_torque_n_mm": read})
+    one = replace(STILL, name="b", readings={"tip_angle_deg": unread, "base_torque_n_mm": read})
+    log = PreparedLog(rig=RIG, trials=(both, one))
+    (one,) = clock_starts_of(log, "tip_angle_deg")
+    assert one.trial == "a"
+    assert one.apply(NOMINAL, 2.5).clock_starts == (
+        ClockStart(trial="a", sensor="tip_angle_deg", before_s=2.5),
+    )
+    assert [own.trial for own in clock_starts_of(log, "base_torque_n_mm")] == ["a", "b"]
+    assert math.isinf(prior_sigma(one))
 
 
 def test_what_a_filter_left_of_smoothed_readings_is_open():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosis_fixtures import RIG, prepared, trial, turns
 
-from diagnosis.replay.rig_parameters import NOMINAL, Past, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, ClockStart, Past, ReadingJump, RigParameters
 from diagnosis.replay.sensing.sensors import driven, sensed
 from sim.schedule import COLUMNS, Schedule
 
@@ -46,7 +46,7 @@ NEEDS = {  # what a field shows beside only
 
 @pytest.mark.parametrize(
     "name",
-    [f.name for f in fields(RigParameters) if f.name not in ("pasts", "jumps", "smoothed", "free")],
+    [f.name for f in fields(RigParameters) if isinstance(f.default, float)],
 )
 def test_every_parameter_changes_the_needle_or_its_sensors(name):
     about = replace(NOMINAL, **NEEDS.get(name, {}))
@@ -68,6 +68,18 @@ def test_every_parameter_changes_the_needle_or_its_sensors(name):
         assert any(not np.array_equal(getattr(before, c), getattr(after, c)) for c in COLUMNS)
     else:
         assert setup(changed) != setup(about)
+
+
+def test_what_is_not_a_number_is_a_past_a_clock_a_jump_a_filter_or_a_law():
+    others = {f.name for f in fields(RigParameters) if not isinstance(f.default, float)}
+    assert others == {"pasts", "clock_starts", "jumps", "smoothed", "free"}
+
+
+def test_a_trial_sees_its_own_clocks_alone_and_a_needle_none():
+    one, other = (ClockStart(trial=name, sensor="tip_angle_deg", before_s=2.0) for name in "ab")
+    rig = RigParameters(clock_starts=(one, other))
+    assert rig.on_trial("a") == RigParameters(clock_starts=(one,))
+    assert rig.without_sensors == RigParameters()
 
 
 def test_a_trial_sees_its_own_past_alone():

@@ -49,6 +49,7 @@ def test_the_stages_are_these_in_this_order():
         "finer_mesh",
         "tissue_that_goes_along",
         "starts_of_trials",
+        "clocks_before_trials",
         "noise_that_grows",
         "outliers_beside_the_best",
         "weakly_coloured_noise",

@@ -9,7 +9,7 @@ from diagnosis_fixtures import RIG, prepared, trial, turns
 from diagnosis.log.trial import SENSORS
 from diagnosis.replay.replay import predict
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
-from diagnosis.replay.sensing.sensors import driven, sensed
+from diagnosis.replay.sensing.sensors import driven, reads_ahead, sensed
 from sim.needles.run import SimulationFailed
 from sim.schedule import Schedule
 
@@ -65,6 +65,22 @@ def test_a_clock_that_runs_off_shows_what_its_time_says():
     tip, torque = sensed(rig, inputs(5.0 + TIME), TIME, TIME)
     np.testing.assert_allclose(tip, 0.9 * TIME, atol=1e-12)
     np.testing.assert_allclose(torque, np.maximum(0.8 * TIME - 0.5, 0.0), atol=1e-12)
+
+
+def test_a_clock_that_ran_before_the_trial_is_late_by_its_rate_from_the_first_sample_on():
+    """At 1 s of a trial, 3 s after they agreed, a clock that is slow by 10 % shows that at 0.7 s."""
+    rig = RigParameters(tip_clock_ratio=0.9, torque_clock_ratio=0.9)
+    tip, torque = sensed(rig, inputs(TIME), TIME, TIME, ran_s={"tip_angle_deg": 2.0})
+    at = np.argmin(np.abs(TIME - 1.0))
+    assert (tip[at], torque[at]) == pytest.approx((0.7, 0.9))
+
+
+def test_a_fast_clock_that_ran_before_is_past_the_end_of_the_run_sooner():
+    """By 10 % of 2 s more: of 10 s, its last samples that are known are at 8.9 and at 9.1 s."""
+    rig, run_s = RigParameters(tip_clock_ratio=1.1), np.linspace(0.0, 10.0, 1001)
+    for ran_s, last_s in (({"tip_angle_deg": 2.0}, 9.8 / 1.1), ({}, 10.0 / 1.1)):
+        ahead = reads_ahead(rig, run_s, run_s, ran_s)["tip_angle_deg"]
+        assert run_s[~ahead].max() == pytest.approx(last_s, abs=0.011)
 
 
 def test_clocks_agree_where_the_recording_begins_and_not_where_the_rig_began_to_move():
