@@ -96,9 +96,8 @@ def _rates(
     for trial, drift in zip(log.trials, _by_trial(log, sensor, noise, predictions), strict=True):
         after_s = trial.time_s - trial.time_s[0]
         line = np.polyfit(after_s, drift, 1)
-        if trial.has(sensor) and np.ptp(drift - np.polyval(line, after_s)) <= DRIFT_ALIKE * np.ptp(
-            drift
-        ):
+        off = drift - np.polyval(line, after_s)
+        if trial.has(sensor) and np.ptp(off) <= DRIFT_ALIKE * np.ptp(drift):
             rates.append(float(line[0]))
     return rates
 
