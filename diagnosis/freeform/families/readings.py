@@ -7,9 +7,10 @@
     sensor         reading = true value + a curve of it, of time, axial speed, depth or another signal,
                    or true value times a curve of time or depth
 
-An angle of the drive that errs once a turn is as likely that of an encoder whose disc is off its centre;
-no log tells which. An offset of the tip that depends on the torque is a twist in addition to that of the
-nominal stiffness: it is more likely due to the needle than to the sensor.
+An angle of the drive that errs with its angle, or once a turn, is as likely that of an encoder, whose
+disc is off its centre; no log tells which. Several waves a turn are those of gears and joints. An offset
+of the tip that depends on the torque is a twist in addition to that of the nominal stiffness: it is more
+likely due to the needle than to the sensor.
 """
 
 from collections.abc import Mapping
@@ -63,7 +64,7 @@ _OF_DIRECTION = {
 }
 _SLIPS = (ActsOn.DRIVE_SLIP, ActsOn.TISSUE_SLIP)
 DRIVE, SENSOR = {Place.DRIVE: 1.0}, {Place.SENSOR: 1.0}
-_OFF_CENTRE = {Place.SENSOR: 0.55, Place.DRIVE: 0.45}
+_OF_ENCODER = {Place.SENSOR: 0.55, Place.DRIVE: 0.45}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,8 +127,9 @@ _TIP = (ActsOn.TIP_READING, TIP, "error of the tip sensor")
 _TORQUE = (ActsOn.TORQUE_READING, TORQUE, "error of the torque sensor")
 _V = Variable
 ADDED = (
-    *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.BASE_ANGLE, _V.DIRECTION),
-    *_added(*_SHAFT, _OFF_CENTRE, _V.BASE_ANGLE, period_deg=TURN_DEG),
+    *_added(*_SHAFT, DRIVE, _V.TIME, _V.TRIAL_SHARE, _V.DIRECTION),
+    *_added(*_SHAFT, _OF_ENCODER, _V.BASE_ANGLE),
+    *_added(*_SHAFT, _OF_ENCODER, _V.BASE_ANGLE, period_deg=TURN_DEG),
     *_added(*_SHAFT, DRIVE, _V.TURNED_BY, _V.TORQUE, _V.DEPTH, _V.AXIAL_SPEED, _V.SLID),
     *_added(*_SHAFT, {Place.DRIVE: 0.6, Place.NEEDLE: 0.4}, _V.PAST),
     *_added(*_SLIP, DRIVE, _V.TORQUE),

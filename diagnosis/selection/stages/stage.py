@@ -10,10 +10,12 @@ from diagnosis.criteria.selection import (
     FAULT_PAIRS,
     FINALISTS,
     NEAR_FLOOR,
+    NEARLY,
     SECOND_LEAVES,
     SIMPLE_LEAD,
     WORTH_THE_LOG,
 )
+from diagnosis.fitting.decimation import gap_on_the_log
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.selection.candidate import Candidate, candidate
@@ -145,6 +147,24 @@ def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, wo
         for c in leading.values()
     ]
     return fit_all(stage, calls, workers)
+
+
+def near_fitted_again(
+    stage: str, state: SearchState, begun: SearchState, workers: Workers
+) -> SearchState:
+    """The leading explanations of a state that come near the noise in another on the decimated log.
+
+    Args:
+      begun: the other, of which more is open, and to which nothing has been fitted.
+    """
+    rare, record = leading_fitted_again(stage, state, begun.coarse, workers)
+    gaps = {frozenset(c.names): gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) for c in rare}
+    near = tuple(c for c in state.candidates if gaps.get(frozenset(c.names), math.inf) <= NEARLY)
+    begun = begun.noting(*record)
+    if not near:
+        return begun
+    leading = replace(state, candidates=near)
+    return begun.adding(leading_fitted_again(stage, leading, begun.problem, workers))
 
 
 def _parts_of_the_leading(state: SearchState) -> list[Candidate]:

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.prepare import START_LEFT_SHARE, START_LEFT_TIMES
-from diagnosis.criteria.selection import NEARLY
-from diagnosis.fitting.decimation import decimated, gap_on_the_log
+from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.nuisance import late_starts_of
 from diagnosis.fitting.problem import FitProblem
@@ -26,7 +25,7 @@ from diagnosis.prepare.start.late_start_detection import begun_late
 from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
-from diagnosis.selection.stages.stage import leading_fitted_again
+from diagnosis.selection.stages.stage import near_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -41,7 +40,7 @@ def starts_of_trials(state: SearchState, workers: Workers) -> SearchState:
     if explained or share_at_the_start(state) < START_LEFT_SHARE:
         return state
     begun = _with_pasts(state)
-    again, explained = _fitted_with_pasts(state, begun, workers).rechecked()
+    again, explained = near_fitted_again(STAGE, state, begun, workers).rechecked()
     if not explained:
         return state.noting(
             noted(
@@ -51,18 +50,6 @@ def starts_of_trials(state: SearchState, workers: Workers) -> SearchState:
             )
         )
     return again.noting(noted(STAGE, Decision.KEPT, "trials that begin wound up explain the log"))
-
-
-def _fitted_with_pasts(state: SearchState, begun: SearchState, workers: Workers) -> SearchState:
-    """The leading explanations with pasts: of those that come near the noise on the decimated log."""
-    rare, record = leading_fitted_again(STAGE, state, begun.coarse, workers)
-    gaps = {frozenset(c.names): gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) for c in rare}
-    near = tuple(c for c in state.candidates if gaps.get(frozenset(c.names), np.inf) <= NEARLY)
-    begun = begun.noting(*record)
-    if not near:
-        return begun
-    leading = replace(state, candidates=near)
-    return begun.adding(leading_fitted_again(STAGE, leading, begun.problem, workers))
 
 
 def share_at_the_start(state: SearchState) -> float:

@@ -7,8 +7,8 @@ session. At time t of a trial a sensor whose clock is off by a rate then shows w
 
 where it ran for so long before. What is fitted without that is a delay that is another one in each
 trial. So where a leading explanation has such a clock, the leading ones are fitted again with a time
-before each trial, which is open, and the best of them without each of its effects. It is kept if the log
-is explained so.
+before each trial, which is open: on the decimated log, and on the log itself what comes near the noise
+there, the best also without each of its effects. It is kept if the log is explained so.
 """
 
 from dataclasses import replace
@@ -17,7 +17,7 @@ from diagnosis.fitting.nuisance import clock_starts_of
 from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.best import best_without_each_effect
-from diagnosis.selection.stages.stage import leading_fitted_again, leading_on_the_log
+from diagnosis.selection.stages.stage import leading_on_the_log, near_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
@@ -33,8 +33,10 @@ def clocks_before_trials(state: SearchState, workers: Workers) -> SearchState:
     begun = _with_clock_starts(state)
     if begun is state:
         return state
-    begun = begun.adding(leading_fitted_again(STAGE, state, begun.problem, workers))
-    again, explained = best_without_each_effect(begun, workers).rechecked()
+    begun = near_fitted_again(STAGE, state, begun, workers)
+    again, explained = state, False
+    if begun.candidates:
+        again, explained = best_without_each_effect(begun, workers).rechecked()
     if not explained:
         why = "with clocks that ran before, no explanation reaches the noise either"
         return state.noting(noted(STAGE, Decision.DROPPED, why))

@@ -140,8 +140,13 @@ def test_a_hysteresis_is_told_over_what_has_changed_since_it_turned_back():
     assert set(units.values()) == {"deg"}
 
 
-def test_an_angle_that_errs_once_a_turn_is_of_the_encoder_or_of_the_drive():
-    places = FAMILIES["drive angle over base_angle, every 360 deg"].places
+@pytest.mark.parametrize("more", ["", ", every 360 deg"])
+def test_an_angle_that_errs_with_itself_is_of_the_encoder_or_of_the_drive(more):
+    places = FAMILIES[f"drive angle over base_angle{more}"].places
     assert set(places) == {Place.SENSOR, Place.DRIVE}
     assert min(places.values()) > 0.4
-    assert FAMILIES["drive angle over base_angle"].places == {Place.DRIVE: 1.0}
+
+
+def test_several_waves_a_turn_are_of_the_drive():
+    ripple = [f for name, f in FAMILIES.items() if name.startswith("drive angle over base_angle, every")]
+    assert [f.places for f in ripple if "360" not in f.name] == [{Place.DRIVE: 1.0}]
