@@ -41,25 +41,26 @@ def test_a_bearing_that_sticks_brings_the_noise_of_the_encoder_back_as_torque():
     assert allowed.slow_limit > 1.1 * one.floor.slow_limit
 
 
-def test_trials_that_the_noise_of_the_encoder_sets_apart_may_shift_by_more():
+def stuck_twice():
+    """A bearing that sticks, its log, and its fit and log with that trial twice."""
     stuck, problem = above_the_floor(
         RigParameters(drive_friction_n_mm=0.5), "drive_friction", np.log(0.5)
     )
     slopes = tuple(np.ones((r.size, stuck.fit.x.size)) for r in stuck.fit.by_trial)
     two = replace(stuck.fit, by_trial=stuck.fit.by_trial * 2, jacobian=slopes * 2)
     pair = replace(problem, log=replace(problem.log, trials=problem.log.trials * 2))
+    return stuck, problem, two, pair
+
+
+def test_trials_that_the_noise_of_the_encoder_sets_apart_may_shift_by_more():
+    stuck, problem, two, pair = stuck_twice()
     allowed = allowing_base_noise(replace(stuck, fit=two), pair)
     assert allowed.shift_limit > SHIFT_LIMIT + 1.0
     assert allowing_base_noise(stuck, problem).shift_limit == SHIFT_LIMIT  # one trial cannot shift
 
 
 def test_a_shift_of_held_out_trials_alone_asks_for_what_the_noise_of_the_encoder_allows():
-    stuck, problem = above_the_floor(
-        RigParameters(drive_friction_n_mm=0.5), "drive_friction", np.log(0.5)
-    )
-    slopes = tuple(np.ones((r.size, stuck.fit.x.size)) for r in stuck.fit.by_trial)
-    two = replace(stuck.fit, by_trial=stuck.fit.by_trial * 2, jacobian=slopes * 2)
-    pair = replace(problem, log=replace(problem.log, trials=problem.log.trials * 2))
+    stuck, _, two, pair = stuck_twice()
     reached = replace(stuck, fit=two, floor=NoiseFloor(gap=1.0, slow=1.0))
     assert allowing_base_noise(reached, pair) is reached
     shifted = replace(reached, shift=SHIFT_LIMIT + 1.0)
