@@ -31,7 +31,7 @@ from diagnosis.replay.accuracy.numerical_error import (
 from diagnosis.replay.drift import drift_ranges_sigma, with_drift
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
-from diagnosis.replay.rig_parameters import NOMINAL, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, ClockStart, ReadingJump, RigParameters
 from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
@@ -67,6 +67,7 @@ class Assessment:
       parameters: intervals of parameters, by accepted effect.
       joint: joint uncertainty of the parameters of the nearest explanation.
       imperfections: imperfections of sensors in the nearest explanation, with their parameters.
+      clock_starts: how long clocks of sensors ran before trials, in the nearest explanation.
       reading_jumps: readings that are off from a moment on, in the nearest explanation.
       drift_sigma: largest range of the drift within a trial that was allowed for, by sensor.
       with_one_more: gap that the best fit may reach with one more effect, by effect.
@@ -88,6 +89,7 @@ class Assessment:
     parameters: dict[str, dict[str, Interval]]
     joint: JointUncertainty
     imperfections: dict[str, dict[str, Interval]]
+    clock_starts: tuple[ClockStart, ...]
     reading_jumps: tuple[ReadingJump, ...]
     drift_sigma: dict[str, float]
     with_one_more: dict[str, float]
@@ -157,6 +159,7 @@ def assess(
         parameters=accepted,
         joint=joint_uncertainty(near.fit, spread, named),
         imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
+        clock_starts=rig.clock_starts,
         reading_jumps=rig.jumps,
         drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
         with_one_more=with_one_more,

@@ -56,6 +56,7 @@ def explained_by(
         told,
         gap=gap_reduction(before, after),
         imperfections={},  # those of the nearest explanation are not in the fit of the law
+        clock_starts=rig.clock_starts,
         reading_jumps=rig.jumps,
         drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
         explained=explained,

@@ -48,6 +48,7 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
             "imperfections": _parameters(told.imperfections),
             "torque_drift_sigma": told.drift_sigma[TORQUE],
             "tip_drift_sigma": told.drift_sigma[TIP],
+            "clock_starts": [asdict(clock) for clock in told.clock_starts],
             "reading_jumps": [asdict(jump) for jump in told.reading_jumps],
         },
         "where": _where(diagnosis),

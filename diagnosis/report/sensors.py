@@ -1,10 +1,12 @@
 """What a diagnosis says of the sensors: what they do beside noise, and what was done about it."""
 
+from collections.abc import Sequence
+
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.effects import IMPERFECTIONS
 from diagnosis.in_sigma import in_sigma
 from diagnosis.log.trial import TIP, TORQUE
-from diagnosis.replay.rig_parameters import ReadingJump
+from diagnosis.replay.rig_parameters import ClockStart, ReadingJump
 from diagnosis.result import Diagnosis
 
 _SENSORS = {TORQUE: "the torque sensor", TIP: "the tip sensor"}
@@ -14,15 +16,21 @@ def imperfections(found: Diagnosis) -> str:
     """What the sensors do beside noise, in one sentence; empty where nothing had to be allowed for."""
     told = found.assessment
     lines = [_told(name, parameters) for name, parameters in told.imperfections.items()]
+    lines += [_ran(sensor, told.clock_starts) for sensor in _SENSORS]
     lines += [
         f"a drift of {_SENSORS[sensor]}, by up to {in_sigma(most)} within a trial"
         for sensor, most in told.drift_sigma.items()
         if most > 0.0
     ]
     lines += map(_jumped, told.reading_jumps)
-    if not lines:
-        return ""
-    return f"The sensors are not perfect; the diagnosis allows for this: {'; '.join(lines)}"
+    said = "; ".join(filter(None, lines))
+    return f"The sensors are not perfect; the diagnosis allows for this: {said}" if said else ""
+
+
+def _ran(sensor: str, clocks: Sequence[ClockStart]) -> str:
+    """For how long the clock of a sensor ran before the trials; empty: it began with them."""
+    each = [f"{one.before_s:.3g} s before {one.trial}" for one in clocks if one.sensor == sensor]
+    return f"the clock of {_SENSORS[sensor]} ran for {', '.join(each)}" if each else ""
 
 
 def _jumped(jump: ReadingJump) -> str:

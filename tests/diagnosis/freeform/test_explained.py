@@ -79,7 +79,7 @@ def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
         assert found.breakdown_after.signal[sensor] == pytest.approx(1.0, abs=3.5 / np.sqrt(800))
     assert found.shape_after is not None
     changed = {"gap", "explained", "breakdown_after", "shape_after", "next_experiment"}
-    changed |= {"imperfections", "reading_jumps", "drift_sigma"}
+    changed |= {"imperfections", "clock_starts", "reading_jumps", "drift_sigma"}
     kept = {name for name in vars(before) if getattr(found, name) is getattr(before, name)}
     assert kept == set(vars(before)) - changed
 
@@ -102,6 +102,7 @@ def test_imperfections_of_sensors_are_those_that_the_law_allows_for(told):
     *_, before, found = told
     assert before.imperfections
     assert found.imperfections == {}
+    assert found.clock_starts == ()
     assert found.reading_jumps == ()
     assert found.drift_sigma == dict.fromkeys(SENSORS, 0.0)
 

@@ -10,6 +10,7 @@ from free_forms import LAW, VOCABULARY, missing_with
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.log.trial import TIP, TORQUE
+from diagnosis.replay.rig_parameters import ClockStart
 from diagnosis.report.json_report import FORMAT, as_json
 from diagnosis.residuals.lead import Lead
 from diagnosis.selection.record import Decision
@@ -48,6 +49,14 @@ def test_the_drift_of_each_sensor_is_there(dry):
     told = replace(dry.found.assessment, drift_sigma={TORQUE: 2.0, TIP: 3.5})
     sensors = as_json(replace(dry.found, assessment=told))["sensors"]
     assert (sensors["torque_drift_sigma"], sensors["tip_drift_sigma"]) == (2.0, 3.5)
+
+
+def test_clocks_that_ran_before_trials_are_there(dry):
+    clock = ClockStart(trial="a.csv", sensor=TIP, before_s=2.5)
+    told = replace(dry.found.assessment, clock_starts=(clock,))
+    sensors = as_json(replace(dry.found, assessment=told))["sensors"]
+    assert sensors["clock_starts"] == [{"trial": "a.csv", "sensor": TIP, "before_s": 2.5}]
+    assert dry.report["sensors"]["clock_starts"] == []
 
 
 def test_every_key_is_there_and_no_other(dry):

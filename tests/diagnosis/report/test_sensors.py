@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.log.trial import TIP, TORQUE
-from diagnosis.replay.rig_parameters import ReadingJump
+from diagnosis.replay.rig_parameters import ClockStart, ReadingJump
 from diagnosis.report.sensors import imperfections
 
 RATE = Interval(value=0.00183, low=0.0018, high=0.0019, unit="-")
@@ -33,6 +33,15 @@ def test_a_drift_is_told_with_its_sensor_and_range(dry):
     found = having(dry.found, drift_sigma={TORQUE: 0.0, TIP: 4.2})
     assert "drift of the tip sensor, by up to 4.20 σ within a trial" in imperfections(found)
     assert "torque" not in imperfections(found)
+
+
+def test_clocks_that_ran_before_are_told_by_sensor_and_trial(dry):
+    each = (("tip_angle_deg", "trial_01.csv", 2.546), ("tip_angle_deg", "trial_02.csv", 0.0))
+    clocks = tuple(ClockStart(trial=trial, sensor=sensor, before_s=s) for sensor, trial, s in each)
+    said = imperfections(having(dry.found, clock_starts=clocks))
+    assert said.endswith(
+        ": the clock of the tip sensor ran for 2.55 s before trial_01.csv, 0 s before trial_02.csv"
+    )
 
 
 def test_a_jump_is_told_with_its_size_time_and_trial(dry):

@@ -13,8 +13,8 @@ there, the best also without each of its effects. It is kept if the log is expla
 
 from dataclasses import replace
 
+from diagnosis.effects import FITTED
 from diagnosis.fitting.nuisance import clock_starts_of
-from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.selection.record import Decision, noted
 from diagnosis.selection.stages.best import best_without_each_effect
 from diagnosis.selection.stages.stage import leading_on_the_log, near_fitted_again
@@ -22,7 +22,7 @@ from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
 
 STAGE = "clocks before trials"
-_CLOCKS = {TIP: "tip_clock", TORQUE: "torque_clock"}
+_CLOCKS = ("tip_clock", "torque_clock")
 
 
 def clocks_before_trials(state: SearchState, workers: Workers) -> SearchState:
@@ -49,9 +49,9 @@ def _with_clock_starts(state: SearchState) -> SearchState:
     log = state.problem.log
     starts = tuple(
         effect
-        for sensor, clock in _CLOCKS.items()
+        for clock in _CLOCKS
         if clock in names
-        for effect in clock_starts_of(log, sensor)
+        for effect in clock_starts_of(log, FITTED[clock].needs)
     )
     if not starts:
         return state
