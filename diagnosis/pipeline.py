@@ -20,7 +20,7 @@ from diagnosis.criteria.selection import REPLAYS_AFTER_STOP
 from diagnosis.fitting.decimation import decimated_noise
 from diagnosis.fitting.noise_reestimation import rescaled
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.in_words import VARIABLES
+from diagnosis.freeform.missing.words import VARIABLES
 from diagnosis.freeform.other_form import STAGE as OTHER_FORMS
 from diagnosis.freeform.other_form import other_form
 from diagnosis.freeform.unknown import with_what_is_missing

@@ -14,7 +14,8 @@ from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family, coordinates_of
 from diagnosis.freeform.fits.free_fit import FreeFit
-from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.freeform.law_curve import Law
+from diagnosis.freeform.missing.missing import Dependence, Missing
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.freeform.smooth_curve import smooth_curve
 from diagnosis.log.trial import SENSORS
@@ -186,3 +187,31 @@ def same_readings(angle, one, other, *, mirrored=False, within=1e-6):
 @cache
 def _read(angle, rig):
     return predict(RIG, prepared(trial(np.array(angle), step=0.04)), [rig], COARSE)[0]
+
+
+def fits_of_four():
+    return [
+        free_fit(1.02, name="direction", says="direction", places={Place.INTERFACE: 1.0}),
+        free_fit(1.2, name="tip", says="torque", places={Place.SENSOR: 0.6, Place.NEEDLE: 0.4}),
+        free_fit(3.0, name="time", says="time", places={Place.TISSUE: 1.0}),
+        free_fit(3.5, name="other time", says="time", places={Place.INTERFACE: 1.0}),
+    ]
+
+
+def beside_another(gap=1.1):
+    """The fit of a law in the tissue, over time, with another along the shaft, over the rate."""
+    one = free_fit(gap, says="time", places={Place.TISSUE: 1.0})
+    level = replace(LEVEL, name="level 0")
+    other = family_of(parameters=[level], curve=lambda v: ((0.0,), (v,)), says="rate", name="other")
+    fit = linear_fit(one.family, [np.eye(2)], [np.zeros(2)], x=[2.0, 7.0], beside=(other.effect,))
+    return replace(one, fit=fit, others=(other,))
+
+
+def fitted_curve(truth, rng, noise=1.0):
+    """A curve fitted to 60 readings at random places of it, and noise."""
+    family = family_of(name="curve", says="depth", places={Place.SENSOR: 1.0})
+    at = rng.uniform(0, 1, 60)
+    slopes = np.stack([np.interp(at, CURVE.places, column) for column in CURVE.basis.T], axis=1)
+    readings = slopes @ truth + rng.normal(0, noise, at.size)
+    fit = linear_fit(family, [slopes], [readings])
+    return FreeFit(family=family, fit=fit, gap_after=1.0, final=True)

@@ -10,7 +10,8 @@ from diagnosis.effects.saved.effect_file import SavedEffect
 from diagnosis.fitting.parameterization import Parameterization
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import FreeFit
-from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.freeform.law_curve import Law
+from diagnosis.freeform.missing.missing import Dependence, Missing
 from diagnosis.replay.along_depth import AlongDepth
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw

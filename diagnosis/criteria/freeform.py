@@ -9,6 +9,17 @@ LAW_OPEN = 1.0
 """Variance of a prediction, in that of the noise, from which the trials of its fit tell nothing of a law
 there. Physical: as much as the noise. In five logs of the twenty-seventh rig any limit from 0.05 to 2
 leaves the gap the same to 0.06."""
+PATIENCE, FREEDOM = 0.1, 4.0
+"""Inverse of the power by which what a free-form law leaves weighs for its place; and parameters that
+weigh as a factor of e. Choices: far above the noise 10 % more have a seventh of the weight."""
+FLOOR = 0.1
+"""Variance beyond the noise, in that of the noise, that hardly counts in these weights. A choice."""
+COMPANION, CHOICE = 4.0, 2.0
+"""Parameters that an effect or a law beside a law counts for in these weights, as two things are then
+missing; and the choice of a plain law among some. Choices."""
+SECOND, LEAST_WEIGHT = 0.5, 0.01
+"""Weight of the place of a law beside the leading one, in that of the leading one; and that of a place
+that no law favours. Choices."""
 STEPS_GAIN, STEPS_MOST, STEPS_SHARE = 50.0, 10, 0.9
 """Steps of a reading that begin a law of several: what each takes off the cost at least (by chance 20
 once in a thousand logs), how many, and their share of the nominal residual beyond noise: 0.986 of a

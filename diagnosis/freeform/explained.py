@@ -10,9 +10,9 @@ from diagnosis.assessment.assess import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.fits.checked import told_of
-from diagnosis.freeform.in_words import next_step
-from diagnosis.freeform.missing import Missing
+from diagnosis.freeform.fits.checked import determined_by_others
+from diagnosis.freeform.missing.in_words import next_step
+from diagnosis.freeform.missing.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.prepare.prepared_log import PreparedLog
@@ -85,7 +85,7 @@ def _after(missing: Missing, before: Sequence[Array]) -> tuple[Array, ...]:
     if best.held_out is None or (missing.closed and _rms(best.held_out) > _rms(before)):
         return best.fit.by_trial
     each = enumerate(zip(best.held_out, best.fit.by_trial, strict=True))
-    return tuple(np.where(told_of(best.fit, i), unseen, seen) for i, (unseen, seen) in each)
+    return tuple(np.where(determined_by_others(best.fit, i), unseen, seen) for i, (unseen, seen) in each)
 
 
 def _rms(by_trial: Sequence[Array]) -> float:

@@ -56,7 +56,7 @@ class Family:
         return self.effect.name
 
     @property
-    def told(self) -> tuple["Family", ...]:
+    def curves(self) -> tuple["Family", ...]:
         """All curves that tell its law: its own, and that of its factor."""
         return (self,) if self.factor is None else (self, self.factor)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from diagnosis.effects import FITTED
 from diagnosis.effects.saved.effect_file import SavedEffect, effect_as_text, refuse_no_effect_name
 from diagnosis.effects.saved.folder import OWN_FOLDER, effects_folder
-from diagnosis.freeform.missing import Missing
+from diagnosis.freeform.missing.missing import Missing
 from diagnosis.replay.rig_parameters import RigParameters
 from models.errors import InvalidValue
 

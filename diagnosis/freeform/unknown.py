@@ -11,7 +11,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.likeness.plain_fits import with_plain_laws
-from diagnosis.freeform.missing import Missing, missing_of
+from diagnosis.freeform.missing.missing import Missing, missing_of
 from diagnosis.freeform.search import free_form_fits
 from diagnosis.log.rig_log import RigLog
 from diagnosis.replay.prediction import Prediction

@@ -4,7 +4,7 @@ They open the page and the summary on the screen.
 """
 
 from diagnosis.criteria.assessment import CERTAIN_PROBABILITY
-from diagnosis.freeform.in_words import what_is_missing
+from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.in_sigma import in_sigma
 from diagnosis.report.sentences.names import explanation_name, explanations, titles
 from diagnosis.report.sentences.verdict import headline

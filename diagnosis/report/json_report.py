@@ -13,8 +13,9 @@ from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty
 from diagnosis.effects import LIBRARY
 from diagnosis.fitting.fit import Fit
+from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import likeness_of
-from diagnosis.freeform.missing import Dependence, Law, Missing
+from diagnosis.freeform.missing.missing import Dependence, Missing
 from diagnosis.log.trial import TIP, TORQUE
 from diagnosis.report.sentences.names import explanation_name
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown
@@ -124,7 +125,7 @@ def _missing(missing: Missing) -> dict[str, Any]:
         "laws_beside": [_lists(asdict(other)) for other in missing.beside],
         "looks_like": _looks_like(law),
         "closed": missing.closed,
-        "told_share": missing.told_share,
+        "determined_share": missing.determined_share,
     }
 
 

@@ -11,9 +11,9 @@ import pytest
 from diagnosis_fixtures import turns
 from free_forms import covered
 
+from diagnosis.criteria.freeform import FLOOR, FREEDOM, PATIENCE
 from diagnosis.effects import FITTED
 from diagnosis.freeform import families as folder
-from diagnosis.freeform.missing import FLOOR, FREEDOM, PATIENCE
 from diagnosis.freeform.search import CONTENDERS, FINALISTS
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.variables import Variable

@@ -9,7 +9,7 @@ from diagnosis.assessment.gap_reduction import GapReduction
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.fitting.fit_status import Termination
 from diagnosis.fitting.noise_floor import NoiseFloor
-from diagnosis.freeform.missing import Law
+from diagnosis.freeform.law_curve import Law
 from diagnosis.report import json_report
 from diagnosis.residuals.autocorrelation import Autocorrelation
 from diagnosis.residuals.lead import Lead

@@ -55,14 +55,16 @@ def predictive_gap(fit: Fit, held_out: Sequence[Array]) -> float:
     return float(np.sqrt(np.mean(np.concatenate(squares))))
 
 
-def share_told(one: FreeFit) -> float:
+def share_determined(one: FreeFit) -> float:
     """Share of the readings for which trials other than their own tell the law; 1 for a single trial."""
     if one.held_out is None:
         return 1.0
-    return float(np.mean(np.concatenate([told_of(one.fit, i) for i in range(len(one.held_out))])))
+    return float(
+        np.mean(np.concatenate([determined_by_others(one.fit, i) for i in range(len(one.held_out))]))
+    )
 
 
-def told_of(fit: Fit, trial: int) -> NDArray[np.bool_]:
+def determined_by_others(fit: Fit, trial: int) -> NDArray[np.bool_]:
     """Residuals of a trial for which the other trials tell the law, to less than the noise, (N,)."""
     return np.asarray(left_open(fit, trial) <= LAW_OPEN)
 

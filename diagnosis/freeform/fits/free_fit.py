@@ -55,9 +55,9 @@ class FreeFit:
         return replace(self, family=ranked[0], others=tuple(ranked[1:]))
 
     @property
-    def told(self) -> tuple[Family, ...]:
+    def curves(self) -> tuple[Family, ...]:
         """All curves that tell its laws: each law, then the factor that it may have."""
-        return tuple(curve for family in self.families for curve in family.told)
+        return tuple(curve for family in self.families for curve in family.curves)
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -18,8 +18,8 @@ from scipy.optimize import OptimizeWarning, curve_fit
 
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.family import VISCOUS
+from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.shapes import LINE, OF_ANY, OF_BOTH_SIGNS, OF_RATE, Shape, of_angle
-from diagnosis.freeform.missing import Law
 
 Array = NDArray[np.float64]
 

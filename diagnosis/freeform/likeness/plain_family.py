@@ -18,8 +18,8 @@ from scipy.optimize import least_squares
 
 from diagnosis.effects.effect import Parameter
 from diagnosis.freeform.family import FARTHEST, Family, Points, kind_of
+from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import Recognised
-from diagnosis.freeform.missing import Law
 from diagnosis.replay.rig_parameters import RigParameters
 
 Array = NDArray[np.float64]

@@ -21,10 +21,11 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family, kind_of
 from diagnosis.freeform.fits.checked import fitted_and_checked, left_open
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.freeform.law_curve import law_of
 from diagnosis.freeform.likeness.likeness import plain_laws_of, recognised
 from diagnosis.freeform.likeness.plain_family import plain_family
 from diagnosis.freeform.likeness.shapes import LEVEL
-from diagnosis.freeform.missing import law_of, likelier_first
+from diagnosis.freeform.missing.places import likelier_first
 from diagnosis.workers import Task, Workers
 
 Array = NDArray[np.float64]

@@ -7,8 +7,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from diagnosis.freeform.in_words import VARIABLES, course_of, repeating
-from diagnosis.freeform.missing import Law
+from diagnosis.freeform.law_curve import Law
+from diagnosis.freeform.missing.course import course_of
+from diagnosis.freeform.missing.in_words import repeating
+from diagnosis.freeform.missing.words import VARIABLES
 from diagnosis.report.figures.layout import subplots
 from diagnosis.report.figures.style import PREDICTIONS
 

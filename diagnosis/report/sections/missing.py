@@ -2,8 +2,9 @@
 
 import math
 
-from diagnosis.freeform.in_words import PLACES, VARIABLES, laws_of
-from diagnosis.freeform.missing import Dependence, Missing
+from diagnosis.freeform.missing.in_words import laws_of
+from diagnosis.freeform.missing.missing import Dependence, Missing
+from diagnosis.freeform.missing.words import PLACES, VARIABLES
 from diagnosis.in_sigma import over_sigma
 from diagnosis.report import html_parts as html
 from diagnosis.report.fallible import drawn

@@ -11,7 +11,7 @@ from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.decimation import decimated
 from diagnosis.freeform import unknown
-from diagnosis.freeform.in_words import DOUBT, what_is_missing
+from diagnosis.freeform.missing.in_words import DOUBT, what_is_missing
 from diagnosis.freeform.unknown import FREE_FORM, with_what_is_missing
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.selection.verdicts.verdict import VerdictKind

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from free_forms import missing_with
 
-from diagnosis.freeform.in_words import what_is_missing
+from diagnosis.freeform.missing.in_words import what_is_missing
 from diagnosis.report.answer import answer
 from diagnosis.report.sentences.names import titles
 from diagnosis.report.sentences.verdict import headline

@@ -210,7 +210,7 @@ def test_what_is_missing_is_told_where_it_was_looked_for_alone(dry):
     assert set(report) == KEYS | {"missing"}
     missing = json.loads(json.dumps(report, allow_nan=False), parse_constant=pytest.fail)["missing"]
     assert set(missing) == {
-        *("place", "depends_on", "law", "laws_beside", "looks_like", "closed", "told_share"),
+        *("place", "depends_on", "law", "laws_beside", "looks_like", "closed", "determined_share"),
     }
     assert set(missing["place"]) == {place.value for place in Place}
     assert {one["variable"] for one in missing["depends_on"]} <= VOCABULARY

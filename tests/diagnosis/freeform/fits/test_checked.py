@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from free_forms import CURVE, family_of, linear_fit, priors, solved
 
-from diagnosis.freeform.fits.checked import left_open, predictive_gap, share_told
+from diagnosis.freeform.fits.checked import left_open, predictive_gap, share_determined
 from diagnosis.freeform.fits.free_fit import FreeFit
 
 TRIALS, SAMPLES = 3, 200
@@ -86,5 +86,5 @@ def test_what_concerns_the_trial_alone_is_not_left_open():
 def test_the_last_trial_is_not_told_by_others_where_it_alone_reaches(reach, share):
     fit, held_out = log_of_a_law(np.random.default_rng(3), reach=reach)
     one = FreeFit(family=family_of(name="law"), fit=fit, held_out=tuple(held_out))
-    assert share_told(one) == pytest.approx(share, abs=0.01)
-    assert share_told(replace(one, held_out=None)) == 1.0
+    assert share_determined(one) == pytest.approx(share, abs=0.01)
+    assert share_determined(replace(one, held_out=None)) == 1.0

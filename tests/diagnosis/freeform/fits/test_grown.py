@@ -51,7 +51,7 @@ def test_a_law_over_the_direction_that_grows_evenly_in_time():
     x, y = family.factor.curve(0.5, 1.5, slope, *[0.0] * (len(family.effect.parameters) - 3))
     np.testing.assert_allclose(y, 2.0 - 0.5 * np.asarray(x), atol=1e-12)
     assert family.factor.multiplies
-    assert family.told == (family, family.factor)
+    assert family.curves == (family, family.factor)
 
 
 def test_a_law_that_is_another_one_in_each_trial():

@@ -7,9 +7,9 @@ import pytest
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
+from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import LIBRARY_LAWS, likeness_of, plain_laws_of, recognised
 from diagnosis.freeform.likeness.shapes import LINE
-from diagnosis.freeform.missing import Law
 
 RATES = np.geomspace(0.006, 3.0, 7)
 TIMES = np.linspace(0.0, 10.0, 8)

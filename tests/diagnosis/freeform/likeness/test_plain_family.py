@@ -10,10 +10,10 @@ from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import kind_of
 from diagnosis.freeform.fits.grown import grown_over
+from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import Recognised
 from diagnosis.freeform.likeness.plain_family import plain_family
 from diagnosis.freeform.likeness.shapes import OF_ANY
-from diagnosis.freeform.missing import Law
 from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 

@@ -10,9 +10,9 @@ from rig_outside import log_outside
 
 from diagnosis.fitting.decimation import decimated
 from diagnosis.freeform.fits.free_fit import FreeFit
+from diagnosis.freeform.law_curve import law_of
 from diagnosis.freeform.likeness import plain_fits
 from diagnosis.freeform.likeness.plain_fits import with_plain_laws
-from diagnosis.freeform.missing import law_of
 from diagnosis.freeform.search import free_form_fits
 from diagnosis.nominal_replay import replay_nominal
 from diagnosis.workers import Workers

@@ -5,81 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from diagnosis_fixtures import turns
-from free_forms import LAW, VOCABULARY, covered, free_fit, linear_fit, missing_with
+from free_forms import LAW, covered, free_fit, linear_fit, missing_with
 
 from diagnosis.effects import LIBRARY
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.families.angle import families as families_over_angles
 from diagnosis.freeform.fits.free_fit import FreeFit
-from diagnosis.freeform.in_words import (
-    DOUBT,
-    PLACES,
-    VARIABLES,
-    course_of,
-    laws_of,
-    repeating,
-    what_is_missing,
-)
-
-
-def test_every_place_and_variable_has_words():
-    assert set(PLACES) == set(Place)
-    assert set(VARIABLES) == VOCABULARY
-
-
-def test_every_family_says_a_variable_of_the_vocabulary():
-    angle = turns()
-    slow = angle - 0.2 * angle**2 / 90
-    ranges = covered(angle, tip=slow, torque=0.01 * angle, speed=-1.0, seen=(slow, 0.02 * angle))
-    families = families_of(ranges)
-    assert {family.says for family in families} <= VOCABULARY
-    # Every place but the constants of the rig, which no law is free of, has a family of its own.
-    assert {family.place for family in families} == set(Place)
-    assert len({family.name for family in families}) == len(families)
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({}, "friction along the shaft rises from 0.001 to 0.004 N mm / mm between 0.01 and 1 rad/s"),
-        ({"y": (0.004, 0.002, 0.001)}, "friction along the shaft falls from 0.004 to 0.001 N mm"),
-        ({"y": (0.001, 0.004, 0.0015)}, "friction along the shaft varies between 0.001 and 0.004"),
-        ({"variable": "direction", "y": (0.001, 0.002)}, "is 2 times as strong forwards"),
-        ({"variable": "direction", "y": (0.003, 0.002)}, "is 1.5 times as strong backwards"),
-        ({"variable": "direction", "y": (0.00202, 0.002)}, "is 0.002 N mm / mm in both directions"),
-        ({"variable": "direction", "y": (-0.1, 0.2)}, "is 0.2 N mm / mm forwards, -0.1 N mm / mm back"),
-        (
-            {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
-            "by 3 N mm / mm at 2.55 s",
-        ),
-        (
-            {
-                "variable": "event",
-                "x": (0, 2.5, 2.6, 4.5),
-                "y": (1, 1, 0.2, 0.2),
-                "unit": "-",
-                "x_unit": "s",
-            },
-            "along the shaft, 0.2 times as large at 2.55 s",
-        ),
-    ],
-)
-def test_the_course_of_a_law_is_told(changes, said):
-    assert said in course_of(replace(LAW, **changes))
-
-
-def test_a_law_of_one_layer_is_not_told_as_none_where_its_level_is_uncertain():
-    """Nothing outside of the layer is certain; the level in it is known to a factor."""
-    y, high = (0.0, 0.0, 0.004, 0.004, 0.0), (0.0, 0.0, 0.02, 0.02, 0.0)
-    law = replace(LAW, x=(0.0, 50.0, 50.1, 60.0, 60.1), y=y, low=(0.0,) * 5, high=high)
-    assert "varies between 0 and 0.004" in course_of(law)
-
-
-def test_where_a_curve_is_not_determined_its_course_is_not_told():
-    x, y, wide = (0.0, 1.0, 2.0, 3.0), (1.0, 1.5, 2.0, 400.0), (0.9, 1.4, 1.9, 0.0)
-    law = replace(LAW, x=x, y=y, low=wide, high=(1.1, 1.6, 2.1, 9e4))
-    assert "rises from 1 to 2 N mm / mm between 0 and 2" in course_of(law)
+from diagnosis.freeform.missing.course import course_of
+from diagnosis.freeform.missing.in_words import DOUBT, laws_of, repeating, what_is_missing
 
 
 def test_place_variable_course_and_gap_are_in_the_sentence():
@@ -229,7 +163,7 @@ def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen()
     best = seen_fit()
     assert "others tell" not in what_is_missing(missing_with(best=best), 8.9)
     assert "not seen" in what_is_missing(missing_with(best=best), 8.9)
-    told = what_is_missing(missing_with(best=best, told_share=0.57), 8.9)
+    told = what_is_missing(missing_with(best=best, determined_share=0.57), 8.9)
     assert "not seen (others tell of the law in 57 % of the readings)" in told
     effect = best.family.effect
     own = tuple(replace(p, of_one_trial=True) for p in effect.parameters)

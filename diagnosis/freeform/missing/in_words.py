@@ -1,15 +1,16 @@
 """What the library lacks, in plain words."""
 
-import statistics
-
 from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.effects import FITTED
 from diagnosis.effects.effect import Place
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform.family import Family
+from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import likeness_of
 from diagnosis.freeform.likeness.shapes import LEVEL
-from diagnosis.freeform.missing import Law, Missing
+from diagnosis.freeform.missing.course import course_of
+from diagnosis.freeform.missing.missing import Missing
+from diagnosis.freeform.missing.words import CHECKS, PLACES, VARIABLES
 from diagnosis.freeform.save import can_be_saved
 from diagnosis.in_sigma import in_sigma
 from diagnosis.replay.free_law import FreeLaw
@@ -17,43 +18,6 @@ from diagnosis.replay.rig_parameters import RigParameters
 from diagnosis.replay.variables import Variable
 from models.tissue import Interface
 
-PLACES = {
-    Place.INTERFACE: "between shaft and tissue",
-    Place.TISSUE: "in the tissue",
-    Place.DRIVE: "at the drive",
-    Place.NEEDLE: "in the needle or at its tip",
-    Place.SENSOR: "in a sensor",
-    Place.PARAMETERS: "in the constants of the rig",
-}
-VARIABLES = {
-    "time": "the time",
-    "event": "an event",
-    "base_angle": "the angle of the base",
-    "tip_angle": "the angle of the tip",
-    "rate": "the rate of turning",
-    "direction": "the direction of turning",
-    "axial_speed": "the axial speed",
-    "depth": "the inserted length",
-    "torque": "the torque",
-    "position": "the place along the shaft",
-    "history": "what happened before",
-}
-CHECKS = {
-    "time": "repeat one slow turn at the beginning of a trial, at its end, and in the last trial",
-    "event": "look up what was done at that time, and repeat the trial: only a lasting cause makes it "
-    "jump again",
-    "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
-    "the drive remains",
-    "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
-    "rate": "turn at four steady rates, a few turns each, at one depth",
-    "direction": "turn at one steady rate, a few turns forwards, then as many backwards",
-    "axial_speed": "slide the needle in and out at three speeds without turning it",
-    "depth": "repeat one turn at four depths",
-    "torque": "load the needle by known torques at rest, and read angle and torque",
-    "position": "repeat one turn at depths that grow in equal steps: each step adds a part of the shaft",
-    "history": "repeat one turn after rests of different length, and after different numbers of turns",
-}
-"""What shows a law of each variable by itself, as an order."""
 DOUBT = (
     "First check what all of these laws assume: lengths, diameter and clocks of the rig, the same zero "
     "in all trials, and that only one thing is missing"
@@ -65,10 +29,7 @@ _OTHERS = 3
 _MOST_TOLD = 0.95  # of the readings: what is left is not worth a word
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
-_WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
 _SEEN_AGAIN = 0.9  # of a period, over which a law is known where it is said to repeat
-_STRONGER = 1.05  # times as strong one way, from which that is told
-_MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
 
 
 def what_is_missing(missing: Missing, gap_before: float) -> str:
@@ -83,7 +44,7 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     beside = f", beside {' and '.join(FITTED[n].title for n in law.beside)}," if law.beside else ""
     # Of a trial that no other tells of:
     alone = any(f.of_each_trial or f.effect.trial for f in missing.best.families)
-    where = _unseen(missing.told_share) if missing.best.held_out and not alone else SEEN
+    where = _unseen(missing.determined_share) if missing.best.held_out and not alone else SEEN
     first_course, *more = (f"{course_of(own)}{repeating(p)}" for own, p in laws_of(missing))
     depends = (
         f"What is missing acts {_where(missing, law.place)} and depends on "
@@ -98,11 +59,11 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
     return f"{depends}{others} {reduces} {falls}{_beside(missing)}.{_likeness(law)}"
 
 
-def _unseen(told_share: float) -> str:
+def _unseen(determined_share: float) -> str:
     """That a gap is one of trials that a fit has not seen, where others tell of its law."""
-    if told_share >= _MOST_TOLD:
+    if determined_share >= _MOST_TOLD:
         return UNSEEN
-    return f"{UNSEEN} (others tell of the law in {100 * told_share:.0f} % of the readings)"
+    return f"{UNSEEN} (others tell of the law in {100 * determined_share:.0f} % of the readings)"
 
 
 def _with_so_many_more(count: int, beside: str) -> str:
@@ -132,7 +93,7 @@ def laws_of(missing: Missing) -> list[tuple[Law, float]]:
     It is 0 for a law that does not.
     """
     laws = (missing.law, *missing.beside) if missing.law else ()
-    each = zip(laws, missing.best.told[: len(laws)], strict=True)
+    each = zip(laws, missing.best.curves[: len(laws)], strict=True)
     return [(law, 0.0 if law.multiplies else _seen_period_deg(law, missing, f)) for law, f in each]
 
 
@@ -171,50 +132,6 @@ def next_step(missing: Missing) -> str:
     if not can_be_saved(missing):
         return check
     return f"{check}; if it comes out the same, save the law as an effect (--save-effect NAME)"
-
-
-def course_of(law: Law) -> str:
-    """The course of a law, in words, where the log determines it."""
-    own = "" if law.unit == "-" else f" {law.unit}"
-    if law.variable == "event":
-        change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
-        return f"{law.title}, {change} at {0.5 * (law.x[1] + law.x[2]):.2f} {law.x_unit}"
-    if law.variable == "direction":
-        return f"{law.title} {_by_direction(law.y[0], law.y[-1], own)}"
-    x, y = _determined(law)
-    low, high = min(y), max(y)
-    if high == low:
-        return f"{law.title} is {low:.3g}{own}"
-    rises = y[-1] - y[0]
-    if abs(rises) >= _MOSTLY * (high - low):
-        verb = "rises" if rises > 0 else "falls"
-        unit = "" if law.x_unit == "-" else f" {law.x_unit}"
-        between = f"between {x[0]:.3g} and {x[-1]:.3g}{unit}"
-        return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
-    return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
-
-
-def _by_direction(back: float, forth: float, unit: str) -> str:
-    """How a law differs between the directions of turning."""
-    if back * forth <= 0:
-        return f"is {forth:.3g}{unit} forwards, {back:.3g}{unit} backwards"
-    stronger = abs(forth) > abs(back)
-    way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
-    if ratio < _STRONGER:
-        return f"is {forth:.3g}{unit} in both directions"
-    return f"is {ratio:.2g} times as strong {way}"
-
-
-def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """The points of a curve whose band is not far wider than the curve is large; all, if few are, or if
-    the curve is level there alone."""
-    most = _WIDEST * statistics.median(map(abs, law.y))
-    points = zip(law.x, law.y, law.low, law.high, strict=True)
-    known = [(x, y) for x, y, least, greatest in points if greatest - least <= most]
-    level_there = len({y for _, y in known}) == 1 and len(set(law.y)) > 1
-    if len(known) < _FEWEST or level_there:
-        return law.x, law.y
-    return tuple(x for x, _ in known), tuple(y for _, y in known)
 
 
 def _period_deg(fit: Fit, family: Family) -> float:

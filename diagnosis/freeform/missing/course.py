@@ -1,0 +1,53 @@
+"""The course of a free-form law in words, where the log determines it."""
+
+import statistics
+
+from diagnosis.freeform.law_curve import Law
+
+_WIDEST, _FEWEST = 4.0, 3  # width of a band that tells something, of the median of |curve|; points
+_STRONGER = 1.05  # times as strong one way, from which that is told
+_MOSTLY = 0.8  # of the range of a curve, that its ends differ by where it rises or falls
+
+
+def course_of(law: Law) -> str:
+    """The course of a law, in words, where the log determines it."""
+    own = "" if law.unit == "-" else f" {law.unit}"
+    if law.variable == "event":
+        change = f"by {law.y[-1]:.3g}{own}" if own else f"{law.y[-1]:.3g} times as large"
+        return f"{law.title}, {change} at {0.5 * (law.x[1] + law.x[2]):.2f} {law.x_unit}"
+    if law.variable == "direction":
+        return f"{law.title} {_by_direction(law.y[0], law.y[-1], own)}"
+    x, y = _determined(law)
+    low, high = min(y), max(y)
+    if high == low:
+        return f"{law.title} is {low:.3g}{own}"
+    rises = y[-1] - y[0]
+    if abs(rises) >= _MOSTLY * (high - low):
+        verb = "rises" if rises > 0 else "falls"
+        unit = "" if law.x_unit == "-" else f" {law.x_unit}"
+        between = f"between {x[0]:.3g} and {x[-1]:.3g}{unit}"
+        return f"{law.title} {verb} from {y[0]:.3g} to {y[-1]:.3g}{own} {between}"
+    return f"{law.title} varies between {low:.3g} and {high:.3g}{own}"
+
+
+def _by_direction(back: float, forth: float, unit: str) -> str:
+    """How a law differs between the directions of turning."""
+    if back * forth <= 0:
+        return f"is {forth:.3g}{unit} forwards, {back:.3g}{unit} backwards"
+    stronger = abs(forth) > abs(back)
+    way, ratio = ("forwards", forth / back) if stronger else ("backwards", back / forth)
+    if ratio < _STRONGER:
+        return f"is {forth:.3g}{unit} in both directions"
+    return f"is {ratio:.2g} times as strong {way}"
+
+
+def _determined(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The points of a curve whose band is not far wider than the curve is large; all, if few are, or if
+    the curve is level there alone."""
+    most = _WIDEST * statistics.median(map(abs, law.y))
+    points = zip(law.x, law.y, law.low, law.high, strict=True)
+    known = [(x, y) for x, y, least, greatest in points if greatest - least <= most]
+    level_there = len({y for _, y in known}) == 1 and len(set(law.y)) > 1
+    if len(known) < _FEWEST or level_there:
+        return law.x, law.y
+    return tuple(x for x, _ in known), tuple(y for _, y in known)

@@ -1,0 +1,41 @@
+"""Words for places and variables, and what shows a law of each by itself."""
+
+from diagnosis.effects.effect import Place
+
+PLACES = {
+    Place.INTERFACE: "between shaft and tissue",
+    Place.TISSUE: "in the tissue",
+    Place.DRIVE: "at the drive",
+    Place.NEEDLE: "in the needle or at its tip",
+    Place.SENSOR: "in a sensor",
+    Place.PARAMETERS: "in the constants of the rig",
+}
+VARIABLES = {
+    "time": "the time",
+    "event": "an event",
+    "base_angle": "the angle of the base",
+    "tip_angle": "the angle of the tip",
+    "rate": "the rate of turning",
+    "direction": "the direction of turning",
+    "axial_speed": "the axial speed",
+    "depth": "the inserted length",
+    "torque": "the torque",
+    "position": "the place along the shaft",
+    "history": "what happened before",
+}
+CHECKS = {
+    "time": "repeat one slow turn at the beginning of a trial, at its end, and in the last trial",
+    "event": "look up what was done at that time, and repeat the trial: only a lasting cause makes it "
+    "jump again",
+    "base_angle": "turn slowly through whole turns with the needle out of the tissue: what comes from "
+    "the drive remains",
+    "tip_angle": "turn the tip in known steps, by hand or against a second sensor, and compare",
+    "rate": "turn at four steady rates, a few turns each, at one depth",
+    "direction": "turn at one steady rate, a few turns forwards, then as many backwards",
+    "axial_speed": "slide the needle in and out at three speeds without turning it",
+    "depth": "repeat one turn at four depths",
+    "torque": "load the needle by known torques at rest, and read angle and torque",
+    "position": "repeat one turn at depths that grow in equal steps: each step adds a part of the shaft",
+    "history": "repeat one turn after rests of different length, and after different numbers of turns",
+}
+"""What shows a law of each variable by itself, as an order."""

@@ -1,0 +1,51 @@
+"""The course of a law in words."""
+
+from dataclasses import replace
+
+import pytest
+from free_forms import LAW
+
+from diagnosis.freeform.missing.course import course_of
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({}, "friction along the shaft rises from 0.001 to 0.004 N mm / mm between 0.01 and 1 rad/s"),
+        ({"y": (0.004, 0.002, 0.001)}, "friction along the shaft falls from 0.004 to 0.001 N mm"),
+        ({"y": (0.001, 0.004, 0.0015)}, "friction along the shaft varies between 0.001 and 0.004"),
+        ({"variable": "direction", "y": (0.001, 0.002)}, "is 2 times as strong forwards"),
+        ({"variable": "direction", "y": (0.003, 0.002)}, "is 1.5 times as strong backwards"),
+        ({"variable": "direction", "y": (0.00202, 0.002)}, "is 0.002 N mm / mm in both directions"),
+        ({"variable": "direction", "y": (-0.1, 0.2)}, "is 0.2 N mm / mm forwards, -0.1 N mm / mm back"),
+        (
+            {"variable": "event", "x": (0.0, 2.5, 2.6, 4.5), "y": (0.0, 0.0, 3.0, 3.0), "x_unit": "s"},
+            "by 3 N mm / mm at 2.55 s",
+        ),
+        (
+            {
+                "variable": "event",
+                "x": (0, 2.5, 2.6, 4.5),
+                "y": (1, 1, 0.2, 0.2),
+                "unit": "-",
+                "x_unit": "s",
+            },
+            "along the shaft, 0.2 times as large at 2.55 s",
+        ),
+    ],
+)
+def test_the_course_of_a_law_is_told(changes, said):
+    assert said in course_of(replace(LAW, **changes))
+
+
+def test_a_law_of_one_layer_is_not_told_as_none_where_its_level_is_uncertain():
+    """Nothing outside of the layer is certain; the level in it is known to a factor."""
+    y, high = (0.0, 0.0, 0.004, 0.004, 0.0), (0.0, 0.0, 0.02, 0.02, 0.0)
+    law = replace(LAW, x=(0.0, 50.0, 50.1, 60.0, 60.1), y=y, low=(0.0,) * 5, high=high)
+    assert "varies between 0 and 0.004" in course_of(law)
+
+
+def test_where_a_curve_is_not_determined_its_course_is_not_told():
+    x, y, wide = (0.0, 1.0, 2.0, 3.0), (1.0, 1.5, 2.0, 400.0), (0.9, 1.4, 1.9, 0.0)
+    law = replace(LAW, x=x, y=y, low=wide, high=(1.1, 1.6, 2.1, 9e4))
+    assert "rises from 1 to 2 N mm / mm between 0 and 2" in course_of(law)
