@@ -13,11 +13,11 @@ from diagnosis.assessment.forward_step import Further, further_effects, gap_with
 from diagnosis.assessment.gap_reduction import GapReduction, gap_reduction
 from diagnosis.assessment.moved_by_hidden import moved_by_hidden
 from diagnosis.assessment.nearest import ONE_MORE, Nearest, nearest_candidate, nearest_of
+from diagnosis.assessment.sensor_errors import SensorErrors, sensor_errors
 from diagnosis.assessment.uncertainty.intervals import Interval, covariance, intervals
 from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty, joint_uncertainty
 from diagnosis.assessment.uncertainty.partitions import by_motion, trial_by_trial
 from diagnosis.assessment.uncertainty.values_by_part import ValuesByPart, values_by_part
-from diagnosis.effects import IMPERFECTIONS
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.parameterization import parameterization_of
 from diagnosis.fitting.problem import FitProblem
@@ -28,10 +28,10 @@ from diagnosis.replay.accuracy.numerical_error import (
     numerical_warnings,
     refinement_change,
 )
-from diagnosis.replay.drift import drift_ranges_sigma, with_drift
+from diagnosis.replay.drift import with_drift
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
-from diagnosis.replay.rig_parameters import NOMINAL, ClockStart, ReadingJump, RigParameters
+from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.twist import ShaftTwist, shaft_twist
 from diagnosis.residuals.largest_moment import largest_moment
 from diagnosis.residuals.residual_breakdown import ResidualBreakdown, residual_breakdown
@@ -66,10 +66,7 @@ class Assessment:
       shape, shape_after: shape of the same two residuals.
       parameters: intervals of parameters, by accepted effect.
       joint: joint uncertainty of the parameters of the nearest explanation.
-      imperfections: imperfections of sensors in the nearest explanation, with their parameters.
-      clock_starts: how long clocks of sensors ran before trials, in the nearest explanation.
-      reading_jumps: readings that are off from a moment on, in the nearest explanation.
-      drift_sigma: largest range of the drift within a trial that was allowed for, by sensor.
+      sensors: errors of sensors that the nearest explanation allows for.
       with_one_more: gap that the best fit may reach with one more effect, by effect.
       detection_limits: largest strength that may go unseen, by effect; empty if the log is not
         explained, or explained by two effects.
@@ -88,10 +85,7 @@ class Assessment:
     shape_after: ResidualShape
     parameters: dict[str, dict[str, Interval]]
     joint: JointUncertainty
-    imperfections: dict[str, dict[str, Interval]]
-    clock_starts: tuple[ClockStart, ...]
-    reading_jumps: tuple[ReadingJump, ...]
-    drift_sigma: dict[str, float]
+    sensors: SensorErrors
     with_one_more: dict[str, float]
     detection_limits: dict[str, DetectionLimit]
     next_experiment: str
@@ -158,10 +152,7 @@ def assess(
         shape_after=residual_shape(left),
         parameters=accepted,
         joint=joint_uncertainty(near.fit, spread, named),
-        imperfections={e: p for e, p in own.items() if e in IMPERFECTIONS},
-        clock_starts=rig.clock_starts,
-        reading_jumps=rig.jumps,
-        drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
+        sensors=sensor_errors(problem, rig, predictions, own),
         with_one_more=with_one_more,
         detection_limits=limits,
         next_experiment=_next_experiment(coarse, verdict, where, accepted, stop)

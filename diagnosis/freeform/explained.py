@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from diagnosis.assessment.assess import Assessment
 from diagnosis.assessment.gap_reduction import gap_reduction
+from diagnosis.assessment.sensor_errors import sensor_errors
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.fits.checked import determined_by_others
@@ -16,7 +17,7 @@ from diagnosis.freeform.missing.missing import Missing
 from diagnosis.log.rig_log import RigLog
 from diagnosis.nominal_replay import at_samples, nominal_residuals
 from diagnosis.prepare.prepared_log import PreparedLog
-from diagnosis.replay.drift import drift_ranges_sigma, with_drift
+from diagnosis.replay.drift import with_drift
 from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
@@ -33,7 +34,7 @@ def explained_by(
     log: RigLog,
     problem: FitProblem,
     nominal: Sequence[Prediction],
-    told: Assessment,
+    nearest: Assessment,
 ) -> Assessment:
     """The assessment with the law in place of the nearest explanation.
 
@@ -53,25 +54,23 @@ def explained_by(
     before = nominal_residuals(replace(problem, noise=plain), nominal)
     after = in_units_of(problem, _after(missing, before), plain)
     return replace(
-        told,
+        nearest,
         gap=gap_reduction(before, after),
-        imperfections={},  # those of the nearest explanation are not in the fit of the law
-        clock_starts=rig.clock_starts,
-        reading_jumps=rig.jumps,
-        drift_sigma=drift_ranges_sigma(problem.log, problem.noise, predictions),
+        # Imperfections of the nearest explanation are not in the fit of the law.
+        sensors=sensor_errors(problem, rig, predictions, {}),
         explained=explained,
-        twist=_twist(problem.log, rig, told.twist),
+        twist=_twist(problem.log, rig, nearest.twist),
         breakdown_after=residual_breakdown(left),
         shape_after=residual_shape(left),
         next_experiment=next_step(missing),
     )
 
 
-def _twist(log: PreparedLog, rig: RigParameters, told: ShaftTwist | None) -> ShaftTwist | None:
+def _twist(log: PreparedLog, rig: RigParameters, at: ShaftTwist | None) -> ShaftTwist | None:
     """The shape of the shaft with the law at the moment of another one; None: there is none."""
-    if told is None:
+    if at is None:
         return None
-    return shaft_twist(log, told.trial, told.at_s, {"nominal": NOMINAL, "explained": rig})
+    return shaft_twist(log, at.trial, at.at_s, {"nominal": NOMINAL, "explained": rig})
 
 
 def _after(missing: Missing, before: Sequence[Array]) -> tuple[Array, ...]:

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP, FINAL_NUMBERS
 from diagnosis.fitting.decimation import gap_on_the_log
-from diagnosis.fitting.fit import fit_effects
+from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
+from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.checked import fitted_and_checked
 from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
@@ -64,9 +65,26 @@ def free_form_fits(
     nominal = replay(coarse.log, resolution=coarse.resolution)
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
     ranges = ranges_of(coarse, nominal, softer)
-    families = families_of(ranges)
     base = fit_effects(coarse, ())
     rough = rougher(coarse, base)
+    first, fitted = _alone(coarse, rough, base, families_of(ranges), workers)
+    if _open(fitted):
+        alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
+        fitted += growing(coarse, alone, ranges, workers)
+    if _open(fitted):
+        fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
+    far = _far(fitted, problem, coarse)
+    if _open(fitted) and not far:
+        fitted += beside_several(coarse, rough, base, fitted, first, workers)
+    far = _far(fitted, problem, coarse)
+    finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in _finalists(fitted, far)], workers)
+    return (*finals, *_behind(finals, fitted, first))
+
+
+def _alone(
+    coarse: FitProblem, rough: FitProblem, base: Fit, families: Sequence[Family], workers: Workers
+) -> tuple[list[FreeFit], list[FreeFit]]:
+    """The first fit of every family for a rougher needle, and those in reach, fitted to their end."""
     first = each_fit(SCREENING, first_fit, [(rough, base, f) for f in families], workers)
     better, rest = _promising(first, WORTH_MORE)
     first = each_fit(SCREENING, _some_more, [(rough, f) for f in better], workers) + rest
@@ -75,26 +93,26 @@ def free_form_fits(
     if not fitted:  # the only ones in reach cannot be simulated where they lead
         near, _ = _promising(further, CONTENDERS)
         fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
-    if _open(fitted):
-        alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
-        fitted += growing(coarse, alone, ranges, workers)
-    if _open(fitted):
-        fitted += beside_one(coarse, rough, base, fitted, first, effects, workers)
-    if _open(fitted) and not _far(fitted, problem, coarse):
-        fitted += beside_several(coarse, rough, base, fitted, first, workers)
+    return first, fitted
+
+
+def _finalists(fitted: Sequence[FreeFit], far: bool) -> list[FreeFit]:
+    """The fits that go to the log itself, best first."""
     least = min((f.fit.gap for f in fitted), default=np.inf)
-    far = _far(fitted, problem, coarse)
     reach = WORTH_A_FINAL_BESIDE if least <= CLOSED_GAP else WORTH_A_FINAL
     worth = [f for f in fitted if f.fit.gap <= reach * least]
     ranked = unlike(sorted(worth, key=lambda f: f.score))
     last = list(few_of_each(ranked, lambda f: f.family.name, FINALISTS_OF_ONE))
-    last = last[: FAR_FINALISTS if far else _affordable(last)]
-    finals = each_fit(FINALS, _on_the_log, [(problem, f, far) for f in last], workers)
-    names = {f.family.name for f in finals}
-    fitted_names = {f.family.name for f in fitted}
-    others = [f for f in (*fitted, *(f for f in first if f.family.name not in fitted_names))]
-    behind = distinct(sorted((f for f in others if f.family.name not in names), key=lambda f: f.score))
-    return (*finals, *behind)
+    return last[: FAR_FINALISTS if far else _affordable(last)]
+
+
+def _behind(
+    finals: Sequence[FreeFit], fitted: Sequence[FreeFit], first: Sequence[FreeFit]
+) -> list[FreeFit]:
+    """The best fit of each family that did not get to the log itself."""
+    names, fitted_names = ({f.family.name for f in fits} for fits in (finals, fitted))
+    others = [*fitted, *(f for f in first if f.family.name not in fitted_names)]
+    return distinct(sorted((f for f in others if f.family.name not in names), key=lambda f: f.score))
 
 
 def _open(fits: Sequence[FreeFit]) -> bool:

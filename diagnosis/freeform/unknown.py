@@ -29,33 +29,33 @@ def with_what_is_missing(
     coarse: FitProblem,
     nominal: Sequence[Prediction],
     verdict: Verdict,
-    told: Assessment,
+    assessment: Assessment,
     effects: Sequence[str],
     workers: Workers,
 ) -> tuple[Missing | None, Assessment]:
-    """What is missing, and the assessment with its law; None and `told` if the log is not unknown.
+    """What is missing, and the assessment with its law; None and `assessment` if the log is not unknown.
 
     Args:
       nominal: readings of the nominal rig by trial of the problem.
       effects: of the library, which may stand beside a law.
     """
     if verdict.kind is not VerdictKind.UNKNOWN:
-        return None, told
+        return None, assessment
     stop = workers.stop
     fits = () if stop.due else _fits(problem, coarse, effects, workers)
     if stop.due:
         stop.leave_out(FREE_FORM)  # those that are done tell something all the same
     if not any(fit.final for fit in fits):
-        return None, told
-    nearest = told.nearest
+        return None, assessment
+    nearest = assessment.nearest
     refused = verdict.other_form or (nearest.at_bound and nearest.gap_after <= CLOSED_GAP)
     one_trial = len(log.trials) == 1
     missing = missing_of(fits, np.inf if refused else nearest.gap_after, one_trial=one_trial)
     if missing.law is None:
-        return missing, told
-    explained = explained_by(missing, log, problem, nominal, told)
+        return missing, assessment
+    explained = explained_by(missing, log, problem, nominal, assessment)
     if explained.gap.after > explained.gap.before and not missing.closed:
-        return replace(missing, law=None), told  # it predicts less than the nominal rig
+        return replace(missing, law=None), assessment  # it predicts less than the nominal rig
     return missing, explained
 
 

@@ -9,6 +9,7 @@ from pydantic_core import to_jsonable_python
 
 from diagnosis.assessment.identifiability import unidentifiable
 from diagnosis.assessment.nearest import Nearest
+from diagnosis.assessment.sensor_errors import SensorErrors
 from diagnosis.assessment.uncertainty.intervals import Interval
 from diagnosis.assessment.uncertainty.joint_uncertainty import JointUncertainty
 from diagnosis.effects import LIBRARY
@@ -31,7 +32,7 @@ FORMAT = "gap-report/1"
 
 def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
     """Every key of gap-report/1, plain values."""
-    verdict, told = diagnosis.verdict, diagnosis.assessment
+    verdict, assessment = diagnosis.verdict, diagnosis.assessment
     missing = {"missing": _missing(diagnosis.missing)} if diagnosis.missing else {}
     return {
         "format": FORMAT,
@@ -40,27 +41,21 @@ def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "effects": list(verdict.effects),
         "confusable": [list(names) for names in verdict.confusable],
         "ranking": [_ranked(names, probability) for names, probability in verdict.ranking],
-        "parameters": _parameters(told.parameters),
-        "covariance": _covariance(told.joint),
-        "gap": {**asdict(told.gap), "noise": 1.0},
-        "nearest": _nearest(told.nearest, verdict),
+        "parameters": _parameters(assessment.parameters),
+        "covariance": _covariance(assessment.joint),
+        "gap": {**asdict(assessment.gap), "noise": 1.0},
+        "nearest": _nearest(assessment.nearest, verdict),
         **missing,
-        "sensors": {
-            "imperfections": _parameters(told.imperfections),
-            "torque_drift_sigma": told.drift_sigma[TORQUE],
-            "tip_drift_sigma": told.drift_sigma[TIP],
-            "clock_starts": [asdict(clock) for clock in told.clock_starts],
-            "reading_jumps": [asdict(jump) for jump in told.reading_jumps],
-        },
+        "sensors": _sensors(assessment.sensors),
         "where": _where(diagnosis),
-        "next_experiment": told.next_experiment,
+        "next_experiment": assessment.next_experiment,
         "floor": _floor(verdict.best),
         "fit": _fit(verdict.best.fit),
-        "further": told.with_one_more,
-        "hidden": {name: dict(limit.parameters) for name, limit in told.detection_limits.items()},
-        "beside_hidden": {name: limit.beside for name, limit in told.detection_limits.items()},
+        "further": assessment.with_one_more,
+        "hidden": {name: dict(limit.parameters) for name, limit in assessment.detection_limits.items()},
+        "beside_hidden": {name: limit.beside for name, limit in assessment.detection_limits.items()},
         "cannot_tell": list(unidentifiable(diagnosis.log)),
-        "replay_error": told.numerical_error,
+        "replay_error": assessment.numerical_error,
         "rig": diagnosis.log.stated_rig.model_dump(mode="json"),
         "noise": dict(diagnosis.noise.sigma),
         "noise_colour": {
@@ -150,13 +145,23 @@ def _lists(law: dict[str, Any]) -> dict[str, Any]:
     return plain
 
 
+def _sensors(errors: SensorErrors) -> dict[str, Any]:
+    return {
+        "imperfections": _parameters(errors.imperfections),
+        "torque_drift_sigma": errors.drift_sigma[TORQUE],
+        "tip_drift_sigma": errors.drift_sigma[TIP],
+        "clock_starts": [asdict(clock) for clock in errors.clock_starts],
+        "reading_jumps": [asdict(jump) for jump in errors.reading_jumps],
+    }
+
+
 def _where(diagnosis: Diagnosis) -> dict[str, Any]:
     """The residual of the nominal rig, and of what the best explanation leaves."""
-    told, effects = diagnosis.assessment, diagnosis.verdict.effects
+    assessment, effects = diagnosis.assessment, diagnosis.verdict.effects
     return {
-        **_parts(told.breakdown, told.shape),
+        **_parts(assessment.breakdown, assessment.shape),
         "place": LIBRARY[effects[0]].place.value if effects else "",
-        "after": _parts(told.breakdown_after, told.shape_after),
+        "after": _parts(assessment.breakdown_after, assessment.shape_after),
     }
 
 

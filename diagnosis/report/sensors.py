@@ -14,15 +14,15 @@ _SENSORS = {TORQUE: "the torque sensor", TIP: "the tip sensor"}
 
 def imperfections(found: Diagnosis) -> str:
     """What the sensors do beside noise, in one sentence; empty where nothing had to be allowed for."""
-    told = found.assessment
-    lines = [_told(name, parameters) for name, parameters in told.imperfections.items()]
-    lines += [_ran(sensor, told.clock_starts) for sensor in _SENSORS]
+    errors = found.assessment.sensors
+    lines = [_told(name, parameters) for name, parameters in errors.imperfections.items()]
+    lines += [_ran(sensor, errors.clock_starts) for sensor in _SENSORS]
     lines += [
         f"a drift of {_SENSORS[sensor]}, by up to {in_sigma(most)} within a trial"
-        for sensor, most in told.drift_sigma.items()
+        for sensor, most in errors.drift_sigma.items()
         if most > 0.0
     ]
-    lines += map(_jumped, told.reading_jumps)
+    lines += map(_jumped, errors.reading_jumps)
     said = "; ".join(filter(None, lines))
     return f"The sensors are not perfect; the diagnosis allows for this: {said}" if said else ""
 

@@ -7,6 +7,7 @@ import pytest
 from diagnosis_fixtures import TORQUE, log_of, problem_of
 from free_forms import linear_fit, missing_with, nothing_told
 
+from diagnosis.assessment.sensor_errors import SensorErrors
 from diagnosis.criteria.freeform import CLOSED_GAP
 from diagnosis.freeform.explained import explained_by
 from diagnosis.freeform.families.readings import families
@@ -18,6 +19,12 @@ from diagnosis.replay.rig_parameters import NOMINAL, RigParameters
 from diagnosis.replay.twist import shaft_twist
 
 RISE = 0.1  # of the torque reading within the trial, N mm: 10 sigma
+
+
+CLOCK_ERRORS = SensorErrors(
+    imperfections={"torque_clock": {}}, clock_starts=(), reading_jumps=(), drift_sigma={}
+)
+"""Of the nearest explanation."""
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +52,7 @@ def made():
         linear_fit(family, [np.zeros((left.size, size))], [np.zeros(left.size)], x=x), by_trial=(left,)
     )
     best = FreeFit(family=family, fit=fit, gap_after=1.0, final=True)
-    before = nothing_told(next_experiment="look closer", imperfections={"torque_clock": {}})
+    before = nothing_told(next_experiment="look closer", sensors=CLOCK_ERRORS)
     return log, problem, nominal, best, before
 
 
@@ -79,7 +86,7 @@ def test_what_is_left_is_that_of_the_law_and_everything_else_stands(told):
         assert found.breakdown_after.signal[sensor] == pytest.approx(1.0, abs=3.5 / np.sqrt(800))
     assert found.shape_after is not None
     changed = {"gap", "explained", "breakdown_after", "shape_after", "next_experiment"}
-    changed |= {"imperfections", "clock_starts", "reading_jumps", "drift_sigma"}
+    changed |= {"sensors"}
     kept = {name for name in vars(before) if getattr(found, name) is getattr(before, name)}
     assert kept == set(vars(before)) - changed
 
@@ -99,12 +106,9 @@ def test_the_shape_of_the_shaft_is_that_with_the_law(made):
 
 def test_imperfections_of_sensors_are_those_that_the_law_allows_for(told):
     """Not those of the nearest explanation, whose clock made up for what is missing."""
-    *_, before, found = told
-    assert before.imperfections
-    assert found.imperfections == {}
-    assert found.clock_starts == ()
-    assert found.reading_jumps == ()
-    assert found.drift_sigma == dict.fromkeys(SENSORS, 0.0)
+    *_, found = told
+    none = dict.fromkeys(SENSORS, 0.0)
+    assert found.sensors == replace(CLOCK_ERRORS, imperfections={}, drift_sigma=none)
 
 
 @pytest.mark.parametrize(

@@ -45,15 +45,19 @@ KEYS = {
 }
 
 
+def with_errors(assessment, **errors):
+    return replace(assessment, sensors=replace(assessment.sensors, **errors))
+
+
 def test_the_drift_of_each_sensor_is_there(dry):
-    told = replace(dry.found.assessment, drift_sigma={TORQUE: 2.0, TIP: 3.5})
+    told = with_errors(dry.found.assessment, drift_sigma={TORQUE: 2.0, TIP: 3.5})
     sensors = as_json(replace(dry.found, assessment=told))["sensors"]
     assert (sensors["torque_drift_sigma"], sensors["tip_drift_sigma"]) == (2.0, 3.5)
 
 
 def test_clocks_that_ran_before_trials_are_there(dry):
     clock = ClockStart(trial="a.csv", sensor=TIP, before_s=2.5)
-    told = replace(dry.found.assessment, clock_starts=(clock,))
+    told = with_errors(dry.found.assessment, clock_starts=(clock,))
     sensors = as_json(replace(dry.found, assessment=told))["sensors"]
     assert sensors["clock_starts"] == [{"trial": "a.csv", "sensor": TIP, "before_s": 2.5}]
     assert dry.report["sensors"]["clock_starts"] == []

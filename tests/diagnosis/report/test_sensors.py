@@ -10,8 +10,9 @@ from diagnosis.report.sensors import imperfections
 RATE = Interval(value=0.00183, low=0.0018, high=0.0019, unit="-")
 
 
-def having(found, **told):
-    return replace(found, assessment=replace(found.assessment, **told))
+def having(found, **errors):
+    sensors = replace(found.assessment.sensors, **errors)
+    return replace(found, assessment=replace(found.assessment, sensors=sensors))
 
 
 def test_of_perfect_sensors_nothing_is_said(dry):

@@ -7,6 +7,10 @@ from diagnosis.report.sections.sensors import sensors_section
 from diagnosis.report.sentences.residual import replay_quality
 
 
+def with_errors(assessment, **errors):
+    return replace(assessment, sensors=replace(assessment.sensors, **errors))
+
+
 def test_noise_and_numerical_error_are_told_of_each_sensor(dry):
     title, beside, lines = sensors_section(dry.found)
     assert "Sensors and numerical error" in title
@@ -15,6 +19,6 @@ def test_noise_and_numerical_error_are_told_of_each_sensor(dry):
 
 
 def test_what_had_to_be_allowed_for_is_told(dry):
-    told = replace(dry.found.assessment, drift_sigma={TORQUE: 2.0})
+    told = with_errors(dry.found.assessment, drift_sigma={TORQUE: 2.0})
     found = replace(dry.found, assessment=told)
     assert "a drift of the torque sensor, by up to 2.00 σ" in sensors_section(found)[1]
