@@ -11,7 +11,7 @@ from diagnosis.assessment.gap_reduction import gap_reduction
 from diagnosis.assessment.sensor_errors import sensor_errors
 from diagnosis.fitting.noise_reestimation import in_units_of
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.fits.checked import determined_by_others
+from diagnosis.freeform.fits.held_out_check import determined_by_others
 from diagnosis.freeform.missing.in_words import next_step
 from diagnosis.freeform.missing.missing import Missing
 from diagnosis.log.rig_log import RigLog

@@ -33,7 +33,7 @@ from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import with_family
-from diagnosis.freeform.fits.to_its_end import ITERATIONS
+from diagnosis.freeform.fits.full_fit import ITERATIONS
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.nominal_replay import NominalReplay
 from diagnosis.replay.replay import replay

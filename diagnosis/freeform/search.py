@@ -21,13 +21,13 @@ from diagnosis.fitting.fit import Fit, fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import Family
-from diagnosis.freeform.fits.checked import fitted_and_checked
+from diagnosis.freeform.fits.coarser_needle import on_coarser_needle
+from diagnosis.freeform.fits.combined_laws import beside_one, beside_several, distinct, unlike
 from diagnosis.freeform.fits.first_fit import first_fit
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
-from diagnosis.freeform.fits.growing import growing
-from diagnosis.freeform.fits.rougher import rougher
-from diagnosis.freeform.fits.to_its_end import to_its_end
-from diagnosis.freeform.fits.together import beside_one, beside_several, distinct, unlike
+from diagnosis.freeform.fits.full_fit import full_fit
+from diagnosis.freeform.fits.growing_laws import growing
+from diagnosis.freeform.fits.held_out_check import fitted_and_checked
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.replay import replay
 from diagnosis.replay.rig_parameters import RigParameters
@@ -66,7 +66,7 @@ def free_form_fits(
     softer = replay(coarse.log, _SOFTER, coarse.resolution)
     ranges = ranges_of(coarse, nominal, softer)
     base = fit_effects(coarse, ())
-    rough = rougher(coarse, base)
+    rough = on_coarser_needle(coarse, base)
     first, fitted = _alone(coarse, rough, base, families_of(ranges), workers)
     if _open(fitted):
         alone = unlike(distinct([*sorted(fitted, key=lambda f: f.score), *first]))
@@ -89,10 +89,10 @@ def _alone(
     better, rest = _promising(first, WORTH_MORE)
     first = each_fit(SCREENING, _some_more, [(rough, f) for f in better], workers) + rest
     near, further = _promising(first, CONTENDERS)
-    fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
+    fitted = each_fit(FITTING, full_fit, [(coarse, f) for f in near], workers)
     if not fitted:  # the only ones in reach cannot be simulated where they lead
         near, _ = _promising(further, CONTENDERS)
-        fitted = each_fit(FITTING, to_its_end, [(coarse, f) for f in near], workers)
+        fitted = each_fit(FITTING, full_fit, [(coarse, f) for f in near], workers)
     return first, fitted
 
 

@@ -19,8 +19,8 @@ from diagnosis.criteria.freeform import FAR_GAP
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family, kind_of
-from diagnosis.freeform.fits.checked import fitted_and_checked, left_open
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
+from diagnosis.freeform.fits.held_out_check import fitted_and_checked, left_open
 from diagnosis.freeform.law_curve import law_of
 from diagnosis.freeform.likeness.likeness import plain_laws_of, recognised
 from diagnosis.freeform.likeness.plain_family import plain_family

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from diagnosis.criteria.fitting import GAP_LIMIT
 from diagnosis.criteria.freeform import CLOSED_GAP, FREE_LAW_GAIN, FREE_LAW_LEAVES
 from diagnosis.effects.effect import Place
-from diagnosis.freeform.fits.checked import share_determined
 from diagnosis.freeform.fits.free_fit import FreeFit
+from diagnosis.freeform.fits.held_out_check import share_determined
 from diagnosis.freeform.law_curve import Law, laws_of_fit
 from diagnosis.freeform.missing.places import likelier_first, probabilities_of_places
 

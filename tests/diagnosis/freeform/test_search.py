@@ -9,7 +9,7 @@ from free_forms import LEVEL, family_of, linear_fit, one_trial
 from diagnosis.criteria.freeform import CLOSED_GAP, FAR_GAP
 from diagnosis.fitting.fit import Fit
 from diagnosis.freeform import search
-from diagnosis.freeform.fits import together
+from diagnosis.freeform.fits import combined_laws
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.freeform.search import free_form_fits
 from diagnosis.selection.screening import Screened
@@ -44,9 +44,9 @@ def fitted(monkeypatch):
             "families_of": lambda _: [family_of(parameters=[LEVEL], name=name) for name in first],
             "replay": lambda *_, **__: nominal,
             "fit_effects": lambda *_, **__: None,
-            "rougher": lambda coarse, _: coarse,
+            "on_coarser_needle": lambda coarse, _: coarse,
             "first_fit": lambda _, __, family: made(first, FreeFit(family=family, fit=None)),
-            "to_its_end": lambda _, one, *enough: made(ended, one, *enough),
+            "full_fit": lambda _, one, *enough: made(ended, one, *enough),
             "growing": lambda _, laws, *__: [
                 made(ended, replace(law, family=family_of(parameters=[LEVEL], name=name)))
                 for law in laws
@@ -64,7 +64,7 @@ def fitted(monkeypatch):
             "_on_the_log": lambda _, one, far: made(final, one, final=True),
         }
         for name, function in given.items():
-            for module in (search, together):
+            for module in (search, combined_laws):
                 monkeypatch.setattr(module, name, function, raising=False)
         return free_form_fits(problem, problem, effects, Workers())
 

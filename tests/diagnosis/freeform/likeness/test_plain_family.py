@@ -9,7 +9,7 @@ from free_forms import covered, family_of
 from diagnosis.effects.effect import Place
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.family import kind_of
-from diagnosis.freeform.fits.grown import grown_over
+from diagnosis.freeform.fits.growth_factor import grown_over
 from diagnosis.freeform.law_curve import Law
 from diagnosis.freeform.likeness.likeness import Recognised
 from diagnosis.freeform.likeness.plain_family import plain_family

@@ -20,13 +20,13 @@ ITERATIONS, FIRST_ITERATIONS = 10, 4
 def begun_only(
     coarse: FitProblem, contender: FreeFit, enough: float = np.inf, start: Array | None = None
 ) -> FreeFit:
-    """Fitted for the first iterations; the arguments are those of `to_its_end`."""
+    """Fitted for the first iterations; the arguments are those of `full_fit`."""
     own = with_family(coarse, *contender.families)
     fit = _fitted(own, contender, enough, start, FIRST_ITERATIONS)
     return replace(contender, fit=fit.with_its_prediction(), gap_after=fit.gap)
 
 
-def to_its_end(
+def full_fit(
     coarse: FitProblem, contender: FreeFit, enough: float = np.inf, start: Array | None = None
 ) -> FreeFit:
     """Fitted twice, unless given up: then with the strength of priors that the first fit speaks for.

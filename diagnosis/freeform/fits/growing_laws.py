@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from diagnosis.fitting.problem import FitProblem
 from diagnosis.freeform.family import Family
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit, few_of_each, with_family
-from diagnosis.freeform.fits.grown import all_grown, may_grow
+from diagnosis.freeform.fits.full_fit import full_fit
+from diagnosis.freeform.fits.growth_factor import all_grown, may_grow
 from diagnosis.freeform.fits.laws_beside import predicted_score
-from diagnosis.freeform.fits.to_its_end import to_its_end
 from diagnosis.freeform.ranges import LogRanges
 from diagnosis.workers import Failure, Task, Workers
 
@@ -51,7 +51,7 @@ def growing(
         (coarse, replace(law, family=family), enough, start_of(coarse, law, family))
         for law, family in kept
     ]
-    return each_fit(GROWING, to_its_end, calls, workers)
+    return each_fit(GROWING, full_fit, calls, workers)
 
 
 def start_of(coarse: FitProblem, law: FreeFit, family: Family) -> Array:

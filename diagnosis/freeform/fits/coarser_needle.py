@@ -17,7 +17,7 @@ from diagnosis.replay.prediction import Prediction
 from diagnosis.replay.replay import replay
 
 
-def rougher(coarse: FitProblem, base: Fit) -> FitProblem:
+def on_coarser_needle(coarse: FitProblem, base: Fit) -> FitProblem:
     """The problem for a needle half as fine, of which the rig of a fit leaves the same.
 
     Raises:

@@ -9,8 +9,8 @@ from diagnosis_fixtures import coarse_of, log_of
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.families.readings import families
 from diagnosis.freeform.fits.free_fit import FreeFit, with_family
-from diagnosis.freeform.fits.growing import GROWN_OF_ONE, growing, score_of_growing, start_of
-from diagnosis.freeform.fits.grown import all_grown, grown_over
+from diagnosis.freeform.fits.growing_laws import GROWN_OF_ONE, growing, score_of_growing, start_of
+from diagnosis.freeform.fits.growth_factor import all_grown, grown_over
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.curve import ActsOn, Course, Curve
 from diagnosis.replay.free_law import FreeLaw

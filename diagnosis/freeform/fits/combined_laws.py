@@ -14,10 +14,10 @@ import numpy as np
 
 from diagnosis.fitting.fit import Fit
 from diagnosis.fitting.problem import FitProblem
-from diagnosis.freeform.fits.beside import pairs_beside
+from diagnosis.freeform.fits.effects_beside import pairs_beside
 from diagnosis.freeform.fits.free_fit import FreeFit, each_fit
+from diagnosis.freeform.fits.full_fit import begun_only, full_fit
 from diagnosis.freeform.fits.laws_beside import laws_beside
-from diagnosis.freeform.fits.to_its_end import begun_only, to_its_end
 from diagnosis.workers import Workers
 
 PAIRS, THREE = "free-form laws in pairs and beside an effect", "three free-form laws"
@@ -78,7 +78,7 @@ def _ended(
 ) -> list[FreeFit]:
     """Fits of a problem from where others ended, best first."""
     calls = [(problem, f, enough) for f in fits]
-    return sorted(each_fit(stage, to_its_end, calls, workers), key=lambda f: f.score)
+    return sorted(each_fit(stage, full_fit, calls, workers), key=lambda f: f.score)
 
 
 def _least(fits: Sequence[FreeFit]) -> float:

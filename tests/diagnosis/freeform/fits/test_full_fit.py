@@ -10,7 +10,7 @@ from free_forms import priors
 from diagnosis.fitting.fit import fit_effects
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.fits.first_fit import first_fit
-from diagnosis.freeform.fits.to_its_end import begun_only, to_its_end
+from diagnosis.freeform.fits.full_fit import begun_only, full_fit
 from diagnosis.freeform.ranges import ranges_of
 from diagnosis.replay.curve import ActsOn, Curve
 from diagnosis.replay.free_law import FreeLaw
@@ -39,8 +39,8 @@ def found():
 
 def test_alone_neither_comes_near_and_together_they_leave_the_noise(found):
     problem, (damping, reading) = found
-    alone = [to_its_end(problem, one) for one in (damping, reading)]
-    both = to_its_end(problem, replace(alone[0], others=(reading.family,)))
+    alone = [full_fit(problem, one) for one in (damping, reading)]
+    both = full_fit(problem, replace(alone[0], others=(reading.family,)))
     assert min(one.fit.gap for one in alone) > 2.0
     assert both.fit.gap == pytest.approx(1.0, abs=0.1)
     assert both.names == both.fit.names == (damping.family.name, reading.family.name)
@@ -51,7 +51,7 @@ def test_alone_neither_comes_near_and_together_they_leave_the_noise(found):
 
 def test_a_fit_that_would_be_of_no_use_is_given_up(found):
     problem, (damping, _) = found
-    given_up = to_its_end(problem, damping, enough=1e-3)
+    given_up = full_fit(problem, damping, enough=1e-3)
     assert given_up.fit.status.ended_early
     np.testing.assert_array_equal(priors(given_up.family), priors(damping.family))
 
@@ -60,9 +60,9 @@ def test_it_goes_on_from_where_a_few_iterations_ended_and_stays_where_it_is_at_i
     problem, (damping, reading) = found
     both = replace(damping, others=(reading.family,))
     begun = begun_only(problem, both)
-    ended = to_its_end(problem, begun)
+    ended = full_fit(problem, begun)
     assert begun.fit.names == both.names
     assert ended.fit.gap <= begun.fit.gap + 1e-3  # with another prior
-    assert ended.fit.gap == pytest.approx(to_its_end(problem, both).fit.gap, abs=1e-3)
-    again = to_its_end(problem, ended)
+    assert ended.fit.gap == pytest.approx(full_fit(problem, both).fit.gap, abs=1e-3)
+    again = full_fit(problem, ended)
     assert again.fit.gap == pytest.approx(ended.fit.gap, abs=1e-3)

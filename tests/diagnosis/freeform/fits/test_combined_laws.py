@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from free_forms import family_of, linear_fit
 
-from diagnosis.freeform.fits import together
+from diagnosis.freeform.fits import combined_laws
+from diagnosis.freeform.fits.combined_laws import distinct, unlike
 from diagnosis.freeform.fits.free_fit import FreeFit
-from diagnosis.freeform.fits.together import distinct, unlike
 from diagnosis.workers import Workers
 
 EYE = np.eye(8)
@@ -41,8 +41,8 @@ def test_a_third_law_stands_beside_the_best_pairs_alone(monkeypatch):
     pair = replace(pair, others=(one.family,))
     worse = replace(fit_of("age", [3.0, 3.0]), others=(one.family,))
     seen = []
-    monkeypatch.setattr(together, "laws_beside", lambda _, pairs, first: seen.append(pairs) or [])
-    assert together.beside_several(None, None, None, [one, worse, pair], [one], Workers()) == []
+    monkeypatch.setattr(combined_laws, "laws_beside", lambda _, pairs, first: seen.append(pairs) or [])
+    assert combined_laws.beside_several(None, None, None, [one, worse, pair], [one], Workers()) == []
     assert seen == [[pair]]
 
 
@@ -60,8 +60,8 @@ def fits_of(monkeypatch):
             fit = replace(one.fit, by_trial=(left,), jacobian=flat, cost=float(left @ left))
             return replace(one, fit=fit, gap_after=fit.gap)
 
-        for how in ("begun_only", "to_its_end"):
-            monkeypatch.setattr(together, how, partial(fitted, how))
+        for how in ("begun_only", "full_fit"):
+            monkeypatch.setattr(combined_laws, how, partial(fitted, how))
         return seen
 
     return given
@@ -77,29 +77,29 @@ def test_the_most_promising_pairs_go_on_for_a_rougher_needle_and_the_best_of_the
 ):
     """Each as any other fit: it has to leave less than the best so far."""
     law = fit_of("slid", [1.0, 2.0])
-    lefts = {f"second {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.WORTH_AN_END + 2)}
+    lefts = {f"second {i}": [0.5 + 0.1 * i, 0.5] for i in range(combined_laws.WORTH_AN_END + 2)}
     seen, names = fits_of(lefts), list(lefts)
-    monkeypatch.setattr(together, "laws_beside", lambda *_: with_last(law, lefts))
-    monkeypatch.setattr(together, "pairs_beside", lambda *_: [])
-    found = together.beside_one("coarse", "rough", None, [law], [law], (), Workers())
-    assert [f.names[-1] for f in found] == names[: together.WORTH_MORE]
+    monkeypatch.setattr(combined_laws, "laws_beside", lambda *_: with_last(law, lefts))
+    monkeypatch.setattr(combined_laws, "pairs_beside", lambda *_: [])
+    found = combined_laws.beside_one("coarse", "rough", None, [law], [law], (), Workers())
+    assert [f.names[-1] for f in found] == names[: combined_laws.WORTH_MORE]
     assert [own[:3] for own in seen] == [
         *(("begun_only", "rough", name) for name in reversed(names)),
-        *(("to_its_end", "rough", name) for name in names[: together.WORTH_AN_END]),
-        *(("to_its_end", "coarse", name) for name in names[: together.WORTH_MORE]),
+        *(("full_fit", "rough", name) for name in names[: combined_laws.WORTH_AN_END]),
+        *(("full_fit", "coarse", name) for name in names[: combined_laws.WORTH_MORE]),
     ]
     assert {own[3] for own in seen} == {law.fit.cost}
 
 
 def test_of_three_laws_the_most_promising_are_fitted_to_the_decimated_log_at_once(fits_of, monkeypatch):
     pair = replace(fit_of("slid", [1.0, 2.0]), others=(family_of(name="turned"),))
-    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(together.THREE_WORTH_MORE + 2)}
+    lefts = {f"third {i}": [0.5 + 0.1 * i, 0.5] for i in range(combined_laws.THREE_WORTH_MORE + 2)}
     seen, names = fits_of(lefts), list(lefts)
-    monkeypatch.setattr(together, "laws_beside", lambda *_: with_last(pair, lefts))
-    found = together.beside_several("coarse", "rough", None, [pair], [pair], Workers())
-    assert [f.names[-1] for f in found] == names[: together.THREE_WORTH_MORE]
+    monkeypatch.setattr(combined_laws, "laws_beside", lambda *_: with_last(pair, lefts))
+    found = combined_laws.beside_several("coarse", "rough", None, [pair], [pair], Workers())
+    assert [f.names[-1] for f in found] == names[: combined_laws.THREE_WORTH_MORE]
     assert [own[:3] for own in seen] == [
         *(("begun_only", "rough", name) for name in reversed(names)),
-        *(("to_its_end", "coarse", name) for name in names[: together.THREE_WORTH_MORE]),
+        *(("full_fit", "coarse", name) for name in names[: combined_laws.THREE_WORTH_MORE]),
     ]
     assert {own[3] for own in seen} == {pair.fit.cost}

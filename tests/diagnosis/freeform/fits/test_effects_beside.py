@@ -5,8 +5,8 @@ import pytest
 from free_forms import CURVE, family_of, linear_fit, one_trial
 
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.freeform.fits import beside
-from diagnosis.freeform.fits.beside import pairs_beside, predicted_costs
+from diagnosis.freeform.fits import effects_beside
+from diagnosis.freeform.fits.effects_beside import pairs_beside, predicted_costs
 from diagnosis.freeform.fits.free_fit import FreeFit
 from diagnosis.selection.screening import Screened
 from diagnosis.workers import Workers
@@ -73,9 +73,9 @@ def screened(monkeypatch):
             (law,) = fit.names
             return np.array([costs[law, name] for name in effects if name not in failing])
 
-        monkeypatch.setattr(beside, "_screened_beside", simulated)
-        monkeypatch.setattr(beside, "_changes", lambda *_: np.zeros((SAMPLES, 1)))
-        monkeypatch.setattr(beside, "predicted_costs", promised)
+        monkeypatch.setattr(effects_beside, "_screened_beside", simulated)
+        monkeypatch.setattr(effects_beside, "_changes", lambda *_: np.zeros((SAMPLES, 1)))
+        monkeypatch.setattr(effects_beside, "predicted_costs", promised)
         pairs = pairs_beside(problem, problem, base, laws, effects, Workers())
         return [(law.family.name, s.names[-1]) for law, s in pairs]
 
@@ -86,10 +86,12 @@ def test_pairs_that_promise_most_are_simulated_and_of_these_the_best_go_on_few_o
     run, seen = screened
     costs = {(f"law {i}", f"effect {k}"): 10.0 * i + k for i in range(12) for k in range(8)}
     found = run(costs)
-    assert len(seen) == beside.SIMULATED
-    assert all(sum(law == one for one, _ in seen) <= beside.SIMULATED_OF_ONE for law, _ in seen)
-    assert found == [(f"law {i}", f"effect {k}") for i in range(3) for k in range(beside.PAIRS_OF_ONE)]
-    assert len(found) == beside.PAIRS
+    assert len(seen) == effects_beside.SIMULATED
+    assert all(sum(law == one for one, _ in seen) <= effects_beside.SIMULATED_OF_ONE for law, _ in seen)
+    assert found == [
+        (f"law {i}", f"effect {k}") for i in range(3) for k in range(effects_beside.PAIRS_OF_ONE)
+    ]
+    assert len(found) == effects_beside.PAIRS
 
 
 def test_without_effects_there_are_no_pairs(screened):

@@ -8,7 +8,13 @@ from free_forms import covered, same_readings
 from diagnosis.fitting.parameterization import starts
 from diagnosis.freeform.families import families_of
 from diagnosis.freeform.families.readings import families
-from diagnosis.freeform.fits.grown import VARIABLES, all_grown, grown_in_trials, grown_over, may_grow
+from diagnosis.freeform.fits.growth_factor import (
+    VARIABLES,
+    all_grown,
+    grown_in_trials,
+    grown_over,
+    may_grow,
+)
 from diagnosis.replay.curve import Course
 from diagnosis.replay.free_law import FreeLaw
 from diagnosis.replay.rig_parameters import NOMINAL

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from free_forms import CURVE, family_of, linear_fit, priors, solved
 
-from diagnosis.freeform.fits.checked import left_open, predictive_gap, share_determined
 from diagnosis.freeform.fits.free_fit import FreeFit
+from diagnosis.freeform.fits.held_out_check import left_open, predictive_gap, share_determined
 
 TRIALS, SAMPLES = 3, 200
 

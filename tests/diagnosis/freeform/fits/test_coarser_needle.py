@@ -7,7 +7,7 @@ import pytest
 from diagnosis_fixtures import coarse_of, log_of
 
 from diagnosis.fitting.fit import fit_effects
-from diagnosis.freeform.fits.rougher import rougher
+from diagnosis.freeform.fits.coarser_needle import on_coarser_needle
 from diagnosis.replay.rig_parameters import RigParameters
 
 
@@ -15,7 +15,7 @@ from diagnosis.replay.rig_parameters import RigParameters
 def both():
     coarse = coarse_of(log_of(RigParameters(kinetic_n_mm_per_mm=0.001), speed=-1.0))
     base = fit_effects(coarse, ())
-    return coarse, base, rougher(coarse, base)
+    return coarse, base, on_coarser_needle(coarse, base)
 
 
 def left(problem, rig):
