@@ -26,7 +26,7 @@ SEEN = "on the trials of its fit"
 UNSEEN = "on trials that its fit has not seen"
 _HINT = "still far above the noise, so that a curve is no more than a hint"
 _OTHERS = 3
-_MOST_TOLD = 0.95  # of the readings: what is left is not worth a word
+_LEAST_TOLD, _MOST_TOLD = 0.05, 0.95  # of the readings: as good as none, or all
 _NEARLY = 0.25  # probability from which another place is told
 _TURN_DEG = 360.0
 _SEEN_AGAIN = 0.9  # of a period, over which a law is known where it is said to repeat
@@ -60,7 +60,9 @@ def what_is_missing(missing: Missing, gap_before: float) -> str:
 
 
 def _unseen(determined_share: float) -> str:
-    """That a gap is one of trials that a fit has not seen, where others tell of its law."""
+    """On which trials a gap is, by the share of readings for which other trials tell of the law."""
+    if determined_share <= _LEAST_TOLD:
+        return SEEN
     if determined_share >= _MOST_TOLD:
         return UNSEEN
     return f"{UNSEEN} (others tell of the law in {100 * determined_share:.0f} % of the readings)"

@@ -171,6 +171,12 @@ def test_of_what_has_a_phase_of_its_own_in_each_trial_nothing_is_called_unseen()
     assert "not seen" not in what_is_missing(missing_with(best=waves), 8.9)
 
 
+def test_where_no_trial_tells_of_the_law_of_another_nothing_is_called_unseen():
+    said = what_is_missing(missing_with(best=seen_fit(), determined_share=0.02), 8.9)
+    assert "not seen" not in said
+    assert "on the trials of its fit" in said
+
+
 def test_where_no_law_helps_the_sentence_says_what_to_doubt():
     said = what_is_missing(missing_with(law=None), 8.9)
     assert said.startswith("No free-form law that was tried does better than the library.")
