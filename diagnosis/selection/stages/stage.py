@@ -158,13 +158,10 @@ def near_fitted_again(
       begun: the other, of which more is open, and to which nothing has been fitted.
     """
     rare, record = leading_fitted_again(stage, state, begun.coarse, workers)
-    gaps = {frozenset(c.names): gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) for c in rare}
-    near = tuple(c for c in state.candidates if gaps.get(frozenset(c.names), math.inf) <= NEARLY)
-    begun = begun.noting(*record)
-    if not near:
-        return begun
-    leading = replace(state, candidates=near)
-    return begun.adding(leading_fitted_again(stage, leading, begun.problem, workers))
+    near = [c for c in rare if gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) <= NEARLY]
+    begun, problem = begun.noting(*record), begun.problem
+    calls = [(problem, c.names, problem.parameterization(c.names).joined(c.fit.parts)) for c in near]
+    return begun.adding(fit_all(stage, calls, workers)) if calls else begun
 
 
 def _parts_of_the_leading(state: SearchState) -> list[Candidate]:

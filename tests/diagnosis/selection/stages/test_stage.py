@@ -129,3 +129,24 @@ def test_the_nominal_rig_is_fitted_again_with_the_leading_explanations(still_sta
     state = replace(still_start, candidates=(*nominal, *others))
     module.leading_fitted_again("any", state, state.problem, Workers())
     assert sorted(seen) == sorted([(), *((name,) for name in leading[: module.FINALISTS])])
+
+
+def test_what_comes_near_on_the_decimated_log_is_fitted_to_the_log_from_there(still_start, monkeypatch):
+    """Not from where the search was, which knows nothing of what is open now."""
+    near, far = scored(["tip_drag"], 1.0), scored(["torque_bias"], 2.0)
+    rare = [
+        replace(c, fit=replace(c.fit, x=2.0 * c.fit.x, by_trial=(np.full(10, left),)))
+        for c, left in ((near, 1.0), (far, 9.0))
+    ]
+    asked = []
+
+    def fit_all(_, calls, __):
+        asked.append([(problem, names, tuple(start)) for problem, names, start in calls])
+        return (rare if len(asked) == 1 else []), ()
+
+    monkeypatch.setattr(module, "fit_all", fit_all)
+    state = replace(still_start, candidates=(near, far))
+    module.near_fitted_again("any", state, replace(still_start, candidates=()), Workers())
+    start = still_start.problem.parameterization(["tip_drag"]).joined(rare[0].fit.parts)
+    assert asked[1] == [(still_start.problem, ("tip_drag",), tuple(start))]
+    assert np.array_equal(rare[0].fit.parts["tip_drag"], 2.0 * near.fit.parts["tip_drag"])
