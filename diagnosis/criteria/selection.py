@@ -49,7 +49,8 @@ a third, and the share that a third effect has to promise of what the pair leave
 one takes off all of it, and promised 0.83 to 1 on 7 blind logs of seed 77."""
 EXCHANGE_GAP, MOST_EXCHANGED = 1.5, 6
 """Gap of a leading set of two or three effects up to which one of them is exchanged for others, and sets
-of which one is exchanged that are fitted. A choice: what imitates one of three effects leaves little."""
+of which one is exchanged that are fitted; and of what nearly explains a log, so that an imperfection of
+a sensor beside it may. A choice: what imitates one of three effects leaves little."""
 WORTH_THE_LOG = 0.05
 """Share that a richer set has to take off what the set that it builds on leaves beyond noise, on the
 decimated log, before it is fitted to the log itself, where nothing explains that: the true one takes off

@@ -150,15 +150,16 @@ def leading_fitted_again(stage: str, state: SearchState, problem: FitProblem, wo
 
 
 def near_fitted_again(
-    stage: str, state: SearchState, begun: SearchState, workers: Workers
+    stage: str, state: SearchState, begun: SearchState, workers: Workers, most_gap: float = NEARLY
 ) -> SearchState:
     """The leading explanations of a state that come near the noise in another on the decimated log.
 
     Args:
       begun: the other, of which more is open, and to which nothing has been fitted.
+      most_gap: gap on the log up to which an explanation is near.
     """
     rare, record = leading_fitted_again(stage, state, begun.coarse, workers)
-    near = [c for c in rare if gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) <= NEARLY]
+    near = [c for c in rare if gap_on_the_log(c.fit.gap, begun.problem, begun.coarse) <= most_gap]
     begun, problem = begun.noting(*record), begun.problem
     calls = [(problem, c.names, problem.parameterization(c.names).joined(c.fit.parts)) for c in near]
     return begun.adding(fit_all(stage, calls, workers)) if calls else begun

@@ -5,7 +5,8 @@ untwisted, and a weak one passes for an offset of the sensors. A bent needle tha
 is wound up by its own curvature. Beside an explanation it shows: what that leaves beyond noise lies in
 the first moments of trials; or, with play in the chuck, until the base has turned by that, since the
 needle may rest anywhere within it. Then all trials have a past, which is fitted, if the log is explained
-so: first on the decimated log, and on the log itself what comes near the noise there.
+so: first on the decimated log, and on the log itself what comes near the noise there, also with an
+imperfection of a sensor, which starts that are left had hidden.
 """
 
 from dataclasses import replace
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.criteria.prepare import START_LEFT_SHARE, START_LEFT_TIMES
+from diagnosis.criteria.selection import EXCHANGE_GAP
 from diagnosis.fitting.decimation import decimated
 from diagnosis.fitting.noise_reestimation import by_trial_and_sensor, in_units_of
 from diagnosis.fitting.nuisance import late_starts_of
@@ -25,6 +27,7 @@ from diagnosis.prepare.start.late_start_detection import begun_late
 from diagnosis.replay.replay import replay
 from diagnosis.selection.candidate import candidate
 from diagnosis.selection.record import Decision, noted
+from diagnosis.selection.stages.sensors.imperfections import imperfections_beside_the_best
 from diagnosis.selection.stages.stage import near_fitted_again
 from diagnosis.selection.state import SearchState
 from diagnosis.workers import Workers
@@ -40,7 +43,10 @@ def starts_of_trials(state: SearchState, workers: Workers) -> SearchState:
     if explained or share_at_the_start(state) < START_LEFT_SHARE:
         return state
     begun = _with_pasts(state)
-    again, explained = near_fitted_again(STAGE, state, begun, workers).rechecked()
+    near = near_fitted_again(STAGE, state, begun, workers, EXCHANGE_GAP)
+    again, explained = near.rechecked()
+    if not explained:
+        again, explained = imperfections_beside_the_best(STAGE, again, workers).rechecked()
     if not explained:
         return state.noting(
             noted(

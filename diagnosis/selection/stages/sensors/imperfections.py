@@ -44,10 +44,16 @@ def imperfections_of_sensors(state: SearchState, workers: Workers) -> SearchStat
 
 def imperfections_beside_three(state: SearchState, workers: Workers) -> SearchState:
     """Where three effects and imperfections nearly explain the log: a further imperfection, or delay."""
-    stage = "imperfections beside three"
     state, explained = state.rechecked()
+    if explained or len(state.best.names) < _AT_ONCE:
+        return state
+    return imperfections_beside_the_best("imperfections beside three", state, workers)
+
+
+def imperfections_beside_the_best(stage: str, state: SearchState, workers: Workers) -> SearchState:
+    """Where the best nearly explains the log: a further imperfection, or delay, beside it."""
     best = state.best
-    if explained or len(best.names) < _AT_ONCE or best.fit.gap > EXCHANGE_GAP:
+    if best.fit.gap > EXCHANGE_GAP:
         return state
     more = [n for n in state.effects if n in IMPERFECTIONS or FITTED[n].delays_a_sensor]
     calls = [(state.problem, best.fit, name) for name in more if name not in best.names]

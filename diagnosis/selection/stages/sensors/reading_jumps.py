@@ -9,7 +9,8 @@ allowed for only if the log is explained so, and not as well by a chuck that sli
 base that lost counts, which move the needle against its reading. That shows for a moment in the torque,
 so that a trial has to have both, tip and torque.
 
-A recording may have more than jumps: a drift of the torque is asked for beside the largest one.
+A recording may have more than jumps: a drift of the torque is asked for beside the largest one, and
+beside all that were found.
 
 It is told beside effects. A jump that explains a log alone is all that the model lacks: the log stays
 unknown, and the jump is told as the law that is missing.
@@ -64,7 +65,7 @@ def jumps_and_more(others: Sequence[Stage]) -> Stage:
     """A stage: the state with jumps allowed for, where that explains the log; else the state itself.
 
     Args:
-      others: stages that allow for what else a recording may lack, beside the largest jump.
+      others: stages that allow for what else a recording may lack, beside the jumps so far.
     """
 
     def jumps_of_readings(state: SearchState, workers: Workers) -> SearchState:
@@ -78,7 +79,7 @@ def jumps_and_more(others: Sequence[Stage]) -> Stage:
             if jump is None:
                 break
             jumping = _refitted(state, jumping, jump, workers)
-            found = _explained(jumping, () if made else others, workers)
+            found = _explained(jumping, others, workers)
             if found and (why_not := _objection(found, jump, workers)):
                 return state.noting(noted(STAGE, Decision.DROPPED, why_not))
             if found:

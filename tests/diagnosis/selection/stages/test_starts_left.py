@@ -127,3 +127,16 @@ def test_a_needle_may_rest_anywhere_in_the_play_of_its_chuck():
     assert after.best.floor.reached
     (gap,) = after.best.fit.parameterization.values(after.best.fit.x)[:1]
     assert gap == pytest.approx(loose.backlash_deg, rel=0.05)
+
+
+def test_an_imperfection_that_the_starts_had_hidden_is_found_beside_them():
+    loose, backs_deg = RigParameters(backlash_deg=4.0, torque_low_pass_s=0.005), (0.6, -0.6)
+    log = joined(*(rested_in_the_play(loose, back, seed) for seed, back in enumerate(backs_deg)))
+    names = ("chuck_backlash", "torque_low_pass")
+    state = single_effects(start_of_search(log, effects=names[:1]), Workers())
+    after = starts_of_trials(replace(state, effects=names), Workers())
+    assert decisions(after) == [Decision.KEPT]
+    assert after.best.floor.reached
+    assert after.best.names == names
+    _, constant_s = after.best.fit.parameterization.values(after.best.fit.x)[:2]
+    assert constant_s == pytest.approx(0.005, rel=0.05)

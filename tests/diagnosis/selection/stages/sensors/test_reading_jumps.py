@@ -183,3 +183,18 @@ def test_where_no_reading_jumps_nothing_is_asked_beside_one():
 
     before, _ = searched(two(DRY), effects=())
     assert jumps_and_more((never,))(before, Workers()).problem is before.problem
+
+
+def test_what_else_a_recording_may_lack_is_asked_beside_every_jump(monkeypatch):
+    before, _ = searched(two(DRY), effects=())
+    jump = ReadingJump(trial="trial_01.csv", sensor=TIP, time_s=2.0, size=0.0)
+    found, asked = iter([jump, jump, None]), []
+
+    def other(state, workers):
+        asked.append(state.record.count("jumped"))
+        return state
+
+    monkeypatch.setattr(module, "_largest_jump", lambda *_: next(found))
+    monkeypatch.setattr(module, "_refitted", lambda _, jumping, *__: jumping.noting("jumped"))
+    jumps_and_more((other,))(before, Workers())
+    assert asked == [1, 2]
